@@ -1,0 +1,44 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace recoil {
+
+/// Where in a user's file a mistake stands. Lines and columns count from 1; 0 means "not known".
+struct Location {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// The one error for whatever a user can put right: a file, a key, a value, the command line.
+///
+/// Grammar of the message, always one line:
+/// `file:line:column: problem (why it is one) suggestion`.
+/// The command line ends with status 2 on it.
+class InputError : public std::runtime_error {
+ public:
+  InputError(const Location& where, const std::string& problem, const std::string& why,
+             const std::string& suggestion);
+
+  const Location& where() const { return where_; }
+
+ private:
+  Location where_;
+};
+
+/// A computation that ended without a usable answer, with the parameter or point that stood in the
+/// way. The command line ends with status 3 on it. Failures *inside* a bootstrap are values, not
+/// exceptions, because they must be counted.
+class ComputationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The member of `known` that is nearest to `word` in edit distance, for "did you mean" hints;
+/// empty when nothing is near.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace recoil

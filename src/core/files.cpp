@@ -1,0 +1,76 @@
+#include "core/files.hpp"
+
+#include <fmt/format.h>
+#include <sha256.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "core/error.hpp"
+
+namespace recoil {
+
+std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max_bytes) {
+  const Location where{path.string()};
+  std::error_code failed;
+  const auto status = std::filesystem::status(path, failed);
+  if (failed || !std::filesystem::exists(status)) {
+    throw InputError(where, "no such file", "it has to be read", "check the path");
+  }
+  if (std::filesystem::is_directory(status)) {
+    throw InputError(where, "this is a folder", "a file is expected here",
+                     "name a file inside it");
+  }
+  const std::uintmax_t size =
+      std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, failed) : 0;
+  if (!failed && size > max_bytes) {
+    throw InputError(where, fmt::format("the file has {} MB", size / 1000000),
+                     fmt::format("at most {} MB are read", max_bytes / 1000000),
+                     "split it, or average events into points first");
+  }
+  std::ifstream in(path, std::ios::binary);
+  std::string text;
+  if (in) text.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  if (!in) throw InputError(where, "cannot read the file", "permission or disk", "check it");
+  if (const auto nul = text.find('\0'); nul != std::string::npos) {
+    throw InputError(where, fmt::format("byte {} is NUL", nul + 1), "this is not a text file",
+                     "export it as UTF-8 text");
+  }
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte-order mark carries no meaning
+  return text;
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view text) {
+  const Location where{path.string()};
+  std::error_code failed;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
+  const std::filesystem::path beside =
+      path.string() + fmt::format(".part-{}", static_cast<long>(getpid()));
+  {
+    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.close();
+    if (!out) {
+      std::filesystem::remove(beside, failed);
+      throw InputError(where, "cannot write the file", "permission, a full disk or no such folder",
+                       "choose another --out");
+    }
+  }
+  std::filesystem::rename(beside, path, failed);
+  if (failed) {
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    throw InputError(where, "cannot put the finished file in place", failed.message(),
+                     "choose another --out");
+  }
+}
+
+std::string sha256_hex(std::string_view bytes) {
+  char digest[SHA256_DIGEST_STRING_LENGTH];
+  SHA256Data(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), digest);
+  return digest;
+}
+
+}  // namespace recoil

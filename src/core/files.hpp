@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace recoil {
+
+/// The whole text of a file. @throws InputError when the file is missing, unreadable, a folder,
+/// larger than `max_bytes`, or holds bytes that no text file has (NUL).
+std::string read_text_file(const std::filesystem::path& path,
+                           std::uintmax_t max_bytes = 256ULL * 1024 * 1024);
+
+/// Writes beside the target and renames: a reader sees the old file or the new one, never a part.
+/// Makes the folder when it is missing. @throws InputError when the place cannot be written.
+void write_whole_file(const std::filesystem::path& path, std::string_view text);
+
+/// SHA-256 of `bytes` as 64 lower-case hexadecimal digits (FIPS 180-4).
+std::string sha256_hex(std::string_view bytes);
+
+}  // namespace recoil

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cstddef>
+
+namespace recoil {
+
+/// Calls body(i) for i in [0, count) on `threads` threads (0: all cores). Each call writes only its
+/// own slot, so no result depends on the number of threads.
+template <class Body>
+void parallel_over(std::size_t count, int threads, const Body& body) {
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+                      });
+  });
+}
+
+}  // namespace recoil

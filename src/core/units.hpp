@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace recoil {
+
+/// Multiply by these to come into SI, divide to leave it: `4.9 * units::um`.
+namespace units {
+inline constexpr double m = 1.0;
+inline constexpr double mm = 1e-3;
+inline constexpr double um = 1e-6;
+inline constexpr double nm = 1e-9;
+inline constexpr double ns = 1e-9;
+inline constexpr double GPa = 1e9;
+}  // namespace units
+
+/// What a column of a data file measures.
+enum class Dimension { length, velocity, ratio, count };
+
+/// The factor to SI of a unit name ("um", "cm/s", "%"), or nothing when `unit` does not belong to
+/// `dimension`.
+std::optional<double> unit_factor(Dimension dimension, std::string_view unit);
+
+/// The unit names accepted for `dimension`, for error messages.
+std::vector<std::string> unit_names(Dimension dimension);
+
+}  // namespace recoil

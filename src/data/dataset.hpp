@@ -1,0 +1,77 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/material.hpp"
+
+namespace recoil {
+
+/// Where points come from. It travels with everything computed from them.
+enum class Provenance { measured, digitised, reconstruction, synthetic };
+
+/// The word used in files and on the screen: "measured", "digitised", ...
+std::string to_string(Provenance provenance);
+
+/// One sentence on what the provenance means for whoever reads a result; for a reconstruction it
+/// says that no point of it was measured.
+std::string provenance_sentence(Provenance provenance);
+
+/// One measured point: the mean restitution of `events` impacts at one velocity and diameter, or a
+/// point at which the spheres were captured.
+struct ImpactPoint {
+  std::size_t series = 0;          ///< index into Dataset::series
+  double diameter = 0.0;           ///< [m]
+  double incident_velocity = 0.0;  ///< V [m/s], > 0
+  double restitution = 0.0;        ///< e = V_rebound / V [1], 0 <= e <= 1.2; 0 when all captured
+  std::optional<double> restitution_sd;  ///< one standard deviation of `restitution` [1]
+  std::optional<double> velocity_sd;     ///< one standard deviation of `incident_velocity` [m/s]
+  int events = 1;                        ///< impacts averaged in this point, captured ones included
+  int captured = 0;                      ///< how many of them did not rebound
+  int line = 0;                          ///< line in points.csv, for messages
+
+  bool all_captured() const { return captured >= events; }
+};
+
+/// A column of the points as the file has it, before conversion.
+struct DataColumn {
+  std::string name;
+  std::string unit;  ///< "um"; empty for text
+};
+
+/// A dataset folder as read, in SI units.
+struct Dataset {
+  std::string id;     ///< the package's name
+  std::string title;  ///< for people
+  Provenance provenance = Provenance::measured;
+  ImpactSystem system;
+  std::vector<std::string> series;    ///< names, in order of appearance
+  std::vector<ImpactPoint> points;    ///< in file order
+  std::vector<DataColumn> columns;    ///< as the schema lists them
+  std::vector<std::string> sources;   ///< one line each: title and address
+  std::vector<std::string> warnings;  ///< what a reader should know, e.g. a restitution above 1
+  std::string sha256;                 ///< of datapackage.json and the points, as hexadecimal
+  std::filesystem::path folder;
+};
+
+/// The distinct diameters of the points [m], ascending.
+std::vector<double> distinct_diameters(const Dataset& dataset);
+
+/// Reads and validates `folder`: `datapackage.json` (Frictionless Data Package) and the CSV
+/// resource that it names. Units are converted here, once. Every mistake throws.
+/// @throws InputError with file, line and column of the first mistake.
+Dataset load_dataset(const std::filesystem::path& folder);
+
+/// The same from texts instead of files: `datapackage_text` as it would stand in
+/// `folder/datapackage.json`, `csv_text` as in the resource that it names. No file is touched.
+/// @throws InputError as `load_dataset` does.
+Dataset parse_dataset(const std::string& datapackage_text, const std::string& csv_text,
+                      const std::filesystem::path& folder);
+
+/// What `recoil check` prints: the system, the columns with their units, the series and ranges,
+/// the provenance sentence and the warnings.
+std::string describe(const Dataset& dataset);
+
+}  // namespace recoil

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace recoil {
+
+/// Where a JSON value stands: the byte offsets of the value and of its key.
+struct JsonPositions {
+  std::string name;  ///< the key; empty for list items and the root
+  std::size_t key = 0;
+  std::size_t value = 0;
+  std::vector<JsonPositions> children;  ///< members or items, in the order of the file
+};
+
+class JsonDocument;
+
+/// One value of a JsonDocument: typed access in which every mistake knows its line and column.
+/// It points into its document, which has to live longer.
+class JsonNode {
+ public:
+  JsonNode(const JsonDocument& document, const nlohmann::json& value,
+           const JsonPositions& positions, std::string name)
+      : document_(&document), value_(&value), positions_(&positions), name_(std::move(name)) {}
+
+  /// The member `key`, if there is one. @throws InputError when this is not an object.
+  std::optional<JsonNode> find(const std::string& key) const;
+
+  /// The member `key`. @throws InputError when it is missing; `suggestion` says what to write.
+  JsonNode require(const std::string& key, const std::string& why,
+                   const std::string& suggestion) const;
+
+  /// All members of an object in the order of the file. @throws InputError when it is not one.
+  std::vector<JsonNode> members() const;
+
+  /// All items of a list. @throws InputError when this is not a list.
+  std::vector<JsonNode> items() const;
+
+  /// @throws InputError when this is not a string (a number).
+  std::string string() const;
+  double number() const;
+
+  /// Refuses members outside `known`, naming the nearest known one. @throws InputError
+  void allow_only(const std::vector<std::string>& known) const;
+
+  const std::string& key() const { return positions_->name; }
+  /// The way to this value from the root: "recoil.particle.density".
+  const std::string& name() const { return name_; }
+  Location where() const;
+  Location where_key() const;
+
+  [[noreturn]] void fail(const std::string& problem, const std::string& why,
+                         const std::string& suggestion) const;
+
+ private:
+  JsonNode child(std::size_t index) const;
+  void expect(bool right_type, const std::string& type) const;
+
+  const JsonDocument* document_;
+  const nlohmann::json* value_;
+  const JsonPositions* positions_;
+  std::string name_;
+};
+
+/// A JSON text (RFC 8259) with the place of every value. Keys that stand twice in an object are
+/// refused, since one of them would be ignored.
+class JsonDocument {
+ public:
+  /// @throws InputError with line and column when the text is not JSON or nested too deeply.
+  JsonDocument(std::string text, std::string file);
+  JsonDocument(const JsonDocument&) = delete;
+  JsonDocument& operator=(const JsonDocument&) = delete;
+
+  JsonNode root() const { return {*this, value_, positions_, ""}; }
+  Location at(std::size_t offset) const;
+
+ private:
+  std::string text_;
+  std::string file_;
+  nlohmann::json value_;
+  JsonPositions positions_;
+};
+
+}  // namespace recoil

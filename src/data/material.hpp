@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace recoil {
+
+/// An elastic solid, as a dataset states it.
+struct Material {
+  std::string name;
+  double density = 0.0;                  ///< [kg/m3]; needed for the particle only
+  double youngs_modulus = 0.0;           ///< E [Pa]
+  double poisson_ratio = 0.0;            ///< nu [1], -1 < nu <= 0.5
+  std::optional<double> surface_energy;  ///< gamma [J/m2]; Gilman's estimate when absent
+};
+
+/// The two bodies of an impact, and what the dataset states instead of deriving it.
+struct ImpactSystem {
+  Material particle;
+  Material surface;
+  std::optional<double> stiffness_K;        ///< K [Pa], instead of eq. 6
+  std::optional<double> adhesion_energy;    ///< W_A [J/m2], instead of 2 sqrt(gamma1 gamma2)
+  std::optional<double> adhesion_force_f0;  ///< f0 [N/m] at `reference_diameter`, instead of eq. 12
+  std::optional<double> reference_diameter;  ///< [m]
+};
+
+}  // namespace recoil

@@ -1,0 +1,127 @@
+#include "data/system.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "data/limits.hpp"
+#include "data/text.hpp"
+
+namespace recoil {
+namespace {
+
+/// What a physical constant may be, and what a value outside of it usually means.
+struct Range {
+  double lower;
+  double upper;
+  std::string unit;
+  std::string hint;
+};
+
+double bounded(const JsonNode& node, const Range& range) {
+  const double value = node.number();
+  if (value >= range.lower && value <= range.upper) return value;
+  node.fail(
+      fmt::format("{} = {:g} {}", node.name(), value, range.unit),
+      fmt::format("it has to lie between {:g} and {:g} {}", range.lower, range.upper, range.unit),
+      range.hint);
+}
+
+std::optional<double> bounded_if_any(const JsonNode& parent, const std::string& key,
+                                     const Range& range) {
+  if (const auto node = parent.find(key)) return bounded(*node, range);
+  return std::nullopt;
+}
+
+const Range& density_range() {
+  static const Range range{limits::lowest_density, limits::highest_density, "kg/m3",
+                           "give it in kg/m3: 1 g/cm3 is 1000 kg/m3"};
+  return range;
+}
+
+const Range& surface_energy_range() {
+  static const Range range{0.0, limits::highest_surface_energy, "J/m2",
+                           "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2"};
+  return range;
+}
+
+double poisson_ratio(const JsonNode& node) {
+  const double value = node.number();
+  if (value > -1.0 && value <= 0.5) return value;
+  node.fail(fmt::format("{} = {:g}", node.name(), value),
+            "an isotropic elastic solid has -1 < nu <= 0.5", "0.3 is usual for a metal");
+}
+
+Material read_material(const JsonNode& recoil, const std::string& role, bool needs_density) {
+  const JsonNode node =
+      recoil.require(role, "both bodies decide how stiff and sticky the contact is",
+                     "state its material, youngs_modulus and poisson_ratio");
+  node.allow_only({"material", "density", "youngs_modulus", "poisson_ratio", "surface_energy"});
+  Material material;
+  if (const auto name = node.find("material")) material.name = printable(name->string());
+  if (const auto density = node.find("density")) {
+    material.density = bounded(*density, density_range());
+  } else if (needs_density) {
+    node.require("density", "the mass of the particle follows from it", "give it in kg/m3");
+  }
+  const Range modulus{limits::lowest_modulus, limits::highest_modulus, "Pa",
+                      "give it in Pa: 1 GPa is 1e9 Pa"};
+  material.youngs_modulus = bounded(
+      node.require("youngs_modulus", "the contact's stiffness follows from it", "give it in Pa"),
+      modulus);
+  material.poisson_ratio = poisson_ratio(
+      node.require("poisson_ratio", "the contact's stiffness follows from it", "0.3 is usual"));
+  material.surface_energy = bounded_if_any(node, "surface_energy", surface_energy_range());
+  return material;
+}
+
+void read_overrides(const JsonNode& recoil, ImpactSystem& system) {
+  system.stiffness_K = bounded_if_any(recoil, "stiffness_K",
+                                      {limits::lowest_stiffness, limits::highest_stiffness, "Pa",
+                                       "give it in Pa: 1 GPa is 1e9 Pa"});
+  system.adhesion_energy =
+      bounded_if_any(recoil, "adhesion_energy",
+                     {0.0, limits::highest_adhesion_energy, "J/m2",
+                      "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2; 0 means no adhesion"});
+  system.adhesion_force_f0 = bounded_if_any(
+      recoil, "adhesion_force_f0",
+      {0.0, limits::highest_adhesion_force, "N/m", "give it in N/m; 0 means no adhesion"});
+  system.reference_diameter = bounded_if_any(
+      recoil, "reference_diameter",
+      {limits::smallest_diameter, limits::largest_diameter, "m", "give it in m: 1 um is 1e-6 m"});
+  if (system.adhesion_force_f0 && !system.reference_diameter) {
+    throw InputError(recoil.find("adhesion_force_f0")->where_key(),
+                     "'adhesion_force_f0' without 'reference_diameter'",
+                     "f0 grows with the size of the particle",
+                     "add the diameter in m to which it belongs");
+  }
+}
+
+}  // namespace
+
+Provenance read_provenance(const JsonNode& recoil) {
+  const JsonNode node = recoil.require("provenance", "every result says where its points come from",
+                                       "write measured, digitised, reconstruction or synthetic");
+  constexpr std::array all = {Provenance::measured, Provenance::digitised,
+                              Provenance::reconstruction, Provenance::synthetic};
+  const std::string word = node.string();
+  std::vector<std::string> known;
+  for (const Provenance provenance : all) {
+    if (word == to_string(provenance)) return provenance;
+    known.push_back(to_string(provenance));
+  }
+  node.fail(fmt::format("unknown provenance {}", quote(word)), "every result repeats it",
+            did_you_mean(word, known));
+}
+
+ImpactSystem read_system(const JsonNode& recoil) {
+  recoil.allow_only({"provenance", "particle", "surface", "stiffness_K", "adhesion_energy",
+                     "adhesion_force_f0", "reference_diameter"});
+  ImpactSystem system;
+  system.particle = read_material(recoil, "particle", true);
+  system.surface = read_material(recoil, "surface", false);
+  read_overrides(recoil, system);
+  return system;
+}
+
+}  // namespace recoil

@@ -1,0 +1,113 @@
+#include "data/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace recoil {
+namespace {
+
+unsigned byte_at(std::string_view text, std::size_t i) {
+  return static_cast<unsigned char>(text[i]);
+}
+
+bool is_continuation(unsigned byte) { return (byte & 0xC0U) == 0x80U; }
+
+/// Length of the UTF-8 sequence that starts at `i` [bytes]; 0 when it is not a valid one.
+/// The narrower limits of the second byte exclude overlong forms, surrogates and > U+10FFFF.
+std::size_t sequence_length(std::string_view text, std::size_t i) {
+  const unsigned first = byte_at(text, i);
+  if (first < 0x80) return 1;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const std::size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  if (i + length > text.size()) return 0;
+  const unsigned lowest = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+  const unsigned highest = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+  const unsigned second = byte_at(text, i + 1);
+  if (second < lowest || second > highest) return 0;
+  for (std::size_t k = 2; k < length; ++k) {
+    if (!is_continuation(byte_at(text, i + k))) return 0;
+  }
+  return length;
+}
+
+}  // namespace
+
+Location locate(std::string_view text, std::size_t offset, const std::string& file) {
+  Location where{file, 1, 1};
+  const std::size_t end = std::min(offset, text.size());
+  for (std::size_t i = 0; i < end; ++i) {
+    const bool carriage_return_alone =
+        text[i] == '\r' && !(i + 1 < text.size() && text[i + 1] == '\n');
+    if (text[i] == '\n' || carriage_return_alone) {
+      ++where.line;
+      where.column = 1;
+    } else if (!is_continuation(byte_at(text, i))) {
+      ++where.column;
+    }
+  }
+  return where;
+}
+
+void require_text(std::string_view text, const std::string& file) {
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == '\0') {
+      throw InputError(locate(text, i, file), fmt::format("byte {} is NUL", i + 1),
+                       "this is not a text file", "export it as UTF-8 text");
+    }
+    const std::size_t length = sequence_length(text, i);
+    if (length == 0) {
+      throw InputError(locate(text, i, file),
+                       fmt::format("byte 0x{:02X} is not UTF-8", byte_at(text, i)),
+                       "names and titles are passed on to JSON and HTML, which need UTF-8",
+                       "save the file as UTF-8");
+    }
+    i += length;
+  }
+}
+
+std::string quote(std::string_view word) {
+  constexpr std::size_t longest = 40;
+  std::size_t characters = 0;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    if (is_continuation(byte_at(word, i))) continue;
+    if (++characters > longest) return fmt::format("'{}...'", word.substr(0, i));
+  }
+  return fmt::format("'{}'", word);
+}
+
+std::string printable(std::string_view word) {
+  std::string text(word);
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\x7f'; }, ' ');
+  return text;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_word(word, known);
+  return nearest.empty() ? fmt::format("known: {}", join(known))
+                         : fmt::format("did you mean '{}'?", nearest);
+}
+
+std::string join(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  constexpr std::string_view blanks = " \t";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return std::nullopt;
+  text = text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, failed] = std::from_chars(text.data(), end, value);
+  if (failed != std::errc{} || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace recoil

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace recoil {
+
+/// Where byte `offset` of `text` stands. Lines end with LF, CR or CR LF; columns count characters
+/// (UTF-8 code points), as editors do. An offset behind the end is taken as the end.
+Location locate(std::string_view text, std::size_t offset, const std::string& file);
+
+/// Refuses what is not text. Names and titles travel into JSON and HTML, where bytes that are not
+/// UTF-8 would break the result, so they stop here.
+/// @throws InputError at the first byte that is NUL or not valid UTF-8 (RFC 3629).
+void require_text(std::string_view text, const std::string& file);
+
+/// `word` between single quotes, cut to 40 characters: for messages.
+std::string quote(std::string_view word);
+
+/// `word` with every control character replaced by a space: for anything that is printed.
+std::string printable(std::string_view word);
+
+/// "did you mean 'x'?" when a known word is near, else "known: a, b, c".
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
+
+/// "a, b, c".
+std::string join(const std::vector<std::string>& words);
+
+/// The finite decimal number that is the whole of `text` but for blanks around it; nothing for
+/// anything else (nan, inf, overflow, trailing characters, a decimal comma).
+std::optional<double> parse_number(std::string_view text);
+
+}  // namespace recoil

@@ -1,0 +1,231 @@
+#include "estimate/fit.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "estimate/impact_problem.hpp"
+
+namespace recoil {
+namespace {
+
+// A chi-squared less likely than this under the stated noise widens every interval.
+constexpr double misfit_level = 0.01;
+// Two minima within this relative difference of chi2 are a tie, if their parameters differ.
+constexpr double tie_tolerance = 1e-6;
+
+/// The stated start, and the damping factors ten times smaller and larger in all combinations:
+/// capture and strong damping make flat and non-convex regions on either side.
+std::vector<std::vector<double>> starting_points(const ImpactModel& model,
+                                                 const std::vector<double>& first, bool several) {
+  std::vector<std::vector<double>> starts = {first};
+  if (!several) return starts;
+  for (const double hertz : {0.1, 1.0, 10.0}) {
+    for (const double adhesion : {0.1, 1.0, 10.0}) {
+      if (hertz == 1.0 && adhesion == 1.0) continue;
+      std::vector<double> start = first;
+      bool moved = false;
+      for (std::size_t j = 0; j < start.size(); ++j) {
+        const ParameterSlot& slot = model.slots[j];
+        if (!slot.free || slot.name == "f0") continue;
+        const double factor = slot.name == "C_H" ? hertz : adhesion;
+        start[j] = std::clamp(start[j] * factor, slot.lower, slot.upper);
+        moved = moved || start[j] != first[j];
+      }
+      if (moved) starts.push_back(std::move(start));
+    }
+  }
+  return starts;
+}
+
+std::string describe_point(const Observation& point) {
+  return fmt::format("the point at d = {:.4g} um, V = {:.4g} m/s", point.diameter / units::um,
+                     point.velocity);
+}
+
+/// The first point that the model cannot answer at `theta`, in words.
+std::string unanswered_point(const ImpactModel& model, const Observations& data,
+                             std::span<const double> theta) {
+  for (const Observation& point : data.points) {
+    const Prediction at =
+        predict(model, theta, point.dataset, point.diameter, point.velocity, false);
+    if (!at.usable()) {
+      return fmt::format("{}: {}", describe_point(point), to_string(at.outcome));
+    }
+  }
+  return "";
+}
+
+void record_predictions(FitResult& result, const Observations& data) {
+  for (const Observation& point : data.points) {
+    const Prediction at = predict(result.model, result.theta, point.dataset, point.diameter,
+                                  point.velocity, false);
+    result.prediction_squared.push_back(at.restitution_squared);
+    result.prediction.push_back(at.restitution());
+  }
+}
+
+void record_leverage(FitResult& result, const std::vector<double>& jacobian,
+                     const std::vector<double>& unscaled_covariance) {
+  const std::size_t n = result.residuals.size();
+  const std::size_t p = result.theta.size();
+  result.leverage.assign(n, 0.0);
+  if (unscaled_covariance.empty()) return;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t a = 0; a < p; ++a) {
+      for (std::size_t b = 0; b < p; ++b) {
+        result.leverage[i] +=
+            jacobian[i * p + a] * unscaled_covariance[a * p + b] * jacobian[i * p + b];
+      }
+    }
+  }
+}
+
+/// Decides what the stated standard deviations are worth.
+void judge_noise(FitResult& result, bool sd_stated) {
+  if (result.dof <= 0) {
+    result.p_value = 1.0;
+    result.noise_text = "as many parameters as points: the noise cannot be checked";
+    return;
+  }
+  const double reduced = result.chi2 / result.dof;
+  result.p_value = gsl_cdf_chisq_Q(result.chi2, result.dof);
+  if (!sd_stated) {
+    result.noise_scale = std::sqrt(reduced);
+    result.noise_text = "no standard deviations stated: the noise is estimated from the residuals";
+  } else if (result.p_value < misfit_level) {
+    result.noise_scale = std::sqrt(reduced);
+    result.noise_text = fmt::format(
+        "the residuals are {:.3g} times larger than the stated noise explains (p = {:.2g}): every "
+        "error and interval is widened by that factor, and still describes this model, not the "
+        "truth",
+        result.noise_scale, result.p_value);
+    result.warnings.push_back(result.noise_text);
+  } else {
+    result.noise_text = "the stated standard deviations explain the scatter";
+  }
+}
+
+void report_starts(FitResult& result, const StartSummary& best) {
+  int failed = 0;
+  int elsewhere = 0;
+  for (const StartSummary& start : result.starts) {
+    if (!start.converged) {
+      ++failed;
+    } else if (start.chi2 > best.chi2 * (1.0 + 1e-3) + 1e-6) {
+      ++elsewhere;
+    } else if (start.chi2 <= best.chi2 * (1.0 + tie_tolerance)) {
+      for (std::size_t j = 0; j < start.end.size(); ++j) {
+        if (result.std_error[j] > 0.0 &&
+            std::abs(start.end[j] - result.theta[j]) > 0.1 * result.std_error[j]) {
+          result.warnings.push_back(fmt::format(
+              "tie: another start ends with the same chi2 at {} = {:.4g} instead of {:.4g}",
+              result.model.slots[j].label(), start.end[j], result.theta[j]));
+        }
+      }
+    }
+  }
+  if (failed > 0) {
+    result.warnings.push_back(
+        fmt::format("{} of {} starts did not converge", failed, result.starts.size()));
+  }
+  if (elsewhere > 0) {
+    result.warnings.push_back(fmt::format("{} of {} starts ended in a worse local minimum",
+                                          elsewhere, result.starts.size()));
+  }
+}
+
+void report_bounds(FitResult& result) {
+  for (std::size_t j = 0; j < result.theta.size(); ++j) {
+    if (!result.at_bound[j]) continue;
+    const ParameterSlot& slot = result.model.slots[j];
+    const bool low = result.theta[j] <= 0.5 * (slot.lower + slot.upper);
+    result.warnings.push_back(fmt::format(
+        "{} rests on its {} bound {:.4g} {}: it has no symmetric error, and the errors of the "
+        "others are conditional on it",
+        slot.label(), low ? "lower" : "upper", low ? slot.lower : slot.upper, slot.unit));
+  }
+}
+
+}  // namespace
+
+FitResult fit(const ImpactModel& model, const Observations& data, const FitOptions& options) {
+  FitResult result;
+  result.model = model;
+  result.warnings = data.warnings;
+  const LeastSquaresProblem problem = impact_problem(model, data);
+  const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
+  const auto free_count = std::count_if(model.slots.begin(), model.slots.end(),
+                                        [](const ParameterSlot& slot) { return slot.free; });
+  result.dof = static_cast<int>(data.points.size()) - static_cast<int>(free_count);
+  if (result.dof < 0) {
+    result.failure = fmt::format("{} points cannot determine {} free parameters",
+                                 data.points.size(), free_count);
+    return result;
+  }
+
+  LeastSquaresResult best;
+  std::size_t best_start = 0;
+  for (const std::vector<double>& start : starting_points(model, first, options.several_starts)) {
+    LeastSquaresResult run = minimise(problem, start, options.minimiser);
+    result.starts.push_back({start, run.theta, run.sum_of_squares, run.converged, run.message});
+    const bool better = run.converged && (!best.converged || run.sum_of_squares < best.sum_of_squares);
+    if (better) {
+      best = std::move(run);
+      best_start = result.starts.size() - 1;
+    }
+  }
+  if (!best.converged) {
+    const std::string where = unanswered_point(model, data, first);
+    result.failure = where.empty() ? "no start converged: " + result.starts.front().message
+                                   : "no start converged; " + where;
+    return result;
+  }
+
+  result.usable = true;
+  result.theta = best.theta;
+  result.at_bound = best.at_bound;
+  result.residuals = best.residuals;
+  result.chi2 = best.sum_of_squares;
+  record_predictions(result, data);
+  record_leverage(result, best.jacobian, best.covariance);
+  judge_noise(result, data.sd_stated);
+  result.covariance = best.covariance;
+  for (double& entry : result.covariance) entry *= result.noise_scale * result.noise_scale;
+  result.std_error.assign(result.theta.size(), 0.0);
+  if (result.covariance.empty()) {
+    result.warnings.push_back(
+        "the points do not determine all free parameters (J'J is singular): no standard errors");
+  } else {
+    for (std::size_t j = 0; j < result.theta.size(); ++j) {
+      result.std_error[j] = std::sqrt(result.covariance[j * result.theta.size() + j]);
+    }
+  }
+  result.rmse = root_mean_square(model, result.theta, data);
+  report_starts(result, result.starts[best_start]);
+  report_bounds(result);
+  return result;
+}
+
+double root_mean_square(const ImpactModel& model, std::span<const double> theta,
+                        const Observations& data, const std::vector<std::size_t>& subset) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  const auto add = [&](const Observation& point) {
+    const Prediction at = predict(model, theta, point.dataset, point.diameter, point.velocity, false);
+    const double measured = point.censored ? 0.0 : point.restitution;
+    sum += std::pow(measured - at.restitution(), 2);
+    ++count;
+  };
+  if (subset.empty()) {
+    for (const Observation& point : data.points) add(point);
+  } else {
+    for (const std::size_t i : subset) add(data.points[i]);
+  }
+  return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
+}
+
+}  // namespace recoil

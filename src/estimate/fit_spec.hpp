@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "impact/impact.hpp"
+
+namespace recoil {
+
+/// One parameter of a fit file. Units are fixed by the catalogue (`parameter_catalogue`).
+struct ParameterSpec {
+  std::string name;
+  double initial = 0.0;
+  double lower = 0.0;
+  double upper = 0.0;
+  bool free = true;
+  bool per_dataset = false;     ///< `per = "dataset"`: one value for each dataset of the fit
+  bool initial_stated = false;  ///< f0 takes eq. 12 when its initial value is not stated
+};
+
+/// The `[uncertainty]` table.
+struct UncertaintySpec {
+  int replicates = 1999;  ///< 0 (no bootstrap) or at least 19: fewer have no 5 % tails
+  double level = 0.95;    ///< of every interval, in (0, 1)
+  std::uint64_t seed = 20260101;
+};
+
+/// A fit file, validated. Every key but `dataset` has its default here or in the catalogue.
+struct FitSpec {
+  std::string id;  ///< the file's name without its ending
+  std::filesystem::path file;
+  std::vector<std::filesystem::path> datasets;  ///< folders, as seen from here
+  AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
+  std::vector<std::string> mechanisms;    ///< ids from the catalogue, none known to this version
+  std::vector<ParameterSpec> parameters;  ///< all of the catalogue, in its order
+  UncertaintySpec uncertainty;
+  std::string sha256;  ///< of the file's text
+};
+
+/// What a parameter is: name, unit, meaning, default start and bounds.
+struct ParameterEntry {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  double initial;
+  double lower;
+  double upper;
+  bool free;
+  bool log_scale;  ///< estimated in its logarithm: it is positive by nature
+};
+
+/// C_H, C_A and f0, in this order.
+const std::vector<ParameterEntry>& parameter_catalogue();
+
+/// Reads and validates a fit file. Unknown keys are errors that name the nearest known one.
+///
+/// Rules for `[parameters]`: values are finite and not negative (damping only takes energy out);
+/// bounds are [lower, upper] with lower < upper, and above zero for a parameter on a log scale; the
+/// initial value of a free parameter lies within its bounds, and that of a fixed one within bounds
+/// that the file states. `dataset` paths are relative to the file's folder.
+/// @throws InputError with file, line and column.
+FitSpec load_fit(const std::filesystem::path& file);
+
+/// The same from a text instead of a file; does not look whether the dataset folders exist.
+/// @throws InputError as `load_fit` does.
+FitSpec parse_fit(const std::string& text, const std::filesystem::path& file);
+
+}  // namespace recoil

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "estimate/fit.hpp"
+#include "estimate/least_squares.hpp"
+
+namespace recoil {
+
+/// The weighted residuals of `data` under `model` as a least-squares problem in the slots of theta.
+/// The problem refers to both arguments: they must outlive it.
+LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data);
+
+}  // namespace recoil

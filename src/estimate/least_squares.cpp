@@ -1,0 +1,208 @@
+#include "estimate/least_squares.hpp"
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <mutex>
+
+namespace recoil {
+namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// Below this ratio of eigenvalues of the scaled J'J its inverse has no correct digit.
+constexpr double singular_ratio = 1e-13;
+
+/// Ceres minimises over z: the free parameters only, logarithms where asked for.
+class Coordinates {
+ public:
+  Coordinates(const LeastSquaresProblem& problem, std::span<const double> start)
+      : problem_(problem), theta_(start.begin(), start.end()) {
+    for (std::size_t j = 0; j < theta_.size(); ++j) {
+      theta_[j] = std::clamp(theta_[j], problem.lower[j], problem.upper[j]);
+      if (problem.fixed.empty() || !problem.fixed[j]) free_.push_back(j);
+    }
+  }
+
+  const std::vector<std::size_t>& free() const { return free_; }
+
+  double to_z(std::size_t j, double theta) const {
+    return problem_.log_scale[j] ? std::log(theta) : theta;
+  }
+
+  std::vector<double> to_theta(const double* z) const {
+    std::vector<double> theta = theta_;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const std::size_t j = free_[k];
+      const double value = problem_.log_scale[j] ? std::exp(z[k]) : z[k];
+      theta[j] = std::clamp(value, problem_.lower[j], problem_.upper[j]);
+    }
+    return theta;
+  }
+
+  std::vector<double> start() const {
+    std::vector<double> z;
+    for (const std::size_t j : free_) z.push_back(to_z(j, theta_[j]));
+    return z;
+  }
+
+ private:
+  const LeastSquaresProblem& problem_;
+  std::vector<double> theta_;
+  std::vector<std::size_t> free_;
+};
+
+class Residuals : public ceres::CostFunction {
+ public:
+  Residuals(const LeastSquaresProblem& problem, const Coordinates& coordinates)
+      : problem_(problem), coordinates_(coordinates) {
+    set_num_residuals(static_cast<int>(problem.residual_count));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.free().size()));
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const std::size_t n = problem_.residual_count;
+    const std::vector<double> theta = coordinates_.to_theta(parameters[0]);
+    const std::size_t p = theta.size();
+    const bool wanted = jacobians != nullptr && jacobians[0] != nullptr;
+    std::vector<double> jacobian(wanted ? n * p : 0);
+    if (!problem_.evaluate(theta, {residuals, n}, jacobian)) return false;
+    if (!wanted) return true;
+    const std::vector<std::size_t>& free = coordinates_.free();
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < free.size(); ++k) {
+        const std::size_t j = free[k];
+        const double chain = problem_.log_scale[j] ? theta[j] : 1.0;
+        jacobians[0][i * free.size() + k] = jacobian[i * p + j] * chain;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const LeastSquaresProblem& problem_;
+  const Coordinates& coordinates_;
+};
+
+bool rests_on_bound(double value, double bound) {
+  if (!std::isfinite(bound)) return false;
+  return std::abs(value - bound) <= 1e-9 * std::max(std::abs(bound), 1e-9);
+}
+
+/// (J'J)^-1 over the parameters that moved freely; empty when it is singular.
+std::vector<double> covariance_of(const LeastSquaresResult& result,
+                                  const std::vector<std::size_t>& free) {
+  const std::size_t p = result.theta.size();
+  std::vector<std::size_t> inner;
+  for (const std::size_t j : free) {
+    if (!result.at_bound[j]) inner.push_back(j);
+  }
+  std::vector<double> covariance(p * p, 0.0);
+  if (inner.empty()) return covariance;
+  const Eigen::Index n = static_cast<Eigen::Index>(result.residuals.size());
+  const Eigen::Map<const RowMatrix> full(result.jacobian.data(), n, static_cast<Eigen::Index>(p));
+  Eigen::MatrixXd jacobian(n, static_cast<Eigen::Index>(inner.size()));
+  for (std::size_t k = 0; k < inner.size(); ++k) {
+    jacobian.col(static_cast<Eigen::Index>(k)) = full.col(static_cast<Eigen::Index>(inner[k]));
+  }
+  const Eigen::VectorXd scale = jacobian.colwise().norm();
+  if (!(scale.minCoeff() > 0.0)) return {};
+  const Eigen::MatrixXd scaled = jacobian * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled.transpose() * scaled);
+  if (eigen.info() != Eigen::Success) return {};
+  const Eigen::VectorXd values = eigen.eigenvalues();
+  if (!(values.minCoeff() > singular_ratio * values.maxCoeff())) return {};
+  const Eigen::MatrixXd inverse = scale.cwiseInverse().asDiagonal() * eigen.eigenvectors() *
+                                  values.cwiseInverse().asDiagonal() *
+                                  eigen.eigenvectors().transpose() *
+                                  scale.cwiseInverse().asDiagonal();
+  for (std::size_t a = 0; a < inner.size(); ++a) {
+    for (std::size_t b = 0; b < inner.size(); ++b) {
+      covariance[inner[a] * p + inner[b]] =
+          inverse(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+    }
+  }
+  return covariance;
+}
+
+void silence_library_log() {
+  static std::once_flag once;
+  std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
+}
+
+/// Runs Ceres from `z`, which receives the minimum.
+void descend(const LeastSquaresProblem& problem, const Coordinates& coordinates,
+             const LeastSquaresOptions& options, std::vector<double>& z,
+             LeastSquaresResult& result) {
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem ceres_problem(ownership);
+  Residuals residuals(problem, coordinates);
+  ceres_problem.AddResidualBlock(&residuals, nullptr, z.data());
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    const std::size_t j = coordinates.free()[k];
+    const int index = static_cast<int>(k);
+    if (std::isfinite(problem.lower[j])) {
+      ceres_problem.SetParameterLowerBound(z.data(), index, coordinates.to_z(j, problem.lower[j]));
+    }
+    if (std::isfinite(problem.upper[j])) {
+      ceres_problem.SetParameterUpperBound(z.data(), index, coordinates.to_z(j, problem.upper[j]));
+    }
+  }
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.logging_type = ceres::SILENT;
+  solver.num_threads = 1;
+  solver.max_num_iterations = options.max_iterations;
+  solver.function_tolerance = options.function_tolerance;
+  solver.gradient_tolerance = options.gradient_tolerance;
+  solver.parameter_tolerance = options.parameter_tolerance;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &ceres_problem, &summary);
+  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  result.message = summary.message;
+  result.iterations = static_cast<int>(summary.iterations.size());
+}
+
+}  // namespace
+
+LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
+                            const LeastSquaresOptions& options) {
+  assert(problem.lower.size() == start.size() && problem.upper.size() == start.size() &&
+         problem.log_scale.size() == start.size());
+  silence_library_log();
+  const Coordinates coordinates(problem, start);
+  const std::size_t n = problem.residual_count;
+  const std::size_t p = start.size();
+  LeastSquaresResult result;
+  std::vector<double> z = coordinates.start();
+  if (z.empty()) {
+    result.converged = true;
+    result.message = "nothing is free";
+  } else {
+    descend(problem, coordinates, options, z, result);
+  }
+  result.theta = coordinates.to_theta(z.data());
+  result.residuals.assign(n, 0.0);
+  result.jacobian.assign(n * p, 0.0);
+  if (!problem.evaluate(result.theta, result.residuals, result.jacobian)) {
+    result.converged = false;
+    if (result.message.empty()) result.message = "the residuals cannot be evaluated";
+    return result;
+  }
+  for (const double r : result.residuals) result.sum_of_squares += r * r;
+  result.at_bound.assign(p, false);
+  for (const std::size_t j : coordinates.free()) {
+    result.at_bound[j] = rests_on_bound(result.theta[j], problem.lower[j]) ||
+                         rests_on_bound(result.theta[j], problem.upper[j]);
+  }
+  if (options.covariance) result.covariance = covariance_of(result, coordinates.free());
+  return result;
+}
+
+}  // namespace recoil

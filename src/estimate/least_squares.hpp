@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace recoil {
+
+/// A bounded nonlinear least-squares problem: minimise sum_i r_i(theta)^2 with
+/// lower <= theta <= upper. It knows nothing of impacts.
+struct LeastSquaresProblem {
+  /// Fills `residuals` [n] and, unless it is empty, `jacobian` [n x p, row major],
+  ///   jacobian[i * p + j] = d residuals[i] / d theta[j].
+  /// Returns false where theta has no answer; the minimiser then steps back.
+  using Evaluate = std::function<bool(std::span<const double> theta, std::span<double> residuals,
+                                      std::span<double> jacobian)>;
+
+  std::size_t residual_count = 0;
+  std::vector<double> lower;     ///< [p], -infinity allowed
+  std::vector<double> upper;     ///< [p]
+  std::vector<bool> log_scale;   ///< [p] minimised in ln(theta); needs lower > 0
+  std::vector<bool> fixed;       ///< [p] kept at the start; empty means none
+  Evaluate evaluate;
+};
+
+struct LeastSquaresOptions {
+  int max_iterations = 200;
+  double function_tolerance = 1e-12;   ///< relative change of the sum of squares
+  double gradient_tolerance = 1e-12;
+  double parameter_tolerance = 1e-10;
+  bool covariance = true;
+};
+
+struct LeastSquaresResult {
+  bool converged = false;     ///< false: iteration limit, or no start that can be evaluated
+  std::string message;        ///< the minimiser's own words
+  std::vector<double> theta;  ///< [p]
+  double sum_of_squares = 0.0;
+  int iterations = 0;
+  std::vector<double> residuals;    ///< [n] at theta
+  std::vector<double> jacobian;     ///< [n x p] at theta
+  std::vector<bool> at_bound;       ///< [p] resting on a bound
+  std::vector<double> covariance;   ///< [p x p] (J'J)^-1; zero rows for fixed parameters and those
+                                    ///< at a bound; empty when J'J is singular
+};
+
+/// Ceres trust-region Levenberg-Marquardt within bounds from `start`.
+LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
+                            const LeastSquaresOptions& options = {});
+
+}  // namespace recoil

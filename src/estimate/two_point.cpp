@@ -1,0 +1,162 @@
+#include "estimate/two_point.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "core/gsl_errors.hpp"
+#include "core/units.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int most_iterations = 200;
+constexpr double settled = 1e-10;  // relative change of both factors
+constexpr double smallest_damping = 1e-6;  // first upper end of a bracket [s/m]
+
+/// The damping in [0, upper] at which `excess` (which falls with damping) vanishes. Nothing when
+/// even no damping leaves it below zero, or the largest leaves it above.
+std::optional<double> damping_for(const std::function<double(double)>& excess, double upper) {
+  if (!(excess(0.0) >= 0.0)) return std::nullopt;
+  double high = std::min(smallest_damping, upper);
+  while (excess(high) > 0.0) {
+    if (high >= upper) return std::nullopt;
+    high = std::min(4.0 * high, upper);
+  }
+  gsl_function function;
+  function.function = [](double x, void* context) {
+    return (*static_cast<const std::function<double(double)>*>(context))(x);
+  };
+  function.params = const_cast<std::function<double(double)>*>(&excess);
+  const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
+      gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
+  gsl_errors_are_values();
+  gsl_root_fsolver_set(solver.get(), &function, 0.0, high);
+  for (int i = 0; i < 100; ++i) {
+    if (gsl_root_fsolver_iterate(solver.get()) != GSL_SUCCESS) break;
+    const double low_end = gsl_root_fsolver_x_lower(solver.get());
+    const double high_end = gsl_root_fsolver_x_upper(solver.get());
+    if (gsl_root_test_interval(low_end, high_end, 1e-300, 1e-13) == GSL_SUCCESS) break;
+  }
+  return gsl_root_fsolver_root(solver.get());
+}
+
+/// The damping factor in `slot` that gives `point` its measured e, the others as in `theta`.
+std::optional<double> calibrate(const ImpactModel& model, std::vector<double> theta,
+                                std::size_t slot, const Observation& point) {
+  const double target = point.restitution * point.restitution;
+  return damping_for(
+      [&](double damping) {
+        theta[slot] = damping;
+        const Prediction at =
+            predict(model, theta, point.dataset, point.diameter, point.velocity, false);
+        return at.usable() ? at.restitution_squared - target : std::nan("");
+      },
+      model.slots[slot].upper);
+}
+
+std::string describe(const Observation& point) {
+  return fmt::format("e = {:.4g} at V = {:.4g} m/s", point.restitution, point.velocity);
+}
+
+bool choose_points(const Observations& data, std::size_t dataset, double diameter,
+                   TwoPointResult& result) {
+  double nearest = 0.0;
+  for (const Observation& point : data.points) {
+    if (point.dataset != dataset || point.censored) continue;
+    if (nearest == 0.0 || std::abs(point.diameter - diameter) < std::abs(nearest - diameter)) {
+      nearest = point.diameter;
+    }
+  }
+  result.diameter = nearest;
+  std::optional<std::size_t> low;
+  std::optional<std::size_t> high;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const Observation& point = data.points[i];
+    if (point.dataset != dataset || point.censored || point.diameter != nearest) continue;
+    if (!low || point.velocity < data.points[*low].velocity) low = i;
+    if (!high || point.velocity > data.points[*high].velocity) high = i;
+  }
+  if (!low || *low == *high) return false;
+  result.low_point = *low;
+  result.high_point = *high;
+  return true;
+}
+
+}  // namespace
+
+std::string to_string(TwoPointStatus status) {
+  switch (status) {
+    case TwoPointStatus::converged:
+      return "converged";
+    case TwoPointStatus::no_hertz_damping:
+      return "no_hertz_damping";
+    case TwoPointStatus::no_adhesion_damping:
+      return "no_adhesion_damping";
+    case TwoPointStatus::not_converging:
+      return "not_converging";
+    case TwoPointStatus::too_few_points:
+      return "too_few_points";
+  }
+  return "";
+}
+
+TwoPointResult two_point(const ImpactModel& model, const Observations& data, std::size_t dataset,
+                         double diameter) {
+  TwoPointResult result;
+  result.theta = model.initial();
+  if (!choose_points(data, dataset, diameter, result)) {
+    result.text = "the diameter has fewer than two velocities at which spheres rebounded";
+    return result;
+  }
+  const Observation& low = data.points[result.low_point];
+  const Observation& high = data.points[result.high_point];
+  const std::size_t hertz = model.slot_C_H[dataset];
+  const std::size_t adhesion = model.slot_C_A[dataset];
+  // f0 stays at eq. 12 even when the full fit frees it: the iteration knows no third unknown.
+  result.theta[model.slot_f0[dataset]] = model.contacts[dataset].adhesion_force;
+  result.theta[hertz] = 0.0;
+  result.theta[adhesion] = 0.0;
+
+  for (result.iterations = 1; result.iterations <= most_iterations; ++result.iterations) {
+    const std::optional<double> new_hertz = calibrate(model, result.theta, hertz, high);
+    const double hertz_change = std::abs(new_hertz.value_or(0.0) - result.theta[hertz]);
+    result.theta[hertz] = new_hertz.value_or(0.0);
+    const std::optional<double> new_adhesion = calibrate(model, result.theta, adhesion, low);
+    const double adhesion_change = std::abs(new_adhesion.value_or(0.0) - result.theta[adhesion]);
+    result.theta[adhesion] = new_adhesion.value_or(0.0);
+    if (hertz_change > settled * result.theta[hertz] ||
+        adhesion_change > settled * result.theta[adhesion]) {
+      continue;
+    }
+    if (!new_hertz) {
+      result.status = TwoPointStatus::no_hertz_damping;
+      result.text = fmt::format(
+          "no C_H >= 0 gives {}: the adhesion that the lowest velocity asks for (C_A = {:.4g} s/m) "
+          "already costs more there",
+          describe(high), result.theta[adhesion]);
+    } else if (!new_adhesion) {
+      result.status = TwoPointStatus::no_adhesion_damping;
+      result.text = fmt::format("no C_A in [0, {:.4g}] s/m gives {} beside C_H = {:.4g} s/m",
+                                model.slots[adhesion].upper, describe(low), result.theta[hertz]);
+    } else {
+      result.status = TwoPointStatus::converged;
+      result.text = fmt::format("{} iterations on {} and {}", result.iterations, describe(low),
+                                describe(high));
+    }
+    return result;
+  }
+  result.iterations = most_iterations;
+  result.status = TwoPointStatus::not_converging;
+  result.text = fmt::format("C_H and C_A still change after {} iterations on {} and {}",
+                            most_iterations, describe(low), describe(high));
+  return result;
+}
+
+}  // namespace recoil

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "estimate/fit.hpp"
+
+namespace recoil {
+
+/// How the paper's iteration ended.
+enum class TwoPointStatus {
+  converged,
+  no_hertz_damping,     ///< at the highest velocity adhesion alone already costs more than measured
+  no_adhesion_damping,  ///< no C_A >= 0 gives the e of the lowest velocity
+  not_converging,       ///< the iteration goes round or stops at its limit
+  too_few_points,
+};
+
+std::string to_string(TwoPointStatus status);
+
+/// The calibration of Li, Dunn & Brach (1999), section 4: the point of the highest velocity gives
+/// C_H with the effects of adhesion neglected (C_A = 0 at first), the point of the lowest gives C_A,
+/// and so on until nothing changes. f0 is fixed by eq. 12.
+struct TwoPointResult {
+  TwoPointStatus status = TwoPointStatus::too_few_points;
+  std::string text;           ///< the status in a sentence, with numbers
+  std::size_t low_point = 0;  ///< indices into the observations
+  std::size_t high_point = 0;
+  double diameter = 0.0;      ///< of the series used [m]
+  std::vector<double> theta;  ///< [slots]; the last iterate when it did not converge
+  int iterations = 0;
+};
+
+/// Runs the iteration on the points of `dataset` that are nearest to `diameter` [m].
+TwoPointResult two_point(const ImpactModel& model, const Observations& data, std::size_t dataset,
+                         double diameter);
+
+}  // namespace recoil

@@ -1,0 +1,107 @@
+#include "impact/contact.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/units.hpp"
+
+namespace recoil {
+namespace {
+
+using std::numbers::pi;
+
+// Gilman (1960) as used by Li, Dunn & Brach (1999), below eq. 11: both lengths "about".
+constexpr double gilman_y0 = 2.0e-10;  // equilibrium lattice constant [m]
+constexpr double gilman_a0 = 1.3e-10;  // elastic distance of the attractive force [m]
+
+// Stated and derived values that differ by more than rounding of three printed digits.
+constexpr double contradiction_tolerance = 0.02;
+
+bool disagree(double stated, double derived) {
+  return std::abs(stated - derived) > contradiction_tolerance * std::abs(derived);
+}
+
+}  // namespace
+
+double compliance(double youngs_modulus, double poisson_ratio) {
+  return (1.0 - poisson_ratio * poisson_ratio) / (pi * youngs_modulus);
+}
+
+double hertzian_stiffness(double k_particle, double k_surface) {
+  return 4.0 / (3.0 * pi * (k_particle + k_surface));
+}
+
+double gilman_surface_energy(double youngs_modulus) {
+  return youngs_modulus / gilman_y0 * std::pow(gilman_a0 / pi, 2);
+}
+
+double equilibrium_contact_radius(double adhesion_energy, double radius, double stiffness) {
+  return std::cbrt(6.0 * pi * adhesion_energy * radius * radius / stiffness);
+}
+
+double adhesion_force_per_length(double stiffness, double equilibrium_radius, double radius) {
+  return stiffness * equilibrium_radius * equilibrium_radius / (2.0 * pi * radius);
+}
+
+double adhesion_force_at(double f0_reference, double reference_diameter, double diameter) {
+  return f0_reference * std::cbrt(diameter / reference_diameter);
+}
+
+double sphere_mass(double diameter, double density) {
+  return density * pi / 6.0 * diameter * diameter * diameter;
+}
+
+ContactProperties derive_contact(const ImpactSystem& system, double reference_diameter) {
+  ContactProperties contact;
+  contact.reference_diameter = system.reference_diameter.value_or(reference_diameter);
+  const double radius = contact.reference_diameter / 2.0;
+  contact.particle_density = system.particle.density;
+
+  contact.k_particle = compliance(system.particle.youngs_modulus, system.particle.poisson_ratio);
+  contact.k_surface = compliance(system.surface.youngs_modulus, system.surface.poisson_ratio);
+  contact.stiffness_derived = hertzian_stiffness(contact.k_particle, contact.k_surface);
+  contact.stiffness = system.stiffness_K.value_or(contact.stiffness_derived);
+  if (disagree(contact.stiffness, contact.stiffness_derived)) {
+    contact.contradictions.push_back(fmt::format(
+        "stiffness_K = {:.4g} GPa is stated, but the elastic constants give K = {:.4g} GPa (a "
+        "factor of {:.3g}); the stated K = {:.4g} GPa is used",
+        contact.stiffness / units::GPa, contact.stiffness_derived / units::GPa,
+        contact.stiffness / contact.stiffness_derived, contact.stiffness / units::GPa));
+  }
+
+  contact.gamma_particle = system.particle.surface_energy.value_or(
+      gilman_surface_energy(system.particle.youngs_modulus));
+  contact.gamma_surface = system.surface.surface_energy.value_or(
+      gilman_surface_energy(system.surface.youngs_modulus));
+  const double energy_derived = 2.0 * std::sqrt(contact.gamma_particle * contact.gamma_surface);
+  contact.adhesion_energy = system.adhesion_energy.value_or(energy_derived);
+  if (contact.adhesion_energy > 0.0 && disagree(contact.adhesion_energy, energy_derived)) {
+    contact.contradictions.push_back(fmt::format(
+        "adhesion_energy = {:.4g} J/m2 is stated, but the two surface energies give W_A = {:.4g} "
+        "J/m2; the stated W_A is used",
+        contact.adhesion_energy, energy_derived));
+  }
+
+  contact.equilibrium_radius =
+      equilibrium_contact_radius(contact.adhesion_energy, radius, contact.stiffness);
+  contact.adhesion_force_derived =
+      adhesion_force_per_length(contact.stiffness, contact.equilibrium_radius, radius);
+  contact.adhesion_force = system.adhesion_force_f0.value_or(contact.adhesion_force_derived);
+  if (disagree(contact.adhesion_force, contact.adhesion_force_derived)) {
+    const double with_derived_K = adhesion_force_per_length(
+        contact.stiffness_derived,
+        equilibrium_contact_radius(contact.adhesion_energy, radius, contact.stiffness_derived),
+        radius);
+    contact.contradictions.push_back(fmt::format(
+        "adhesion_force_f0 = {:.4g} N/m is stated, but eq. 12 gives f0 = {:.4g} N/m with the K "
+        "that is used and {:.4g} N/m with the K of the elastic constants; the stated f0 = {:.4g} "
+        "N/m is used",
+        contact.adhesion_force, contact.adhesion_force_derived, with_derived_K,
+        contact.adhesion_force));
+  }
+  return contact;
+}
+
+}  // namespace recoil

@@ -1,0 +1,305 @@
+#include <ceres/jet.h>
+#include <cvodes/cvodes.h>
+#include <nvector/nvector_serial.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+#include <sundials/sundials_context.hpp>
+
+#include "impact/force_law.hpp"
+#include "impact/impact.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int groups_count = 3;
+constexpr int anderson_depth = 0;  // the field is not stiff: plain functional iteration
+constexpr double longest_arc = 1e9;  // "until an event": no impact is this long in sigma
+// At the separatrix q falls like sigma^-2 and release is never reached. Inside this circle about
+// q = u = 0 the energy that is left is below 1e-15 m V^2 (see near_cusp_radius) and decides.
+constexpr double undecided_energy = 1e-15;
+
+enum class Stage { compression, restitution };
+
+struct Field {
+  double alpha, beta, gamma;
+  AdhesionDampingPhase phase;
+  Stage stage = Stage::compression;
+  double cusp_radius_squared = 0.0;
+
+  bool adhesion_damping_acts() const {
+    return phase == AdhesionDampingPhase::both || stage == Stage::restitution;
+  }
+};
+
+const Field& field_of(void* user_data) { return *static_cast<const Field*>(user_data); }
+
+int right_hand_side(realtype, N_Vector y, N_Vector y_dot, void* user_data) {
+  const Field& f = field_of(user_data);
+  const double q = NV_Ith_S(y, 0);
+  const double u = NV_Ith_S(y, 1);
+  NV_Ith_S(y_dot, 0) = u;
+  NV_Ith_S(y_dot, 1) =
+      regularised_acceleration(q, u, f.alpha, f.beta, f.gamma, f.adhesion_damping_acts());
+  return 0;
+}
+
+/// s_dot = (d field / d y) s + d field / d p, every partial derivative from the one force law.
+int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vector* s,
+                                N_Vector* s_dot, void* user_data, N_Vector, N_Vector) {
+  const Field& f = field_of(user_data);
+  using Dual = ceres::Jet<double, 2 + groups_count>;
+  const Dual acceleration = regularised_acceleration(
+      Dual(NV_Ith_S(y, 0), 0), Dual(NV_Ith_S(y, 1), 1), Dual(f.alpha, 2), Dual(f.beta, 3),
+      Dual(f.gamma, 4), f.adhesion_damping_acts());
+  for (int i = 0; i < count; ++i) {
+    const double s_q = NV_Ith_S(s[i], 0);
+    const double s_u = NV_Ith_S(s[i], 1);
+    NV_Ith_S(s_dot[i], 0) = s_u;
+    NV_Ith_S(s_dot[i], 1) =
+        acceleration.v[0] * s_q + acceleration.v[1] * s_u + acceleration.v[2 + i];
+  }
+  return 0;
+}
+
+/// Time and the two losses: dt = 2 q dsigma, power = -force times u.
+int quadrature_right_hand_side(realtype, N_Vector y, N_Vector rates, void* user_data) {
+  const Field& f = field_of(user_data);
+  const double q = NV_Ith_S(y, 0);
+  const double u = NV_Ith_S(y, 1);
+  const auto forces =
+      contact_forces(q, u, f.alpha, f.beta, f.gamma, f.adhesion_damping_acts());
+  NV_Ith_S(rates, 0) = 2.0 * q;
+  NV_Ith_S(rates, 1) = -2.0 * q * forces.hertz_damping * u;
+  NV_Ith_S(rates, 2) = -2.0 * q * forces.adhesion_damping * u;
+  return 0;
+}
+
+int turning_event(realtype, N_Vector y, realtype* value, void*) {
+  value[0] = NV_Ith_S(y, 1);
+  return 0;
+}
+
+int end_events(realtype, N_Vector y, realtype* value, void* user_data) {
+  const double q = NV_Ith_S(y, 0);
+  const double u = NV_Ith_S(y, 1);
+  value[0] = q;                                                      // release
+  value[1] = u;                                                      // outer turning point
+  value[2] = q * q + u * u - field_of(user_data).cusp_radius_squared;  // separatrix
+  return 0;
+}
+
+struct FreeVector {
+  void operator()(N_Vector v) const { N_VDestroy(v); }
+};
+using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector>;
+
+struct FreeMemory {
+  void operator()(void* memory) const { CVodeFree(&memory); }
+};
+struct FreeNonlinearSolver {
+  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
+};
+using NonlinearSolver =
+    std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, FreeNonlinearSolver>;
+
+/// One CVODES integration, with everything it owns.
+class Integration {
+ public:
+  Integration(const ImpactGroups& groups, const ImpactOptions& options)
+      : options_(options),
+        field_{groups.alpha, groups.beta, groups.gamma, options.phase},
+        state_(N_VNew_Serial(2, context_)),
+        quadratures_(N_VNew_Serial(3, context_)) {
+    // U(q) and u^2/2 are both below undecided_energy when (2/3) beta q^3 is, with u ~ q^(3/2).
+    const double radius = std::cbrt(undecided_energy / std::max(groups.beta, 1.0));
+    field_.cusp_radius_squared = radius * radius;
+    NV_Ith_S(state_.get(), 0) = 0.0;
+    NV_Ith_S(state_.get(), 1) = 1.0;
+    N_VConst(0.0, quadratures_.get());
+    memory_.reset(CVodeCreate(CV_ADAMS, context_));
+    ready_ = memory_ != nullptr && set_up();
+  }
+
+  bool ready() const { return ready_; }
+  void* memory() const { return memory_.get(); }
+  const Field& field() const { return field_; }
+  double q() const { return NV_Ith_S(state_.get(), 0); }
+  double u() const { return NV_Ith_S(state_.get(), 1); }
+  double quadrature(int i) const { return NV_Ith_S(quadratures_.get(), i); }
+
+  /// One internal step, or to the next event if that comes first; CVODES's return code.
+  int step() {
+    const int code = CVode(memory_.get(), longest_arc, state_.get(), &sigma_, CV_ONE_STEP);
+    if (options_.budget) CVodeGetQuad(memory_.get(), &sigma_, quadratures_.get());
+    return code;
+  }
+
+  /// Passes the inner turning point: the adhesion damping switches on (continuously, as u = 0), and
+  /// the events to look for become those of the restitution.
+  bool turn() {
+    field_.stage = Stage::restitution;
+    if (options_.gradient && CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
+    NV_Ith_S(state_.get(), 1) = 0.0;
+    bool good = CVodeReInit(memory_.get(), sigma_, state_.get()) == CV_SUCCESS;
+    if (options_.gradient) {
+      good = good && CVodeSensReInit(memory_.get(), CV_SIMULTANEOUS, sensitivity_) == CV_SUCCESS;
+    }
+    if (options_.budget) {
+      good = good && CVodeQuadReInit(memory_.get(), quadratures_.get()) == CV_SUCCESS;
+    }
+    std::array<int, 3> directions = {-1, 1, -1};
+    return good && CVodeRootInit(memory_.get(), 3, end_events) == CV_SUCCESS &&
+           CVodeSetRootDirection(memory_.get(), directions.data()) == CV_SUCCESS;
+  }
+
+  /// d (2 H) / d group at the end of the impact. Both ends need no correction for the change of the
+  /// arc length: u' = 0 at a release (q = 0) and H' = 0 at a turning point (u = 0).
+  bool energy_gradient(std::array<double, 3>& gradient) {
+    if (CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
+    using Dual = ceres::Jet<double, 2>;
+    const Dual potential = potential_energy(Dual(q(), 0), Dual(field_.beta, 1));
+    for (int i = 0; i < groups_count; ++i) {
+      const double s_q = NV_Ith_S(sensitivity_[i], 0);
+      const double s_u = NV_Ith_S(sensitivity_[i], 1);
+      const double direct = i == 1 ? potential.v[1] : 0.0;
+      gradient[static_cast<std::size_t>(i)] = 2.0 * (u() * s_u + potential.v[0] * s_q + direct);
+    }
+    return true;
+  }
+
+ private:
+  bool set_up() {
+    void* memory = memory_.get();
+    const double absolute = 1e-2 * options_.tolerance;
+    std::array<int, 1> falling = {-1};
+    CVodeSetErrFile(memory, nullptr);
+    bool good = CVodeInit(memory, right_hand_side, 0.0, state_.get()) == CV_SUCCESS &&
+                CVodeSStolerances(memory, options_.tolerance, absolute) == CV_SUCCESS &&
+                CVodeSetUserData(memory, &field_) == CV_SUCCESS &&
+                CVodeRootInit(memory, 1, turning_event) == CV_SUCCESS &&
+                CVodeSetRootDirection(memory, falling.data()) == CV_SUCCESS;
+    solver_.reset(SUNNonlinSol_FixedPoint(state_.get(), anderson_depth, context_));
+    good = good && CVodeSetNonlinearSolver(memory, solver_.get()) == CV_SUCCESS;
+    if (good && options_.gradient) good = set_up_sensitivities(absolute);
+    if (good && options_.budget) {
+      good = CVodeQuadInit(memory, quadrature_right_hand_side, quadratures_.get()) == CV_SUCCESS &&
+             CVodeSetQuadErrCon(memory, SUNTRUE) == CV_SUCCESS &&
+             CVodeQuadSStolerances(memory, options_.tolerance, absolute) == CV_SUCCESS;
+    }
+    return good;
+  }
+
+  bool set_up_sensitivities(double absolute) {
+    void* memory = memory_.get();
+    for (int i = 0; i < groups_count; ++i) {
+      sensitivity_owner_[static_cast<std::size_t>(i)].reset(N_VNew_Serial(2, context_));
+      sensitivity_[i] = sensitivity_owner_[static_cast<std::size_t>(i)].get();
+      N_VConst(0.0, sensitivity_[i]);
+    }
+    std::array<double, groups_count> absolutes = {absolute, absolute, absolute};
+    sensitivity_solver_.reset(
+        SUNNonlinSol_FixedPointSens(groups_count + 1, state_.get(), anderson_depth, context_));
+    return CVodeSensInit(memory, groups_count, CV_SIMULTANEOUS, sensitivity_right_hand_side,
+                         sensitivity_) == CV_SUCCESS &&
+           CVodeSensSStolerances(memory, options_.tolerance, absolutes.data()) == CV_SUCCESS &&
+           CVodeSetSensErrCon(memory, SUNTRUE) == CV_SUCCESS &&
+           CVodeSetNonlinearSolverSensSim(memory, sensitivity_solver_.get()) == CV_SUCCESS;
+  }
+
+  // Declared in the order of dependence: everything below lives in the context.
+  sundials::Context context_;
+  ImpactOptions options_;
+  Field field_;
+  Vector state_;
+  Vector quadratures_;
+  std::array<Vector, groups_count> sensitivity_owner_;
+  N_Vector sensitivity_[groups_count] = {};
+  NonlinearSolver solver_;
+  NonlinearSolver sensitivity_solver_;
+  std::unique_ptr<void, FreeMemory> memory_;
+  double sigma_ = 0.0;
+  bool ready_ = false;
+};
+
+/// What is watched on the way, from step to step.
+void observe(const Integration& run, const ImpactOptions& options, ImpactResult& result,
+             std::vector<ImpactMoment>* history) {
+  const Field& f = run.field();
+  const double q = std::max(run.q(), 0.0);
+  const auto forces =
+      contact_forces(q, run.u(), f.alpha, f.beta, f.gamma, f.adhesion_damping_acts());
+  const double push =
+      -(forces.hertz + forces.hertz_damping + forces.adhesion + forces.adhesion_damping);
+  result.penetration_max = std::max(result.penetration_max, q * q);
+  result.force_compression = std::max(result.force_compression, push);
+  result.force_tension = std::max(result.force_tension, -push);
+  result.energy.largest = std::max({result.energy.largest, run.u() * run.u() / 2.0,
+                                    0.4 * std::pow(q, 5), 2.0 / 3.0 * f.beta * q * q * q});
+  if (history != nullptr && options.budget) {
+    history->push_back({run.quadrature(0), q * q, run.u(), -forces.hertz, -forces.hertz_damping,
+                        -forces.adhesion, -forces.adhesion_damping});
+  }
+}
+
+void finish(Integration& run, const ImpactOptions& options, ImpactResult& result) {
+  const Field& f = run.field();
+  const double kinetic = run.u() * run.u() / 2.0;
+  const double potential = potential_energy(run.q(), f.beta);
+  const double left = kinetic + potential;
+  if (!std::isfinite(left)) {
+    result.outcome = ImpactOutcome::integration_failure;
+    return;
+  }
+  result.restitution_squared = 2.0 * left;
+  result.outcome = left > 0.0 ? ImpactOutcome::rebound : ImpactOutcome::captured;
+  if (options.gradient && !run.energy_gradient(result.gradient)) {
+    result.outcome = ImpactOutcome::integration_failure;
+  }
+  if (options.budget) {
+    result.contact_time = run.quadrature(0);
+    result.energy.hertz_loss = run.quadrature(1);
+    result.energy.adhesion_loss = run.quadrature(2);
+  }
+  result.energy.kinetic = kinetic;
+  result.energy.potential = potential;
+}
+
+}  // namespace
+
+double EnergyBudget::audit() const {
+  return (0.5 - (kinetic + potential + hertz_loss + adhesion_loss)) / std::max(largest, 0.5);
+}
+
+ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& options,
+                             std::vector<ImpactMoment>* history) {
+  ImpactResult result;
+  if (!(std::isfinite(groups.alpha) && std::isfinite(groups.beta) && std::isfinite(groups.gamma) &&
+        groups.alpha >= 0.0 && groups.beta >= 0.0 && groups.gamma >= 0.0)) {
+    return result;  // an inadmissible trial point of an optimiser is a failure, not a crash
+  }
+  Integration run(groups, options);
+  if (!run.ready()) return result;
+  observe(run, options, result, history);
+  bool turned = false;
+  for (;;) {
+    if (++result.steps > options.max_steps) {
+      result.outcome = ImpactOutcome::step_limit;
+      return result;
+    }
+    const int code = run.step();
+    if (code < 0) return result;
+    observe(run, options, result, history);
+    if (code != CV_ROOT_RETURN) continue;
+    if (turned) break;
+    turned = true;
+    if (!run.turn()) return result;
+  }
+  finish(run, options, result);
+  return result;
+}
+
+}  // namespace recoil

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <variant>
+
+#include "data/material.hpp"
+
+namespace recoil {
+
+/// A truth made by the seed's own equation, see `SeedContact`.
+struct SeedTruth {
+  double density = 0.0;             ///< of the sphere [kg/m3]
+  double stiffness = 0.0;           ///< K [Pa]
+  double adhesion_force = 0.0;      ///< f0 at `reference_diameter` [N/m]; f0 ~ d^(1/3) elsewhere
+  double reference_diameter = 0.0;  ///< [m]
+  double C_H = 0.0;                 ///< [s/m]
+  double C_A = 0.0;                 ///< [s/m]
+  bool damped_in_both_phases = false;
+};
+
+/// A truth made by yield and adhesion, see `ElastoplasticContact`. The yield pressure rises with the
+/// rate of straining, for which the impact velocity stands:
+///   p_Y(V) = p_0 (1 + (V / V_0)^q).
+struct ElastoplasticTruth {
+  double density = 0.0;                ///< of the sphere [kg/m3]
+  double reduced_modulus = 0.0;        ///< E* [Pa]
+  double adhesion_energy = 0.0;        ///< w [J/m2]
+  double static_yield_pressure = 0.0;  ///< p_0 [Pa]
+  double rate_velocity = 0.0;          ///< V_0 [m/s]
+  double rate_exponent = 0.0;          ///< q [1]
+};
+
+using Truth = std::variant<SeedTruth, ElastoplasticTruth>;
+
+/// Noiseless restitution e [1] of one sphere of `diameter` [m] at `velocity` [m/s]; 0 when captured.
+double true_restitution(const Truth& truth, double diameter, double velocity);
+
+/// The velocity below which a sphere of `diameter` [m] is captured [m/s], to a relative 1e-9.
+/// @throws ComputationError when nothing is captured, or everything is up to 1000 m/s.
+double true_capture_velocity(const Truth& truth, double diameter);
+
+/// The same truth with the adhesion taken away.
+Truth without_adhesion(Truth truth);
+
+/// Eq. 6, 7, 9 to 12 of Li, Dunn & Brach (1999) from the two materials.
+struct DerivedContact {
+  double reduced_modulus = 0.0;  ///< E* = (3/4) K [Pa]
+  double stiffness = 0.0;        ///< eq. 6: K = 4 / (3 pi (k1 + k2)) [Pa]
+  double adhesion_energy = 0.0;  ///< W_A = 2 sqrt(gamma1 gamma2), Gilman's gamma where none is
+                                 ///< stated (eq. 11) [J/m2]
+};
+DerivedContact derive_recipe_contact(const Material& particle, const Material& surface);
+
+/// Eq. 12: f0 = (9 W_A^2 K r / (2 pi))^(1/3) [N/m], the same as 9 and 10 together.
+double recipe_adhesion_force(double stiffness, double adhesion_energy, double diameter);
+
+}  // namespace recoil

@@ -1,0 +1,65 @@
+#include "report/figure_style.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/svg_plot.hpp"
+
+namespace recoil::style {
+
+std::string preamble() {
+  return "set border 3 lc rgb '#555555' lw 1\n"
+         "set tics nomirror out scale 0.6,0.3 textcolor rgb '#333333'\n"
+         "set grid lc rgb '#e4e4e4' lt 1 lw 0.8\n"
+         "set key textcolor rgb '#222222' samplen 1.8 spacing 1.05 height 0.3\n"
+         "set tmargin 2.2\nset rmargin 2\n"
+         "set errorbars 0\nset pointintervalbox 0\n";
+}
+
+std::string title(const std::string& text) {
+  return fmt::format(
+      "set label 1 {} at graph 0, graph 1 left offset 0,0.8 font ',14' textcolor rgb '{}'\n",
+      gnuplot_text(text), ink);
+}
+
+Range range_of(const std::vector<double>& values, double margin) {
+  Range range{INFINITY, -INFINITY};
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    range.lower = std::min(range.lower, value);
+    range.upper = std::max(range.upper, value);
+  }
+  if (!(range.lower <= range.upper)) return {};
+  double width = range.upper - range.lower;
+  if (!(width > 0.0)) width = range.upper != 0.0 ? std::abs(range.upper) : 1.0;
+  return {range.lower - margin * width, range.upper + margin * width};
+}
+
+Range quantile_range(std::vector<double> values, double lower, double upper) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double p) {
+    return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1) + 0.5)];
+  };
+  return {at(lower), at(upper)};
+}
+
+Scale scale_for(double magnitude, const std::string& unit) {
+  if (!(magnitude > 0.0) || !std::isfinite(magnitude)) return {1.0, unit};
+  if (magnitude >= 0.1 && magnitude < 1000.0) return {1.0, unit};
+  const int power = 3 * static_cast<int>(std::floor(std::log10(magnitude) / 3.0));
+  return {std::pow(10.0, -power), fmt::format("10^{{{}}} {}", power, unit)};
+}
+
+std::string symbol(const std::string& parameter) {
+  if (parameter == "f0") return "f_{0}";
+  const auto underscore = parameter.find('_');
+  if (underscore == std::string::npos) return parameter;
+  return fmt::format("{}_{{{}}}", parameter.substr(0, underscore),
+                     parameter.substr(underscore + 1));
+}
+
+}  // namespace recoil::style

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/report.hpp"
+
+namespace recoil {
+
+/// One picture of a report. Titles and captions are plain text.
+struct Figure {
+  std::string id;
+  std::string title;
+  std::string caption;  ///< what it shows, and what to look for
+  std::string svg;      ///< ready to inline
+};
+
+/// e against V (log axis) of each diameter: points with error bars, full fit with its band, the
+/// two-point curve, the capture velocity with its interval.
+std::vector<Figure> restitution_figures(const Analysis& analysis);
+
+/// Weighted residuals against V, one picture per dataset.
+std::vector<Figure> residual_velocity_figures(const Analysis& analysis);
+
+/// Weighted residuals against diameter with the mean of each diameter, one picture per dataset.
+std::vector<Figure> residual_diameter_figures(const Analysis& analysis);
+
+/// Bootstrap distribution of each free parameter with estimate and recommended interval.
+std::vector<Figure> bootstrap_figures(const Analysis& analysis);
+
+/// C_H and C_A of the two-point calibration and of the full fit under resampling: a scatter of
+/// replicates where there is one dataset, bars of one standard deviation where there are several.
+std::vector<Figure> two_point_figures(const Analysis& analysis);
+
+/// f0 against radius with f0 ~ r^(1/3) (Fig. 8 of Li, Dunn & Brach 1999), all datasets.
+std::vector<Figure> adhesion_force_figures(const Analysis& analysis);
+
+/// The four contact forces against time (Fig. 6 there), one picture per dataset: reference
+/// diameter, and 5.2 m/s where the data reach it, the geometric middle of their range elsewhere.
+std::vector<Figure> force_history_figures(const Analysis& analysis);
+
+/// All points and fitted curves of e(V) in one small picture; `id` begins every SVG id.
+std::string restitution_overview(const Analysis& analysis, const std::string& id);
+
+}  // namespace recoil

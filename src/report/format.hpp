@@ -1,0 +1,72 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "report/report.hpp"
+
+/// What the text, JSON and HTML writers say in common: numbers, names, and lookups in an Analysis
+/// that never run out of range when a stage was skipped.
+namespace recoil {
+
+/// `value` with `digits` significant digits; "n/a" for anything that is not finite.
+std::string number(double value, int digits = 4);
+
+/// A value and its error, the error with two significant digits and both with the same decimals:
+/// ("0.00312", "0.00021").
+std::pair<std::string, std::string> number_with_error(double value, double error);
+
+/// "[0.0027, 0.0035]", or "none".
+std::string interval_text(const Interval& interval, int digits = 4);
+
+/// A p-value for people: "0.43", "0.0021", "< 1e-6".
+std::string p_value_text(double p);
+
+/// "95 %" of a level 0.95.
+std::string percent(double fraction);
+
+/// A diameter in micrometres, three or more digits: "4.90".
+std::string diameter_text(double diameter);
+
+/// `text` in lines of at most `width` characters (code points), broken at spaces, every line after
+/// the first behind `indent` spaces; a word that is too long is cut.
+std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
+
+/// An identifier such as "no_adhesion_damping" in words.
+std::string words_of(std::string identifier);
+
+/// Every interval of one slot; with `why` filled in when the assessment has none for it.
+IntervalSet intervals_of(const Analysis& analysis, std::size_t slot);
+
+/// The interval that `set.recommended` names; without bounds when it names none.
+Interval recommended_interval(const IntervalSet& set);
+
+/// Correlation of two slots from the covariance; 0 when either has no variance.
+double correlation(const Analysis& analysis, std::size_t a, std::size_t b);
+
+/// The provenance that makes the least claim among the datasets.
+Provenance weakest_provenance(const std::vector<Dataset>& datasets);
+
+/// (label, sentence) of each provenance among the datasets, without repetition.
+std::vector<std::pair<std::string, std::string>> provenances(const std::vector<Dataset>& datasets);
+
+/// Warnings of every stage in pipeline order, without repetition. The contradictions of the contact
+/// are not among them.
+std::vector<std::string> all_warnings(const Analysis& analysis);
+
+/// What disagrees among the stated inputs, "dataset: sentence".
+std::vector<std::string> all_contradictions(const Analysis& analysis);
+
+/// The two-point comparison of `dataset`, or null.
+const TwoPointComparison* two_point_of(const Analysis& analysis, std::size_t dataset);
+
+/// The conditions of the fit's answer for `dataset` at its reference diameter.
+ImpactConditions reference_conditions(const Analysis& analysis, std::size_t dataset,
+                                      double velocity);
+
+/// How the residuals are scaled for display: 1, or the noise level when no deviation was stated.
+double residual_unit(const Analysis& analysis);
+
+}  // namespace recoil

@@ -1,0 +1,412 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/files.hpp"
+#include "core/units.hpp"
+#include "report/format.hpp"
+
+namespace recoil {
+namespace {
+
+// Keys keep the order in which they are written, so that two files compare line by line.
+using Json = nlohmann::ordered_json;
+
+/// A number, or null: JSON has no NaN and no infinity.
+Json number_or_null(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return value == 0.0 ? 0.0 : value;  // no minus zero
+}
+
+/// `object[key]` and, when there is no number, `object[key_why]`.
+void put(Json& object, const std::string& key, double value, const std::string& why) {
+  object[key] = number_or_null(value);
+  if (object[key].is_null()) object[key + "_why"] = why;
+}
+
+void put(Json& object, const std::string& key, const std::optional<double>& value,
+         const std::string& why) {
+  put(object, key, value.value_or(NAN), why);
+}
+
+Json interval_json(const Interval& interval) {
+  if (!interval.available() || !std::isfinite(*interval.lower) || !std::isfinite(*interval.upper)) {
+    return nullptr;
+  }
+  return Json::array({number_or_null(*interval.lower), number_or_null(*interval.upper)});
+}
+
+std::string why_none(const Interval& interval) {
+  if (!interval.why.empty()) return interval.why;
+  return interval.available() ? "a bound is not finite" : "not computed";
+}
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number_or_null(value));
+  return list;
+}
+
+Json dataset_json(const Dataset& dataset) {
+  return {{"id", dataset.id},
+          {"title", dataset.title},
+          {"provenance", to_string(dataset.provenance)},
+          {"provenance_sentence", provenance_sentence(dataset.provenance)},
+          {"points", dataset.points.size()},
+          {"sha256", dataset.sha256},
+          {"sources", dataset.sources}};
+}
+
+/// The datasets of a joint fit as one: ids joined by "+", the provenance that claims least.
+Json joint_json(const std::vector<Dataset>& datasets) {
+  if (datasets.size() == 1) return dataset_json(datasets.front());
+  std::string id;
+  std::string title;
+  std::string sums;
+  std::size_t points = 0;
+  Json sources = Json::array();
+  for (const Dataset& dataset : datasets) {
+    id += (id.empty() ? "" : "+") + dataset.id;
+    title += (title.empty() ? "" : "; ") + dataset.title;
+    sums += dataset.sha256;
+    points += dataset.points.size();
+    for (const std::string& source : dataset.sources) sources.push_back(source);
+  }
+  const Provenance weakest = weakest_provenance(datasets);
+  return {{"id", id},
+          {"title", title},
+          {"provenance", to_string(weakest)},
+          {"provenance_sentence", provenance_sentence(weakest)},
+          {"points", points},
+          {"sha256", sha256_hex(sums)},
+          {"sources", sources}};
+}
+
+std::string joined_sentences(const std::vector<Dataset>& datasets) {
+  std::string text;
+  for (const auto& [label, sentence] : provenances(datasets)) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : " ", label, sentence);
+  }
+  return text;
+}
+
+Json options_json(const Analysis& a) {
+  const UncertaintyOptions& options = a.uncertainty.options;
+  Json parameters = Json::object();
+  for (const ParameterSlot& slot : a.fitted.model.slots) {
+    Json entry = {{"initial", number_or_null(slot.initial)}, {"free", slot.free}};
+    entry["bounds"] = Json::array({number_or_null(slot.lower), number_or_null(slot.upper)});
+    parameters[slot.label()] = entry;
+  }
+  // The number of threads is left out on purpose: no digit of a result depends on it.
+  return {{"adhesion_damping_phase", to_string(a.fitted.model.phase)},
+          {"mechanisms", a.spec.mechanisms},
+          {"replicates", options.replicates},
+          {"level", number_or_null(options.level)},
+          {"seed", options.seed},
+          {"parameters", parameters}};
+}
+
+Json parameter_json(const Analysis& a, std::size_t s) {
+  const FitResult& f = a.fitted;
+  const ParameterSlot& slot = f.model.slots[s];
+  Json out;
+  put(out, "value", f.theta[s], "the estimate is not finite");
+  out["unit"] = slot.unit;
+  out["free"] = slot.free;
+  const bool at_bound = s < f.at_bound.size() && f.at_bound[s];
+  out["at_bound"] = at_bound;
+  const double error = s < f.std_error.size() ? f.std_error[s] : NAN;
+  const std::string why = !slot.free ? "the parameter is fixed"
+                          : at_bound ? "the estimate rests on a bound"
+                                     : "the covariance is not available";
+  put(out, "std_error", error > 0.0 ? error : NAN, why);
+
+  const IntervalSet set = intervals_of(a, s);
+  Json intervals;
+  Json reasons = Json::object();
+  const std::pair<const char*, const Interval*> kinds[] = {{"wald", &set.wald},
+                                                           {"profile", &set.profile},
+                                                           {"percentile", &set.percentile},
+                                                           {"bca", &set.bca},
+                                                           {"studentized", &set.studentized}};
+  for (const auto& [kind, interval] : kinds) {
+    intervals[kind] = interval_json(*interval);
+    if (intervals[kind].is_null()) reasons[kind] = why_none(*interval);
+  }
+  intervals["why"] = reasons;
+  Json recommended;
+  const bool none = set.recommended.empty() || !recommended_interval(set).available();
+  recommended["interval"] = none ? Json(nullptr) : Json(set.recommended);
+  recommended["why"] =
+      none ? Json(why_none(recommended_interval(set))) : Json(set.recommended_why);
+  out["intervals"] = intervals;
+  out["recommended"] = recommended;
+  out["profile_shape"] = set.profile.shape.empty() ? Json(nullptr) : Json(set.profile.shape);
+  return out;
+}
+
+/// A slots x slots matrix over the labels of the free parameters.
+Json matrix_json(const Analysis& a, bool as_correlation) {
+  const FitResult& f = a.fitted;
+  const std::size_t slots = f.model.slots.size();
+  Json rows = Json::object();
+  if (f.covariance.size() != slots * slots) return nullptr;
+  for (std::size_t i = 0; i < slots; ++i) {
+    if (!f.model.slots[i].free) continue;
+    Json row = Json::object();
+    for (std::size_t j = 0; j < slots; ++j) {
+      if (!f.model.slots[j].free) continue;
+      const double value = !as_correlation ? f.covariance[i * slots + j]
+                           : i == j        ? 1.0
+                                           : correlation(a, i, j);
+      row[f.model.slots[j].label()] = number_or_null(value);
+    }
+    rows[f.model.slots[i].label()] = row;
+  }
+  return rows;
+}
+
+Json model_json(const Analysis& a) {
+  Json contacts = Json::array();
+  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
+    const ContactProperties& contact = a.fitted.model.contacts[k];
+    const ImpactConditions conditions = reference_conditions(a, k, 1.0);
+    contacts.push_back({{"dataset", a.datasets[k].id},
+                        {"stiffness_K_Pa", number_or_null(contact.stiffness)},
+                        {"stiffness_K_derived_Pa", number_or_null(contact.stiffness_derived)},
+                        {"adhesion_energy_J_per_m2", number_or_null(contact.adhesion_energy)},
+                        {"f0_N_per_m", number_or_null(conditions.adhesion_force)},
+                        {"f0_eq12_N_per_m", number_or_null(contact.adhesion_force_derived)},
+                        {"reference_diameter_um",
+                         number_or_null(contact.reference_diameter / units::um)},
+                        {"particle_density_kg_per_m3", number_or_null(contact.particle_density)},
+                        {"adhesion_velocity_m_per_s", number_or_null(adhesion_velocity(conditions))},
+                        {"contradictions", contact.contradictions}});
+  }
+  return {{"equation", "Li, Dunn & Brach (1999), eq. 5"},
+          {"adhesion_damping_phase", to_string(a.fitted.model.phase)},
+          {"contacts", contacts}};
+}
+
+Json goodness_json(const Analysis& a) {
+  const FitResult& f = a.fitted;
+  Json out;
+  put(out, "chi2", f.chi2, "the sum of squares is not finite");
+  out["dof"] = f.dof;
+  const bool defined = a.data.sd_stated && f.dof > 0;
+  put(out, "p_value", defined ? f.p_value : NAN,
+      a.data.sd_stated ? "no degrees of freedom are left"
+                       : "no standard deviations are stated: the noise is estimated from the fit");
+  put(out, "rmse", f.rmse, "no point rebounded");
+  put(out, "noise_scale", f.noise_scale, "the noise could not be estimated");
+  out["noise_text"] = f.noise_text;
+  return out;
+}
+
+Json capture_json(const Analysis& a) {
+  Json list = Json::array();
+  for (const CaptureEstimate& capture : a.uncertainty.capture) {
+    Json entry;
+    entry["dataset"] = a.datasets[capture.dataset].id;
+    entry["diameter_um"] = number_or_null(capture.diameter / units::um);
+    entry["unit"] = "m/s";
+    put(entry, "value", capture.found ? capture.value : NAN,
+        "no velocity at which capture turns into rebound was found");
+    entry["interval"] = interval_json(capture.interval);
+    if (entry["interval"].is_null()) entry["why"] = why_none(capture.interval);
+    list.push_back(entry);
+  }
+  return list;
+}
+
+Json point_json(const Analysis& a, std::size_t index) {
+  if (index >= a.data.points.size()) return nullptr;
+  const Observation& point = a.data.points[index];
+  return {{"incident_velocity", number_or_null(point.velocity)},
+          {"restitution", number_or_null(point.restitution)},
+          {"diameter_um", number_or_null(point.diameter / units::um)}};
+}
+
+std::vector<std::size_t> damping_slots(const Analysis& a, std::size_t dataset) {
+  return {a.fitted.model.slot_C_H[dataset], a.fitted.model.slot_C_A[dataset]};
+}
+
+Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
+  const TwoPointResult& two = comparison.result;
+  const bool answered = two.status != TwoPointStatus::too_few_points;
+  Json out;
+  out["status"] = to_string(two.status);
+  out["text"] = two.text;
+  out["iterations"] = two.iterations;
+  out["diameter_um"] = number_or_null(two.diameter / units::um);
+  out["low_point"] = answered ? point_json(a, two.low_point) : Json(nullptr);
+  out["high_point"] = answered ? point_json(a, two.high_point) : Json(nullptr);
+  Json parameters = Json::object();
+  for (const std::size_t s : damping_slots(a, comparison.dataset)) {
+    Json entry;
+    put(entry, "value", s < two.theta.size() ? two.theta[s] : NAN, two.text);
+    entry["unit"] = a.fitted.model.slots[s].unit;
+    put(entry, "spread", s < comparison.spread.size() ? comparison.spread[s] : NAN,
+        "no replicate has an answer");
+    parameters[a.fitted.model.slots[s].label()] = entry;
+  }
+  out["parameters"] = parameters;
+  put(out, "rmse", answered ? comparison.rmse : NAN, two.text);
+  put(out, "held_out_rmse", comparison.held_out_rmse,
+      comparison.held_out_why.empty() ? "no other diameter was predicted"
+                                      : comparison.held_out_why);
+  out["failed"] = comparison.failed;
+  return out;
+}
+
+Json full_json(const Analysis& a, const TwoPointComparison& comparison) {
+  Json out;
+  put(out, "rmse", comparison.full_rmse, "no point rebounded");
+  put(out, "held_out_rmse", comparison.full_held_out_rmse,
+      comparison.held_out_why.empty() ? "no other diameter was predicted"
+                                      : comparison.held_out_why);
+  Json spread = Json::object();
+  for (const std::size_t s : damping_slots(a, comparison.dataset)) {
+    spread[a.fitted.model.slots[s].label()] =
+        s < comparison.full_spread.size() ? number_or_null(comparison.full_spread[s])
+                                          : Json(nullptr);
+  }
+  out["spread"] = spread;
+  return out;
+}
+
+void put_two_point(Json& out, const Analysis& a) {
+  Json two = Json::object();
+  Json full = Json::object();
+  for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
+    const std::string& id = a.datasets[comparison.dataset].id;
+    two[id] = two_point_json(a, comparison);
+    full[id] = full_json(a, comparison);
+  }
+  // The contract's keys are those of the first dataset; a joint fit lists all of them beside.
+  out["two_point"] = two.empty() ? Json(nullptr) : two.begin().value();
+  if (two.empty()) out["two_point_why"] = "the comparison was not made";
+  Json first = full.empty() ? Json::object() : full.begin().value();
+  if (full.empty()) {
+    put(first, "rmse", a.fitted.rmse, "no point rebounded");
+    put(first, "held_out_rmse", NAN, "the comparison was not made");
+  }
+  out["full"] = first;
+  out["two_point_by_dataset"] = two;
+  out["full_by_dataset"] = full;
+}
+
+Json bootstrap_json(const Analysis& a) {
+  const BootstrapResult& bootstrap = a.uncertainty.bootstrap;
+  return {{"scheme", bootstrap.scheme},
+          {"scheme_why", bootstrap.scheme_why},
+          {"replicates", bootstrap.replicates},
+          {"failed", bootstrap.failed},
+          {"seed", bootstrap.seed},
+          {"two_point_failed", bootstrap.two_point_failed}};
+}
+
+Json identifiability_json(const Analysis& a) {
+  const Identifiability& found = a.uncertainty.identifiability;
+  Json parameters = Json::object();
+  for (std::size_t s = 0; s < found.parameter.size() && s < a.fitted.model.slots.size(); ++s) {
+    if (!a.fitted.model.slots[s].free) continue;
+    parameters[a.fitted.model.slots[s].label()] = static_cast<bool>(found.parameter[s]);
+  }
+  return {{"verdict", found.verdict}, {"text", found.text}, {"parameters", parameters}};
+}
+
+/// One row per point of every curve.
+Json curve_json(const Analysis& a) {
+  Json list = Json::array();
+  for (const RestitutionCurve& curve : a.uncertainty.curves) {
+    for (std::size_t i = 0; i < curve.velocity.size() && i < curve.restitution.size(); ++i) {
+      Json row;
+      row["dataset"] = a.datasets[curve.dataset].id;
+      row["series"] = curve.series;
+      row["diameter_um"] = number_or_null(curve.diameter / units::um);
+      row["incident_velocity"] = number_or_null(curve.velocity[i]);
+      row["restitution"] = number_or_null(curve.restitution[i]);
+      const bool banded = i < curve.lower.size() && i < curve.upper.size();
+      row["band"] = banded ? numbers({curve.lower[i], curve.upper[i]}) : Json(nullptr);
+      row["two_point"] =
+          i < curve.two_point.size() ? number_or_null(curve.two_point[i]) : Json(nullptr);
+      list.push_back(row);
+    }
+  }
+  return list;
+}
+
+Json residuals_json(const Analysis& a) {
+  const FitResult& f = a.fitted;
+  Json list = Json::array();
+  const auto at = [](const std::vector<double>& values, std::size_t i) {
+    return i < values.size() ? number_or_null(values[i]) : Json(nullptr);
+  };
+  for (std::size_t i = 0; i < a.data.points.size(); ++i) {
+    const Observation& point = a.data.points[i];
+    const Dataset& dataset = a.datasets[point.dataset];
+    list.push_back(
+        {{"dataset", dataset.id},
+         {"series", point.series < dataset.series.size() ? dataset.series[point.series] : ""},
+         {"diameter_um", number_or_null(point.diameter / units::um)},
+         {"incident_velocity", number_or_null(point.velocity)},
+         {"restitution", number_or_null(point.restitution)},
+         {"restitution_sd", a.data.sd_stated ? number_or_null(point.sd) : Json(nullptr)},
+         {"captured", point.censored},
+         {"predicted", at(f.prediction, i)},
+         {"weighted_residual", at(f.residuals, i)},
+         {"leverage", at(f.leverage, i)}});
+  }
+  return list;
+}
+
+Json starts_json(const Analysis& a) {
+  Json list = Json::array();
+  for (const StartSummary& start : a.fitted.starts) {
+    list.push_back({{"start", numbers(start.start)},
+                    {"end", numbers(start.end)},
+                    {"chi2", number_or_null(start.chi2)},
+                    {"converged", start.converged},
+                    {"message", start.message}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string json_report(const Analysis& analysis) {
+  Json out;
+  out["recoil_version"] = version();
+  out["fit"] = {{"id", analysis.spec.id}, {"sha256", analysis.spec.sha256}};
+  out["provenance_sentence"] = joined_sentences(analysis.datasets);
+  out["dataset"] = joint_json(analysis.datasets);
+  Json datasets = Json::array();
+  for (const Dataset& dataset : analysis.datasets) datasets.push_back(dataset_json(dataset));
+  out["datasets"] = datasets;
+  out["options"] = options_json(analysis);
+  out["model"] = model_json(analysis);
+  Json parameters = Json::object();
+  for (std::size_t s = 0; s < analysis.fitted.model.slots.size(); ++s) {
+    parameters[analysis.fitted.model.slots[s].label()] = parameter_json(analysis, s);
+  }
+  out["parameters"] = parameters;
+  out["covariance"] = matrix_json(analysis, false);
+  out["correlation"] = matrix_json(analysis, true);
+  out["derived"] = {{"capture_velocity", capture_json(analysis)}};
+  out["goodness"] = goodness_json(analysis);
+  out["identifiability"] = identifiability_json(analysis);
+  out["bootstrap"] = bootstrap_json(analysis);
+  put_two_point(out, analysis);
+  out["starts"] = starts_json(analysis);
+  std::vector<std::string> warnings = all_warnings(analysis);
+  for (const std::string& sentence : all_contradictions(analysis)) warnings.push_back(sentence);
+  out["warnings"] = warnings;
+  out["curve"] = curve_json(analysis);
+  out["residuals"] = residuals_json(analysis);
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace recoil

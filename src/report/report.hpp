@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "estimate/fit.hpp"
+#include "uncertainty/uncertainty.hpp"
+
+namespace recoil {
+
+/// All that is known at the end of one fit; the only input of every writer below.
+struct Analysis {
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+  Observations data;
+  FitResult fitted;
+  UncertaintyResult uncertainty;
+};
+
+/// This program's version, "0.1.0".
+std::string version();
+
+/// The block report that `recoil fit` prints: provenance, fit statistics, variables, correlations,
+/// derived quantities, two-point comparison, warnings. At most 100 columns. An unusable fit gets the
+/// blocks that it has, and its failure.
+std::string text_report(const Analysis& analysis);
+
+/// `fit.json`. Indented, ends with a newline, no NaN: what has no number is null with a reason.
+/// @pre analysis.fitted.usable
+std::string json_report(const Analysis& analysis);
+
+/// One self-contained page: plots (inline SVG by gnuplot), tables, provenance; no network, no
+/// script, less than 1 MB.
+/// @pre analysis.fitted.usable
+/// @throws ComputationError when gnuplot cannot be run.
+std::string html_report(const Analysis& analysis);
+
+/// A small e(V) picture of the whole fit as SVG, for the index.
+/// @throws ComputationError when gnuplot cannot be run.
+std::string thumbnail(const Analysis& analysis);
+
+/// `index.html` over all fits, given their fit.json texts in order.
+struct IndexEntry {
+  std::string page;      ///< relative address of the fit's page
+  std::string fit_json;  ///< its fit.json
+  std::string picture;   ///< an SVG thumbnail to inline, may be empty
+};
+
+/// @throws InputError when an entry's `fit_json` is not the JSON of a fit.
+std::string html_index(const std::vector<IndexEntry>& entries);
+
+}  // namespace recoil

@@ -1,0 +1,152 @@
+#include "uncertainty/bootstrap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "core/progress.hpp"
+#include "core/random.hpp"
+#include "estimate/impact_problem.hpp"
+
+namespace recoil {
+namespace {
+
+// A refit starts at the estimate and needs no more digits than its own scatter has.
+LeastSquaresOptions refit_options() {
+  LeastSquaresOptions options;
+  options.function_tolerance = 1e-9;
+  options.gradient_tolerance = 1e-10;
+  options.parameter_tolerance = 1e-8;
+  options.max_iterations = 100;
+  options.covariance = false;
+  return options;
+}
+
+/// Centred, leverage-corrected weighted residuals.
+std::vector<double> resampling_pool(const FitResult& fitted, const Observations& data) {
+  std::vector<double> pool;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    if (data.points[i].censored) continue;
+    constexpr double most_leverage = 0.99;  // a point that the fit passes through says nothing
+    const double h = std::min(fitted.leverage[i], most_leverage);
+    pool.push_back(fitted.residuals[i] / std::sqrt(1.0 - h));
+  }
+  double mean = 0.0;
+  for (const double r : pool) mean += r / static_cast<double>(pool.size());
+  for (double& r : pool) r -= mean;
+  return pool;
+}
+
+struct Replicate {
+  bool usable = false;
+  std::vector<double> theta;
+  std::vector<double> capture;
+  std::vector<std::vector<double>> two_point;  // one per dataset, empty when it failed
+};
+
+/// Everything that one replicate needs, shared and constant.
+struct Plan {
+  const FitResult& fitted;
+  const Observations& data;
+  const std::vector<CaptureEstimate>& capture;
+  const std::vector<TwoPointResult>& two_point;
+  std::uint64_t seed;
+  bool parametric;
+  std::vector<double> pool;
+
+  Observations resample(std::uint64_t index) const {
+    RandomStream random(seed, RandomPurpose::bootstrap, index);
+    Observations sample = data;
+    for (std::size_t i = 0; i < sample.points.size(); ++i) {
+      Observation& point = sample.points[i];
+      const double noise = parametric ? fitted.noise_scale * random.normal()
+                                      : pool[random.below(pool.size())];
+      if (point.censored) continue;  // a capture stays one; its stream position is kept
+      point.restitution = std::max(0.0, fitted.prediction[i] + point.sd * noise);
+    }
+    return sample;
+  }
+
+  Replicate run(std::uint64_t index) const {
+    Replicate replicate;
+    const Observations sample = resample(index);
+    const LeastSquaresResult refit =
+        minimise(impact_problem(fitted.model, sample), fitted.theta, refit_options());
+    replicate.usable = refit.converged;
+    if (replicate.usable) {
+      replicate.theta = refit.theta;
+      for (const CaptureEstimate& at : capture) {
+        const CaptureVelocity v =
+            capture_velocity(fitted.model, refit.theta, at.dataset, at.diameter, at.value);
+        replicate.capture.push_back(v.found ? v.value : std::nan(""));
+      }
+    }
+    for (std::size_t d = 0; d < two_point.size(); ++d) {
+      const TwoPointResult run = recoil::two_point(fitted.model, sample, d, two_point[d].diameter);
+      replicate.two_point.push_back(run.status == TwoPointStatus::converged ? run.theta
+                                                                            : std::vector<double>{});
+    }
+    return replicate;
+  }
+};
+
+}  // namespace
+
+BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
+                          const std::vector<CaptureEstimate>& capture,
+                          const std::vector<TwoPointResult>& two_point,
+                          const UncertaintyOptions& options) {
+  BootstrapResult result;
+  result.replicates = options.replicates;
+  result.seed = options.seed;
+  result.scheme = data.sd_stated ? "parametric" : "residual";
+  result.scheme_why = data.sd_stated
+                          ? "every point states its standard deviation: new noise of that size is "
+                            "drawn about the fit"
+                          : "no standard deviations are stated: the fit's own residuals, corrected "
+                            "for leverage, are drawn about the fit";
+  const Plan plan{fitted,    data, capture, two_point, options.seed, data.sd_stated,
+                  data.sd_stated ? std::vector<double>{} : resampling_pool(fitted, data)};
+
+  std::vector<Replicate> replicates(static_cast<std::size_t>(options.replicates));
+  {
+    Progress progress("bootstrap", replicates.size());
+    parallel_over(replicates.size(), options.threads, [&](std::size_t i) {
+      replicates[i] = plan.run(i);
+      progress.advance();
+    });
+  }
+  result.two_point_theta.resize(two_point.size());
+  result.two_point_failed.assign(two_point.size(), 0);
+  for (Replicate& replicate : replicates) {
+    if (replicate.usable) {
+      result.theta.push_back(std::move(replicate.theta));
+      result.capture_velocity.push_back(std::move(replicate.capture));
+    } else {
+      ++result.failed;
+    }
+    for (std::size_t d = 0; d < two_point.size(); ++d) {
+      if (replicate.two_point[d].empty()) {
+        ++result.two_point_failed[d];
+      } else {
+        result.two_point_theta[d].push_back(std::move(replicate.two_point[d]));
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<std::vector<double>> jackknife(const FitResult& fitted, const Observations& data,
+                                           int threads) {
+  std::vector<std::vector<double>> estimates(data.points.size());
+  parallel_over(data.points.size(), threads, [&](std::size_t i) {
+    Observations rest = data;
+    rest.points.erase(rest.points.begin() + static_cast<std::ptrdiff_t>(i));
+    const LeastSquaresResult refit =
+        minimise(impact_problem(fitted.model, rest), fitted.theta, refit_options());
+    if (refit.converged) estimates[i] = refit.theta;
+  });
+  return estimates;
+}
+
+}  // namespace recoil

@@ -1,0 +1,111 @@
+#include "uncertainty/curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/parallel.hpp"
+#include "uncertainty/intervals.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int even_velocities = 48;     // log-spaced over the range
+constexpr int capture_velocities = 10;  // where e rises like sqrt(V - V*)
+constexpr std::size_t most_band_replicates = 999;
+
+std::vector<double> velocity_grid(double slowest, double fastest, double capture) {
+  const double first = capture > 0.0 ? std::min(slowest, 0.9 * capture) : 0.8 * slowest;
+  const double last = 1.2 * fastest;
+  std::set<double> grid;
+  for (int i = 0; i < even_velocities; ++i) {
+    grid.insert(first * std::pow(last / first, i / (even_velocities - 1.0)));
+  }
+  for (int i = 0; capture > 0.0 && i < capture_velocities; ++i) {
+    const double v = capture * (1.0 + 0.2 * std::pow(i / (capture_velocities - 1.0), 2) + 1e-6);
+    if (v > first && v < last) grid.insert(v);
+  }
+  return {grid.begin(), grid.end()};
+}
+
+/// e at every velocity; NaN where the model has no answer.
+std::vector<double> evaluate(const ImpactModel& model, std::span<const double> theta,
+                             const RestitutionCurve& curve) {
+  std::vector<double> e;
+  for (const double v : curve.velocity) {
+    const Prediction at = predict(model, theta, curve.dataset, curve.diameter, v, false);
+    e.push_back(at.usable() ? at.restitution() : std::nan(""));
+  }
+  return e;
+}
+
+void add_band(const ImpactModel& model, const UncertaintyResult& so_far, RestitutionCurve& curve) {
+  const auto& replicates = so_far.bootstrap.theta;
+  const std::size_t count = std::min(replicates.size(), most_band_replicates);
+  if (count < 39) return;
+  std::vector<std::vector<double>> values(count);
+  parallel_over(count, so_far.options.threads,
+                [&](std::size_t i) { values[i] = evaluate(model, replicates[i], curve); });
+  const double tail = (1.0 - so_far.options.level) / 2.0;
+  for (std::size_t k = 0; k < curve.velocity.size(); ++k) {
+    std::vector<double> column;
+    for (const std::vector<double>& row : values) {
+      if (std::isfinite(row[k])) column.push_back(row[k]);
+    }
+    if (column.empty()) {  // no replicate answers here: the band closes on the curve
+      column.push_back(curve.restitution[k]);
+    }
+    std::sort(column.begin(), column.end());
+    curve.lower.push_back(sorted_quantile(column, tail));
+    curve.upper.push_back(sorted_quantile(column, 1.0 - tail));
+  }
+}
+
+/// Drops velocities at which the fit itself has no answer.
+void drop_unanswered(RestitutionCurve& curve) {
+  std::vector<double> v;
+  std::vector<double> e;
+  for (std::size_t k = 0; k < curve.velocity.size(); ++k) {
+    if (!std::isfinite(curve.restitution[k])) continue;
+    v.push_back(curve.velocity[k]);
+    e.push_back(curve.restitution[k]);
+  }
+  curve.velocity = std::move(v);
+  curve.restitution = std::move(e);
+}
+
+}  // namespace
+
+std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted, const Observations& data,
+                                                 const std::vector<Dataset>& datasets,
+                                                 const UncertaintyResult& so_far) {
+  std::vector<RestitutionCurve> curves;
+  for (const CaptureEstimate& capture : so_far.capture) {
+    RestitutionCurve curve;
+    curve.dataset = capture.dataset;
+    curve.diameter = capture.diameter;
+    double slowest = 0.0;
+    double fastest = 0.0;
+    for (const Observation& point : data.points) {
+      if (point.dataset != capture.dataset || point.diameter != capture.diameter) continue;
+      if (curve.series.empty()) curve.series = datasets[point.dataset].series[point.series];
+      slowest = slowest == 0.0 ? point.velocity : std::min(slowest, point.velocity);
+      fastest = std::max(fastest, point.velocity);
+    }
+    curve.velocity = velocity_grid(slowest, fastest, capture.found ? capture.value : 0.0);
+    curve.restitution = evaluate(fitted.model, fitted.theta, curve);
+    drop_unanswered(curve);
+    add_band(fitted.model, so_far, curve);
+    const TwoPointResult& two_point = so_far.two_point[capture.dataset].result;
+    if (two_point.status == TwoPointStatus::converged) {
+      curve.two_point = evaluate(fitted.model, two_point.theta, curve);
+      const bool sound = std::all_of(curve.two_point.begin(), curve.two_point.end(),
+                                     [](double e) { return std::isfinite(e); });
+      if (!sound) curve.two_point.clear();
+    }
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+}  // namespace recoil

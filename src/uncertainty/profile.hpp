@@ -1,0 +1,18 @@
+#pragma once
+
+#include "uncertainty/uncertainty.hpp"
+
+namespace recoil {
+
+/// Profile-likelihood interval of one slot: all values theta_j for which
+///   chi2(theta_j, others refitted) - chi2_min <= q s^2,
+/// q the `level` quantile of chi-squared with one degree of freedom, s the fit's noise_scale; where
+/// the noise is estimated from the residuals, q is the quantile of F(1, dof) (Bates & Watts 1988,
+/// Nonlinear Regression Analysis and its Applications, section 6.1.2).
+///
+/// An end that reaches the parameter's bound stays there: shape "one-sided" for one such end, "flat"
+/// for both, "bounded" for none. @pre the slot is free
+Interval profile_interval(const FitResult& fitted, const Observations& data, std::size_t slot,
+                          double level);
+
+}  // namespace recoil

@@ -1,0 +1,146 @@
+// The shape of the source tree: who may include whom, and that nothing grows without bound.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tree.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folders of src in pipeline order.
+const std::vector<std::string> kStages = {"core",     "data",        "reconstruction", "impact",
+                                          "estimate", "uncertainty", "report",         "cli"};
+
+std::size_t position(const std::string& stage) {
+  return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -
+                                  kStages.begin());
+}
+
+/// May a file in `from` include a header of `to`?
+bool may_include(const std::string& from, const std::string& to) {
+  if (position(to) > position(from)) return false;
+  // The truth of a reconstruction is made by code that the fitter does not use, so that neither can
+  // hide the other's mistakes. Coverage studies and the command line bring both together.
+  if (from == "reconstruction") return to == "core" || to == "data" || to == "reconstruction";
+  if (to == "reconstruction") return from == "uncertainty" || from == "cli";
+  return true;
+}
+
+struct Include {
+  fs::path file;
+  std::size_t line;
+  std::string target;
+};
+
+/// Every #include "..." below src.
+std::vector<Include> quoted_includes() {
+  static const std::regex pattern(R"re(^\s*#\s*include\s*"([^"]+)")re");
+  std::vector<Include> includes;
+  for (const fs::path& file : tree::cpp_files(tree::root() / "src")) {
+    const std::vector<std::string> lines = tree::lines_of(tree::text_of(file));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      std::smatch match;
+      if (std::regex_search(lines[i], match, pattern)) includes.push_back({file, i + 1, match[1]});
+    }
+  }
+  return includes;
+}
+
+std::string stage_of(const fs::path& file) {
+  return fs::relative(file, tree::root() / "src").begin()->string();
+}
+
+TEST(Layering, TheRuleItself) {
+  EXPECT_TRUE(may_include("impact", "core"));
+  EXPECT_FALSE(may_include("core", "impact"));
+  EXPECT_FALSE(may_include("impact", "reconstruction"));
+  EXPECT_FALSE(may_include("estimate", "reconstruction"));
+  EXPECT_FALSE(may_include("report", "reconstruction"));
+  EXPECT_TRUE(may_include("uncertainty", "reconstruction"));
+  EXPECT_TRUE(may_include("cli", "reconstruction"));
+  EXPECT_FALSE(may_include("reconstruction", "impact"));
+}
+
+TEST(Layering, EveryFolderIsAStage) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(tree::root() / "src")) {
+    if (!entry.is_directory()) continue;
+    EXPECT_LT(position(entry.path().filename().string()), kStages.size())
+        << entry.path() << " is no stage of the pipeline; add it to kStages where it belongs";
+  }
+}
+
+TEST(Layering, IncludesPointUpstream) {
+  const std::vector<Include> includes = quoted_includes();
+  ASSERT_GT(includes.size(), 20U) << "the search itself seems broken";
+  for (const Include& include : includes) {
+    const std::string where = include.file.string() + ":" + std::to_string(include.line);
+    EXPECT_TRUE(fs::is_regular_file(tree::root() / "src" / include.target))
+        << where << ": \"" << include.target << "\" is not a path from src";
+    const std::string from = stage_of(include.file);
+    const std::string to = fs::path(include.target).begin()->string();
+    EXPECT_TRUE(may_include(from, to))
+        << where << ": " << from << " must not include " << include.target;
+  }
+}
+
+TEST(Layering, FilesStaySmall) {
+  for (const char* folder : {"src", "tests"}) {
+    for (const fs::path& file : tree::cpp_files(tree::root() / folder)) {
+      EXPECT_LE(tree::lines_of(tree::text_of(file)).size(), 350U)
+          << file << " is too long to be one room to live in; divide it";
+    }
+  }
+  EXPECT_LT(tree::lines_of(tree::text_of(tree::root() / "CMakeLists.txt")).size(), 100U);
+}
+
+TEST(Layering, HeadersAreGuarded) {
+  for (const fs::path& file : tree::cpp_files(tree::root() / "src")) {
+    if (file.extension() != ".hpp") continue;
+    const std::string text = tree::text_of(file);
+    EXPECT_EQ(text.rfind("#pragma once", 0), 0U) << file << " must begin with #pragma once";
+    EXPECT_EQ(text.find("using namespace"), std::string::npos) << file;
+  }
+}
+
+/// The names ending in .cpp in the CMakeLists.txt of `folder` and, for the files of subfolders
+/// without one of their own, in those above.
+std::set<std::string> listed_sources(const fs::path& folder) {
+  static const std::regex name(R"re([A-Za-z0-9_./-]+\.cpp)re");
+  std::set<std::string> names;
+  const std::string text = tree::text_of(folder / "CMakeLists.txt");
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), name); it != std::sregex_iterator();
+       ++it) {
+    names.insert((folder / it->str()).lexically_normal().string());
+  }
+  return names;
+}
+
+/// The nearest folder at or above `file` with a CMakeLists.txt.
+fs::path governing_folder(const fs::path& file) {
+  fs::path folder = file.parent_path();
+  while (!fs::exists(folder / "CMakeLists.txt")) folder = folder.parent_path();
+  return folder;
+}
+
+TEST(Layering, CMakeListsEverySourceThatExists) {
+  std::map<std::string, std::set<std::string>> listed;
+  for (const char* top : {"src", "tests"}) {
+    for (const fs::path& file : tree::cpp_files(tree::root() / top)) {
+      if (file.extension() != ".cpp") continue;
+      const fs::path folder = governing_folder(file);
+      if (!listed.count(folder.string())) listed[folder.string()] = listed_sources(folder);
+      EXPECT_TRUE(listed[folder.string()].count(file.lexically_normal().string()))
+          << file << " is not listed in " << folder / "CMakeLists.txt";
+    }
+  }
+}
+
+}  // namespace
