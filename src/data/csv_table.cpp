@@ -1,6 +1,7 @@
 #include "data/csv_table.hpp"
 
 #include <csv.h>
+#include <fmt/format.h>
 
 #include <new>
 
@@ -8,6 +9,10 @@
 
 namespace recoil {
 namespace {
+
+/// Longer cells are refused: they come from a quotation mark that is never closed, or from a file
+/// that is no table [bytes].
+constexpr std::size_t longest_cell = 10000;
 
 /// libcsv tells the content of a field but not its place, so it is fed one byte at a time and the
 /// place of the first byte of each field is kept beside it.
@@ -25,6 +30,7 @@ class CsvReader {
     for (std::size_t i = 0; i < text.size(); ++i) {
       const char byte = text[i];
       note_start(byte);
+      if (inside_field_ && ++field_bytes_ > longest_cell) fail_endless();
       if (csv_parse(&parser_, &byte, 1, on_field, on_row_end, this) != 1) fail_inside();
       deliver(on_row);
       step(byte, i + 1 < text.size() ? text[i + 1] : '\0');
@@ -50,7 +56,9 @@ class CsvReader {
     field_column_ = column_;
     const bool blank = byte == ' ' || byte == '\t';
     const bool ends = byte == delimiter_ || byte == '\n' || byte == '\r';
-    if (!blank && !ends) inside_field_ = true;
+    if (blank || ends) return;
+    inside_field_ = true;
+    field_bytes_ = 0;
   }
 
   void step(char byte, char next) {
@@ -76,6 +84,12 @@ class CsvReader {
                      "write \"\" for a mark inside a quoted cell");
   }
 
+  [[noreturn]] void fail_endless() const {
+    throw InputError({file_, field_line_, field_column_},
+                     fmt::format("a cell of more than {} characters", longest_cell),
+                     "no table has that", "is a quotation mark never closed, or this no CSV file?");
+  }
+
   [[noreturn]] void fail_at_end() {
     if (csv_error(&parser_) == CSV_ENOMEM) throw std::bad_alloc();
     throw InputError({file_, field_line_, field_column_}, "this quotation mark is never closed",
@@ -89,6 +103,7 @@ class CsvReader {
   int column_ = 1;
   int field_line_ = 1;
   int field_column_ = 1;
+  std::size_t field_bytes_ = 0;
   bool inside_field_ = false;
   bool row_complete_ = false;
   CsvRow row_;

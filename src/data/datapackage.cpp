@@ -213,11 +213,14 @@ std::vector<std::string> read_sources(const JsonNode& root) {
   const auto sources = root.find("sources");
   if (!sources) return lines;
   for (const JsonNode& source : sources->items()) {
-    std::vector<std::string> parts;
+    std::string line;
     for (const char* key : {"title", "path", "email"}) {
-      if (const auto part = source.find(key)) parts.push_back(printable(part->string()));
+      const auto part = source.find(key);
+      if (!part) continue;
+      if (!line.empty()) line += line.ends_with('.') ? " " : ", ";
+      line += printable(part->string());
     }
-    if (!parts.empty()) lines.push_back(join(parts));
+    if (!line.empty()) lines.push_back(line);
   }
   return lines;
 }

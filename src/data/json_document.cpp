@@ -30,26 +30,36 @@ struct SyntaxCheck : nlohmann::json_sax<json> {
   bool end_object() override { return true; }
   bool start_array(std::size_t) override { return true; }
   bool end_array() override { return true; }
-  bool parse_error(std::size_t position, const std::string&,
+  bool parse_error(std::size_t position, const std::string& last_token,
                    const json::exception& error) override {
-    offset = position > 0 ? position - 1 : 0;
+    end = position;
+    token = last_token;
     message = error.what();
+    overflow = dynamic_cast<const json::out_of_range*>(&error) != nullptr;
     return false;
   }
 
-  std::size_t offset = 0;
+  /// Where the token that could not be read begins.
+  std::size_t offset(std::string_view text) const {
+    const std::size_t stop = std::min(end, text.size());
+    if (text.substr(0, stop).ends_with(token)) return stop - token.size();
+    return stop > 0 ? stop - 1 : 0;
+  }
+
+  std::size_t end = 0;
+  std::string token;
   std::string message;
+  bool overflow = false;
 };
 
-/// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ..." without
-/// what the location already says.
-std::string syntax_problem(const std::string& message) {
-  for (const std::string_view before : {": ", "] "}) {
-    if (const auto at = message.find(before); at != std::string::npos) {
-      return message.substr(at + before.size());
-    }
-  }
-  return message;
+/// What is wrong in "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error
+/// ...; last read: '...'": neither the place, which the location says, nor the text itself, which
+/// may be long.
+std::string syntax_problem(const SyntaxCheck& check) {
+  if (check.overflow) return "this number is too large for double precision";
+  const std::string problem = check.message.substr(0, check.message.find("; last read:"));
+  const std::size_t place = problem.find(": ");
+  return place == std::string::npos ? problem : problem.substr(place + 2);
 }
 
 /// Walks over a text that is known to be JSON and notes where each value begins.
@@ -134,8 +144,8 @@ JsonDocument::JsonDocument(std::string text, std::string file)
     : text_(std::move(text)), file_(std::move(file)) {
   SyntaxCheck check;
   if (!json::sax_parse(text_, &check)) {
-    throw InputError(at(check.offset), syntax_problem(check.message), "the file is not valid JSON",
-                     "see the character before this place, too");
+    throw InputError(at(check.offset(text_)), syntax_problem(check), "the file is not valid JSON",
+                     "look before this place, too");
   }
   positions_ = PositionScan(text_, file_).root();
   value_ = json::parse(text_);
@@ -213,7 +223,7 @@ JsonNode JsonNode::child(std::size_t index) const {
 
 void JsonNode::expect(bool right_type, const std::string& type) const {
   if (right_type) return;
-  fail(fmt::format("'{}' is {} {}", name_.empty() ? "the document" : name_,
+  fail(fmt::format("{} is {} {}", name_.empty() ? "the document" : fmt::format("'{}'", name_),
                    value_->is_array() || value_->is_object() ? "an" : "a", value_->type_name()),
        fmt::format("it has to be {}", type), fmt::format("write {}", type));
 }

@@ -69,26 +69,34 @@ void require_text(std::string_view text, const std::string& file) {
   }
 }
 
+std::string shortened(std::string_view text, std::size_t longest) {
+  std::size_t characters = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (is_continuation(byte_at(text, i))) continue;
+    if (++characters > longest) return fmt::format("{}...", text.substr(0, i));
+  }
+  return std::string(text);
+}
+
 std::string quote(std::string_view word) {
   constexpr std::size_t longest = 40;
-  std::size_t characters = 0;
-  for (std::size_t i = 0; i < word.size(); ++i) {
-    if (is_continuation(byte_at(word, i))) continue;
-    if (++characters > longest) return fmt::format("'{}...'", word.substr(0, i));
-  }
-  return fmt::format("'{}'", word);
+  return fmt::format("'{}'", printable(shortened(word, longest)));
 }
 
 std::string printable(std::string_view word) {
-  std::string text(word);
-  std::replace_if(
-      text.begin(), text.end(),
-      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\x7f'; }, ' ');
+  std::string text;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const unsigned byte = byte_at(word, i);
+    const bool c1 = byte == 0xC2 && i + 1 < word.size() && byte_at(word, i + 1) < 0xA0;
+    if (c1) ++i;  // U+0080 to U+009F, which terminals obey as well
+    text += c1 || byte < 0x20 || byte == 0x7f ? ' ' : word[i];
+  }
   return text;
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
-  const std::string nearest = nearest_word(word, known);
+  constexpr std::size_t longest = 64;  // the search takes time in proportion to the length
+  const std::string nearest = word.size() > longest ? "" : nearest_word(word, known);
   return nearest.empty() ? fmt::format("known: {}", join(known))
                          : fmt::format("did you mean '{}'?", nearest);
 }

@@ -20,11 +20,12 @@ constexpr double singular_ratio = 1e-13;
 /// Ceres minimises over z: the free parameters only, logarithms where asked for.
 class Coordinates {
  public:
-  Coordinates(const LeastSquaresProblem& problem, std::span<const double> start)
+  Coordinates(const LeastSquaresProblem& problem, std::span<const double> start,
+              const std::vector<bool>& held)
       : problem_(problem), theta_(start.begin(), start.end()) {
     for (std::size_t j = 0; j < theta_.size(); ++j) {
       theta_[j] = std::clamp(theta_[j], problem.lower[j], problem.upper[j]);
-      if (problem.fixed.empty() || !problem.fixed[j]) free_.push_back(j);
+      if (!held[j]) free_.push_back(j);
     }
   }
 
@@ -96,11 +97,11 @@ bool rests_on_bound(double value, double bound) {
 
 /// (J'J)^-1 over the parameters that moved freely; empty when it is singular.
 std::vector<double> covariance_of(const LeastSquaresResult& result,
-                                  const std::vector<std::size_t>& free) {
+                                  const std::vector<bool>& fixed) {
   const std::size_t p = result.theta.size();
   std::vector<std::size_t> inner;
-  for (const std::size_t j : free) {
-    if (!result.at_bound[j]) inner.push_back(j);
+  for (std::size_t j = 0; j < p; ++j) {
+    if (!fixed[j] && !result.at_bound[j]) inner.push_back(j);
   }
   std::vector<double> covariance(p * p, 0.0);
   if (inner.empty()) return covariance;
@@ -169,14 +170,20 @@ void descend(const LeastSquaresProblem& problem, const Coordinates& coordinates,
   result.iterations = static_cast<int>(summary.iterations.size());
 }
 
-}  // namespace
+/// d (sum of squares) / d theta_j / 2.
+double slope_along(const LeastSquaresResult& result, std::size_t j) {
+  const std::size_t p = result.theta.size();
+  double slope = 0.0;
+  for (std::size_t i = 0; i < result.residuals.size(); ++i) {
+    slope += result.residuals[i] * result.jacobian[i * p + j];
+  }
+  return slope;
+}
 
-LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
-                            const LeastSquaresOptions& options) {
-  assert(problem.lower.size() == start.size() && problem.upper.size() == start.size() &&
-         problem.log_scale.size() == start.size());
-  silence_library_log();
-  const Coordinates coordinates(problem, start);
+/// One descent with `held` parameters kept where they are, and everything known at its end.
+LeastSquaresResult solve(const LeastSquaresProblem& problem, std::span<const double> start,
+                         const std::vector<bool>& held, const LeastSquaresOptions& options) {
+  const Coordinates coordinates(problem, start, held);
   const std::size_t n = problem.residual_count;
   const std::size_t p = start.size();
   LeastSquaresResult result;
@@ -196,12 +203,51 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const 
     return result;
   }
   for (const double r : result.residuals) result.sum_of_squares += r * r;
-  result.at_bound.assign(p, false);
-  for (const std::size_t j : coordinates.free()) {
-    result.at_bound[j] = rests_on_bound(result.theta[j], problem.lower[j]) ||
-                         rests_on_bound(result.theta[j], problem.upper[j]);
+  return result;
+}
+
+/// Which bound theta_j rests on: -1 the lower, +1 the upper, 0 none.
+int resting_side(const LeastSquaresProblem& problem, double theta, std::size_t j) {
+  if (rests_on_bound(theta, problem.lower[j])) return -1;
+  return rests_on_bound(theta, problem.upper[j]) ? 1 : 0;
+}
+
+}  // namespace
+
+LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
+                            const LeastSquaresOptions& options) {
+  assert(problem.lower.size() == start.size() && problem.upper.size() == start.size() &&
+         problem.log_scale.size() == start.size());
+  silence_library_log();
+  const std::size_t p = start.size();
+  std::vector<bool> fixed = problem.fixed;
+  fixed.resize(p, false);
+  std::vector<bool> held = fixed;
+  LeastSquaresResult result = solve(problem, start, held, options);
+  // A projected trust-region step that runs into a bound can end the descent short of the minimum
+  // along the others. Hold what rests on a bound, descend along the rest, and let go of whatever the
+  // slope pulls back inside, until nothing changes (an active-set iteration).
+  for (std::size_t round = 0; result.converged && round < 2 * p; ++round) {
+    bool changed = false;
+    for (std::size_t j = 0; j < p; ++j) {
+      if (fixed[j]) continue;
+      const int side = resting_side(problem, result.theta[j], j);
+      const bool pushed_out = side != 0 && side * slope_along(result, j) <= 0.0;
+      if (pushed_out != held[j]) {
+        held[j] = pushed_out;
+        changed = true;
+      }
+    }
+    if (!changed) break;
+    LeastSquaresResult again = solve(problem, result.theta, held, options);
+    if (!again.converged || again.sum_of_squares > result.sum_of_squares * (1.0 + 1e-12)) break;
+    result = std::move(again);
   }
-  if (options.covariance) result.covariance = covariance_of(result, coordinates.free());
+  result.at_bound.assign(p, false);
+  for (std::size_t j = 0; j < p; ++j) {
+    result.at_bound[j] = !fixed[j] && resting_side(problem, result.theta[j], j) != 0;
+  }
+  if (result.converged && options.covariance) result.covariance = covariance_of(result, fixed);
   return result;
 }
 

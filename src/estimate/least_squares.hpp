@@ -27,9 +27,9 @@ struct LeastSquaresProblem {
 
 struct LeastSquaresOptions {
   int max_iterations = 200;
-  double function_tolerance = 1e-12;   ///< relative change of the sum of squares
-  double gradient_tolerance = 1e-12;
-  double parameter_tolerance = 1e-10;
+  double function_tolerance = 1e-14;  ///< relative change of the sum of squares
+  double gradient_tolerance = 1e-14;
+  double parameter_tolerance = 1e-11;  ///< relative change of theta
   bool covariance = true;
 };
 
@@ -46,7 +46,8 @@ struct LeastSquaresResult {
                                     ///< at a bound; empty when J'J is singular
 };
 
-/// Ceres trust-region Levenberg-Marquardt within bounds from `start`.
+/// Ceres trust-region Levenberg-Marquardt within bounds from `start`. Parameters that rest on a
+/// bound satisfy the Karush-Kuhn-Tucker conditions there.
 LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
                             const LeastSquaresOptions& options = {});
 

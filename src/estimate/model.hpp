@@ -31,7 +31,7 @@ struct ParameterSlot {
   std::string label() const;
 };
 
-/// The seed model applied to the datasets of one fit: what the parameters are and how they enter.
+/// The model applied to the datasets of one fit: what the parameters are and how they enter.
 struct ImpactModel {
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   Solver solver = Solver::fast;

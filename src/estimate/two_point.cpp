@@ -1,16 +1,12 @@
 #include "estimate/two_point.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_roots.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <optional>
 
-#include "core/gsl_errors.hpp"
 #include "core/units.hpp"
 
 namespace recoil {
@@ -18,47 +14,54 @@ namespace {
 
 constexpr int most_iterations = 200;
 constexpr double settled = 1e-10;  // relative change of both factors
-constexpr double smallest_damping = 1e-6;  // first upper end of a bracket [s/m]
+constexpr double root_tolerance = 1e-12;   // relative, of each factor
 
-/// The damping in [0, upper] at which `excess` (which falls with damping) vanishes. Nothing when
-/// even no damping leaves it below zero, or the largest leaves it above.
-std::optional<double> damping_for(const std::function<double(double)>& excess, double upper) {
-  if (!(excess(0.0) >= 0.0)) return std::nullopt;
-  double high = std::min(smallest_damping, upper);
-  while (excess(high) > 0.0) {
-    if (high >= upper) return std::nullopt;
-    high = std::min(4.0 * high, upper);
+struct Excess {
+  double value;  // e^2 of the model minus e^2 of the point
+  double slope;  // d value / d damping, negative
+};
+
+/// The damping in [0, upper] at which `excess` (which falls with damping) vanishes: Newton from
+/// `guess`, kept inside a bracket. Nothing when even no damping leaves it below zero, the largest
+/// leaves it above, or the model has no answer.
+std::optional<double> damping_for(const std::function<Excess(double)>& excess, double guess,
+                                  double upper) {
+  const Excess none = excess(0.0);
+  if (!(none.value >= 0.0)) return std::nullopt;
+  double low = 0.0;
+  double high = upper;
+  double damping = guess > 0.0 ? guess : std::min(-none.value / none.slope, upper);
+  constexpr int most_steps = 200;
+  for (int i = 0; i < most_steps; ++i) {
+    const Excess at = excess(damping);
+    if (!std::isfinite(at.value)) return std::nullopt;
+    if (at.value > 0.0 && damping >= upper) return std::nullopt;
+    (at.value > 0.0 ? low : high) = damping;
+    const double newton = damping - at.value / at.slope;
+    const bool inside = newton > low && newton < high;
+    const double bisection = low > 0.0 ? std::min(4.0 * low, std::sqrt(low * high)) : 0.25 * high;
+    // Newton overshoots upwards from a point short of the root, where the whole range is allowed.
+    const double next = inside ? newton : newton >= upper && high == upper ? upper : bisection;
+    if (std::abs(next - damping) <= root_tolerance * damping) return next;
+    damping = next;
   }
-  gsl_function function;
-  function.function = [](double x, void* context) {
-    return (*static_cast<const std::function<double(double)>*>(context))(x);
-  };
-  function.params = const_cast<std::function<double(double)>*>(&excess);
-  const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
-      gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
-  gsl_errors_are_values();
-  gsl_root_fsolver_set(solver.get(), &function, 0.0, high);
-  for (int i = 0; i < 100; ++i) {
-    if (gsl_root_fsolver_iterate(solver.get()) != GSL_SUCCESS) break;
-    const double low_end = gsl_root_fsolver_x_lower(solver.get());
-    const double high_end = gsl_root_fsolver_x_upper(solver.get());
-    if (gsl_root_test_interval(low_end, high_end, 1e-300, 1e-13) == GSL_SUCCESS) break;
-  }
-  return gsl_root_fsolver_root(solver.get());
+  return damping;
 }
 
 /// The damping factor in `slot` that gives `point` its measured e, the others as in `theta`.
 std::optional<double> calibrate(const ImpactModel& model, std::vector<double> theta,
                                 std::size_t slot, const Observation& point) {
   const double target = point.restitution * point.restitution;
+  const double guess = theta[slot];
   return damping_for(
       [&](double damping) {
         theta[slot] = damping;
         const Prediction at =
-            predict(model, theta, point.dataset, point.diameter, point.velocity, false);
-        return at.usable() ? at.restitution_squared - target : std::nan("");
+            predict(model, theta, point.dataset, point.diameter, point.velocity, true);
+        if (!at.usable()) return Excess{std::nan(""), 0.0};
+        return Excess{at.restitution_squared - target, at.gradient[slot]};
       },
-      model.slots[slot].upper);
+      guess, model.slots[slot].upper);
 }
 
 std::string describe(const Observation& point) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "impact/impact.hpp"
 
 namespace recoil {
@@ -37,6 +39,25 @@ template <class T>
 T potential_energy(const T& q, const T& beta) {
   const T q3 = q * q * q;
   return T(0.4) * q3 * q * q - T(2.0 / 3.0) * beta * q3;
+}
+
+/// Depth of the adhesive well, the potential energy at x = beta: -(4/15) beta^(5/2) [m V^2].
+inline double well_depth(double beta) { return -4.0 / 15.0 * beta * beta * std::sqrt(beta); }
+
+/// True when a sphere on its way out has all but settled in the well: what is left above the bottom
+/// is a part `settled_part` of its depth, and the creep towards it needs no more following.
+inline bool has_settled(double q, double u, double beta) {
+  constexpr double settled_part = 1e-10;
+  const double depth = well_depth(beta);
+  return 0.5 * u * u + potential_energy(q, beta) - depth < -settled_part * depth;
+}
+
+/// Above this (C_H + C_A) V_a nothing turns twice and everything settles: the creep is so stiff that
+/// following it step by step costs more than it tells. The well is reached to better than 1e-9 of
+/// its depth (tests/impact/outcome_test.cpp compares).
+inline bool creeps_into_the_well(const ImpactGroups& groups) {
+  constexpr double stiff_creep = 20.0;
+  return (groups.alpha + groups.gamma) * std::pow(groups.beta, 1.25) > stiff_creep;
 }
 
 }  // namespace recoil

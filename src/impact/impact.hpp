@@ -72,7 +72,9 @@ struct EnergyBudget {
 ///
 /// `restitution_squared` is e^2 after a rebound. After a capture it is continued below zero as
 /// 2 H / (m V^2), H = mechanical energy at the first outer turning point: C1 across the capture
-/// velocity, never below -0.534 (V / V_a)^-2, so that a fit has gradients there.
+/// velocity, never below the depth of the adhesive well, -(8/15) beta^(5/2) = -(8/15) (V / V_a)^-2,
+/// so that a fit has gradients there. A sphere so strongly damped that it creeps into the well
+/// without turning once more has no outer turning point; it ends on that floor.
 struct ImpactResult {
   ImpactOutcome outcome = ImpactOutcome::integration_failure;
   double restitution_squared = 0.0;

@@ -293,6 +293,7 @@ ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& op
     const int code = run.step();
     if (code < 0) return result;
     observe(run, options, result, history);
+    if (turned && has_settled(run.q(), run.u(), groups.beta)) break;
     if (code != CV_ROOT_RETURN) continue;
     if (turned) break;
     turned = true;

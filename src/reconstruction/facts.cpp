@@ -38,7 +38,8 @@ void require_known_fact(const FactSpec& fact) {
   }
   for (const std::string& limit : kind->limits) {
     if (!fact.limits.contains(limit)) {
-      throw InputError(fact.where, fmt::format("the fact '{}' lacks the limit '{}'", fact.id, limit),
+      throw InputError(fact.where,
+                       fmt::format("the fact '{}' lacks the limit '{}'", fact.id, limit),
                        "a check without a threshold cannot fail",
                        fmt::format("it takes: {}", fmt::join(kind->limits, ", ")));
     }
@@ -56,8 +57,8 @@ std::vector<FactCheck> check_facts(const Recipe& recipe,
                                    const std::vector<GeneratedPoint>& points) {
   std::vector<Recipe> siblings;
   for (const std::string& id : recipe.siblings) {
-    siblings.push_back(load_recipe(std::filesystem::absolute(recipe.folder).lexically_normal() /
-                                   ".." / id));
+    siblings.push_back(
+        load_recipe(std::filesystem::absolute(recipe.folder).lexically_normal() / ".." / id));
   }
   const FactContext context{recipe, points, siblings};
   std::vector<FactCheck> checks;

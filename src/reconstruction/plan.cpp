@@ -36,10 +36,10 @@ void average_over_sizes(const Recipe& recipe, PlannedPoint& point) {
     second += sizes.weights[i] * (e * e + event_variance(recipe.noise, e));
   }
   if (part < 0.01) {
-    throw InputError({recipe.file.string()},
-                     fmt::format("at {:g} m/s fewer than one impact in a hundred rebounds",
-                                 point.velocity),
-                     "a mean of rebounds would never be complete", "raise the lowest velocity");
+    throw InputError(
+        {recipe.file.string()},
+        fmt::format("at {:g} m/s fewer than one impact in a hundred rebounds", point.velocity),
+        "a mean of rebounds would never be complete", "raise the lowest velocity");
   }
   point.seen = part;
   point.restitution = first / part;

@@ -55,6 +55,7 @@ Truth read_elastoplastic_truth(TomlTable& table, const Recipe& recipe) {
   truth.density = recipe.particle.density;
   truth.reduced_modulus = derive_recipe_contact(recipe.particle, recipe.surface).reduced_modulus;
   truth.adhesion_energy = table.positive("adhesion_energy");
+  truth.adhesion_hysteresis = table.not_negative("adhesion_hysteresis");
   truth.static_yield_pressure = table.positive("static_yield_pressure");
   truth.rate_velocity = table.positive("rate_velocity");
   truth.rate_exponent = table.not_negative("rate_exponent");
@@ -66,8 +67,8 @@ Truth read_truth(TomlTable table, const Recipe& recipe) {
   if (model != "seed" && model != "elastoplastic") {
     table.fail("model", "no such truth", "write \"seed\" or \"elastoplastic\"");
   }
-  Truth truth = model == "seed" ? read_seed_truth(table, recipe)
-                                : read_elastoplastic_truth(table, recipe);
+  Truth truth =
+      model == "seed" ? read_seed_truth(table, recipe) : read_elastoplastic_truth(table, recipe);
   table.finish();
   return truth;
 }
@@ -143,7 +144,8 @@ RecipeSeries read_series(TomlTable table) {
   if (spaced) {
     series.velocities = log_spaced(table.table("velocity"));
   } else {
-    for (const double height : *table.optional_numbers("drop_heights")) {
+    const std::vector<double> heights = *table.optional_numbers("drop_heights");
+    for (const double height : heights) {
       series.velocities.push_back(three_digits(std::sqrt(2.0 * standard_gravity * height)));
     }
   }

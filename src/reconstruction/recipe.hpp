@@ -30,11 +30,11 @@ struct EventNoise {
 /// Sizes drawn anew for every impact: a log-normal distribution, cut at both ends, on whole
 /// micrometres. Only impacts that rebound, fast enough to climb back to the measuring plane, count.
 struct SizeDistribution {
-  double lower = 0.0;         ///< [m]
-  double upper = 0.0;         ///< [m]
-  double median = 0.0;        ///< of the uncut distribution [m]
-  double log_sd = 0.0;        ///< standard deviation of ln d [1]
-  double probe_height = 0.0;  ///< of the measuring plane above the surface [m]
+  double lower = 0.0;             ///< [m]
+  double upper = 0.0;             ///< [m]
+  double median = 0.0;            ///< of the uncut distribution [m]
+  double log_sd = 0.0;            ///< standard deviation of ln d [1]
+  double probe_height = 0.0;      ///< of the measuring plane above the surface [m]
   std::vector<double> diameters;  ///< the whole micrometres [m]
   std::vector<double> weights;    ///< their probabilities, sum 1
 
@@ -55,12 +55,12 @@ struct FactSpec {
 /// One point of the design with its noiseless truth; what regenerating costs is only the noise.
 struct PlannedPoint {
   std::size_t series = 0;
-  double diameter = 0.0;         ///< [m]
-  double velocity = 0.0;         ///< [m/s]
-  double restitution = 0.0;      ///< what the mean of the events tends to [1]
-  double restitution_sd = 0.0;   ///< standard error of that mean [1]
-  double seen = 1.0;             ///< part of the impacts that is seen to rebound [1]
-  std::vector<double> by_size;   ///< e of each size of the distribution; empty for one size
+  double diameter = 0.0;        ///< [m]
+  double velocity = 0.0;        ///< [m/s]
+  double restitution = 0.0;     ///< what the mean of the events tends to [1]
+  double restitution_sd = 0.0;  ///< standard error of that mean [1]
+  double seen = 1.0;            ///< part of the impacts that is seen to rebound [1]
+  std::vector<double> by_size;  ///< e of each size of the distribution; empty for one size
 };
 
 /// recipe.toml, validated, with the noiseless truth of every point.

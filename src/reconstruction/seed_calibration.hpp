@@ -10,8 +10,8 @@ namespace recoil {
 /// kind "the seed's model runs slightly low at 2.58 um" are checked with.
 struct SeedCalibration {
   bool found = false;
-  SeedTruth model;   ///< with the calibrated C_H and C_A
-  std::string why;   ///< when there is no answer
+  SeedTruth model;  ///< with the calibrated C_H and C_A
+  std::string why;  ///< when there is no answer
 };
 
 struct CalibrationPoint {

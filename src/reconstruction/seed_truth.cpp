@@ -103,9 +103,9 @@ class Integrator {
 SeedImpact seed_impact(const SeedContact& contact, double velocity) {
   gsl_errors_are_values();
   // Scales of an undamped Hertz impact without adhesion, for tolerances and the first step.
-  const double depth = std::pow(
-      5.0 * contact.mass * velocity * velocity / (4.0 * std::sqrt(contact.radius) * contact.stiffness),
-      0.4);
+  const double depth = std::pow(5.0 * contact.mass * velocity * velocity /
+                                    (4.0 * std::sqrt(contact.radius) * contact.stiffness),
+                                0.4);
   const double duration = depth / velocity;
   const double n_error = tolerance * depth;
   const double v_error = tolerance * velocity;
@@ -127,8 +127,8 @@ SeedImpact seed_impact(const SeedContact& contact, double velocity) {
     if (!motion.advance(t, far, h, y) || ++steps > max_steps) give_up(velocity, "to its turning");
   }
   State turning = {before[0], before_t};
-  if (before[1] > 0.0 && !Integrator(by_velocity, contact, {n_error, t_error})
-                              .reach(before[1], 0.0, turning)) {
+  if (before[1] > 0.0 &&
+      !Integrator(by_velocity, contact, {n_error, t_error}).reach(before[1], 0.0, turning)) {
     give_up(velocity, "to its turning");
   }
   impact.deepest = turning[0];
@@ -148,9 +148,9 @@ SeedImpact seed_impact(const SeedContact& contact, double velocity) {
     }
   }
   State release = {before[1], before_t};
-  impact.rebounded = Integrator(by_penetration, contact, {v_error, t_error})
-                         .reach(before[0], 0.0, release) &&
-                     release[0] < 0.0;
+  impact.rebounded =
+      Integrator(by_penetration, contact, {v_error, t_error}).reach(before[0], 0.0, release) &&
+      release[0] < 0.0;
   impact.restitution = impact.rebounded ? -release[0] / velocity : 0.0;
   impact.contact_time = release[1];
   return impact;

@@ -18,14 +18,14 @@ struct SeedContact {
 
 struct SeedImpact {
   bool rebounded = false;
-  double restitution = 0.0;      ///< e [1]; 0 when captured
-  double deepest = 0.0;          ///< largest penetration [m]
-  double contact_time = 0.0;     ///< [s]; until it turns inwards again when captured
+  double restitution = 0.0;   ///< e [1]; 0 when captured
+  double deepest = 0.0;       ///< largest penetration [m]
+  double contact_time = 0.0;  ///< [s]; until it turns inwards again when captured
 };
 
 /// One impact at `velocity` [m/s] > 0, straight from the dimensional equation in (n, n') by GSL's
-/// Dormand-Prince 8(7) steps at a relative tolerance of 1e-12. The turning point and the release are
-/// reached exactly by exchanging the roles of time and n' (or n) in the last step (Henon 1982,
+/// Dormand-Prince 8(7) steps at a relative tolerance of 1e-12. The turning point and the release
+/// are reached exactly by exchanging the roles of time and n' (or n) in the last step (Henon 1982,
 /// Physica D 5, 412-414). e is good to 1e-9 and better, except within 1e-6 of the capture velocity.
 /// @throws ComputationError when the integration does not end.
 SeedImpact seed_impact(const SeedContact& contact, double velocity);

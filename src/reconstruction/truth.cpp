@@ -29,16 +29,20 @@ double restitution(const SeedTruth& truth, double diameter, double velocity) {
   return seed_impact(contact, velocity).restitution;
 }
 
-double restitution(const ElastoplasticTruth& truth, double diameter, double velocity) {
+ElastoplasticImpact impact_of(const ElastoplasticTruth& truth, double diameter, double velocity) {
   ElastoplasticContact contact;
   contact.reduced_modulus = truth.reduced_modulus;
   contact.radius = 0.5 * diameter;
   contact.mass = mass_of(truth.density, diameter);
   contact.adhesion_energy = truth.adhesion_energy;
-  contact.yield_pressure =
-      truth.static_yield_pressure *
-      (1.0 + std::pow(velocity / truth.rate_velocity, truth.rate_exponent));
-  return elastoplastic_impact(contact, velocity).restitution;
+  contact.hysteresis = truth.adhesion_hysteresis;
+  contact.yield_pressure = truth.static_yield_pressure *
+                           (1.0 + std::pow(velocity / truth.rate_velocity, truth.rate_exponent));
+  return elastoplastic_impact(contact, velocity);
+}
+
+double restitution(const ElastoplasticTruth& truth, double diameter, double velocity) {
+  return impact_of(truth, diameter, velocity).restitution;
 }
 
 /// Eq. 7 [1/Pa].
@@ -57,8 +61,7 @@ double surface_energy_of(const Material& material) {
 }  // namespace
 
 double true_restitution(const Truth& truth, double diameter, double velocity) {
-  return std::visit([&](const auto& kind) { return restitution(kind, diameter, velocity); },
-                    truth);
+  return std::visit([&](const auto& kind) { return restitution(kind, diameter, velocity); }, truth);
 }
 
 double true_capture_velocity(const Truth& truth, double diameter) {
@@ -80,15 +83,24 @@ double true_capture_velocity(const Truth& truth, double diameter) {
 
 Truth without_adhesion(Truth truth) {
   if (auto* seed = std::get_if<SeedTruth>(&truth)) seed->adhesion_force = 0.0;
-  if (auto* plastic = std::get_if<ElastoplasticTruth>(&truth)) plastic->adhesion_energy = 0.0;
+  if (auto* plastic = std::get_if<ElastoplasticTruth>(&truth)) {
+    plastic->adhesion_energy = 0.0;
+    plastic->adhesion_hysteresis = 0.0;
+  }
   return truth;
+}
+
+double true_plastic_share(const Truth& truth, double diameter, double velocity) {
+  const auto* plastic = std::get_if<ElastoplasticTruth>(&truth);
+  return plastic == nullptr ? 0.0 : impact_of(*plastic, diameter, velocity).plastic_share;
 }
 
 DerivedContact derive_recipe_contact(const Material& particle, const Material& surface) {
   DerivedContact contact;
   contact.stiffness = 4.0 / (3.0 * pi * (compliance_of(particle) + compliance_of(surface)));
   contact.reduced_modulus = 0.75 * contact.stiffness;
-  contact.adhesion_energy = 2.0 * std::sqrt(surface_energy_of(particle) * surface_energy_of(surface));
+  contact.adhesion_energy =
+      2.0 * std::sqrt(surface_energy_of(particle) * surface_energy_of(surface));
   return contact;
 }
 

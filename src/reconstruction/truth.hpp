@@ -17,13 +17,14 @@ struct SeedTruth {
   bool damped_in_both_phases = false;
 };
 
-/// A truth made by yield and adhesion, see `ElastoplasticContact`. The yield pressure rises with the
-/// rate of straining, for which the impact velocity stands:
+/// A truth made by yield and adhesion, see `ElastoplasticContact`. The yield pressure rises with
+/// the rate of straining, for which the impact velocity stands:
 ///   p_Y(V) = p_0 (1 + (V / V_0)^q).
 struct ElastoplasticTruth {
   double density = 0.0;                ///< of the sphere [kg/m3]
   double reduced_modulus = 0.0;        ///< E* [Pa]
   double adhesion_energy = 0.0;        ///< w [J/m2]
+  double adhesion_hysteresis = 0.0;    ///< dw [J/m2]
   double static_yield_pressure = 0.0;  ///< p_0 [Pa]
   double rate_velocity = 0.0;          ///< V_0 [m/s]
   double rate_exponent = 0.0;          ///< q [1]
@@ -31,7 +32,8 @@ struct ElastoplasticTruth {
 
 using Truth = std::variant<SeedTruth, ElastoplasticTruth>;
 
-/// Noiseless restitution e [1] of one sphere of `diameter` [m] at `velocity` [m/s]; 0 when captured.
+/// Noiseless restitution e [1] of one sphere of `diameter` [m] at `velocity` [m/s]; 0 when
+/// captured.
 double true_restitution(const Truth& truth, double diameter, double velocity);
 
 /// The velocity below which a sphere of `diameter` [m] is captured [m/s], to a relative 1e-9.
@@ -40,6 +42,10 @@ double true_capture_velocity(const Truth& truth, double diameter);
 
 /// The same truth with the adhesion taken away.
 Truth without_adhesion(Truth truth);
+
+/// Part of the incident energy that goes into plastic flow, see `ElastoplasticImpact`; 0 for the
+/// seed's model.
+double true_plastic_share(const Truth& truth, double diameter, double velocity);
 
 /// Eq. 6, 7, 9 to 12 of Li, Dunn & Brach (1999) from the two materials.
 struct DerivedContact {

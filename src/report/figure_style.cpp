@@ -14,14 +14,30 @@ std::string preamble() {
          "set tics nomirror out scale 0.6,0.3 textcolor rgb '#333333'\n"
          "set grid lc rgb '#e4e4e4' lt 1 lw 0.8\n"
          "set key textcolor rgb '#222222' samplen 1.8 spacing 1.05 height 0.3\n"
-         "set tmargin 2.2\nset rmargin 2\n"
+         "set tmargin 1.5\nset rmargin 2\nset lmargin 8\n"
          "set errorbars 0\nset pointintervalbox 0\n";
 }
 
-std::string title(const std::string& text) {
-  return fmt::format(
-      "set label 1 {} at graph 0, graph 1 left offset 0,0.8 font ',14' textcolor rgb '{}'\n",
-      gnuplot_text(text), ink);
+std::string title(const std::string& text, const std::string& remark, const char* remark_colour) {
+  const bool two = !remark.empty();
+  std::string out = fmt::format(
+      "set tmargin {}\nset label 1 {} at graph 0, graph 1 left offset 0,{} font ',14' "
+      "textcolor rgb '{}'\n",
+      two ? 3.4 : 2.2, gnuplot_text(text), two ? 1.9 : 0.8, ink);
+  if (two) {
+    out += fmt::format(
+        "set label 2 {} at graph 0, graph 1 left offset 0,0.7 font ',12' textcolor rgb '{}'\n",
+        gnuplot_text(remark), remark_colour);
+  }
+  return out;
+}
+
+std::string key_above() {
+  return "set tmargin -1\nset key outside top center horizontal Left reverse samplen 0.8\n";
+}
+
+std::string key_below() {
+  return "set key outside bottom center horizontal Left reverse samplen 1.4 maxcols 2 width -1\n";
 }
 
 Range range_of(const std::vector<double>& values, double margin) {

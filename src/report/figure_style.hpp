@@ -21,19 +21,19 @@ struct Marker {
   const char* colour;
   int point;
 };
-inline constexpr std::array<Marker, 7> markers = {{{blue, 7},
-                                                   {orange, 5},
-                                                   {green, 9},
-                                                   {purple, 13},
-                                                   {vermillion, 11},
-                                                   {sky, 6},
-                                                   {ink, 4}}};
+inline constexpr std::array<Marker, 7> markers = {
+    {{blue, 7}, {orange, 5}, {green, 9}, {purple, 13}, {vermillion, 11}, {sky, 6}, {ink, 4}}};
 
 /// Axes at the left and below, a light grid, and nothing else.
 std::string preamble();
 
-/// A title at the upper left of the picture.
-std::string title(const std::string& text);
+/// A title at the upper left of the picture, and under it a remark in its own colour.
+std::string title(const std::string& text, const std::string& remark = "",
+                  const char* remark_colour = grey);
+
+/// The key in its own rows above or below the axes, where it hides nothing.
+std::string key_above();
+std::string key_below();
 
 /// A range that holds all finite values, with a margin; [0, 1] when there are none.
 struct Range {

@@ -12,9 +12,9 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_panels = 24;       // per page, so that it stays under 1 MB
+constexpr std::size_t most_panels = 24;  // per page, so that it stays under 1 MB
 constexpr std::size_t most_curve_points = 120;
-constexpr std::size_t most_points = 400;      // drawn per panel
+constexpr std::size_t most_points = 400;  // drawn per panel
 
 /// One diameter of one dataset.
 struct Panel {
@@ -103,22 +103,22 @@ Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::si
 
 std::vector<std::vector<double>> curve_rows(const RestitutionCurve& curve) {
   const std::size_t count = std::min(curve.velocity.size(), curve.restitution.size());
-  const std::size_t stride = std::max<std::size_t>(1, (count + most_curve_points - 1) /
-                                                          most_curve_points);
+  const std::size_t stride =
+      std::max<std::size_t>(1, (count + most_curve_points - 1) / most_curve_points);
   const auto at = [](const std::vector<double>& values, std::size_t i) {
     return i < values.size() ? values[i] : NAN;
   };
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < count; ++i) {
     // Where the curve rises from capture every point is needed; the plateau can be thinned.
-    const bool steep = i + 1 < count && std::abs(curve.restitution[i + 1] - curve.restitution[i]) +
-                                                std::abs(i > 0 ? curve.restitution[i] -
-                                                                     curve.restitution[i - 1]
-                                                               : 0.0) >
-                                            0.02;
+    const bool steep =
+        i + 1 < count &&
+        std::abs(curve.restitution[i + 1] - curve.restitution[i]) +
+                std::abs(i > 0 ? curve.restitution[i] - curve.restitution[i - 1] : 0.0) >
+            0.02;
     if (i % stride != 0 && i + 1 != count && !steep) continue;
-    rows.push_back({curve.velocity[i], curve.restitution[i], at(curve.lower, i),
-                    at(curve.upper, i), at(curve.two_point, i)});
+    rows.push_back({curve.velocity[i], curve.restitution[i], at(curve.lower, i), at(curve.upper, i),
+                    at(curve.two_point, i)});
   }
   return rows;
 }
@@ -142,65 +142,58 @@ PointRows point_rows(const Analysis& analysis, const std::vector<std::size_t>& p
   return rows;
 }
 
-/// The capture velocity as a line with its interval as a strip, labelled where there is room.
+/// The capture velocity as a line with its interval as a strip; `capture_words` labels it.
 std::string capture_commands(const CaptureEstimate& capture, const Axes& axes) {
   const Interval& interval = capture.interval;
   const auto inside = [&](double v) {
     return std::clamp(v, axes.velocity.lower, axes.velocity.upper);
   };
   std::string out;
-  std::string label = fmt::format("V* = {} m/s", number(capture.value, 3));
   if (interval.available()) {
     out += fmt::format(
         "set object 1 rect from {:.6g}, graph 0 to {:.6g}, graph 1 fc rgb '{}' fs transparent "
-        "solid 0.16 noborder behind\n",
+        "solid 0.18 noborder behind\n",
         inside(*interval.lower), inside(*interval.upper), style::green);
-    label += fmt::format("\\n[{}, {}]", number(*interval.lower, 3), number(*interval.upper, 3));
   }
-  const double v = inside(capture.value);
-  const bool visible = v > axes.velocity.lower && v < axes.velocity.upper;
-  if (visible) {
+  if (capture.value > axes.velocity.lower && capture.value < axes.velocity.upper) {
     out += fmt::format(
-        "set arrow 1 from {:.6g}, graph 0 to {:.6g}, graph 1 nohead lc rgb '{}' lw 1.4 back\n", v,
-        v, style::green);
+        "set arrow 1 from {0:.6g}, graph 0 to {0:.6g}, graph 1 nohead lc rgb '{1}' lw 1.4 back\n",
+        capture.value, style::green);
   }
-  const double place = std::log(v / axes.velocity.lower) /
-                       std::log(axes.velocity.upper / axes.velocity.lower);
-  const bool left = visible && place > 0.36;
-  const double edge = left && interval.available() ? inside(*interval.lower)
-                      : interval.available()       ? inside(*interval.upper)
-                                                   : v;
-  if (!visible) label = "← " + label;
-  out += fmt::format(
-      "set label 2 \"{}\" at {:.6g}, graph {} {} offset {},0 font ',12' textcolor rgb '#00684c' "
-      "front\n",
-      label, edge, left ? 0.95 : 0.14, left ? "right" : "left", left ? -0.6 : 0.6);
   return out;
 }
 
+std::string capture_words(const CaptureEstimate& capture, const Axes& axes) {
+  std::string words = fmt::format("capture below V* = {} m/s", number(capture.value, 3));
+  if (capture.interval.available()) words += " " + interval_text(capture.interval, 3);
+  if (capture.value <= axes.velocity.lower) words = "← " + words;
+  return words;
+}
+
 std::string points_name(const Dataset& dataset, bool sd_stated) {
-  const std::string name = to_string(dataset.provenance) + " points";
-  return sd_stated ? name + ", 1 sd" : name;
+  const std::string name = to_string(dataset.provenance);
+  return sd_stated ? name + " ± 1 sd" : name;
 }
 
 PlotScript restitution_script(const Analysis& analysis, const Panel& panel, const Axes& axes) {
   const Dataset& dataset = analysis.datasets[panel.dataset];
   PlotScript script;
-  script.width = 480;
-  script.height = 340;
+  script.height = 365;
   std::string heading = fmt::format("d = {} µm", diameter_text(panel.diameter));
   if (analysis.datasets.size() > 1) heading += ", " + dataset.id;
   script.title = fmt::format("Restitution against incident velocity, {}", heading);
 
   const PointRows rows = point_rows(analysis, panel.points);
   std::string& c = script.commands;
-  c = style::preamble() + style::title(heading) + "set logscale x\n";
+  c = style::preamble() + style::key_below() + "set logscale x\n";
+  c += panel.capture == nullptr
+           ? style::title(heading)
+           : style::title(heading, capture_words(*panel.capture, axes), "#00684c");
   c += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [0:{:.4g}]\nset ytics 0.2\n",
                    axes.velocity.lower, axes.velocity.upper, axes.top);
   c += log_ticks('x', axes.velocity.lower, axes.velocity.upper);
   c += "set xlabel 'incident velocity V  [m/s]' offset 0,0.4\n"
-       "set ylabel 'restitution e' offset 1.2,0\n"
-       "set key bottom right Left reverse\n";
+       "set ylabel 'restitution e' offset 1.2,0\n";
   if (panel.capture != nullptr) c += capture_commands(*panel.capture, axes);
 
   std::vector<std::string> layers;
@@ -211,26 +204,25 @@ PlotScript restitution_script(const Analysis& analysis, const Panel& panel, cons
           "$curve using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.2 noborder "
           "title {}",
           style::blue,
-          gnuplot_text(percent(analysis.uncertainty.options.level) + " band of the fit")));
+          gnuplot_text(percent(analysis.uncertainty.options.level) + " band")));
     }
     layers.push_back(fmt::format(
         "$curve using 1:2 with lines lc rgb '{}' lw 2 title 'fit to all points'", style::blue));
     if (!panel.curve->two_point.empty()) {
-      layers.push_back(fmt::format(
-          "$curve using 1:5 with lines lc rgb '{}' lw 2 dt (8,5) title 'two points'",
-          style::vermillion));
+      layers.push_back(
+          fmt::format("$curve using 1:5 with lines lc rgb '{}' lw 2 dt (8,5) title 'two points'",
+                      style::vermillion));
     }
   }
   if (!rows.rebounds.empty()) {
     c += data_block("points", rows.rebounds);
     const std::string name = gnuplot_text(points_name(dataset, analysis.data.sd_stated));
-    layers.push_back(
-        analysis.data.sd_stated
-            ? fmt::format("$points using 1:2:3 with yerrorbars lc rgb '{}' lw 1 pt 7 ps 0.55 "
-                          "title {}",
-                          style::ink, name)
-            : fmt::format("$points using 1:2 with points lc rgb '{}' pt 7 ps 0.55 title {}",
-                          style::ink, name));
+    if (analysis.data.sd_stated) {
+      layers.push_back(fmt::format(
+          "$points using 1:($2-$3):(0):(2*$3) with vectors nohead lc rgb '{}' lw 1.2 notitle", style::ink));
+    }
+    layers.push_back(fmt::format("$points using 1:2 with points lc rgb '{}' pt 7 ps 0.5 title {}",
+                                 style::ink, name));
   }
   if (!rows.captures.empty()) {
     c += data_block("captured", rows.captures);
@@ -243,9 +235,8 @@ PlotScript restitution_script(const Analysis& analysis, const Panel& panel, cons
 }
 
 std::string restitution_caption(const Analysis& analysis, const Panel& panel) {
-  std::string text =
-      fmt::format("{}: {} point{}.", analysis.datasets[panel.dataset].id, panel.points.size(),
-                  panel.points.size() == 1 ? "" : "s");
+  std::string text = fmt::format("{}: {} point{}.", analysis.datasets[panel.dataset].id,
+                                 panel.points.size(), panel.points.size() == 1 ? "" : "s");
   const std::size_t drawn_every = panel.points.size() / most_points + 1;
   if (drawn_every > 1) text += fmt::format(" One point in {} is drawn.", drawn_every);
   if (panel.capture == nullptr) {
@@ -270,8 +261,8 @@ std::vector<Figure> restitution_figures(const Analysis& analysis) {
   const std::vector<Panel> panels = panels_of(analysis);
   std::vector<Figure> figures;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    PlotScript script = restitution_script(analysis, panels[i],
-                                           axes_of(analysis, panels, panels[i].dataset));
+    PlotScript script =
+        restitution_script(analysis, panels[i], axes_of(analysis, panels, panels[i].dataset));
     script.name = fmt::format("restitution-{}", i + 1);
     figures.push_back(
         {script.name, script.title, restitution_caption(analysis, panels[i]), draw_svg(script)});
@@ -297,11 +288,12 @@ std::string restitution_overview(const Analysis& analysis, const std::string& id
   }
   std::string& c = script.commands;
   c = style::preamble() +
-      fmt::format("set logscale x\nset xrange [{:.6g}:{:.6g}]\nset yrange [0:{:.4g}]\n"
-                  "set ytics 0.2\nset tmargin 1\nset key bottom right Left reverse\n"
-                  "set xlabel 'V  [m/s]' offset 0,0.6\nset ylabel 'e' offset 1.5,0\n",
-                  velocity.lower, velocity.upper, top) +
-      log_ticks('x', velocity.lower, velocity.upper);
+      fmt::format(
+          "set logscale x\nset xrange [{:.6g}:{:.6g}]\nset yrange [0:{:.4g}]\n"
+          "set ytics 0.2\nset lmargin 7\n"
+          "set xlabel 'V  [m/s]' offset 0,0.6\nset ylabel 'e' offset 1,0\n",
+          velocity.lower, velocity.upper, top) +
+      style::key_above() + log_ticks('x', velocity.lower, velocity.upper);
   std::vector<std::string> layers;
   const bool by_dataset = analysis.datasets.size() > 1;
   std::vector<bool> named(analysis.datasets.size(), false);
@@ -309,8 +301,8 @@ std::string restitution_overview(const Analysis& analysis, const std::string& id
     const Panel& panel = panels[i];
     const style::Marker marker =
         style::markers[(by_dataset ? panel.dataset : i) % style::markers.size()];
-    const std::string name = by_dataset ? analysis.datasets[panel.dataset].id
-                                        : diameter_text(panel.diameter) + " µm";
+    const std::string name =
+        by_dataset ? analysis.datasets[panel.dataset].id : diameter_text(panel.diameter) + " µm";
     const bool show = by_dataset ? !named[panel.dataset] : panels.size() <= 7;
     named[panel.dataset] = true;
     const std::string key = show ? "title " + gnuplot_text(name) : std::string("notitle");

@@ -28,8 +28,7 @@ std::vector<Figure> residual_diameter_figures(const Analysis& analysis);
 /// Bootstrap distribution of each free parameter with estimate and recommended interval.
 std::vector<Figure> bootstrap_figures(const Analysis& analysis);
 
-/// C_H and C_A of the two-point calibration and of the full fit under resampling: a scatter of
-/// replicates where there is one dataset, bars of one standard deviation where there are several.
+/// C_H against C_A of every replicate, calibrated by two points and by all, one per dataset.
 std::vector<Figure> two_point_figures(const Analysis& analysis);
 
 /// f0 against radius with f0 ~ r^(1/3) (Fig. 8 of Li, Dunn & Brach 1999), all datasets.

@@ -108,21 +108,20 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
   const ForceUnit force = force_unit(largest);
   const TimeUnit time = time_unit(longest);
   const double span = (top - bottom) * force.factor;
-  // Which way the forces point on the picture: outward (away from the surface) is up.
   PlotScript script;
   script.name = fmt::format("force-history-{}", dataset + 1);
   script.title = fmt::format("Contact forces during one impact, {}", analysis.datasets[dataset].id);
-  script.height = 360;
-  const std::string heading = fmt::format("d = {} µm, V = {} m/s",
-                                          diameter_text(conditions.diameter), number(velocity, 3));
+  script.height = 390;
+  const std::string heading =
+      fmt::format("d = {} µm, V = {} m/s", diameter_text(conditions.diameter), number(velocity, 3));
   std::string& c = script.commands;
   c = style::preamble() + style::title(heading) +
       fmt::format("set xrange [0:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
                   1.02 * longest * time.factor, bottom * force.factor - 0.06 * span,
-                  top * force.factor + 0.38 * span) +
+                  top * force.factor + 0.06 * span) +
       fmt::format("set xlabel 'time since touch  [{}]' offset 0,0.4\n", time.name) +
-      fmt::format("set ylabel 'force  [{}], outward positive' offset 1,0\n", force.name) +
-      "set key top right Left reverse maxrows 3 width -1\nset xzeroaxis lc rgb '#999999' lw 1\n" +
+      fmt::format("set ylabel 'force on the sphere  [{}]' offset 1,0\n", force.name) +
+      style::key_below() + "set key maxcols 3\nset xzeroaxis lc rgb '#999999' lw 1\n" +
       data_block("history", history_rows(history, scales, time.factor, force.factor));
   c += fmt::format(
       "plot $history using 1:2 with lines lc rgb '{}' lw 2 title 'Hertz', \\\n"
@@ -133,7 +132,8 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
       style::blue, style::sky, style::vermillion, style::orange, style::ink);
 
   std::string caption = fmt::format(
-      "Reference diameter {} µm at {} m/s with the fitted parameters: {}.",
+      "Reference diameter {} µm at {} m/s with the fitted parameters: {}. Forces "
+      "away from the surface are positive.",
       diameter_text(conditions.diameter), number(velocity, 3), to_string(result.outcome));
   if (result.outcome == ImpactOutcome::rebound) {
     caption += fmt::format(" e = {}. {}.", number(std::sqrt(result.restitution_squared), 3),
@@ -160,8 +160,7 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
   script.title = "Adhesion force per length against radius";
   script.height = 340;
   std::string& c = script.commands;
-  c = style::preamble() +
-      fmt::format("set xrange [0:{:.6g}]\nset yrange [0:*]\n", largest_um) +
+  c = style::preamble() + fmt::format("set xrange [0:{:.6g}]\nset yrange [0:*]\n", largest_um) +
       "set xlabel 'radius r  [µm]' offset 0,0.4\nset ylabel 'f_{0}  [N/m]' offset 1,0\n"
       "set key bottom right Left reverse\n";
   std::vector<std::string> layers;
@@ -186,22 +185,21 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
     const bool differs = std::abs(f0 - contact.adhesion_force_derived) >
                          0.02 * std::abs(contact.adhesion_force_derived);
     if (differs) {
-      c += data_block(fmt::format("derived{}", k),
-                      cube_root_curve(contact.adhesion_force_derived, contact.reference_diameter,
-                                      largest_um));
-      layers.push_back(fmt::format(
-          "$derived{} using 1:2 with lines lc rgb '{}' lw 1.4 dt (6,5) title 'eq. 12'", k,
-          marker.colour));
+      c += data_block(
+          fmt::format("derived{}", k),
+          cube_root_curve(contact.adhesion_force_derived, contact.reference_diameter, largest_um));
+      layers.push_back(
+          fmt::format("$derived{} using 1:2 with lines lc rgb '{}' lw 1.4 dt (6,5) title 'eq. 12'",
+                      k, marker.colour));
       refined = true;
     }
     const Interval interval = recommended_interval(intervals_of(analysis, slot));
     if (interval.available()) {
-      c += data_block(fmt::format("free{}", k),
-                      {{contact.reference_diameter / 2.0 / units::um, f0, *interval.lower,
-                        *interval.upper}});
-      layers.push_back(fmt::format(
-          "$free{} using 1:2:3:4 with yerrorbars lc rgb '{}' lw 2 pt {} ps 1 notitle", k,
-          marker.colour, marker.point));
+      c += data_block(fmt::format("free{}", k), {{contact.reference_diameter / 2.0 / units::um, f0,
+                                                  *interval.lower, *interval.upper}});
+      layers.push_back(
+          fmt::format("$free{} using 1:2:3:4 with yerrorbars lc rgb '{}' lw 2 pt {} ps 1 notitle",
+                      k, marker.colour, marker.point));
     }
   }
   c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));

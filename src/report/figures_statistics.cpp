@@ -86,20 +86,19 @@ PlotScript residual_velocity_script(const std::vector<ResidualRow>& rows) {
   std::string& c = script.commands;
   c = style::preamble() + residual_axis(rows) +
       fmt::format("set logscale x\nset xrange [{:.6g}:{:.6g}]\n", lower, upper) +
-      log_ticks('x', lower, upper) +
-      "set xlabel 'incident velocity V  [m/s]' offset 0,0.4\n"
-      "set key outside top center horizontal Left reverse samplen 0.6\n";
+      log_ticks('x', lower, upper) + "set xlabel 'incident velocity V  [m/s]' offset 0,0.4\n" +
+      style::key_above();
   std::vector<std::string> layers;
   const bool told_apart = by_diameter.size() <= style::markers.size();
   std::size_t index = 0;
   for (const auto& [diameter, block] : by_diameter) {
     const style::Marker marker = told_apart ? style::markers[index] : style::markers[0];
     c += data_block(fmt::format("r{}", index), block);
-    layers.push_back(fmt::format(
-        "$r{} using 1:2 with points lc rgb '{}' pt {} ps 0.65 {}", index, marker.colour,
-        marker.point,
-        told_apart ? "title " + gnuplot_text(diameter_text(diameter) + " µm")
-                   : std::string("notitle")));
+    layers.push_back(fmt::format("$r{} using 1:2 with points lc rgb '{}' pt {} ps 0.65 {}", index,
+                                 marker.colour, marker.point,
+                                 told_apart
+                                     ? "title " + gnuplot_text(diameter_text(diameter) + " µm")
+                                     : std::string("notitle")));
     ++index;
   }
   if (!captured.empty()) {
@@ -137,13 +136,11 @@ PlotScript residual_diameter_script(const std::vector<ResidualRow>& rows) {
   std::string& c = script.commands;
   c = style::preamble() + residual_axis(rows) +
       fmt::format("set xrange [{:.6g}:{:.6g}]\n", range.lower, range.upper) +
-      "set xlabel 'diameter d  [µm]' offset 0,0.4\n"
-      "set key outside top center horizontal Left reverse\n" +
+      "set xlabel 'diameter d  [µm]' offset 0,0.4\n" + style::key_above() +
       data_block("cloud", cloud) + data_block("means", means);
   c += fmt::format(
       "plot $cloud using 1:2 with points lc rgb '{}' pt 6 ps 0.6 title 'points', \\\n"
-      "  $means using 1:2:3 with yerrorbars lc rgb '{}' lw 2 pt 7 ps 0.8 title 'mean, 1 sd of "
-      "it'\n",
+      "  $means using 1:2:3 with yerrorbars lc rgb '{}' lw 2 pt 7 ps 0.8 title 'mean ± 1 sd '\n",
       style::sky, style::ink);
   return script;
 }
@@ -233,8 +230,8 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
                   range.lower, range.upper, 0.92 * h.width) +
       fmt::format("set xlabel '{}{}  [{}]' offset 0,0.4\n", style::symbol(parameter.name),
                   parameter.dataset.empty() ? "" : ", " + parameter.dataset, scale.unit) +
-      "set ylabel 'replicates' offset 1,0\nset format x '%g'\nset xtics autofreq\n"
-      "set key outside top center horizontal Left reverse\n";
+      "set bmargin 3.6\nset ylabel 'replicates' offset 1,0\nset format x '%g'\nset xtics autofreq\n" +
+      style::key_above();
   if (interval.available()) {
     c += fmt::format(
         "set object 1 rect from {:.6g}, graph 0 to {:.6g}, graph 1 fc rgb '{}' fs transparent "
@@ -258,9 +255,9 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
   }
   c += '\n';
 
-  std::string caption = fmt::format("{} usable replicates of {} ({} bootstrap).", values.size(),
-                                    analysis.uncertainty.bootstrap.replicates,
-                                    analysis.uncertainty.bootstrap.scheme);
+  std::string caption =
+      fmt::format("{} usable replicates of {} ({} bootstrap).", values.size(),
+                  analysis.uncertainty.bootstrap.replicates, analysis.uncertainty.bootstrap.scheme);
   if (h.outside > 0) {
     caption += fmt::format(" {} of them lie outside this picture.", h.outside);
   }

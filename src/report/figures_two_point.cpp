@@ -72,9 +72,12 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
   const style::Scale scale_A = style::scale_for(std::abs(full[A]), model.slots[A].unit);
   const BootstrapResult& bootstrap = analysis.uncertainty.bootstrap;
   const Rows full_pairs = pairs(bootstrap.theta, H, A, scale_H.factor, scale_A.factor);
-  const Rows two_pairs = pairs(bootstrap.two_point_theta, H, A, scale_H.factor, scale_A.factor);
-  const bool converged = comparison.result.status == TwoPointStatus::converged &&
-                         H < two.size() && A < two.size();
+  const Rows two_pairs = comparison.dataset < bootstrap.two_point_theta.size()
+                             ? pairs(bootstrap.two_point_theta[comparison.dataset], H, A,
+                                     scale_H.factor, scale_A.factor)
+                             : Rows();
+  const bool converged =
+      comparison.result.status == TwoPointStatus::converged && H < two.size() && A < two.size();
   const double full_H = full[H] * scale_H.factor;
   const double full_A = full[A] * scale_A.factor;
   const double two_H = converged ? two[H] * scale_H.factor : full_H;
@@ -84,17 +87,18 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
   std::size_t outside = 0;
 
   PlotScript script;
-  script.name = "two-point-1";
-  script.title = "Two points against all: C_H and C_A under resampling";
+  script.name = fmt::format("two-point-{}", comparison.dataset + 1);
+  script.title = fmt::format("Two points against all under resampling, {}",
+                             analysis.datasets[comparison.dataset].id);
   script.height = 360;
   std::string& c = script.commands;
   c = style::preamble() +
       fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", x.lower, x.upper,
                   y.lower, y.upper) +
-      fmt::format("set xlabel 'C_{{H}}  [{}]' offset 0,0.4\nset ylabel 'C_{{A}}  [{}]' offset 1,0\n",
-                  scale_H.unit, scale_A.unit) +
-      "set key outside top center horizontal Left reverse samplen 1\n" +
-      data_block("two", thinned(two_pairs, x, y, outside)) +
+      fmt::format(
+          "set xlabel 'C_{{H}}  [{}]' offset 0,0.4\nset ylabel 'C_{{A}}  [{}]' offset 1,0\n",
+          scale_H.unit, scale_A.unit) +
+      "set bmargin 3.6\n" + style::key_above() + data_block("two", thinned(two_pairs, x, y, outside)) +
       data_block("full", thinned(full_pairs, x, y, outside)) +
       data_block("estimates", {{full_H, full_A}, {two_H, two_A}});
   c += fmt::format(
@@ -102,14 +106,16 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
       "  $full using 1:2 with points lc rgb '{1}' pt 6 ps 0.4 title 'all points', \\\n"
       "  $estimates every ::0::0 using 1:2 with points lc rgb '{2}' pt 7 ps 1.1 notitle, \\\n",
       style::orange, style::sky, style::blue);
-  c += converged ? fmt::format("  $estimates every ::1::1 using 1:2 with points lc rgb '{}' pt 9 "
-                               "ps 1.3 notitle\n",
-                               style::vermillion)
+  c += converged ? fmt::format(
+                       "  $estimates every ::1::1 using 1:2 with points lc rgb '{}' pt 9 "
+                       "ps 1.3 notitle\n",
+                       style::vermillion)
                  : std::string("  NaN notitle\n");
 
   const std::size_t count = full_pairs.size() + two_pairs.size();
   std::string caption =
-      "Small marks: each calibration repeated on resampled data. Large marks: the estimates.";
+      analysis.datasets[comparison.dataset].id +
+      ". Small marks: each calibration repeated on resampled data. Large marks: the estimates.";
   if (count > 2 * most_replicates) {
     caption += fmt::format(" About {} replicates of each are drawn.", most_replicates);
   }
@@ -122,79 +128,14 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
   return {script.name, script.title, caption, draw_svg(script)};
 }
 
-/// Estimates with one standard deviation, datasets from top to bottom, for one parameter.
-Figure bars(const Analysis& analysis, const std::string& name, int index) {
-  const ImpactModel& model = analysis.fitted.model;
-  const bool hertz = name == "C_H";
-  double largest = 0.0;
-  for (const TwoPointComparison& comparison : analysis.uncertainty.two_point) {
-    const std::size_t slot =
-        (hertz ? model.slot_C_H : model.slot_C_A)[comparison.dataset];
-    largest = std::max(largest, std::abs(analysis.fitted.theta[slot]));
-  }
-  const style::Scale scale = style::scale_for(largest, "s/m");
-  Rows full_rows;
-  Rows two_rows;
-  std::vector<double> shown = {0.0};
-  std::string ticks;
-  const auto at = [](const std::vector<double>& values, std::size_t slot) {
-    return slot < values.size() ? values[slot] : 0.0;
-  };
-  std::size_t without = 0;
-  for (std::size_t k = 0; k < analysis.uncertainty.two_point.size(); ++k) {
-    const TwoPointComparison& comparison = analysis.uncertainty.two_point[k];
-    const std::size_t slot =
-        (hertz ? model.slot_C_H : model.slot_C_A)[comparison.dataset];
-    const double row = -static_cast<double>(k);
-    const double full = analysis.fitted.theta[slot] * scale.factor;
-    const double full_sd = at(comparison.full_spread, slot) * scale.factor;
-    full_rows.push_back({full, row + 0.13, full_sd});
-    shown.push_back(full + full_sd);
-    if (comparison.result.status == TwoPointStatus::converged) {
-      const double two = at(comparison.result.theta, slot) * scale.factor;
-      const double two_sd = at(comparison.spread, slot) * scale.factor;
-      two_rows.push_back({two, row - 0.13, two_sd});
-      shown.push_back(two + two_sd);
-    } else {
-      ++without;
-    }
-    ticks += fmt::format("{}{} {}", k == 0 ? "" : ", ",
-                         gnuplot_text(analysis.datasets[comparison.dataset].id), row);
-  }
-  const style::Range range = style::range_of(shown, 0.08);
-  PlotScript script;
-  script.name = fmt::format("two-point-{}", index);
-  script.title = fmt::format("Two points against all: {}", name);
-  script.height = 120 + 60 * static_cast<int>(full_rows.size());
-  std::string& c = script.commands;
-  c = style::preamble() +
-      fmt::format("set xrange [0:{:.6g}]\nset yrange [{}:0.6]\nset ytics ({}) font ',11'\n",
-                  range.upper, -static_cast<double>(full_rows.size()) + 0.4, ticks) +
-      fmt::format("set xlabel '{}  [{}]' offset 0,0.4\n", style::symbol(name), scale.unit) +
-      "set key outside top center horizontal Left reverse samplen 1\n" +
-      data_block("full", full_rows) + data_block("two", two_rows);
-  c += fmt::format(
-      "plot $two using 1:2:3 with xerrorbars lc rgb '{}' lw 1.6 pt 9 ps 0.8 title 'two points', "
-      "\\\n  $full using 1:2:3 with xerrorbars lc rgb '{}' lw 1.6 pt 7 ps 0.8 title 'all points'\n",
-      style::vermillion, style::blue);
-  std::string caption = fmt::format(
-      "{} of each calibration; bars show one standard deviation under resampling.", name);
-  if (without > 0) {
-    caption += fmt::format(" For {} dataset{} the two-point iteration has no answer.", without,
-                           without == 1 ? "" : "s");
-  }
-  return {script.name, script.title, caption, draw_svg(script)};
-}
-
 }  // namespace
 
 std::vector<Figure> two_point_figures(const Analysis& analysis) {
-  const auto& comparisons = analysis.uncertainty.two_point;
-  if (comparisons.empty()) return {};
-  if (comparisons.size() == 1 && !analysis.uncertainty.bootstrap.two_point_theta.empty()) {
-    return {scatter(analysis, comparisons.front())};
+  std::vector<Figure> figures;
+  for (const TwoPointComparison& comparison : analysis.uncertainty.two_point) {
+    figures.push_back(scatter(analysis, comparison));
   }
-  return {bars(analysis, "C_H", 1), bars(analysis, "C_A", 2)};
+  return figures;
 }
 
 }  // namespace recoil

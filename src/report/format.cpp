@@ -119,6 +119,15 @@ std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
   return out;
 }
 
+std::string as_sentence(std::string words) {
+  if (words.empty()) return words;
+  if (words[0] >= 'a' && words[0] <= 'z' && !words.starts_with("f0")) {
+    words[0] = static_cast<char>(words[0] - 'a' + 'A');
+  }
+  if (std::string_view(".!?").find(words.back()) == std::string_view::npos) words += '.';
+  return words;
+}
+
 std::string words_of(std::string identifier) {
   std::replace(identifier.begin(), identifier.end(), '_', ' ');
   return identifier;
@@ -129,7 +138,7 @@ IntervalSet intervals_of(const Analysis& analysis, std::size_t slot) {
   IntervalSet set;
   if (slot < all.size()) set = all[slot];
   const bool fixed = !analysis.fitted.model.slots[slot].free;
-  const std::string why = fixed                ? "the parameter is fixed"
+  const std::string why = fixed               ? "the parameter is fixed"
                           : slot < all.size() ? "not computed"
                                               : "no uncertainty was assessed";
   for (Interval* interval :
@@ -140,15 +149,6 @@ IntervalSet intervals_of(const Analysis& analysis, std::size_t slot) {
   if (fixed) set.recommended.clear();
   if (set.recommended.empty() && set.recommended_why.empty()) set.recommended_why = why;
   return set;
-}
-
-Interval recommended_interval(const IntervalSet& set) {
-  if (set.recommended == "wald") return set.wald;
-  if (set.recommended == "profile") return set.profile;
-  if (set.recommended == "percentile") return set.percentile;
-  if (set.recommended == "bca") return set.bca;
-  if (set.recommended == "studentized") return set.studentized;
-  return no_interval(set.recommended_why);
 }
 
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b) {

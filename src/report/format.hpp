@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "report/report.hpp"
+#include "uncertainty/identifiability.hpp"  // recommended_interval
 
 /// What the text, JSON and HTML writers say in common: numbers, names, and lookups in an Analysis
 /// that never run out of range when a stage was skipped.
@@ -34,14 +35,14 @@ std::string diameter_text(double diameter);
 /// the first behind `indent` spaces; a word that is too long is cut.
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
 
+/// `words` with a capital at the start and a full stop at the end; empty stays empty.
+std::string as_sentence(std::string words);
+
 /// An identifier such as "no_adhesion_damping" in words.
 std::string words_of(std::string identifier);
 
 /// Every interval of one slot; with `why` filled in when the assessment has none for it.
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot);
-
-/// The interval that `set.recommended` names; without bounds when it names none.
-Interval recommended_interval(const IntervalSet& set);
 
 /// Correlation of two slots from the covariance; 0 when either has no variance.
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b);

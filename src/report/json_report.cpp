@@ -1,52 +1,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
+#include "report/json_values.hpp"
 
 namespace recoil {
 namespace {
-
-// Keys keep the order in which they are written, so that two files compare line by line.
-using Json = nlohmann::ordered_json;
-
-/// A number, or null: JSON has no NaN and no infinity.
-Json number_or_null(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return value == 0.0 ? 0.0 : value;  // no minus zero
-}
-
-/// `object[key]` and, when there is no number, `object[key_why]`.
-void put(Json& object, const std::string& key, double value, const std::string& why) {
-  object[key] = number_or_null(value);
-  if (object[key].is_null()) object[key + "_why"] = why;
-}
-
-void put(Json& object, const std::string& key, const std::optional<double>& value,
-         const std::string& why) {
-  put(object, key, value.value_or(NAN), why);
-}
-
-Json interval_json(const Interval& interval) {
-  if (!interval.available() || !std::isfinite(*interval.lower) || !std::isfinite(*interval.upper)) {
-    return nullptr;
-  }
-  return Json::array({number_or_null(*interval.lower), number_or_null(*interval.upper)});
-}
-
-std::string why_none(const Interval& interval) {
-  if (!interval.why.empty()) return interval.why;
-  return interval.available() ? "a bound is not finite" : "not computed";
-}
-
-Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(number_or_null(value));
-  return list;
-}
 
 Json dataset_json(const Dataset& dataset) {
   return {{"id", dataset.id},
@@ -139,8 +101,8 @@ Json parameter_json(const Analysis& a, std::size_t s) {
   Json recommended;
   const bool none = set.recommended.empty() || !recommended_interval(set).available();
   recommended["interval"] = none ? Json(nullptr) : Json(set.recommended);
-  recommended["why"] =
-      none ? Json(why_none(recommended_interval(set))) : Json(set.recommended_why);
+  recommended["why"] = none ? Json(why_none(recommended_interval(set))) : Json(set.recommended_why);
+  intervals["recommended"] = recommended;
   out["intervals"] = intervals;
   out["recommended"] = recommended;
   out["profile_shape"] = set.profile.shape.empty() ? Json(nullptr) : Json(set.profile.shape);
@@ -173,17 +135,17 @@ Json model_json(const Analysis& a) {
   for (std::size_t k = 0; k < a.datasets.size(); ++k) {
     const ContactProperties& contact = a.fitted.model.contacts[k];
     const ImpactConditions conditions = reference_conditions(a, k, 1.0);
-    contacts.push_back({{"dataset", a.datasets[k].id},
-                        {"stiffness_K_Pa", number_or_null(contact.stiffness)},
-                        {"stiffness_K_derived_Pa", number_or_null(contact.stiffness_derived)},
-                        {"adhesion_energy_J_per_m2", number_or_null(contact.adhesion_energy)},
-                        {"f0_N_per_m", number_or_null(conditions.adhesion_force)},
-                        {"f0_eq12_N_per_m", number_or_null(contact.adhesion_force_derived)},
-                        {"reference_diameter_um",
-                         number_or_null(contact.reference_diameter / units::um)},
-                        {"particle_density_kg_per_m3", number_or_null(contact.particle_density)},
-                        {"adhesion_velocity_m_per_s", number_or_null(adhesion_velocity(conditions))},
-                        {"contradictions", contact.contradictions}});
+    contacts.push_back(
+        {{"dataset", a.datasets[k].id},
+         {"stiffness_K_Pa", number_or_null(contact.stiffness)},
+         {"stiffness_K_derived_Pa", number_or_null(contact.stiffness_derived)},
+         {"adhesion_energy_J_per_m2", number_or_null(contact.adhesion_energy)},
+         {"f0_N_per_m", number_or_null(conditions.adhesion_force)},
+         {"f0_eq12_N_per_m", number_or_null(contact.adhesion_force_derived)},
+         {"reference_diameter_um", number_or_null(contact.reference_diameter / units::um)},
+         {"particle_density_kg_per_m3", number_or_null(contact.particle_density)},
+         {"adhesion_velocity_m_per_s", number_or_null(adhesion_velocity(conditions))},
+         {"contradictions", contact.contradictions}});
   }
   return {{"equation", "Li, Dunn & Brach (1999), eq. 5"},
           {"adhesion_damping_phase", to_string(a.fitted.model.phase)},
@@ -221,91 +183,19 @@ Json capture_json(const Analysis& a) {
   return list;
 }
 
-Json point_json(const Analysis& a, std::size_t index) {
-  if (index >= a.data.points.size()) return nullptr;
-  const Observation& point = a.data.points[index];
-  return {{"incident_velocity", number_or_null(point.velocity)},
-          {"restitution", number_or_null(point.restitution)},
-          {"diameter_um", number_or_null(point.diameter / units::um)}};
-}
-
-std::vector<std::size_t> damping_slots(const Analysis& a, std::size_t dataset) {
-  return {a.fitted.model.slot_C_H[dataset], a.fitted.model.slot_C_A[dataset]};
-}
-
-Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
-  const TwoPointResult& two = comparison.result;
-  const bool answered = two.status != TwoPointStatus::too_few_points;
-  Json out;
-  out["status"] = to_string(two.status);
-  out["text"] = two.text;
-  out["iterations"] = two.iterations;
-  out["diameter_um"] = number_or_null(two.diameter / units::um);
-  out["low_point"] = answered ? point_json(a, two.low_point) : Json(nullptr);
-  out["high_point"] = answered ? point_json(a, two.high_point) : Json(nullptr);
-  Json parameters = Json::object();
-  for (const std::size_t s : damping_slots(a, comparison.dataset)) {
-    Json entry;
-    put(entry, "value", s < two.theta.size() ? two.theta[s] : NAN, two.text);
-    entry["unit"] = a.fitted.model.slots[s].unit;
-    put(entry, "spread", s < comparison.spread.size() ? comparison.spread[s] : NAN,
-        "no replicate has an answer");
-    parameters[a.fitted.model.slots[s].label()] = entry;
-  }
-  out["parameters"] = parameters;
-  put(out, "rmse", answered ? comparison.rmse : NAN, two.text);
-  put(out, "held_out_rmse", comparison.held_out_rmse,
-      comparison.held_out_why.empty() ? "no other diameter was predicted"
-                                      : comparison.held_out_why);
-  out["failed"] = comparison.failed;
-  return out;
-}
-
-Json full_json(const Analysis& a, const TwoPointComparison& comparison) {
-  Json out;
-  put(out, "rmse", comparison.full_rmse, "no point rebounded");
-  put(out, "held_out_rmse", comparison.full_held_out_rmse,
-      comparison.held_out_why.empty() ? "no other diameter was predicted"
-                                      : comparison.held_out_why);
-  Json spread = Json::object();
-  for (const std::size_t s : damping_slots(a, comparison.dataset)) {
-    spread[a.fitted.model.slots[s].label()] =
-        s < comparison.full_spread.size() ? number_or_null(comparison.full_spread[s])
-                                          : Json(nullptr);
-  }
-  out["spread"] = spread;
-  return out;
-}
-
-void put_two_point(Json& out, const Analysis& a) {
-  Json two = Json::object();
-  Json full = Json::object();
-  for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
-    const std::string& id = a.datasets[comparison.dataset].id;
-    two[id] = two_point_json(a, comparison);
-    full[id] = full_json(a, comparison);
-  }
-  // The contract's keys are those of the first dataset; a joint fit lists all of them beside.
-  out["two_point"] = two.empty() ? Json(nullptr) : two.begin().value();
-  if (two.empty()) out["two_point_why"] = "the comparison was not made";
-  Json first = full.empty() ? Json::object() : full.begin().value();
-  if (full.empty()) {
-    put(first, "rmse", a.fitted.rmse, "no point rebounded");
-    put(first, "held_out_rmse", NAN, "the comparison was not made");
-  }
-  out["full"] = first;
-  out["two_point_by_dataset"] = two;
-  out["full_by_dataset"] = full;
-}
-
 Json bootstrap_json(const Analysis& a) {
   const BootstrapResult& bootstrap = a.uncertainty.bootstrap;
+  Json two_point_failed = Json::object();
+  for (std::size_t k = 0; k < a.datasets.size() && k < bootstrap.two_point_failed.size(); ++k) {
+    two_point_failed[a.datasets[k].id] = bootstrap.two_point_failed[k];
+  }
   return {{"scheme", bootstrap.scheme},
           {"scheme_why", bootstrap.scheme_why},
           {"replicates", bootstrap.replicates},
           {"failed", bootstrap.failed},
           {"seed", bootstrap.seed},
-          {"two_point_failed", bootstrap.two_point_failed}};
+          {"usable", bootstrap.theta.size()},
+          {"two_point_failed", two_point_failed}};
 }
 
 Json identifiability_json(const Analysis& a) {
@@ -316,63 +206,6 @@ Json identifiability_json(const Analysis& a) {
     parameters[a.fitted.model.slots[s].label()] = static_cast<bool>(found.parameter[s]);
   }
   return {{"verdict", found.verdict}, {"text", found.text}, {"parameters", parameters}};
-}
-
-/// One row per point of every curve.
-Json curve_json(const Analysis& a) {
-  Json list = Json::array();
-  for (const RestitutionCurve& curve : a.uncertainty.curves) {
-    for (std::size_t i = 0; i < curve.velocity.size() && i < curve.restitution.size(); ++i) {
-      Json row;
-      row["dataset"] = a.datasets[curve.dataset].id;
-      row["series"] = curve.series;
-      row["diameter_um"] = number_or_null(curve.diameter / units::um);
-      row["incident_velocity"] = number_or_null(curve.velocity[i]);
-      row["restitution"] = number_or_null(curve.restitution[i]);
-      const bool banded = i < curve.lower.size() && i < curve.upper.size();
-      row["band"] = banded ? numbers({curve.lower[i], curve.upper[i]}) : Json(nullptr);
-      row["two_point"] =
-          i < curve.two_point.size() ? number_or_null(curve.two_point[i]) : Json(nullptr);
-      list.push_back(row);
-    }
-  }
-  return list;
-}
-
-Json residuals_json(const Analysis& a) {
-  const FitResult& f = a.fitted;
-  Json list = Json::array();
-  const auto at = [](const std::vector<double>& values, std::size_t i) {
-    return i < values.size() ? number_or_null(values[i]) : Json(nullptr);
-  };
-  for (std::size_t i = 0; i < a.data.points.size(); ++i) {
-    const Observation& point = a.data.points[i];
-    const Dataset& dataset = a.datasets[point.dataset];
-    list.push_back(
-        {{"dataset", dataset.id},
-         {"series", point.series < dataset.series.size() ? dataset.series[point.series] : ""},
-         {"diameter_um", number_or_null(point.diameter / units::um)},
-         {"incident_velocity", number_or_null(point.velocity)},
-         {"restitution", number_or_null(point.restitution)},
-         {"restitution_sd", a.data.sd_stated ? number_or_null(point.sd) : Json(nullptr)},
-         {"captured", point.censored},
-         {"predicted", at(f.prediction, i)},
-         {"weighted_residual", at(f.residuals, i)},
-         {"leverage", at(f.leverage, i)}});
-  }
-  return list;
-}
-
-Json starts_json(const Analysis& a) {
-  Json list = Json::array();
-  for (const StartSummary& start : a.fitted.starts) {
-    list.push_back({{"start", numbers(start.start)},
-                    {"end", numbers(start.end)},
-                    {"chi2", number_or_null(start.chi2)},
-                    {"converged", start.converged},
-                    {"message", start.message}});
-  }
-  return list;
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ struct Analysis {
 std::string version();
 
 /// The block report that `recoil fit` prints: provenance, fit statistics, variables, correlations,
-/// derived quantities, two-point comparison, warnings. At most 100 columns. An unusable fit gets the
-/// blocks that it has, and its failure.
+/// derived quantities, two-point comparison, warnings. At most 100 columns. An unusable fit gets
+/// the blocks that it has, and its failure.
 std::string text_report(const Analysis& analysis);
 
 /// `fit.json`. Indented, ends with a newline, no NaN: what has no number is null with a reason.

@@ -111,12 +111,12 @@ std::string run_gnuplot(const std::string& script, const std::string& program) {
   environment.push_back(nullptr);
 
   pid_t child = 0;
-  const int failed = posix_spawnp(&child, program.c_str(), actions.get(), nullptr, arguments,
-                                  environment.data());
+  const int failed =
+      posix_spawnp(&child, program.c_str(), actions.get(), nullptr, arguments, environment.data());
   if (failed != 0) {
-    throw ComputationError(fmt::format(
-        "gnuplot cannot be started: {} ({}); install the package gnuplot-nox",
-        std::strerror(failed), program));
+    throw ComputationError(
+        fmt::format("gnuplot cannot be started: {} ({}); install the package gnuplot-nox",
+                    std::strerror(failed), program));
   }
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
@@ -172,10 +172,12 @@ void remove_unused_definitions(std::string& text) {
 }  // namespace
 
 std::string draw_svg(const PlotScript& script, const std::string& program) {
+  std::string plain_name = script.name;  // gnuplot takes letters, digits and '_' only
+  std::replace(plain_name.begin(), plain_name.end(), '-', '_');
   const std::string head = fmt::format(
       "set terminal svg size {},{} dynamic enhanced font 'DejaVu Sans,13' name '{}' "
       "background '#ffffff'\nset encoding utf8\n",
-      script.width, script.height, script.name);
+      script.width, script.height, plain_name);
   std::string svg = run_gnuplot(head + script.commands + "\n", program);
 
   const std::size_t begin = svg.find("<g id=\"gnuplot_canvas\">");

@@ -26,6 +26,11 @@ class Blocks {
     text_ += std::string(indent, ' ') + wrap(sentence, columns, indent) + '\n';
   }
 
+  /// One of a list.
+  void entry(const std::string& words) {
+    text_ += fmt::format("    - {}\n", wrap(words, columns, margin + 2));
+  }
+
   /// A line whose blanks align it; only one that is too long is wrapped.
   void line(const std::string& content) {
     if (margin + content.size() <= columns) {
@@ -50,21 +55,23 @@ void write_provenance(Blocks& out, const Analysis& a) {
   out.item("fit", a.spec.file.empty() ? a.spec.id : a.spec.file.generic_string());
   out.item("recoil", version());
   for (const Dataset& dataset : a.datasets) {
-    out.item("dataset", fmt::format("{} ({}, {} points)", dataset.id,
-                                    to_string(dataset.provenance), dataset.points.size()));
+    out.item("dataset", fmt::format("{} ({}, {} points)", dataset.id, to_string(dataset.provenance),
+                                    dataset.points.size()));
     if (!dataset.title.empty()) out.item("  title", dataset.title);
     if (!dataset.sha256.empty()) out.item("  sha256", dataset.sha256);
   }
   for (const auto& [label, sentence] : provenances(a.datasets)) {
-    out.say(fmt::format("{}: {}", label, sentence));
+    const bool named = sentence.find(label) != std::string::npos;
+    out.say(named ? sentence : fmt::format("{}: {}", label, sentence));
   }
 }
 
 void write_model(Blocks& out, const Analysis& a) {
   const ImpactModel& model = a.fitted.model;
   out.open("Model");
-  out.say(fmt::format("Hertz contact with ring adhesion 2 pi a f0 and damping C_H, C_A "
-                      "(Li, Dunn & Brach 1999, eq. 5)"));
+  out.say(
+      fmt::format("Hertz contact with ring adhesion 2 pi a f0 and damping C_H, C_A "
+                  "(Li, Dunn & Brach 1999, eq. 5)"));
   out.item("adhesion damping",
            fmt::format("phase \"{}\", always dissipative", to_string(model.phase)));
   if (!a.spec.mechanisms.empty()) {
@@ -85,7 +92,7 @@ void write_model(Blocks& out, const Analysis& a) {
                            number(conditions.adhesion_force)));
     }
     for (const std::string& sentence : contact.contradictions) {
-      out.say("contradiction: " + sentence, margin);
+      out.entry("contradiction: " + sentence);
     }
   }
 }
@@ -167,7 +174,8 @@ void write_correlations(Blocks& out, const Analysis& a) {
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
     return std::abs(x.value) > std::abs(y.value);
   });
-  out.open("Correlations", fmt::format(" (unreported correlations are < {:.3f})", least_correlation));
+  out.open("Correlations",
+           fmt::format(" (unreported correlations are < {:.3f})", least_correlation));
   std::size_t widest = 0;
   for (const Pair& pair : pairs) widest = std::max(widest, pair.label.size());
   for (const Pair& pair : pairs) {
@@ -183,7 +191,7 @@ void write_capture(Blocks& out, const Analysis& a) {
     if (!capture.found) {
       content += "none found";
     } else {
-      content += fmt::format("V* = {:<7} m/s", number(capture.value));
+      content += fmt::format("V* = {:>7} m/s", number(capture.value));
       content += capture.interval.available()
                      ? fmt::format("   {} {}", percent(a.uncertainty.options.level),
                                    interval_text(capture.interval))
@@ -206,9 +214,9 @@ void write_two_point(Blocks& out, const Analysis& a) {
   out.open("Two Points Against All");
   for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
     const TwoPointResult& two = comparison.result;
-    out.item("dataset", fmt::format("{}, calibrated at d = {} um",
-                                    a.datasets[comparison.dataset].id,
-                                    diameter_text(two.diameter)));
+    out.item("dataset",
+             fmt::format("{}, calibrated at d = {} um", a.datasets[comparison.dataset].id,
+                         diameter_text(two.diameter)));
     out.item("status", fmt::format("{} ({} iterations): {}", words_of(to_string(two.status)),
                                    two.iterations, two.text));
     out.item("high point", point_text(a, two.high_point));
@@ -220,8 +228,8 @@ void write_two_point(Blocks& out, const Analysis& a) {
       return s < values.size() ? number(values[s]) : std::string("n/a");
     };
     row("", "two points", "all points");
-    for (const std::size_t s : {f.model.slot_C_H[comparison.dataset],
-                                f.model.slot_C_A[comparison.dataset]}) {
+    for (const std::size_t s :
+         {f.model.slot_C_H[comparison.dataset], f.model.slot_C_A[comparison.dataset]}) {
       const ParameterSlot& slot = f.model.slots[s];
       row(fmt::format("{} [{}]", slot.name, slot.unit), at(two.theta, s), at(f.theta, s));
       row("  spread under resampling", at(comparison.spread, s), at(comparison.full_spread, s));
@@ -293,7 +301,7 @@ std::string text_report(const Analysis& analysis) {
   write_starts(out, analysis);
   if (const auto warnings = all_warnings(analysis); !warnings.empty()) {
     out.open("Warnings");
-    for (const std::string& warning : warnings) out.say("- " + warning, margin);
+    for (const std::string& warning : warnings) out.entry(warning);
   }
   return out.take();
 }

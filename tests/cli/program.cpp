@@ -64,7 +64,7 @@ C_H = { initial = 3e-3, bounds = [0, 1] }
 C_A = { initial = 3e-2, bounds = [0, 10] }
 f0 = { free = false }
 [uncertainty]
-replicates = 19
+replicates = 39
 level = 0.95
 seed = 1
 )";

@@ -110,15 +110,19 @@ TEST(Layering, HeadersAreGuarded) {
   }
 }
 
-/// The names ending in .cpp in the CMakeLists.txt of `folder` and, for the files of subfolders
-/// without one of their own, in those above.
+/// The sources that the CMakeLists.txt of `folder` names: NAME.cpp, or recoil_fuzz(NAME).
 std::set<std::string> listed_sources(const fs::path& folder) {
   static const std::regex name(R"re([A-Za-z0-9_./-]+\.cpp)re");
+  static const std::regex fuzz_target(R"re(recoil_fuzz\(([a-z_]+)\))re");
   std::set<std::string> names;
   const std::string text = tree::text_of(folder / "CMakeLists.txt");
   for (auto it = std::sregex_iterator(text.begin(), text.end(), name); it != std::sregex_iterator();
        ++it) {
     names.insert((folder / it->str()).lexically_normal().string());
+  }
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), fuzz_target);
+       it != std::sregex_iterator(); ++it) {
+    names.insert((folder / ((*it)[1].str() + ".cpp")).lexically_normal().string());
   }
   return names;
 }

@@ -82,7 +82,8 @@ TEST(Readme, TheTourRunsAsPrinted) {
   EXPECT_EQ(files, 3);
   EXPECT_EQ(commands, 4);
   EXPECT_TRUE(fs::is_regular_file(folder / "my-result/fit.json"));
-  EXPECT_TRUE(fs::is_regular_file(folder / "reports/index.html"));
+  EXPECT_TRUE(fs::is_regular_file(folder / "my-pages/my-spheres.html"));
+  EXPECT_TRUE(fs::is_regular_file(folder / "my-pages/index.html"));
   if (!HasFailure()) fs::remove_all(folder);
 }
 

@@ -119,6 +119,19 @@ TEST(FastSolver, WithoutAdhesion) {
   }
 }
 
+TEST(FastSolver, KnowsTheCreepIntoTheWellWithoutFollowingIt) {
+  for (const double g : {5.0, 21.0, 30.0}) {
+    for (const double w : {0.5, 1.0, 10.0}) {
+      const ImpactGroups groups{0.0, std::pow(w, -0.8), g * w};
+      const ImpactResult fast = simulate_impact_fast(groups, {});
+      const ImpactResult reference = simulate_impact(groups, {});
+      ASSERT_EQ(reference.outcome, ImpactOutcome::captured);
+      EXPECT_EQ(fast.outcome, ImpactOutcome::captured);
+      EXPECT_NEAR(fast.restitution_squared, reference.restitution_squared, 1e-9 / (w * w));
+    }
+  }
+}
+
 TEST(FastSolver, HandsOverInsteadOfGuessing) {
   const long before = reference_handovers();
   const ImpactResult deep = simulate_impact_fast({0.0, 1e4, 1e-7}, {});

@@ -69,6 +69,18 @@ TEST(Outcome, CaptureFailureAndStepLimitAreThreeThings) {
   }
 }
 
+TEST(Outcome, CreepIntoTheWellEndsOnItsFloor) {
+  // So much damping that the sphere never turns again: the reference follows it until it settles.
+  for (const double g : {3.0, 8.0}) {
+    ImpactOptions options;
+    options.gradient = true;
+    const ImpactResult impact = simulate_impact({0.0, 1.0, g}, options);
+    ASSERT_EQ(impact.outcome, ImpactOutcome::captured) << "g = " << g;
+    EXPECT_NEAR(impact.restitution_squared, -8.0 / 15.0, 1e-9);
+    EXPECT_NEAR(impact.gradient[1], -4.0 / 3.0, 1e-4);  // d/dbeta of -(8/15) beta^(5/2)
+  }
+}
+
 TEST(Outcome, BothPhasesLoseTwiceAsMuchAtFirstOrder) {
   ImpactOptions options;
   const double one = 1.0 - simulate_impact({0.0, 0.3, 1e-4}, options).restitution_squared;

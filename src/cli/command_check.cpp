@@ -1,0 +1,21 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "data/dataset.hpp"
+
+namespace recoil {
+
+void add_check(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("check", "validate a dataset folder and show what it holds");
+  command->footer(
+      "Reads datapackage.json and the points that it names, converts the units and prints what was\n"
+      "understood. A mistake is one line: file:line:column: problem (why it is one) suggestion.\n\n"
+      "  recoil check datasets/dahneke1975-quartz");
+  const auto folder = std::make_shared<std::string>();
+  command->add_option("DIR", *folder, "the dataset's folder")->required();
+  command->callback([folder] { fmt::print("{}", describe(load_dataset(*folder))); });
+}
+
+}  // namespace recoil

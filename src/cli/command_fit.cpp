@@ -1,0 +1,33 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/analysis.hpp"
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "core/files.hpp"
+
+namespace recoil {
+
+void add_fit(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("fit", "fit all points, with intervals and the two-point comparison");
+  command->footer(
+      "Prints the report and writes DIR/fit.json. Every digit depends on the fit file, the data and\n"
+      "the seed only, at any number of threads.\n\n"
+      "  recoil fit fits/dahneke1975-quartz.toml --out results");
+  const auto options = std::make_shared<AnalysisFlags>();
+  const auto out = std::make_shared<std::string>();
+  const auto fit_file = std::make_shared<std::string>();
+  command->add_option("FIT", *fit_file, "a fit file")->required();
+  command->add_option("--out", *out, "folder for fit.json (default: nothing is written)");
+  add_analysis_flags(*command, *options);
+  command->callback([=] {
+    const Analysis analysis = analyse(*fit_file, options->resolved());
+    if (!out->empty()) {
+      write_whole_file(std::filesystem::path(*out) / "fit.json", json_report(analysis));
+    }
+    fmt::print("{}", text_report(analysis));
+  });
+}
+
+}  // namespace recoil

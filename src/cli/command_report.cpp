@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/analysis.hpp"
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReportOptions {
+  std::vector<std::string> fits;
+  std::string out = "reports";
+  bool force = false;
+  AnalysisFlags analysis;
+};
+
+std::vector<fs::path> fits_to_report(const ReportOptions& options) {
+  std::vector<fs::path> files(options.fits.begin(), options.fits.end());
+  if (!files.empty()) return files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator("fits", failed)) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  }
+  if (files.empty()) {
+    throw InputError({"fits"}, "no fit files here", "without FIT every fits/*.toml is reported",
+                     "run it from the project's folder, or name the fits");
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Changes whenever the page could: program, fit file, data, options.
+std::string fingerprint(const fs::path& fit_file, const AnalysisFlags& flags) {
+  const FitSpec spec = load_fit(fit_file);
+  std::string text = spec.sha256;
+  for (const Dataset& dataset : load_datasets(spec)) text += dataset.sha256;
+  text += fmt::format("|{}|{}|{}|", flags.replicates, flags.seed, flags.solver);
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  if (!failed) {
+    text += fmt::format("{}|{}", fs::file_size(program, failed),
+                        fs::last_write_time(program, failed).time_since_epoch().count());
+  }
+  return sha256_hex(text) + "\n";
+}
+
+bool is_current(const fs::path& stamp, const std::string& expected,
+                const std::vector<fs::path>& files) {
+  const bool all_there =
+      std::all_of(files.begin(), files.end(), [](const fs::path& f) { return fs::exists(f); });
+  return all_there && fs::exists(stamp) && read_text_file(stamp) == expected;
+}
+
+void report(const ReportOptions& options) {
+  const fs::path out = options.out;
+  std::vector<IndexEntry> entries;
+  for (const fs::path& fit_file : fits_to_report(options)) {
+    const std::string id = fit_file.stem().string();
+    const fs::path page = out / (id + ".html");
+    const fs::path json = out / id / "fit.json";
+    const fs::path text = out / id / "fit.txt";
+    const fs::path picture = out / id / "picture.svg";
+    const fs::path stamp = out / id / "inputs.sha256";
+    const std::string expected = fingerprint(fit_file, options.analysis);
+    if (!options.force && is_current(stamp, expected, {page, json, text, picture})) {
+      fmt::print("{}: current\n", page.string());
+    } else {
+      const Analysis analysis = analyse(fit_file, options.analysis.resolved());
+      write_whole_file(page, html_report(analysis));
+      write_whole_file(text, text_report(analysis));
+      write_whole_file(picture, thumbnail(analysis));
+      write_whole_file(json, json_report(analysis));
+      write_whole_file(stamp, expected);
+      fmt::print("{}: written\n", page.string());
+    }
+    std::fflush(stdout);
+    entries.push_back({id + ".html", read_text_file(json), read_text_file(picture)});
+  }
+  write_whole_file(out / "index.html", html_index(entries));
+  fmt::print("{}: written\n", (out / "index.html").string());
+}
+
+}  // namespace
+
+void add_report(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("report", "fit and write pages for every fit, with an index");
+  command->footer(
+      "One self-contained page per fit and index.html. Pages whose inputs have not changed are kept.\n\n"
+      "  recoil report                      every fits/*.toml into reports/\n"
+      "  recoil report my.toml --out pages  one fit");
+  const auto options = std::make_shared<ReportOptions>();
+  command->add_option("FIT", options->fits, "fit files (default: fits/*.toml)");
+  command->add_option("--out", options->out, "folder for the pages")->capture_default_str();
+  command->add_flag("--force", options->force, "write every page anew");
+  add_analysis_flags(*command, options->analysis);
+  command->callback([options] { report(*options); });
+}
+
+}  // namespace recoil

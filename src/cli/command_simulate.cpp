@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/analysis.hpp"
+#include "cli/commands.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/units.hpp"
+
+namespace recoil {
+namespace {
+
+struct SimulateOptions {
+  std::string fit_file;
+  double velocity = 0.0;  // [m/s]
+  double diameter = 0.0;  // [um]
+  std::string dataset;
+  std::string parameters;
+  std::string history;
+};
+
+/// Replaces the fit file's initial values by the values of a fit.json.
+void take_fitted_values(ImpactModel& model, const std::string& path) {
+  const std::string text = read_text_file(path);
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("parameters")) {
+    throw InputError({path}, "no fitted parameters here", "--parameters reads a fit.json",
+                     "make one with: recoil fit FIT --out DIR");
+  }
+  for (ParameterSlot& slot : model.slots) {
+    const auto found = json["parameters"].find(slot.label());
+    if (found == json["parameters"].end() || !found->contains("value") ||
+        !(*found)["value"].is_number()) {
+      throw InputError({path}, fmt::format("parameter {} is missing", slot.label()),
+                       "it belongs to another fit", "use the fit.json of this fit file");
+    }
+    slot.initial = (*found)["value"].get<double>();
+  }
+}
+
+std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id) {
+  if (id.empty()) return 0;
+  std::vector<std::string> known;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    if (datasets[d].id == id) return d;
+    known.push_back(datasets[d].id);
+  }
+  const std::string near = nearest_word(id, known);
+  throw InputError({}, fmt::format("--dataset {}: not a dataset of this fit", id),
+                   "it has to be one of those the fit names",
+                   near.empty() ? "leave it out for the first" : "did you mean " + near + "?");
+}
+
+std::string history_csv(const std::vector<ImpactMoment>& history, const ImpactScales& scales) {
+  std::string csv =
+      "time_ns,penetration_nm,approach_velocity_m_s,hertz_force_uN,hertz_damping_force_uN,"
+      "adhesion_force_uN,adhesion_damping_force_uN\n";
+  constexpr double uN = 1e-6;
+  for (const ImpactMoment& m : history) {
+    csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+                       m.time * scales.time / units::ns, m.penetration * scales.length / units::nm,
+                       m.approach * scales.velocity, m.hertz * scales.force / uN,
+                       m.hertz_damping * scales.force / uN, m.adhesion * scales.force / uN,
+                       m.adhesion_damping * scales.force / uN);
+  }
+  return csv;
+}
+
+void print_impact(const ImpactConditions& c, const ImpactResult& impact, const Dataset& dataset,
+                  const ContactProperties& contact, AdhesionDampingPhase phase) {
+  const ImpactScales scales = impact_scales(c);
+  const ImpactGroups groups = impact_groups(c);
+  const double incident = 0.5 * scales.energy;
+  const double e = std::sqrt(std::max(impact.restitution_squared, 0.0));
+  const bool captured = impact.outcome == ImpactOutcome::captured;
+  fmt::print("restitution: {:.8f}\n", captured ? 0.0 : e);
+  fmt::print("outcome: {}\n", to_string(impact.outcome));
+  fmt::print("rebound velocity: {:.6g} m/s\n", captured ? 0.0 : e * c.velocity);
+  fmt::print("contact time: {:.6g} ns{}\n", impact.contact_time * scales.time / units::ns,
+             captured ? " (until the first outer turning point)" : "");
+  fmt::print("largest penetration: {:.6g} nm\n", impact.penetration_max * scales.length / units::nm);
+  fmt::print("largest push: {:.6g} uN\n", impact.force_compression * scales.force * 1e6);
+  fmt::print("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
+  fmt::print("energy budget, of {:.6g} J incident:\n", incident);
+  const auto share = [&](const char* name, double energy) {
+    fmt::print("  {:<28}{:>10.5f} %\n", name, 200.0 * energy);
+  };
+  share("rebound", captured ? 0.0 : impact.energy.kinetic);
+  share("Hertz damping (C_H)", impact.energy.hertz_loss);
+  share("adhesion damping (C_A)", impact.energy.adhesion_loss);
+  if (captured) share("left in the contact", impact.energy.kinetic + impact.energy.potential);
+  fmt::print("  {:<28}{:>10.1e}\n", "audit (should be 0)", impact.energy.audit());
+  fmt::print("groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)\n",
+             groups.alpha, groups.gamma,
+             groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY, adhesion_velocity(c));
+  fmt::print("model: K = {:.6g} GPa, f0 = {:.6g} N/m at this diameter, adhesion damping: {}\n",
+             c.stiffness / units::GPa, c.adhesion_force, to_string(phase));
+  for (const std::string& line : contact.contradictions) fmt::print("note: {}\n", line);
+  fmt::print("dataset: {} ({}): {}\n", dataset.id, to_string(dataset.provenance),
+             provenance_sentence(dataset.provenance));
+}
+
+void simulate(const SimulateOptions& options) {
+  const FitSpec spec = load_fit(options.fit_file);
+  const std::vector<Dataset> datasets = load_datasets(spec);
+  ImpactModel model = make_model(spec, datasets);
+  if (!options.parameters.empty()) take_fitted_values(model, options.parameters);
+  const std::size_t d = choose_dataset(datasets, options.dataset);
+  const ImpactConditions conditions =
+      conditions_at(model, model.initial(), d, options.diameter * units::um, options.velocity);
+  ImpactOptions impact_options;
+  impact_options.phase = model.phase;
+  impact_options.budget = true;
+  std::vector<ImpactMoment> history;
+  const ImpactResult impact = simulate_impact(impact_groups(conditions), impact_options, &history);
+  if (!impact.usable()) {
+    throw ComputationError(fmt::format("the impact at V = {:.6g} m/s, d = {:.6g} um: {}",
+                                       options.velocity, options.diameter,
+                                       to_string(impact.outcome)));
+  }
+  if (!options.history.empty()) {
+    write_whole_file(options.history, history_csv(history, impact_scales(conditions)));
+  }
+  print_impact(conditions, impact, datasets[d], model.contacts[d], model.phase);
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("simulate", "one impact, with its energy budget and force history");
+  command->footer(
+      "Uses the initial values of the fit file, or those of a fit.json with --parameters.\n\n"
+      "  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 "
+      "--history forces.csv");
+  const auto options = std::make_shared<SimulateOptions>();
+  command->add_option("FIT", options->fit_file, "a fit file")->required();
+  command->add_option("--velocity", options->velocity, "incident velocity [m/s]")
+      ->required()
+      ->check(CLI::Range(1e-6, 1e6).description("a positive velocity"));
+  command->add_option("--diameter", options->diameter, "sphere diameter [um]")
+      ->required()
+      ->check(CLI::Range(1e-3, 1e6).description("a positive diameter"));
+  command->add_option("--dataset", options->dataset, "which dataset of a joint fit (its id)");
+  command->add_option("--parameters", options->parameters, "take the values from this fit.json");
+  command->add_option("--history", options->history, "write the forces against time as CSV");
+  command->callback([options] { simulate(*options); });
+}
+
+}  // namespace recoil

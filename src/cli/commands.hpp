@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace recoil {
+
+/// Each adds one command to the program: its options, its help and what it does. Commands throw
+/// InputError (exit status 2) or ComputationError (exit status 3).
+void add_check(CLI::App& program);
+void add_simulate(CLI::App& program);
+void add_fit(CLI::App& program);
+void add_coverage(CLI::App& program);
+void add_reconstruct(CLI::App& program);
+void add_report(CLI::App& program);
+
+}  // namespace recoil

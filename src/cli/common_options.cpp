@@ -1,0 +1,27 @@
+#include "cli/common_options.hpp"
+
+#include <limits>
+
+namespace recoil {
+
+AnalysisOptions AnalysisFlags::resolved() const {
+  AnalysisOptions options;
+  if (replicates >= 0) options.replicates = replicates;
+  if (seed >= 0) options.seed = static_cast<std::uint64_t>(seed);
+  options.threads = threads;
+  options.solver = solver == "reference" ? Solver::reference : Solver::fast;
+  return options;
+}
+
+void add_analysis_flags(CLI::App& command, AnalysisFlags& flags) {
+  command.add_option("--replicates", flags.replicates, "bootstrap replicates (default: the fit file's)")
+      ->check(CLI::Range(39, 1000000));
+  command.add_option("--seed", flags.seed, "fixes every digit (default: the fit file's)")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
+  command.add_option("--threads", flags.threads, "threads to use (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  command.add_option("--solver", flags.solver, "fast (default) or reference (CVODES)")
+      ->check(CLI::IsMember({"fast", "reference"}));
+}
+
+}  // namespace recoil

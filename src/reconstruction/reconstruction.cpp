@@ -1,0 +1,138 @@
+#include "reconstruction/reconstruction.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/files.hpp"
+#include "reconstruction/plan.hpp"
+
+namespace recoil {
+namespace {
+
+bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); }
+
+void require_same_design(const Dataset& original, const std::vector<GeneratedPoint>& points,
+                         const Recipe& recipe) {
+  const Location where{(original.folder / "points.csv").string()};
+  const std::string suggestion = fmt::format("run: recoil reconstruct {}", recipe.folder.string());
+  if (original.points.size() != points.size()) {
+    throw InputError(where, fmt::format("{} points", original.points.size()),
+                     fmt::format("the recipe makes {}", points.size()), suggestion);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ImpactPoint& there = original.points[i];
+    if (same(there.diameter, points[i].diameter) &&
+        same(there.incident_velocity, points[i].velocity)) {
+      continue;
+    }
+    throw InputError({where.file, there.line, 0}, "another diameter or velocity",
+                     "the recipe makes a different design", suggestion);
+  }
+}
+
+/// The first line that differs, for people.
+std::string first_difference(const std::string& there, const std::string& made) {
+  std::istringstream a(there);
+  std::istringstream b(made);
+  for (int line = 1;; ++line) {
+    std::string left;
+    std::string right;
+    const bool more_left = static_cast<bool>(std::getline(a, left));
+    const bool more_right = static_cast<bool>(std::getline(b, right));
+    if (!more_left && !more_right) return "the line ends differ";
+    if (left != right || more_left != more_right) {
+      return fmt::format("line {}: the file has '{}', the recipe makes '{}'", line,
+                         more_left ? left : "nothing", more_right ? right : "nothing");
+    }
+  }
+}
+
+}  // namespace
+
+std::string generate_points(const Recipe& recipe, std::uint64_t seed) {
+  return to_csv(recipe, draw_points(recipe, seed));
+}
+
+Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t seed) {
+  const std::vector<GeneratedPoint> points = draw_points(recipe, seed);
+  require_same_design(original, points, recipe);
+  Dataset fresh = original;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    fresh.points[i].restitution = points[i].restitution;
+    fresh.points[i].restitution_sd = points[i].restitution_sd;
+    fresh.points[i].events = points[i].events;
+    fresh.points[i].captured = 0;
+  }
+  fresh.sha256 = sha256_hex(original.sha256 + to_csv(recipe, points));
+  return fresh;
+}
+
+std::map<std::string, double> true_parameters(const Recipe& recipe) {
+  const auto* seed = std::get_if<SeedTruth>(&recipe.truth);
+  if (seed == nullptr) return {};
+  return {{"C_H", seed->C_H},
+          {"C_A", seed->C_A},
+          {"f0", seed->adhesion_force},
+          {"reference_diameter", seed->reference_diameter}};
+}
+
+bool ReconstructionResult::good() const {
+  return identical &&
+         std::all_of(facts.begin(), facts.end(), [](const FactCheck& f) { return f.holds; });
+}
+
+ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only) {
+  const Recipe recipe = load_recipe(folder);
+  const std::vector<GeneratedPoint> points = draw_points(recipe, recipe.seed);
+  const std::string made = to_csv(recipe, points);
+  const std::filesystem::path file = folder / "points.csv";
+
+  ReconstructionResult result;
+  result.id = recipe.id;
+  result.folder = folder;
+  result.seed = recipe.seed;
+  result.points = points.size();
+  result.assumptions = recipe.assumptions;
+  if (check_only) {
+    const std::string there = read_text_file(file);
+    result.identical = there == made;
+    if (!result.identical) result.difference = first_difference(there, made);
+  } else {
+    write_whole_file(file, made);
+    result.written = true;
+    result.identical = true;
+  }
+  result.facts = check_facts(recipe, points);
+  return result;
+}
+
+std::string describe(const ReconstructionResult& result) {
+  std::string text = fmt::format("{}: a reconstruction, {} points, seed {}\n", result.id,
+                                 result.points, result.seed);
+  text += "  No point of it was measured: a committed recipe makes them from the facts below.\n";
+  if (result.written) {
+    text += "  points.csv: written\n";
+  } else if (result.identical) {
+    text += "  points.csv: byte for byte what the recipe makes\n";
+  } else {
+    text += fmt::format("  points.csv: NOT what the recipe makes ({})\n", result.difference);
+  }
+  text += "\nFacts\n";
+  std::size_t held = 0;
+  for (const FactCheck& fact : result.facts) {
+    held += fact.holds ? 1 : 0;
+    text += fmt::format("  {}  {} [{}]\n         {}: {}\n", fact.holds ? "holds" : "FAILS",
+                        fact.statement, fact.source, fact.id, fact.found);
+  }
+  if (!result.assumptions.empty()) text += "\nAssumptions (not published, chosen here)\n";
+  for (const std::string& assumption : result.assumptions) {
+    text += fmt::format("  - {}\n", assumption);
+  }
+  text += fmt::format("\n{} of {} facts hold.\n", held, result.facts.size());
+  return text;
+}
+
+}  // namespace recoil

@@ -1,0 +1,114 @@
+#include "report/html_style.hpp"
+
+namespace recoil {
+
+std::string_view style_sheet() {
+  return R"css(:root {
+  --paper: #ffffff; --ground: #f6f7f8; --ink: #1d2329; --quiet: #59636e; --line: #d9dee3;
+  --accent: #0b5c8f; --note: #fff6e0; --note-line: #c98a00; --card: #ffffff;
+}
+@media (prefers-color-scheme: dark) {
+  :root {
+    --paper: #171b20; --ground: #101317; --ink: #e6e9ec; --quiet: #a3adb8; --line: #323a43;
+    --accent: #7cc4f0; --note: #2d2613; --note-line: #d9a53a; --card: #1d2228;
+  }
+}
+* { box-sizing: border-box; }
+html { -webkit-text-size-adjust: 100%; }
+body {
+  margin: 0 auto; padding: 1.5rem 1rem 3rem; max-width: 68rem; background: var(--ground);
+  color: var(--ink); overflow-wrap: anywhere;
+  font: 1rem/1.55 system-ui, -apple-system, "Segoe UI", "DejaVu Sans", Helvetica, Arial, sans-serif;
+}
+a { color: var(--accent); }
+h1 { font-size: 1.75rem; line-height: 1.25; margin: 0 0 .25rem; letter-spacing: -.01em; }
+h2 { font-size: 1.25rem; line-height: 1.3; margin: 2.5rem 0 .75rem; padding-top: .75rem;
+  border-top: 1px solid var(--line); }
+h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
+p, ul, dl { max-width: 48rem; }
+.subtitle { color: var(--quiet); margin: 0 0 1rem; }
+.summary { font-size: 1.08rem; }
+sub { line-height: 0; }
+code { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: .86em; }
+nav { font-size: .92rem; margin: .75rem 0; }
+nav a { margin-right: 1rem; white-space: nowrap; }
+.provenance { display: flex; flex-wrap: wrap; gap: .25rem .9rem; align-items: baseline;
+  border-left: .3rem solid var(--accent); background: var(--card); padding: .7rem 1rem;
+  margin: 1rem 0; }
+.provenance span { flex: 1 1 22rem; }
+.provenance strong { text-transform: uppercase; letter-spacing: .06em; font-size: .85rem; }
+.provenance.reconstruction, .provenance.synthetic {
+  background: var(--note); border-left-color: var(--note-line); }
+.warnings li { margin: .3rem 0; }
+.figures { display: grid; gap: 1rem;
+  grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); }
+.figures.single { max-width: 33.5rem; }
+figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: .4rem;
+  overflow: hidden; break-inside: avoid; }
+.picture { background: #ffffff; padding: .4rem; }
+.picture svg { display: block; width: 100%; height: auto; }
+figcaption { padding: .5rem .9rem .8rem; font-size: .88rem; line-height: 1.45;
+  color: var(--quiet); border-top: 1px solid var(--line); }
+.wide { width: fit-content; max-width: 100%; overflow-x: auto; margin: .75rem 0 1.25rem; border: 1px solid var(--line);
+  border-radius: .4rem; background: var(--card); }
+table { border-collapse: collapse; width: 100%; font-size: .93rem;
+  font-variant-numeric: tabular-nums; overflow-wrap: normal; }
+caption { text-align: left; padding: .6rem .8rem; color: var(--quiet); }
+th, td { padding: .42rem .8rem; text-align: right; border-top: 1px solid var(--line);
+  vertical-align: top; white-space: nowrap; }
+thead th { border-top: 0; color: var(--quiet); font-weight: 600; }
+tbody th { font-weight: 600; }
+th:first-child { text-align: left; }
+td.words, th.words { text-align: left; }
+td.words { text-align: left; white-space: normal; min-width: 16rem; }
+table.compact { font-size: .8rem; }
+table.compact th, table.compact td { padding: .18rem .7rem; font-weight: 400; }
+dt { font-weight: 600; margin-top: .7rem; }
+dd { margin: .1rem 0 0 1.2rem; }
+details summary { cursor: pointer; color: var(--accent); margin: .5rem 0; }
+footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line);
+  color: var(--quiet); font-size: .85rem; }
+.cards { display: grid; gap: 1.25rem; margin-top: 1.5rem;
+  grid-template-columns: repeat(auto-fill, minmax(min(100%, 22rem), 1fr)); }
+.card { background: var(--card); border: 1px solid var(--line); border-radius: .5rem;
+  overflow: hidden; display: flex; flex-direction: column; break-inside: avoid; }
+.card h2 { border: 0; margin: 0; padding: .9rem 1rem 0; font-size: 1.12rem; }
+.card .subtitle { padding: 0 1rem; margin: .15rem 0 .5rem; font-size: .9rem; }
+.card .provenance { margin: 0; font-size: .86rem; line-height: 1.4; }
+.card .wide { width: 100%; border: 0; margin: 0; border-radius: 0; }
+.card table { font-size: .86rem; }
+.card tbody th { white-space: normal; }
+.card th, .card td { padding: .35rem .6rem; }
+.card .more { margin: auto 0 0; padding: .7rem 1rem; border-top: 1px solid var(--line); }
+@media (max-width: 34rem) {
+  body { padding: 1rem .75rem 2rem; }
+  h1 { font-size: 1.4rem; }
+  th, td { padding: .38rem .6rem; }
+}
+@media print {
+  :root { --paper: #fff; --ground: #fff; --ink: #000; --quiet: #333; --line: #bbb;
+    --accent: #000; --note: #fff; --note-line: #000; --card: #fff; }
+  @page { margin: 15mm; }
+  body { max-width: none; padding: 0; font-size: 9.5pt; }
+  nav, .more { display: none; }
+  h1 { font-size: 17pt; }
+  h2 { font-size: 12.5pt; margin-top: 1.4rem; break-after: avoid; }
+  h3 { break-after: avoid; }
+  .summary { font-size: 10.5pt; }
+  .figures { grid-template-columns: 1fr 1fr; gap: .5rem; }
+  .figures.single { max-width: none; }
+  .cards { grid-template-columns: 1fr 1fr; }
+  figcaption { font-size: 8pt; }
+  .wide { overflow: visible; }
+  table { font-size: 8pt; }
+  th, td { padding: .15rem .4rem; white-space: normal; }
+  td.words, th.words { text-align: left; }
+td.words { min-width: 0; }
+  tr { break-inside: avoid; }
+  thead { display: table-header-group; }
+  a { color: inherit; text-decoration: none; }
+}
+)css";
+}
+
+}  // namespace recoil

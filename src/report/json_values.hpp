@@ -1,0 +1,43 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/report.hpp"
+
+/// The parts of fit.json that are shared by its writers.
+namespace recoil {
+
+/// Keys keep the order in which they are written, so that two files compare line by line.
+using Json = nlohmann::ordered_json;
+
+/// A number, or null: JSON has no NaN and no infinity.
+Json number_or_null(double value);
+
+/// `object[key]` and, when there is no number, the reason as `object[key_why]`.
+void put(Json& object, const std::string& key, std::optional<double> value, const std::string& why);
+
+/// [lower, upper] or null.
+Json interval_json(const Interval& interval);
+
+/// Why `interval_json` gave null.
+std::string why_none(const Interval& interval);
+
+Json numbers_json(const std::vector<double>& values);
+
+/// `two_point` and `full` of the contract (those of the first dataset), and the same for every
+/// dataset under `two_point_by_dataset` and `full_by_dataset`.
+void put_two_point(Json& out, const Analysis& analysis);
+
+/// `curve`: one row per point of every curve.
+Json curve_json(const Analysis& analysis);
+
+/// `residuals`: one row per data point.
+Json residuals_json(const Analysis& analysis);
+
+/// `starts`: where the minimisation began and ended.
+Json starts_json(const Analysis& analysis);
+
+}  // namespace recoil

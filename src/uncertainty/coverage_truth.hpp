@@ -1,0 +1,17 @@
+#pragma once
+
+#include "uncertainty/coverage.hpp"
+
+namespace recoil {
+
+/// The truth of a coverage study of `spec`.
+///
+/// Where every dataset is a reconstruction whose recipe uses the model of the fit, it is the
+/// recipe's: its parameters, its simulator and its noise, with another seed for every data set.
+/// Otherwise the fit's own estimate becomes the truth; the points are simulated at it by the
+/// independent simulator of the reconstructions, with the noise that the points state.
+/// @throws ComputationError when that fit has no usable answer.
+CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                             std::uint64_t seed);
+
+}  // namespace recoil

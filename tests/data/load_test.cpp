@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "data/dataset.hpp"
+#include "dataset_folder.hpp"
+
+namespace recoil {
+namespace {
+
+using example::changed;
+using example::DatasetFolder;
+
+TEST(LoadDataset, ConvertsEveryColumnToSi) {
+  const DatasetFolder folder;
+  const Dataset dataset = load_dataset(folder.path());
+  ASSERT_EQ(dataset.points.size(), 4U);
+  const ImpactPoint& first = dataset.points[0];
+  EXPECT_DOUBLE_EQ(first.diameter, 1.27e-6);
+  EXPECT_DOUBLE_EQ(first.incident_velocity, 2.5);
+  EXPECT_DOUBLE_EQ(first.restitution, 0.71);
+  EXPECT_DOUBLE_EQ(first.restitution_sd.value(), 0.015);
+  EXPECT_DOUBLE_EQ(first.velocity_sd.value(), 0.04);
+  EXPECT_EQ(first.events, 40);
+  EXPECT_EQ(first.captured, 3);
+  EXPECT_FALSE(first.all_captured());
+  EXPECT_EQ(first.line, 2);
+}
+
+TEST(LoadDataset, KnowsCapturedPointsAndDefaults) {
+  const DatasetFolder folder;
+  const Dataset dataset = load_dataset(folder.path());
+  EXPECT_TRUE(dataset.points[1].all_captured());
+  EXPECT_EQ(dataset.points[1].restitution, 0.0);
+  EXPECT_FALSE(dataset.points[1].restitution_sd.has_value());
+  EXPECT_EQ(dataset.points[2].events, 1);
+  EXPECT_EQ(dataset.points[2].captured, 0);
+  EXPECT_EQ(dataset.series, (std::vector<std::string>{"small", "large, coated"}));
+  EXPECT_EQ(dataset.points[2].series, 1U);
+  EXPECT_EQ(dataset.points[3].series, 0U);
+  EXPECT_TRUE(dataset.warnings.empty());
+}
+
+TEST(LoadDataset, ReadsThePackage) {
+  const DatasetFolder folder;
+  const Dataset dataset = load_dataset(folder.path());
+  EXPECT_EQ(dataset.id, "example-quartz");
+  EXPECT_EQ(dataset.title, "Spheres on quartz");
+  EXPECT_EQ(dataset.provenance, Provenance::measured);
+  EXPECT_EQ(dataset.sources, (std::vector<std::string>{"A paper, https://example.org/paper"}));
+  EXPECT_EQ(dataset.system.particle.name, "polystyrene");
+  EXPECT_EQ(dataset.system.particle.density, 1050.0);
+  EXPECT_EQ(dataset.system.surface.youngs_modulus, 73e9);
+  EXPECT_EQ(dataset.system.surface.poisson_ratio, 0.17);
+  EXPECT_FALSE(dataset.system.particle.surface_energy.has_value());
+  EXPECT_FALSE(dataset.system.stiffness_K.has_value());
+  EXPECT_EQ(dataset.columns.size(), 8U);
+  EXPECT_EQ(dataset.columns[4].unit, "%");
+  EXPECT_EQ(dataset.folder, folder.path());
+}
+
+TEST(LoadDataset, ReadsTheOverrides) {
+  const DatasetFolder folder(
+      changed(example::package, "\"provenance\": \"measured\",",
+              "\"provenance\": \"digitised\", \"stiffness_K\": 3.745e9, \"adhesion_energy\": 0,\n"
+              "\"adhesion_force_f0\": 5.74, \"reference_diameter\": 1.28e-6,"));
+  const Dataset dataset = load_dataset(folder.path());
+  EXPECT_EQ(dataset.provenance, Provenance::digitised);
+  EXPECT_EQ(dataset.system.stiffness_K.value(), 3.745e9);
+  EXPECT_EQ(dataset.system.adhesion_energy.value(), 0.0);
+  EXPECT_EQ(dataset.system.adhesion_force_f0.value(), 5.74);
+  EXPECT_EQ(dataset.system.reference_diameter.value(), 1.28e-6);
+}
+
+TEST(LoadDataset, DividesReboundByIncidentVelocity) {
+  const DatasetFolder folder(
+      changed(example::package, R"("name": "restitution", "type": "number", "unit": "1")",
+              R"("name": "rebound_velocity", "type": "number", "unit": "cm/s")"),
+      "series,diameter,incident_velocity,rebound_velocity,restitution_sd,velocity_sd,events,"
+      "captured\na,4.9,2.5,200,2,,,\na,4.9,1,0,,,3,3\na,4.9,1,,,,3,3\n");
+  const Dataset dataset = load_dataset(folder.path());
+  EXPECT_DOUBLE_EQ(dataset.points[0].restitution, 0.8);
+  EXPECT_DOUBLE_EQ(dataset.points[0].restitution_sd.value(), 0.02);
+  EXPECT_TRUE(dataset.points[1].all_captured());
+  EXPECT_EQ(dataset.points[1].restitution, 0.0);
+  EXPECT_TRUE(dataset.points[2].all_captured());
+}
+
+TEST(LoadDataset, TheOrderOfColumnsAndLineEndingsDoNotMatter) {
+  const DatasetFolder folder(
+      example::package,
+      "captured,events,velocity_sd,restitution_sd,restitution,incident_velocity,diameter,series\r\n"
+      "\r\n3 , 40,4,1.5, 0.71,2.5,\t1.27,\" small \"\r\n");
+  const Dataset dataset = load_dataset(folder.path());
+  ASSERT_EQ(dataset.points.size(), 1U);
+  EXPECT_EQ(dataset.series[0], " small ") << "quoted blanks belong to the name";
+  EXPECT_DOUBLE_EQ(dataset.points[0].diameter, 1.27e-6);
+  EXPECT_EQ(dataset.points[0].captured, 3);
+  EXPECT_EQ(dataset.points[0].line, 3);
+}
+
+TEST(LoadDataset, HonoursFrictionlessDelimiterAndMissingValues) {
+  const DatasetFolder folder(
+      changed(example::package, "\"path\": \"points.csv\",",
+              "\"path\": \"points.csv\", \"dialect\": { \"delimiter\": \";\" },"),
+      "series;diameter;incident_velocity;restitution;restitution_sd;velocity_sd;events;"
+      "captured\n"
+      "a;1.27;2.5;0.71;;;;\n");
+  EXPECT_EQ(load_dataset(folder.path()).points.size(), 1U);
+
+  const DatasetFolder missing(changed(example::package, "\"schema\": {",
+                                      "\"schema\": { \"missingValues\": [\"\", \"NA\"],"),
+                              changed(example::points, "0.912,,", "0.912,NA,"));
+  EXPECT_FALSE(load_dataset(missing.path()).points[2].restitution_sd.has_value());
+}
+
+TEST(LoadDataset, KeysThatOnlyFrictionlessKnowsAreAllowed) {
+  const DatasetFolder folder(changed(example::package, "\"title\": \"Spheres on quartz\",",
+                                     "\"profile\": \"tabular-data-package\", \"keywords\": [1],"));
+  const Dataset dataset = load_dataset(folder.path());
+  EXPECT_EQ(dataset.title, "example-quartz") << "the name stands in for a missing title";
+}
+
+TEST(LoadDataset, TheFolderNamesAPackageWithoutName) {
+  const DatasetFolder folder(changed(example::package, "\"name\": \"example-quartz\",", ""));
+  EXPECT_EQ(load_dataset(folder.path()).id, folder.path().filename().string());
+  EXPECT_EQ(load_dataset(folder.path() / "").id, folder.path().filename().string());
+}
+
+TEST(LoadDataset, ChecksumIsOfBothTexts) {
+  const DatasetFolder folder;
+  const Dataset dataset = load_dataset(folder.path());
+  EXPECT_EQ(dataset.sha256, sha256_hex(example::package + "\n" + example::points));
+  EXPECT_EQ(parse_dataset(example::package, example::points, folder.path()).sha256, dataset.sha256);
+}
+
+TEST(LoadDataset, WarnsOncePerPeculiarity) {
+  const DatasetFolder folder(example::package,
+                             "series,diameter,incident_velocity,restitution,restitution_sd,"
+                             "velocity_sd,events,captured\n"
+                             "a,5,1,1.05,,,,\n"
+                             "a,5,2,1.2,,,,\n"
+                             "a,5,3,0,,,,\n"
+                             "a,5,1,1.05,,,,\n"
+                             "a,5000,1,0.9,,,,\n");
+  const Dataset dataset = load_dataset(folder.path());
+  ASSERT_EQ(dataset.points.size(), 5U);
+  ASSERT_EQ(dataset.warnings.size(), 4U);
+  EXPECT_TRUE(
+      dataset.warnings[0].starts_with("3 points with a restitution above 1 (first in line 2)"));
+  EXPECT_NE(dataset.warnings[1].find("restitution of 0"), std::string::npos);
+  EXPECT_NE(dataset.warnings[1].find("in line 4"), std::string::npos);
+  EXPECT_NE(dataset.warnings[2].find("above 1 mm"), std::string::npos);
+  EXPECT_NE(dataset.warnings[3].find("as an earlier one (in line 5)"), std::string::npos);
+}
+
+TEST(LoadDataset, DistinctDiametersAscend) {
+  const DatasetFolder folder;
+  const auto diameters = distinct_diameters(load_dataset(folder.path()));
+  ASSERT_EQ(diameters.size(), 2U);
+  EXPECT_DOUBLE_EQ(diameters[0], 1.27e-6);
+  EXPECT_DOUBLE_EQ(diameters[1], 4.9e-6);
+}
+
+TEST(LoadDataset, TextsWithoutFilesGiveTheSame) {
+  const Dataset dataset = parse_dataset(example::package, example::points, "no/such/folder");
+  EXPECT_EQ(dataset.points.size(), 4U);
+  EXPECT_THROW(parse_dataset(example::package, "", "no/such/folder"), InputError);
+}
+
+}  // namespace
+}  // namespace recoil

@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "core/error.hpp"
+#include "data/dataset.hpp"
+#include "dataset_folder.hpp"
+
+namespace example {
+
+void PrintTo(const Mistake& mistake, std::ostream* stream);
+
+namespace {
+
+class PackageMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(PackageMistake, IsOneClearLine) {
+  const Mistake& mistake = GetParam();
+  const DatasetFolder folder(changed(package, mistake.old_text, mistake.new_text));
+  expect_message(folder.failure(), mistake);
+}
+
+const Mistake mistakes[] = {
+    // JSON itself.
+    {"syntax", "\"title\":", "\"title\"", "datapackage.json:3:11: ", "syntax error", "look before"},
+    {"number_overflow", "1050", "1e999", "datapackage.json:23:57: ", "too large for double",
+     "look before"},
+    {"repeated_key", "\"title\"", "\"name\"",
+     "datapackage.json:3:3: ", "the key 'name' stands here twice", "remove one"},
+    {"repeated_key_with_escapes", "\"title\"", R"("n\u0061me")",
+     "datapackage.json:3:3: ", "the key 'name' stands here twice", "remove one"},
+    {"place_behind_an_escaped_mark", "Spheres on quartz\",", R"(a \" { \\", "name": 1,)",
+     "datapackage.json:3:25: ", "the key 'name' stands here twice", "remove one"},
+    {"too_deep", "\"Spheres on quartz\"", std::string(200, '[') + std::string(200, ']'),
+     "datapackage.json:3:76: ", "nested too deeply", "flatten"},
+    {"not_utf8", "Spheres", "\xFF", "datapackage.json:3:13: ", "byte 0xFF is not UTF-8", "save"},
+    // The package.
+    {"name_with_slash", "example-quartz", "../x", "datapackage.json:2:11: ", "the name '../x'",
+     "choose one like"},
+    {"title_is_a_number", "\"Spheres on quartz\"", "7",
+     "datapackage.json:3:12: ", "'title' is a number", "a string"},
+    {"sources_are_a_string",
+     "[{ \"title\": \"A paper\", \"path\": \"https://example.org/paper\" }]", "\"paper\"",
+     "datapackage.json:4:14: ", "'sources' is a string", "a list"},
+    {"resources_missing", "\"resources\"", "\"resource\"",
+     "datapackage.json:1:1: ", "'resources' is missing", "points.csv"},
+    {"path_missing", "\"path\": \"points.csv\",", "",
+     "datapackage.json:6:17: ", "'path' is missing in 'resources[0]'", "points.csv"},
+    {"path_climbs", "points.csv", "a/../../points.csv", "datapackage.json:7:13: ", "leaves",
+     "points.csv"},
+    {"path_absolute", "points.csv", "/etc/passwd", "datapackage.json:7:13: ", "leaves",
+     "points.csv"},
+    {"path_address", "points.csv", "https://example.org/points.csv",
+     "datapackage.json:7:13: ", "leaves", "points.csv"},
+    {"path_list", "\"points.csv\"", "[\"points.csv\"]",
+     "datapackage.json:7:13: ", "'resources[0].path' is an array", "a string"},
+    {"delimiter_too_long", "\"path\": \"points.csv\",",
+     "\"path\": \"points.csv\", \"dialect\": { \"delimiter\": \"ab\" },",
+     "datapackage.json:7:53: ", "the delimiter is 'ab'", "commas"},
+    {"schema_missing", "\"schema\"", "\"shema\"", "datapackage.json:6:17: ", "'schema' is missing",
+     "name, type and unit"},
+    // The fields.
+    {"field_unknown", "\"velocity_sd\"", "\"velocity_std\"",
+     "datapackage.json:15:19: ", "unknown field 'velocity_std'", "did you mean 'velocity_sd'?"},
+    {"field_without_name", "\"name\": \"events\", ", "",
+     "datapackage.json:16:9: ", "'name' is missing", "known: series"},
+    {"field_repeated", "\"restitution_sd\"", "\"restitution\"",
+     "datapackage.json:14:19: ", "'restitution' stands here twice", "remove one"},
+    {"field_missing", "{ \"name\": \"diameter\", \"type\": \"number\", \"unit\": \"um\" },", "",
+     "datapackage.json:9:17: ", "the field 'diameter' is missing", "add it"},
+    {"rebound_missing", "{ \"name\": \"restitution\", \"type\": \"number\", \"unit\": \"1\" },", "",
+     "datapackage.json:9:17: ", "neither 'restitution' nor 'rebound_velocity'", "add one"},
+    {"rebound_twice", "\"name\": \"velocity_sd\", \"type\": \"number\", \"unit\": \"cm/s\"",
+     "\"name\": \"rebound_velocity\", \"type\": \"number\", \"unit\": \"m/s\"",
+     "datapackage.json:15:19: ", "both 'restitution' and 'rebound_velocity'", "remove one"},
+    {"type_missing", "\"diameter\", \"type\": \"number\"", "\"diameter\"",
+     "datapackage.json:11:9: ", "'type' is missing", "\"number\""},
+    {"type_wrong", "\"diameter\", \"type\": \"number\"", "\"diameter\", \"type\": \"string\"",
+     "datapackage.json:11:39: ", "the type 'string' does not fit", "write number"},
+    {"unit_missing", ", \"unit\": \"um\"", "", "datapackage.json:11:9: ", "'unit' is missing",
+     "known: um, mm, m"},
+    {"unit_unknown", "\"um\"", "\"furlong\"", "datapackage.json:11:57: ", "unknown unit 'furlong'",
+     "use um, mm, m"},
+    {"unit_of_another_dimension", "\"m/s\"", "\"um\"",
+     "datapackage.json:12:66: ", "'incident_velocity' in 'um'", "use m/s, cm/s"},
+    {"unit_of_a_count", "\"integer\", \"unit\": \"1\"", "\"integer\", \"unit\": \"%\"",
+     "datapackage.json:16:56: ", "'events' in '%'", "use 1"},
+    // The system.
+    {"recoil_missing", "\"recoil\"", "\"recoils\"", "datapackage.json:1:1: ", "'recoil' is missing",
+     "provenance"},
+    {"recoil_unknown_key", "\"provenance\"", "\"stifness_K\": 1e9, \"provenance\"",
+     "datapackage.json:22:5: ", "unknown key 'stifness_K'", "did you mean 'stiffness_K'?"},
+    {"material_unknown_key", "\"density\"", "\"densitty\"",
+     "datapackage.json:23:46: ", "unknown key 'densitty'", "did you mean 'density'?"},
+    {"provenance_unknown", "\"measured\"", "\"measurd\"",
+     "datapackage.json:22:19: ", "unknown provenance 'measurd'", "did you mean 'measured'?"},
+    {"provenance_missing", "\"provenance\": \"measured\",", "",
+     "datapackage.json:21:13: ", "'provenance' is missing", "reconstruction"},
+    {"surface_missing", "\"surface\": {", "\"x-surface\": {",
+     "datapackage.json:25:5: ", "unknown key 'x-surface'", "did you mean 'surface'?"},
+    {"density_missing", "\"density\": 1050, ", "",
+     "datapackage.json:23:17: ", "'density' is missing in 'recoil.particle'", "kg/m3"},
+    {"density_in_g_cm3", "1050", "1.05",
+     "datapackage.json:23:57: ", "recoil.particle.density = 1.05 kg/m3", "1 g/cm3"},
+    {"density_negative", "1050", "-1050", "datapackage.json:23:57: ", "density = -1050", "kg/m3"},
+    {"density_is_text", "1050", "\"1050\"",
+     "datapackage.json:23:57: ", "'recoil.particle.density' is a string", "a number"},
+    {"modulus_zero", "73e9", "0", "datapackage.json:25:58: ", "youngs_modulus = 0 Pa", "1 GPa"},
+    {"modulus_in_gpa", "73e9", "73", "datapackage.json:25:58: ", "youngs_modulus = 73 Pa", "1 GPa"},
+    {"modulus_missing", "\"youngs_modulus\": 73e9, ", "",
+     "datapackage.json:25:16: ", "'youngs_modulus' is missing", "Pa"},
+    {"poisson_too_large", "0.17", "0.51",
+     "datapackage.json:25:81: ", "recoil.surface.poisson_ratio = 0.51", "0.3"},
+    {"poisson_too_small", "0.17", "-1", "datapackage.json:25:81: ", "poisson_ratio = -1", "0.3"},
+    {"poisson_missing", ", \"poisson_ratio\": 0.17", "",
+     "datapackage.json:25:16: ", "'poisson_ratio' is missing", "0.3"},
+    {"surface_energy_negative", "0.17", "0.17, \"surface_energy\": -1",
+     "datapackage.json:25:105: ", "surface_energy = -1 J/m2", "mJ/m2"},
+    {"surface_energy_in_mj", "0.17", "0.17, \"surface_energy\": 33",
+     "datapackage.json:25:105: ", "surface_energy = 33 J/m2", "1 mJ/m2"},
+    {"stiffness_negative", "\"provenance\"", "\"stiffness_K\": -1, \"provenance\"",
+     "datapackage.json:22:20: ", "stiffness_K = -1 Pa", "1 GPa"},
+    {"adhesion_energy_negative", "\"provenance\"", "\"adhesion_energy\": -1, \"provenance\"",
+     "datapackage.json:22:24: ", "adhesion_energy = -1 J/m2", "0 means no adhesion"},
+    {"force_without_diameter", "\"provenance\"", "\"adhesion_force_f0\": 5.7, \"provenance\"",
+     "datapackage.json:22:5: ", "without 'reference_diameter'", "add the diameter"},
+    {"reference_diameter_in_um", "\"provenance\"", "\"reference_diameter\": 4.9, \"provenance\"",
+     "datapackage.json:22:27: ", "reference_diameter = 4.9 m", "1 um is 1e-6 m"},
+};
+
+std::string name_of(const testing::TestParamInfo<Mistake>& tested) { return tested.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(Each, PackageMistake, testing::ValuesIn(mistakes), name_of);
+
+TEST(PackageFile, EmptyOrNoObject) {
+  expect_message(DatasetFolder(" \n").failure(),
+                 {"", "", "", "datapackage.json:1:1: ", "the file is empty", "shipped dataset"});
+  expect_message(DatasetFolder("[]").failure(),
+                 {"", "", "", "datapackage.json:1:1: ", "the document is an array", "an object"});
+  expect_message(DatasetFolder("{\n  \"name\": \"x\",").failure(),
+                 {"", "", "", "datapackage.json:2:", "syntax error", "look before"});
+}
+
+TEST(PackageFile, FolderOrFileIsNotThere) {
+  const DatasetFolder folder;
+  const auto message = [](const std::filesystem::path& path) {
+    try {
+      recoil::load_dataset(path);
+    } catch (const recoil::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("loaded");
+  };
+  expect_message(message("no/such/folder"),
+                 {"", "", "", "no/such/folder: ", "no such folder", "check the path"});
+  const auto file = folder.path() / "points.csv";
+  expect_message(message(file), {"", "", "", file.string(), "this is not a folder", "name the"});
+  std::filesystem::remove(folder.path() / "datapackage.json");
+  expect_message(folder.failure(),
+                 {"", "", "", "datapackage.json: ", "no such file", "a shipped dataset"});
+}
+
+}  // namespace
+}  // namespace example

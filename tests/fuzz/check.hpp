@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace fuzz {
+
+/// Ends the run as a finding when `condition` does not hold.
+inline void require(bool condition, const char* what) {
+  if (condition) return;
+  std::fprintf(stderr, "broken promise: %s\n", what);
+  std::abort();
+}
+
+/// A complaint is one line, says where, and is short enough to be read.
+inline void require_grammar(const recoil::InputError& error) {
+  const std::string text = error.what();
+  for (const char c : text) {
+    require(static_cast<unsigned char>(c) >= 0x20 && c != '\x7f', "one line of printable text");
+  }
+  require(text.size() < 1000, "a short message");
+  require(!error.where().file.empty(), "the file is named");
+  require(error.where().line >= 1 && error.where().column >= 1, "the place is named");
+}
+
+}  // namespace fuzz

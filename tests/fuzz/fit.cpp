@@ -1,0 +1,45 @@
+// The fit loader on arbitrary texts: every input gives a valid fit or is refused with one clear
+// line.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "check.hpp"
+#include "estimate/fit_spec.hpp"
+
+namespace {
+
+void require_sound(const recoil::FitSpec& spec) {
+  fuzz::require(!spec.datasets.empty(), "datasets");
+  fuzz::require(spec.mechanisms.empty(), "mechanisms");
+  fuzz::require(spec.parameters.size() == recoil::parameter_catalogue().size(), "all parameters");
+  for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
+    const recoil::ParameterSpec& parameter = spec.parameters[i];
+    const recoil::ParameterEntry& entry = recoil::parameter_catalogue()[i];
+    fuzz::require(parameter.name == entry.name, "order of the catalogue");
+    fuzz::require(parameter.initial >= 0.0 && std::isfinite(parameter.initial), "initial");
+    fuzz::require(parameter.lower >= 0.0 && parameter.lower < parameter.upper, "bounds");
+    fuzz::require(std::isfinite(parameter.upper), "upper bound");
+    fuzz::require(!entry.log_scale || parameter.lower > 0.0, "logarithm");
+    const bool inside =
+        parameter.initial >= parameter.lower && parameter.initial <= parameter.upper;
+    const bool derived = entry.name == "f0" && !parameter.initial_stated;
+    fuzz::require(!parameter.free || derived || inside, "initial value within the bounds");
+  }
+  const recoil::UncertaintySpec& uncertainty = spec.uncertainty;
+  fuzz::require(uncertainty.level > 0.0 && uncertainty.level < 1.0, "level");
+  fuzz::require(uncertainty.replicates == 0 || uncertainty.replicates >= 19, "replicates");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    require_sound(
+        recoil::parse_fit(std::string(reinterpret_cast<const char*>(data), size), "fits/fit.toml"));
+  } catch (const recoil::InputError& error) {
+    fuzz::require_grammar(error);
+  }
+  return 0;
+}

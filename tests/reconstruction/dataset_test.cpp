@@ -1,0 +1,161 @@
+// The committed reconstructions: they are what their recipes make, and show what is published.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "recipe_folder.hpp"
+#include "reconstruction/plan.hpp"
+#include "reconstruction/reconstruction.hpp"
+
+namespace recoil {
+namespace {
+
+using testing::CopiedDatasets;
+using testing::dataset_folder;
+using testing::text_of;
+
+class Committed : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Datasets, Committed, ::testing::ValuesIn(testing::reconstruction_ids()),
+                         [](const auto& instance) {
+                           std::string name = instance.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(Committed, PointsAreByteForByteWhatTheRecipeMakes) {
+  const Recipe recipe = load_recipe(dataset_folder(GetParam()));
+  EXPECT_EQ(generate_points(recipe, recipe.seed),
+            text_of(dataset_folder(GetParam()) / "points.csv"));
+  EXPECT_NE(generate_points(recipe, recipe.seed + 1), generate_points(recipe, recipe.seed));
+}
+
+TEST_P(Committed, EveryFactHolds) {
+  const ReconstructionResult result = reconstruct(dataset_folder(GetParam()), true);
+  EXPECT_FALSE(result.facts.empty());
+  for (const FactCheck& fact : result.facts)
+    EXPECT_TRUE(fact.holds) << fact.id << ": " << fact.found;
+  EXPECT_TRUE(result.good());
+  EXPECT_FALSE(result.assumptions.empty());
+  const std::string text = describe(result);
+  EXPECT_NE(text.find("reconstruction"), std::string::npos);
+  EXPECT_NE(text.find("No point of it was measured"), std::string::npos);
+}
+
+TEST_P(Committed, EveryFactWithALimitCanFail) {
+  const Recipe recipe = load_recipe(dataset_folder(GetParam()));
+  const std::vector<GeneratedPoint> points = draw_points(recipe, recipe.seed);
+  for (std::size_t i = 0; i < recipe.facts.size(); ++i) {
+    if (recipe.facts[i].limits.empty()) continue;
+    bool failed = false;
+    for (const auto& [name, value] : recipe.facts[i].limits) {
+      for (const double other : {0.0, 0.5 * value, 2.0 * value, 100.0 * value, -value - 1.0}) {
+        Recipe changed = recipe;
+        changed.facts = {recipe.facts[i]};
+        changed.facts[0].limits[name] = other;
+        failed = failed || !check_facts(changed, points)[0].holds;
+      }
+    }
+    EXPECT_TRUE(failed) << recipe.facts[i].id;
+  }
+}
+
+TEST_P(Committed, DatasetStatesTheMaterialsOfTheRecipe) {
+  const Dataset dataset = load_dataset(dataset_folder(GetParam()));
+  const Recipe recipe = load_recipe(dataset_folder(GetParam()));
+  EXPECT_EQ(dataset.id, recipe.id);
+  EXPECT_EQ(dataset.provenance, Provenance::reconstruction);
+  EXPECT_EQ(dataset.points.size(), recipe.plan.size());
+  EXPECT_TRUE(dataset.warnings.empty());
+  const ImpactSystem& system = dataset.system;
+  EXPECT_EQ(system.particle.density, recipe.particle.density);
+  EXPECT_EQ(system.particle.youngs_modulus, recipe.particle.youngs_modulus);
+  EXPECT_EQ(system.particle.poisson_ratio, recipe.particle.poisson_ratio);
+  EXPECT_EQ(system.surface.youngs_modulus, recipe.surface.youngs_modulus);
+  EXPECT_EQ(system.surface.poisson_ratio, recipe.surface.poisson_ratio);
+  if (const auto* truth = std::get_if<SeedTruth>(&recipe.truth)) {
+    EXPECT_EQ(system.reference_diameter, truth->reference_diameter);
+    EXPECT_EQ(system.stiffness_K.value_or(truth->stiffness), truth->stiffness);
+    EXPECT_EQ(system.adhesion_force_f0.value_or(truth->adhesion_force), truth->adhesion_force);
+  }
+}
+
+TEST(Reconstruction, TamperedPointsAreFound) {
+  const CopiedDatasets copies;
+  const std::string id = "wall1990-silicon";
+  EXPECT_TRUE(reconstruct(copies.folder(id), true).good());
+  const std::string text = text_of(copies.folder(id) / "points.csv");
+  const std::string line =
+      text.substr(text.find('\n') + 1, text.find('\n', text.find('\n') + 1) - text.find('\n') - 1);
+  copies.replace(id, "points.csv", line, line + "0");
+  const ReconstructionResult result = reconstruct(copies.folder(id), true);
+  EXPECT_FALSE(result.good());
+  EXPECT_FALSE(result.identical);
+  EXPECT_NE(result.difference.find("line 2"), std::string::npos) << result.difference;
+  EXPECT_NE(describe(result).find("NOT what the recipe makes"), std::string::npos);
+  // Making it anew puts it right.
+  EXPECT_TRUE(reconstruct(copies.folder(id), false).good());
+  EXPECT_EQ(text_of(copies.folder(id) / "points.csv"), text);
+}
+
+TEST(Reconstruction, TamperedRecipesAreFound) {
+  const CopiedDatasets copies;
+  copies.replace("wall1990-mica", "recipe.toml", "seed = 199003", "seed = 199004");
+  EXPECT_FALSE(reconstruct(copies.folder("wall1990-mica"), true).identical);
+  copies.replace("dahneke1975-quartz", "recipe.toml", "C_A = 3.8e-3  ", "C_A = 4.8e-3  ");
+  EXPECT_FALSE(reconstruct(copies.folder("dahneke1975-quartz"), true).identical);
+}
+
+TEST(Reconstruction, ATruthThatContradictsAFactIsFound) {
+  const auto fails = [](const CopiedDatasets& copies, const std::string& id,
+                        const std::string& fact) {
+    const ReconstructionResult result = reconstruct(copies.folder(id), false);
+    const auto found = std::find_if(result.facts.begin(), result.facts.end(),
+                                    [&](const FactCheck& f) { return f.id == fact; });
+    return found != result.facts.end() && !found->holds;
+  };
+  CopiedDatasets copies;
+  // A yield pressure that does not rise leaves far less than half of the energy at 100 m/s.
+  copies.replace("wall1990-molybdenum", "recipe.toml", "rate_exponent = 0.5",
+                 "rate_exponent = 0.1");
+  EXPECT_TRUE(fails(copies, "wall1990-molybdenum", "high-velocity-loss"));
+  EXPECT_TRUE(fails(copies, "wall1990-molybdenum", "target-independence"));
+  // A sibling that differs at high velocity is seen from the other target too.
+  EXPECT_TRUE(fails(copies, "wall1990-mica", "target-independence"));
+  // Spheres that never yield lose nothing to flow near capture and fall with the JKR slope.
+  copies.replace("wall1990-silicon", "recipe.toml", "static_yield_pressure = 35.3e6",
+                 "static_yield_pressure = 35.3e9");
+  EXPECT_TRUE(fails(copies, "wall1990-silicon", "plastic-loss-near-capture"));
+  EXPECT_TRUE(fails(copies, "wall1990-silicon", "capture-slope"));
+  // Starting below the capture velocity makes captures.
+  copies.replace("dahneke1975-quartz", "recipe.toml", "from = 2.5", "from = 0.5");
+  EXPECT_TRUE(fails(copies, "dahneke1975-quartz", "no-capture"));
+  // The K that follows from E and nu does not give the capture range that was simulated.
+  copies.replace("li1999-sst65-silicon", "recipe.toml", "stiffness_K = 11.4e9",
+                 "stiffness_K = 114e9");
+  EXPECT_TRUE(fails(copies, "li1999-sst65-silicon", "capture-range"));
+}
+
+TEST(Reconstruction, TrueParametersAreThoseOfTheSeedsModel) {
+  const auto dahneke = true_parameters(load_recipe(dataset_folder("dahneke1975-quartz")));
+  EXPECT_EQ(dahneke.at("C_H"), 6e-4);
+  EXPECT_EQ(dahneke.at("C_A"), 3.8e-3);
+  EXPECT_NEAR(dahneke.at("f0"), 5.745 * std::cbrt(0.635 / 0.64), 0.03);  // Table 1 at r = 0.64 um
+  EXPECT_TRUE(true_parameters(load_recipe(dataset_folder("wall1990-mica"))).empty());
+}
+
+TEST(Reconstruction, RegenerateWantsTheSameDesign) {
+  const Recipe recipe = load_recipe(dataset_folder("dahneke1975-quartz"));
+  Dataset dataset = load_dataset(dataset_folder("dahneke1975-quartz"));
+  const Dataset fresh = regenerate(dataset, recipe, 7);
+  EXPECT_NE(fresh.sha256, dataset.sha256);
+  EXPECT_EQ(fresh.points[3].incident_velocity, dataset.points[3].incident_velocity);
+  dataset.points[3].incident_velocity *= 1.01;
+  EXPECT_THROW(regenerate(dataset, recipe, 7), InputError);
+  dataset.points.pop_back();
+  EXPECT_THROW(regenerate(dataset, recipe, 7), InputError);
+}
+
+}  // namespace
+}  // namespace recoil

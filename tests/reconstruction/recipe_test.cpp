@@ -1,0 +1,97 @@
+// Mistakes in a recipe: one line with file, line and column, and what to do.
+#include "reconstruction/recipe.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "core/error.hpp"
+#include "recipe_folder.hpp"
+#include "reconstruction/reconstruction.hpp"
+
+namespace recoil {
+namespace {
+
+using testing::CopiedDatasets;
+
+struct Mistake {
+  std::string name, id, from, to, says;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+class RecipeMistakes : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(RecipeMistakes, AreOneLineWithItsPlace) {
+  const Mistake& mistake = GetParam();
+  const CopiedDatasets copies;
+  copies.replace(mistake.id, "recipe.toml", mistake.from, mistake.to);
+  try {
+    load_recipe(copies.folder(mistake.id));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find(mistake.says), std::string::npos) << text;
+    EXPECT_NE(text.find("recipe.toml:"), std::string::npos) << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    EXPECT_GT(error.where().line, 0) << text;
+    EXPECT_GT(error.where().column, 0) << text;
+  }
+}
+
+const std::string wall = "wall1990-mica";
+const std::string seed_made = "dahneke1975-quartz";
+const std::string mixed = "li1999-sst65-silicon";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RecipeMistakes,
+    ::testing::Values(
+        Mistake{"unknown_key", wall, "rate_velocity", "rate_velocitty", "'rate_velocity'"},
+        Mistake{"extra_key", wall, "decimals = 3", "decimals = 3\nbias = 1", "unknown key 'bias'"},
+        Mistake{"no_toml", wall, "seed = ", "seed = = ", "not valid TOML"},
+        Mistake{"negative_seed", wall, "seed = ", "seed = -", "whole number"},
+        Mistake{"text_for_number", wall, "floor = 0.01", "floor = \"0.01\"", "not a finite number"},
+        Mistake{"nan", wall, "floor = 0.01", "floor = nan", "not a finite number"},
+        Mistake{"negative", wall, "density = 1350", "density = -1350", "above zero"},
+        Mistake{"no_noise", seed_made, "relative = 0.02", "relative = 0", "without noise"},
+        Mistake{"poisson", wall, "poisson_ratio = 0.33", "poisson_ratio = 0.8", "isotropic"},
+        Mistake{"no_such_truth", wall, "\"elastoplastic\"", "\"magic\"", "no such truth"},
+        Mistake{"no_such_phase", seed_made, "\"rebound\"", "\"never\"", "rebound"},
+        Mistake{"unknown_fact", wall, "\"capture-slope\"", "\"capture-slop\"",
+                "did you mean 'capture-slope'"},
+        Mistake{"repeated_fact", wall, "\"near-capture\"", "\"capture-slope\"", "twice"},
+        Mistake{"fact_without_limit", wall, "velocity = 20.0, most = 0.03", "velocity = 20.0",
+                "lacks the limit 'most'"},
+        Mistake{"fact_with_other_limit", wall, "most = 0.03", "most = 0.03, more = 1",
+                "takes no limit 'more'"},
+        Mistake{"backwards", seed_made, "from = 2.5", "from = 250.0", "above 'from'"},
+        Mistake{"two_designs", seed_made, "diameter = 1.27e-6\nvelocity",
+                "diameter = 1.27e-6\ndrop_heights = [1.0]\nvelocity", "one of the two"},
+        Mistake{"comma_in_name", seed_made, "\"1.27 um\"", "\"1,27 um\"", "cell"},
+        Mistake{"sizes_upside_down", mixed, "upper = 110e-6", "upper = 10e-6", "whole micrometres"},
+        Mistake{"bad_height", mixed, "[0.01, ", "[-0.01, ", "above zero"}),
+    [](const auto& instance) { return instance.param.name; });
+
+TEST(Recipe, MissingOnesAreSaid) {
+  const CopiedDatasets copies;
+  EXPECT_THROW(load_recipe(copies.folder("nothing")), InputError);
+  std::filesystem::remove(copies.folder(wall) / "points.csv");
+  EXPECT_THROW(reconstruct(copies.folder(wall), true), InputError);
+  std::filesystem::remove_all(copies.folder("wall1990-silicon"));
+  EXPECT_THROW(reconstruct(copies.folder(wall), false), InputError);  // a sibling of it
+}
+
+TEST(Recipe, ImpactsThatAreHardlyEverSeenAreRefused) {
+  const CopiedDatasets copies;
+  copies.replace(mixed, "recipe.toml", "probe_height = 1e-3", "probe_height = 1e-1");
+  EXPECT_THROW(load_recipe(copies.folder(mixed)), InputError);
+}
+
+TEST(Recipe, TheFolderMayBeNamedInAnyWay) {
+  const CopiedDatasets copies;
+  EXPECT_EQ(load_recipe(copies.folder(wall) / "").id, wall);
+  EXPECT_EQ(load_recipe(copies.folder(wall) / "." / "").id, wall);
+}
+
+}  // namespace
+}  // namespace recoil

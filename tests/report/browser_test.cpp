@@ -1,0 +1,101 @@
+// Opens pages in headless Chromium. Each check is shown to fail on a page that is broken on
+// purpose.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/files.hpp"
+#include "example_analysis.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Browser : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    page_ = html_report(example::four_diameters());
+    const Analysis analysis = example::four_diameters();
+    index_ = html_index({{"page.html", json_report(analysis), thumbnail(analysis)}});
+  }
+
+  void SetUp() override {
+    folder_ =
+        fs::temp_directory_path() / (std::string("recoil-browser-") +
+                                     testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// 0 when Chromium is content with `html`.
+  int open(const std::string& html, int figures) {
+    const fs::path file = folder_ / "page.html";
+    write_whole_file(file, html);
+    const std::string command = "python3 '" RECOIL_SOURCE_DIR
+                                "/tests/report/open_in_chromium.py' --figures " +
+                                std::to_string(figures) + " '" + file.string() + "'";
+    const int status = std::system(command.c_str());
+    return WEXITSTATUS(status);
+  }
+
+  static std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << "the page has no " << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+  }
+
+  static inline std::string page_;
+  static inline std::string index_;
+  fs::path folder_;
+};
+
+TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 11), 0); }
+
+TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(html_report(example::two_datasets()), 21), 0); }
+
+TEST_F(Browser, ShowsTheIndex) { EXPECT_EQ(open(index_, 1), 0); }
+
+TEST_F(Browser, ComplainsOfAConsoleError) {
+  EXPECT_EQ(open(replaced(page_, "</body>", "<script>console.error('x')</script></body>"), 1), 1);
+}
+
+TEST_F(Browser, ComplainsOfAnException) {
+  EXPECT_EQ(open(replaced(page_, "</body>", "<script>undefined.x()</script></body>"), 1), 1);
+}
+
+TEST_F(Browser, ComplainsOfAMissingPlot) {
+  std::string broken = page_;
+  const auto begin = broken.find("<svg ");
+  broken.erase(begin, broken.find("</svg>") + 6 - begin);
+  EXPECT_EQ(open(broken, 1), 1);
+  EXPECT_EQ(open(page_, 12), 1) << "fewer figures than asked for";
+}
+
+TEST_F(Browser, ComplainsOfAnEmptyPlot) {
+  std::string broken = page_;
+  const auto begin = broken.find("<g id=\"restitution-1-canvas\">");
+  ASSERT_NE(begin, std::string::npos);
+  broken.erase(begin, broken.find("</svg>", begin) - begin);
+  EXPECT_EQ(open(broken, 1), 1);
+}
+
+TEST_F(Browser, ComplainsOfAnInvisiblePlot) {
+  EXPECT_EQ(open(replaced(page_, "</style>", ".picture svg { display: none }</style>"), 1), 1);
+}
+
+TEST_F(Browser, ComplainsOfTheNetwork) {
+  EXPECT_EQ(
+      open(replaced(page_, "</body>", "<img alt='' src='http://127.0.0.1:9/missing.png'></body>"),
+           1),
+      1);
+}
+
+TEST_F(Browser, ComplainsOfAPageThatScrollsSideways) {
+  EXPECT_EQ(open(replaced(page_, "</main>", "<div style='width:2000px'>.</div></main>"), 1), 1);
+}
+
+}  // namespace
+}  // namespace recoil

@@ -1,0 +1,198 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "core/error.hpp"
+#include "example_analysis.hpp"
+#include "report/html_page.hpp"
+
+namespace recoil {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::size_t megabyte = 1000000;
+
+std::size_t occurrences(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++count;
+  return count;
+}
+
+/// Values of the attribute, in single or double quotes.
+std::vector<std::string> attribute(const std::string& html, const std::string& name) {
+  std::vector<std::string> values;
+  const std::regex pattern("[\\s]" + name + "\\s*=\\s*(?:\"([^\"]*)\"|'([^']*)')");
+  for (std::sregex_iterator it(html.begin(), html.end(), pattern), end; it != end; ++it) {
+    values.push_back((*it)[1].matched ? (*it)[1].str() : (*it)[2].str());
+  }
+  return values;
+}
+
+void expect_self_contained(const std::string& html) {
+  EXPECT_LT(html.size(), megabyte);
+  std::set<std::string> ids;
+  for (const std::string& id : attribute(html, "id")) {
+    EXPECT_TRUE(ids.insert(id).second) << "id " << id << " twice";
+  }
+  EXPECT_TRUE(attribute(html, "src").empty());
+  for (const char* name : {"href", "xlink:href"}) {
+    for (const std::string& target : attribute(html, name)) {
+      EXPECT_THAT(target, testing::AnyOf(testing::StartsWith("#"), testing::StartsWith("data:"),
+                                         testing::MatchesRegex("[a-z0-9-]+\\.html")));
+      const bool anchor = target.starts_with("#");
+      EXPECT_TRUE(!anchor || ids.contains(target.substr(1))) << target;
+    }
+  }
+  EXPECT_THAT(html, Not(HasSubstr("@import")));
+  EXPECT_THAT(html, Not(HasSubstr("url(")));
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_EQ(occurrences(html, "<div"), occurrences(html, "</div>"));
+  EXPECT_EQ(occurrences(html, "<figure "), occurrences(html, "</figure>"));
+  EXPECT_THAT(html, HasSubstr("name=\"viewport\""));
+  EXPECT_THAT(html, HasSubstr("@media print"));
+}
+
+TEST(HtmlReport, HoldsEveryPlotOfOneDataset) {
+  const std::string html = html_report(example::four_diameters());
+  expect_self_contained(html);
+  // 4 diameters, 2 residual plots, 2 distributions, f0, force history, two points.
+  EXPECT_EQ(occurrences(html, "<svg "), 11U);
+  for (const char* figure :
+       {"restitution-1", "restitution-4", "residual-velocity-1", "residual-diameter-1",
+        "bootstrap-1", "bootstrap-2", "two-point-1", "adhesion-force-1", "force-history-1"}) {
+    EXPECT_THAT(html, HasSubstr(std::string("id=\"figure-") + figure + "\""));
+  }
+  EXPECT_LT(html.find("<figure"), html.find("<table")) << "plots come first";
+}
+
+TEST(HtmlReport, HoldsEveryPlotOfAJointFit) {
+  const std::string html = html_report(example::two_datasets());
+  expect_self_contained(html);
+  // 8 panels, 2 x 2 residual plots, 4 distributions, 2 x two points, f0, 2 force histories.
+  EXPECT_EQ(occurrences(html, "<svg "), 21U);
+}
+
+TEST(HtmlReport, SaysWhereThePointsComeFromBeforeAnythingElse) {
+  const std::string html = html_report(example::four_diameters());
+  const auto banner = html.find("<aside class=\"provenance reconstruction\"");
+  ASSERT_NE(banner, std::string::npos);
+  EXPECT_LT(banner, html.find("<p class=\"summary\">"));
+  EXPECT_THAT(html, HasSubstr(prose_html(provenance_sentence(Provenance::reconstruction))));
+  const std::string joint = html_report(example::two_datasets());
+  EXPECT_THAT(joint, HasSubstr("<aside class=\"provenance reconstruction\""));
+  EXPECT_THAT(joint, HasSubstr("<aside class=\"provenance measured\""));
+}
+
+TEST(HtmlReport, EscapesWhatAFileSays) {
+  Analysis analysis = example::four_diameters();
+  const std::string hostile = "<script>alert(1)</script>\"'&`touch x`";
+  analysis.datasets[0].title = hostile;
+  analysis.datasets[0].id = hostile;
+  analysis.datasets[0].series[0] = hostile;
+  analysis.datasets[0].sources = {hostile};
+  analysis.datasets[0].system.particle.name = hostile;
+  analysis.spec.id = hostile;
+  analysis.fitted.warnings = {hostile};
+  const std::string html = html_report(analysis);
+  expect_self_contained(html);
+  EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(1)"));
+  const std::string index = html_index({{"a.html", json_report(analysis), thumbnail(analysis)}});
+  expect_self_contained(index);
+}
+
+TEST(HtmlReport, HasWarningsContradictionsInputsAndGlossary) {
+  const std::string html = html_report(example::two_datasets());
+  for (const char* id : {"warnings", "contradictions", "inputs", "glossary", "parameters",
+                         "goodness", "starts", "points", "bootstrap"}) {
+    EXPECT_THAT(html, HasSubstr(std::string("<section id=\"") + id + "\">"));
+  }
+  EXPECT_THAT(html, HasSubstr("20260101"));
+  EXPECT_THAT(html, HasSubstr(std::string(60, 'a') + "0123"));
+}
+
+TEST(HtmlReport, WithoutABootstrapStillDrawsThePoints) {
+  Analysis analysis = example::four_diameters();
+  analysis.uncertainty = UncertaintyResult{};
+  const std::string html = html_report(analysis);
+  expect_self_contained(html);
+  EXPECT_EQ(occurrences(html, "<svg "), 8U);  // 4 diameters, 2 residual plots, f0, force history
+}
+
+TEST(HtmlReport, StaysSmallWithManyPoints) {
+  Analysis analysis = example::two_datasets();
+  for (int copy = 0; copy < 5; ++copy) {
+    const Analysis more = example::two_datasets();
+    analysis.data.points.insert(analysis.data.points.end(), more.data.points.begin(),
+                                more.data.points.end());
+    for (const auto member : {&FitResult::residuals, &FitResult::prediction,
+                              &FitResult::prediction_squared, &FitResult::leverage}) {
+      auto& list = analysis.fitted.*member;
+      const auto& extra = more.fitted.*member;
+      list.insert(list.end(), extra.begin(), extra.end());
+    }
+  }
+  for (RestitutionCurve& curve : analysis.uncertainty.curves) {
+    RestitutionCurve dense = curve;
+    for (auto member :
+         {&RestitutionCurve::velocity, &RestitutionCurve::restitution, &RestitutionCurve::lower,
+          &RestitutionCurve::upper, &RestitutionCurve::two_point}) {
+      std::vector<double> values;
+      const auto& old = curve.*member;
+      for (std::size_t i = 0; i + 1 < old.size(); ++i) {
+        for (int part = 0; part < 20; ++part) {
+          values.push_back(old[i] + (old[i + 1] - old[i]) * part / 20.0);
+        }
+      }
+      dense.*member = values;
+    }
+    curve = dense;
+  }
+  expect_self_contained(html_report(analysis));
+}
+
+TEST(HtmlReport, AnUnusableFitHasNoPage) {
+  Analysis analysis = example::four_diameters();
+  analysis.fitted.usable = false;
+  EXPECT_THROW(html_report(analysis), ComputationError);
+}
+
+TEST(HtmlReport, IsTheSameTwice) {
+  EXPECT_EQ(html_report(example::four_diameters()), html_report(example::four_diameters()));
+}
+
+TEST(HtmlIndex, HasACardPerFitWithNumbersAndProvenance) {
+  std::vector<IndexEntry> entries;
+  for (int copy = 0; copy < 7; ++copy) {
+    Analysis analysis = copy % 2 == 0 ? example::four_diameters() : example::two_datasets();
+    analysis.spec.id += "-" + std::to_string(copy);
+    entries.push_back({analysis.spec.id + ".html", json_report(analysis), thumbnail(analysis)});
+  }
+  const std::string html = html_index(entries);
+  expect_self_contained(html);
+  EXPECT_EQ(occurrences(html, "<article class=\"card\">"), 7U);
+  EXPECT_EQ(occurrences(html, "<svg "), 7U);
+  EXPECT_THAT(html, HasSubstr("href=\"example-four-0.html\""));
+  EXPECT_THAT(html, HasSubstr("<td>0.00312</td><td>[0.00273, 0.00356]</td><td>0.0046</td>"));
+  EXPECT_THAT(html, HasSubstr(prose_html(provenance_sentence(Provenance::reconstruction))));
+}
+
+TEST(HtmlIndex, RefusesWhatIsNotAFit) {
+  EXPECT_THROW(html_index({{"a.html", "{ not json", ""}}), InputError);
+  EXPECT_THROW(html_index({{"a.html", "[1]", ""}}), InputError);
+  EXPECT_NO_THROW(html_index({{"a.html", "{}", ""}}));
+  EXPECT_NO_THROW(html_index({}));
+}
+
+TEST(HtmlPage, ProseSetsSymbolsOnlyWhereTheyStandAlone) {
+  EXPECT_EQ(prose_html("C_H = 3 +/- 1 um"), "<i>C</i><sub>H</sub> = 3 ± 1 µm");
+  EXPECT_EQ(prose_html("fits/f0-study.toml"), "fits/f0-study.toml");
+  EXPECT_EQ(prose_html("maximum f0."), "maximum <i>f</i><sub>0</sub>.");
+  EXPECT_EQ(parameter_html("C_A[a<b]"), "<i>C</i><sub>A</sub> <small>(a&lt;b)</small>");
+}
+
+}  // namespace
+}  // namespace recoil

@@ -1,0 +1,195 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "example_analysis.hpp"
+
+namespace recoil {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Every key that people script against, as JSON pointers for the example.
+const char* const promised[] = {"/dataset/id",
+                                "/dataset/provenance",
+                                "/dataset/points",
+                                "/dataset/sha256",
+                                "/parameters/C_H/value",
+                                "/parameters/C_H/unit",
+                                "/parameters/C_H/free",
+                                "/parameters/C_H/at_bound",
+                                "/parameters/C_H/std_error",
+                                "/parameters/C_H/intervals/wald",
+                                "/parameters/C_H/intervals/profile",
+                                "/parameters/C_H/intervals/percentile",
+                                "/parameters/C_H/intervals/bca",
+                                "/parameters/C_H/intervals/studentized",
+                                "/parameters/C_H/recommended/interval",
+                                "/parameters/C_H/recommended/why",
+                                "/parameters/C_A/value",
+                                "/parameters/f0/value",
+                                "/derived/capture_velocity/0/diameter_um",
+                                "/derived/capture_velocity/0/value",
+                                "/derived/capture_velocity/0/interval",
+                                "/goodness/chi2",
+                                "/goodness/dof",
+                                "/goodness/p_value",
+                                "/goodness/rmse",
+                                "/identifiability/verdict",
+                                "/identifiability/text",
+                                "/bootstrap/scheme",
+                                "/bootstrap/replicates",
+                                "/bootstrap/failed",
+                                "/bootstrap/seed",
+                                "/two_point/low_point/incident_velocity",
+                                "/two_point/low_point/restitution",
+                                "/two_point/low_point/diameter_um",
+                                "/two_point/high_point/incident_velocity",
+                                "/two_point/parameters/C_H/value",
+                                "/two_point/parameters/C_A/value",
+                                "/two_point/rmse",
+                                "/two_point/held_out_rmse",
+                                "/full/rmse",
+                                "/full/held_out_rmse",
+                                "/curve/0/series",
+                                "/curve/0/diameter_um",
+                                "/curve/0/incident_velocity",
+                                "/curve/0/restitution",
+                                "/curve/0/band",
+                                "/recoil_version",
+                                "/options/seed",
+                                "/datasets/0/id",
+                                "/provenance_sentence",
+                                "/warnings",
+                                "/starts/0/chi2",
+                                "/covariance/C_H/C_A",
+                                "/correlation/C_H/C_A",
+                                "/residuals/0/weighted_residual"};
+
+TEST(JsonReport, HoldsEveryPromisedKey) {
+  const std::string text = json_report(example::four_diameters());
+  EXPECT_EQ(text.back(), '\n');
+  const Json fit = Json::parse(text);
+  for (const char* key : promised) EXPECT_TRUE(fit.contains(Json::json_pointer(key))) << key;
+}
+
+TEST(JsonReport, RepeatsTheNumbersExactly) {
+  const Analysis analysis = example::four_diameters();
+  const Json fit = Json::parse(json_report(analysis));
+  EXPECT_EQ(fit["parameters"]["C_H"]["value"], 0.00312);
+  EXPECT_EQ(fit["parameters"]["C_H"]["intervals"]["bca"][1], 0.00312 + 2.08 * 0.00021);
+  EXPECT_EQ(fit["parameters"]["f0"]["free"], false);
+  EXPECT_EQ(fit["goodness"]["chi2"], analysis.fitted.chi2);
+  EXPECT_EQ(fit["dataset"]["provenance"], "reconstruction");
+  EXPECT_EQ(fit["dataset"]["points"], 32);
+  EXPECT_EQ(fit["bootstrap"]["seed"], 20260101);
+  EXPECT_EQ(fit["two_point"]["low_point"]["restitution"], analysis.data.points[16].restitution);
+  EXPECT_EQ(fit["two_point"]["low_point"]["diameter_um"], 4.90e-6 / 1e-6);
+  EXPECT_EQ(fit["curve"].size(), 4U * 81U);
+  EXPECT_EQ(fit["residuals"].size(), 32U);
+  EXPECT_THAT(fit["provenance_sentence"].get<std::string>(), HasSubstr("reconstruction"));
+  EXPECT_NEAR(fit["correlation"]["C_H"]["C_A"].get<double>(), -0.43, 1e-12);
+}
+
+TEST(JsonReport, GivesAReasonForEveryMissingInterval) {
+  const Json fit = Json::parse(json_report(example::four_diameters()));
+  for (const auto& [name, parameter] : fit["parameters"].items()) {
+    const Json& intervals = parameter["intervals"];
+    for (const char* kind : {"wald", "profile", "percentile", "bca", "studentized"}) {
+      if (!intervals[kind].is_null()) continue;
+      EXPECT_FALSE(intervals["why"][kind].get<std::string>().empty()) << name << " " << kind;
+    }
+  }
+  EXPECT_EQ(fit["parameters"]["f0"]["recommended"]["interval"], nullptr);
+  EXPECT_FALSE(fit["parameters"]["f0"]["recommended"]["why"].get<std::string>().empty());
+  EXPECT_FALSE(fit["parameters"]["f0"]["std_error_why"].get<std::string>().empty());
+}
+
+/// Collects the pointers of null values.
+void collect_nulls(const Json& value, const std::string& where, std::vector<std::string>& nulls) {
+  if (value.is_null()) nulls.push_back(where);
+  if (!value.is_structured()) return;
+  for (const auto& [key, child] : value.items()) collect_nulls(child, where + "/" + key, nulls);
+}
+
+TEST(JsonReport, NeverPrintsWhatIsNotANumber) {
+  Analysis analysis = example::four_diameters();
+  const double infinity = std::numeric_limits<double>::infinity();
+  analysis.fitted.theta[0] = nan;
+  analysis.fitted.std_error[0] = infinity;
+  analysis.fitted.chi2 = nan;
+  analysis.fitted.p_value = nan;
+  analysis.fitted.rmse = infinity;
+  analysis.fitted.covariance.assign(9, nan);
+  analysis.fitted.residuals[3] = nan;
+  analysis.fitted.starts[0].chi2 = infinity;
+  analysis.fitted.model.slots[0].lower = -infinity;
+  analysis.uncertainty.intervals[0].wald.lower = nan;
+  analysis.uncertainty.capture[0].value = nan;
+  analysis.uncertainty.capture[1].found = false;
+  analysis.uncertainty.capture[1].interval = Interval{};
+  analysis.uncertainty.curves[0].restitution[5] = nan;
+  analysis.uncertainty.two_point[0].rmse = nan;
+  analysis.uncertainty.two_point[0].result.theta[0] = nan;
+  const std::string text = json_report(analysis);
+  EXPECT_FALSE(std::regex_search(text, std::regex("[:\\[, ]-?(nan|inf|NaN|Infinity)\\b")));
+  const Json fit = Json::parse(text);
+  EXPECT_TRUE(fit["goodness"]["chi2"].is_null());
+  EXPECT_FALSE(fit["goodness"]["chi2_why"].get<std::string>().empty());
+  EXPECT_FALSE(fit["parameters"]["C_H"]["value_why"].get<std::string>().empty());
+  EXPECT_FALSE(fit["derived"]["capture_velocity"][1]["why"].get<std::string>().empty());
+  EXPECT_FALSE(fit["two_point"]["rmse_why"].get<std::string>().empty());
+}
+
+TEST(JsonReport, APValueWithoutStatedDeviationsIsNullAndSaysWhy) {
+  const Json fit = Json::parse(json_report(example::two_datasets()));
+  EXPECT_TRUE(fit["goodness"]["p_value"].is_null());
+  EXPECT_THAT(fit["goodness"]["p_value_why"].get<std::string>(), HasSubstr("estimated"));
+}
+
+TEST(JsonReport, DescribesAJointFitAsOneAndLists) {
+  const Json fit = Json::parse(json_report(example::two_datasets()));
+  EXPECT_EQ(fit["dataset"]["id"], "example-molybdenum+example-silicon");
+  EXPECT_EQ(fit["dataset"]["provenance"], "reconstruction") << "the weaker of the two";
+  EXPECT_EQ(fit["dataset"]["points"], 64);
+  EXPECT_EQ(fit["dataset"]["sha256"].get<std::string>().size(), 64U);
+  EXPECT_EQ(fit["datasets"].size(), 2U);
+  EXPECT_TRUE(fit["parameters"].contains("f0[example-silicon]"));
+  EXPECT_EQ(fit["two_point"], fit["two_point_by_dataset"]["example-molybdenum"]);
+  EXPECT_EQ(fit["two_point_by_dataset"]["example-silicon"]["status"], "no_adhesion_damping");
+  std::vector<std::string> warnings = fit["warnings"];
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("stiffness_K = 11.4 GPa")));
+}
+
+TEST(JsonReport, WithoutABootstrapStaysWhole) {
+  Analysis analysis = example::four_diameters();
+  analysis.uncertainty = UncertaintyResult{};
+  const Json fit = Json::parse(json_report(analysis));
+  EXPECT_TRUE(fit["two_point"].is_null());
+  EXPECT_FALSE(fit["two_point_why"].get<std::string>().empty());
+  EXPECT_TRUE(fit["parameters"]["C_H"]["intervals"]["bca"].is_null());
+  EXPECT_TRUE(fit["curve"].empty());
+  std::vector<std::string> nulls;
+  collect_nulls(fit["goodness"], "", nulls);
+  EXPECT_TRUE(nulls.empty());
+}
+
+TEST(JsonReport, IsTheSameTwice) {
+  EXPECT_EQ(json_report(example::four_diameters()), json_report(example::four_diameters()));
+}
+
+TEST(JsonReport, SurvivesWordsThatAreNotUtf8) {
+  Analysis analysis = example::four_diameters();
+  analysis.datasets[0].title = "broken \xff\xfe title \"quoted\"\n";
+  EXPECT_TRUE(Json::accept(json_report(analysis)));
+}
+
+}  // namespace
+}  // namespace recoil

@@ -1,0 +1,81 @@
+// Interval formulas against cases worked by hand.
+#include "uncertainty/intervals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace recoil {
+namespace {
+
+std::vector<double> one_to(int n) {
+  std::vector<double> values(static_cast<std::size_t>(n));
+  std::iota(values.begin(), values.end(), 1.0);
+  return values;
+}
+
+TEST(Quantile, FollowsTheBPlusOneRule) {
+  const std::vector<double> values = one_to(99);  // (99 + 1) p is a whole number for p = 0.025 * 4
+  EXPECT_DOUBLE_EQ(sorted_quantile(values, 0.05), 5.0);
+  EXPECT_DOUBLE_EQ(sorted_quantile(values, 0.5), 50.0);
+  EXPECT_DOUBLE_EQ(sorted_quantile(values, 0.975), 97.5);
+  EXPECT_DOUBLE_EQ(sorted_quantile(values, 0.0), 1.0);
+  EXPECT_DOUBLE_EQ(sorted_quantile(values, 1.0), 99.0);
+}
+
+TEST(Percentile, OfAThousandNineHundredNinetyNine) {
+  const Interval interval = percentile_interval(one_to(1999), 0.95);
+  EXPECT_NEAR(*interval.lower, 50.0, 1e-9);
+  EXPECT_NEAR(*interval.upper, 1950.0, 1e-9);
+}
+
+TEST(Percentile, NeedsEnoughReplicates) {
+  const Interval interval = percentile_interval(one_to(20), 0.95);
+  EXPECT_FALSE(interval.available());
+  EXPECT_FALSE(interval.why.empty());
+}
+
+TEST(Bca, ConstantsByHand) {
+  // Two of five below the estimate: z0 = Phi^-1(0.4) = -0.253347. Delete-one values 1, 2, 6: mean 3,
+  // d = 2, 1, -3, sum d^3 = 8 + 1 - 27 = -18, sum d^2 = 14: a = -18 / (6 * 14^1.5) = -0.0572703.
+  const auto constants = bca_constants(std::vector<double>{1, 2, 3, 4, 5}, 2.5,
+                                       std::vector<double>{1, 2, 6});
+  ASSERT_TRUE(constants);
+  EXPECT_NEAR(constants->bias, -0.2533471031, 1e-9);
+  EXPECT_NEAR(constants->acceleration, -18.0 / (6.0 * std::pow(14.0, 1.5)), 1e-12);
+}
+
+TEST(Bca, TiesCountOneHalf) {
+  const auto constants = bca_constants(std::vector<double>{1, 2, 3}, 2.0, std::vector<double>{1, 1});
+  ASSERT_TRUE(constants);
+  EXPECT_NEAR(constants->bias, 0.0, 1e-15);
+  EXPECT_EQ(constants->acceleration, 0.0);
+}
+
+TEST(Bca, WithoutBiasAndAccelerationItIsThePercentileInterval) {
+  const std::vector<double> values = one_to(1999);
+  const Interval bca = bca_interval(values, 1000.0, std::vector<double>{1, 2, 3}, 0.95);
+  EXPECT_NEAR(*bca.lower, 50.0, 1e-6);
+  EXPECT_NEAR(*bca.upper, 1950.0, 1e-6);
+}
+
+TEST(Bca, AtABoundThereIsNone) {
+  const Interval interval =
+      bca_interval(std::vector<double>(100, 1.0), 0.5, std::vector<double>{1, 2, 3}, 0.95);
+  EXPECT_FALSE(interval.available());
+  EXPECT_NE(interval.why.find("one side"), std::string::npos);
+}
+
+TEST(Wald, NormalAndStudentQuantilesAndBounds) {
+  const Interval normal = wald_interval(1.0, 0.1, 0.95, 0, 0.0, 10.0);
+  EXPECT_NEAR(*normal.lower, 1.0 - 0.1959963985, 1e-9);
+  const Interval student = wald_interval(1.0, 0.1, 0.95, 10, 0.0, 10.0);
+  EXPECT_NEAR(*student.upper, 1.0 + 0.1 * 2.228138852, 1e-8);
+  EXPECT_EQ(*wald_interval(0.1, 0.1, 0.95, 0, 0.0, 10.0).lower, 0.0);
+  EXPECT_FALSE(wald_interval(0.0, 0.0, 0.95, 0, 0.0, 10.0).available());
+}
+
+}  // namespace
+}  // namespace recoil

@@ -1,0 +1,130 @@
+// Bootstrap, profile and comparison on a fit with a known answer.
+#include "uncertainty/uncertainty.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.hpp"
+#include "synthetic.hpp"
+#include "uncertainty/profile.hpp"
+
+namespace recoil {
+namespace {
+
+using synthetic::Design;
+
+struct Case {
+  std::vector<Dataset> datasets;
+  Observations data;
+  FitResult fitted;
+};
+
+Case noisy_case(std::uint64_t seed = 7) {
+  Case made;
+  made.datasets = {synthetic::dataset(Design{})};
+  RandomStream random(seed, RandomPurpose::coverage, 0);
+  for (ImpactPoint& point : made.datasets[0].points) {
+    point.restitution += *point.restitution_sd * random.normal();
+  }
+  made.data = gather(made.datasets);
+  made.fitted = fit(make_model(synthetic::spec(), made.datasets), made.data);
+  return made;
+}
+
+UncertaintyOptions small(int threads) {
+  UncertaintyOptions options;
+  options.replicates = 199;
+  options.threads = threads;
+  return options;
+}
+
+TEST(Bootstrap, EveryDigitIsTheSameAtAnyThreadCount) {
+  const Case c = noisy_case();
+  const UncertaintyResult one = assess_uncertainty(c.fitted, c.data, c.datasets, small(1));
+  const UncertaintyResult four = assess_uncertainty(c.fitted, c.data, c.datasets, small(4));
+  EXPECT_EQ(one.bootstrap.theta, four.bootstrap.theta);
+  EXPECT_EQ(one.bootstrap.two_point_theta, four.bootstrap.two_point_theta);
+  EXPECT_EQ(one.intervals[0].bca.lower, four.intervals[0].bca.lower);
+  EXPECT_EQ(one.capture[0].interval.upper, four.capture[0].interval.upper);
+  EXPECT_EQ(one.curves[0].lower, four.curves[0].lower);
+}
+
+TEST(Bootstrap, SeedChangesTheReplicatesOnly) {
+  const Case c = noisy_case();
+  UncertaintyOptions other = small(0);
+  other.seed = 1;
+  const UncertaintyResult a = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  const UncertaintyResult b = assess_uncertainty(c.fitted, c.data, c.datasets, other);
+  EXPECT_NE(a.bootstrap.theta, b.bootstrap.theta);
+  EXPECT_EQ(a.intervals[0].wald.lower, b.intervals[0].wald.lower);
+  EXPECT_EQ(a.intervals[0].profile.lower, b.intervals[0].profile.lower);
+}
+
+TEST(Bootstrap, SpreadMatchesTheLinearisedError) {
+  // 14 precise points: nearly linear, so the replicates scatter by the standard error.
+  const Case c = noisy_case();
+  UncertaintyOptions options = small(0);
+  options.replicates = 999;
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, options);
+  EXPECT_EQ(result.bootstrap.failed, 0);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_NEAR(result.two_point[0].full_spread[j] / c.fitted.std_error[j], 1.0, 0.12);
+  }
+}
+
+TEST(Profile, RisesByTheQuantileAtItsEnds) {
+  const Case c = noisy_case();
+  for (std::size_t slot = 0; slot < 2; ++slot) {
+    const Interval interval = profile_interval(c.fitted, c.data, slot, 0.95);
+    ASSERT_TRUE(interval.available()) << interval.why;
+    EXPECT_EQ(interval.shape, "bounded");
+    for (const double end : {*interval.lower, *interval.upper}) {
+      // Refit with the slot held at the end, through the public fit only.
+      ImpactModel held = c.fitted.model;
+      held.slots[slot].free = false;
+      held.slots[slot].initial = end;
+      const FitResult refit = fit(held, c.data);
+      const double rise = refit.chi2 - c.fitted.chi2;
+      const double scale = c.fitted.noise_scale * c.fitted.noise_scale;
+      EXPECT_NEAR(rise / scale, 3.841458821, 0.02);
+    }
+  }
+}
+
+TEST(Profile, StopsAtABoundAndSaysSo) {
+  Case c;
+  Design design;
+  design.C_A = 0.0;
+  c.datasets = {synthetic::dataset(design)};
+  c.data = gather(c.datasets);
+  c.fitted = fit(make_model(synthetic::spec(), c.datasets), c.data);
+  const Interval interval = profile_interval(c.fitted, c.data, 1, 0.95);
+  ASSERT_TRUE(interval.available());
+  EXPECT_EQ(*interval.lower, 0.0);
+  EXPECT_EQ(interval.shape, "one-sided");
+  EXPECT_GT(*interval.upper, 0.0);
+}
+
+TEST(Comparison, HoldsOutTheDiametersThatNeitherSaw) {
+  const Case c = noisy_case();
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  const TwoPointComparison& comparison = result.two_point.front();
+  ASSERT_EQ(comparison.result.status, TwoPointStatus::converged);
+  ASSERT_TRUE(comparison.held_out_rmse && comparison.full_held_out_rmse);
+  EXPECT_GT(comparison.rmse, 0.0);
+  // The full fit minimises over all points; no two-point calibration can have a smaller rms there
+  // (up to the difference between weighted and unweighted residuals, equal weights here).
+  EXPECT_LE(comparison.full_rmse, comparison.rmse * (1.0 + 1e-3));
+  EXPECT_GT(comparison.spread[1], comparison.full_spread[1]);
+}
+
+TEST(Intervals, FixedParametersHaveNoneAndSayWhy) {
+  const Case c = noisy_case();
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  EXPECT_FALSE(result.intervals[2].profile.available());
+  EXPECT_EQ(result.intervals[2].profile.why, "fixed in this fit");
+}
+
+}  // namespace
+}  // namespace recoil
