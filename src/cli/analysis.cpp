@@ -8,7 +8,8 @@ namespace recoil {
 
 std::vector<Dataset> load_datasets(const FitSpec& spec) {
   std::vector<Dataset> datasets;
-  for (const std::filesystem::path& folder : spec.datasets) datasets.push_back(load_dataset(folder));
+  for (const std::filesystem::path& folder : spec.datasets)
+    datasets.push_back(load_dataset(folder));
   return datasets;
 }
 
@@ -24,9 +25,8 @@ Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& o
   model.solver = options.solver;
   analysis.fitted = fit(model, analysis.data);
   if (!analysis.fitted.usable) {
-    throw ComputationError(
-        fmt::format("{}: the fit has no usable answer: {}", fit_file.string(),
-                    analysis.fitted.failure));
+    throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", fit_file.string(),
+                                       analysis.fitted.failure));
   }
   UncertaintyOptions assess;
   assess.replicates = uncertainty.replicates;

@@ -8,9 +8,11 @@
 namespace recoil {
 
 void add_check(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("check", "validate a dataset folder and show what it holds");
+  CLI::App* command =
+      program.add_subcommand("check", "validate a dataset folder and show what it holds");
   command->footer(
-      "Reads datapackage.json and the points that it names, converts the units and prints what was\n"
+      "Reads datapackage.json and the points that it names, converts the units and prints what "
+      "was\n"
       "understood. A mistake is one line: file:line:column: problem (why it is one) suggestion.\n\n"
       "  recoil check datasets/dahneke1975-quartz");
   const auto folder = std::make_shared<std::string>();

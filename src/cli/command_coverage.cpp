@@ -11,7 +11,8 @@
 namespace recoil {
 
 void add_coverage(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("coverage", "how often the intervals hold the truth, measured");
+  CLI::App* command =
+      program.add_subcommand("coverage", "how often the intervals hold the truth, measured");
   command->footer(
       "Simulates the design of the fit again and again from a known truth (the recipe's, or the\n"
       "fit's own estimate), fits each data set as you would, and counts. Prints Markdown.\n\n"

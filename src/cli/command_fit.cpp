@@ -10,9 +10,11 @@
 namespace recoil {
 
 void add_fit(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("fit", "fit all points, with intervals and the two-point comparison");
+  CLI::App* command =
+      program.add_subcommand("fit", "fit all points, with intervals and the two-point comparison");
   command->footer(
-      "Prints the report and writes DIR/fit.json. Every digit depends on the fit file, the data and\n"
+      "Prints the report and writes DIR/fit.json. Every digit depends on the fit file, the data "
+      "and\n"
       "the seed only, at any number of threads.\n\n"
       "  recoil fit fits/dahneke1975-quartz.toml --out results");
   const auto options = std::make_shared<AnalysisFlags>();

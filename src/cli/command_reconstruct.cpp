@@ -9,7 +9,8 @@
 namespace recoil {
 
 void add_reconstruct(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("reconstruct", "regenerate a reconstruction from its recipe, or check it");
+  CLI::App* command = program.add_subcommand(
+      "reconstruct", "regenerate a reconstruction from its recipe, or check it");
   command->footer(
       "Makes points.csv of DIR from DIR/recipe.toml and verifies every published fact that the\n"
       "recipe names. With --check nothing is written: the file has to be what the recipe makes,\n"
@@ -23,9 +24,9 @@ void add_reconstruct(CLI::App& program) {
     const ReconstructionResult result = reconstruct(*folder, *check);
     fmt::print("{}", describe(result));
     if (!result.good()) {
-      throw ComputationError(fmt::format(
-          "{}: {}", *folder,
-          result.identical ? "a fact of the recipe does not hold" : result.difference));
+      throw ComputationError(
+          fmt::format("{}: {}", *folder,
+                      result.identical ? "a fact of the recipe does not hold" : result.difference));
     }
   });
 }

@@ -90,9 +90,11 @@ void report(const ReportOptions& options) {
 }  // namespace
 
 void add_report(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("report", "fit and write pages for every fit, with an index");
+  CLI::App* command =
+      program.add_subcommand("report", "fit and write pages for every fit, with an index");
   command->footer(
-      "One self-contained page per fit and index.html. Pages whose inputs have not changed are kept.\n\n"
+      "One self-contained page per fit and index.html. Pages whose inputs have not changed are "
+      "kept.\n\n"
       "  recoil report                      every fits/*.toml into reports/\n"
       "  recoil report my.toml --out pages  one fit");
   const auto options = std::make_shared<ReportOptions>();

@@ -41,6 +41,17 @@ void take_fitted_values(ImpactModel& model, const std::string& path) {
   }
 }
 
+/// A number in [low, high]; CLI11's own range check lets NaN through.
+CLI::Validator positive(const std::string& what, double low, double high) {
+  return {[=](const std::string& text) -> std::string {
+            double value = 0.0;
+            const bool number = CLI::detail::lexical_cast(text, value);
+            if (number && value >= low && value <= high) return {};
+            return fmt::format("{} is not a {} between {:g} and {:g}", text, what, low, high);
+          },
+          what};
+}
+
 std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id) {
   if (id.empty()) return 0;
   std::vector<std::string> known;
@@ -81,7 +92,8 @@ void print_impact(const ImpactConditions& c, const ImpactResult& impact, const D
   fmt::print("rebound velocity: {:.6g} m/s\n", captured ? 0.0 : e * c.velocity);
   fmt::print("contact time: {:.6g} ns{}\n", impact.contact_time * scales.time / units::ns,
              captured ? " (until the first outer turning point)" : "");
-  fmt::print("largest penetration: {:.6g} nm\n", impact.penetration_max * scales.length / units::nm);
+  fmt::print("largest penetration: {:.6g} nm\n",
+             impact.penetration_max * scales.length / units::nm);
   fmt::print("largest push: {:.6g} uN\n", impact.force_compression * scales.force * 1e6);
   fmt::print("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
   fmt::print("energy budget, of {:.6g} J incident:\n", incident);
@@ -130,7 +142,8 @@ void simulate(const SimulateOptions& options) {
 }  // namespace
 
 void add_simulate(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("simulate", "one impact, with its energy budget and force history");
+  CLI::App* command =
+      program.add_subcommand("simulate", "one impact, with its energy budget and force history");
   command->footer(
       "Uses the initial values of the fit file, or those of a fit.json with --parameters.\n\n"
       "  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 "
@@ -139,10 +152,10 @@ void add_simulate(CLI::App& program) {
   command->add_option("FIT", options->fit_file, "a fit file")->required();
   command->add_option("--velocity", options->velocity, "incident velocity [m/s]")
       ->required()
-      ->check(CLI::Range(1e-6, 1e6).description("a positive velocity"));
+      ->check(positive("velocity", 1e-7, 1e4));
   command->add_option("--diameter", options->diameter, "sphere diameter [um]")
       ->required()
-      ->check(CLI::Range(1e-3, 1e6).description("a positive diameter"));
+      ->check(positive("diameter", 1e-3, 1e6));
   command->add_option("--dataset", options->dataset, "which dataset of a joint fit (its id)");
   command->add_option("--parameters", options->parameters, "take the values from this fit.json");
   command->add_option("--history", options->history, "write the forces against time as CSV");

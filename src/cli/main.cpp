@@ -14,8 +14,7 @@ constexpr int wrong_input = 2;
 constexpr int no_answer = 3;
 
 /// CLI11's complaint as one line, with a suggestion.
-std::string one_line(const CLI::ParseError& error, const CLI::App& program, int argc,
-                     char** argv) {
+std::string one_line(const CLI::ParseError& error, const CLI::App& program, int argc, char** argv) {
   std::string message = error.what();
   for (char& c : message) {
     if (c == '\n') c = ' ';

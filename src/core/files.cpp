@@ -4,8 +4,8 @@
 #include <sha256.h>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -20,8 +20,7 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max
     throw InputError(where, "no such file", "it has to be read", "check the path");
   }
   if (std::filesystem::is_directory(status)) {
-    throw InputError(where, "this is a folder", "a file is expected here",
-                     "name a file inside it");
+    throw InputError(where, "this is a folder", "a file is expected here", "name a file inside it");
   }
   const std::uintmax_t size =
       std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, failed) : 0;
@@ -32,8 +31,18 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max
   }
   std::ifstream in(path, std::ios::binary);
   std::string text;
-  if (in) text.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-  if (!in) throw InputError(where, "cannot read the file", "permission or disk", "check it");
+  // Read piece by piece, so that a device that never ends is refused like a file that is too large.
+  std::array<char, 1 << 16> piece{};
+  while (in && text.size() <= max_bytes) {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  }
+  if (text.size() > max_bytes) {
+    throw InputError(where, fmt::format("the file has more than {} MB", max_bytes / 1000000),
+                     "no more is read into memory",
+                     "split it, or average events into points first");
+  }
+  if (!in.eof()) throw InputError(where, "cannot read the file", "permission or disk", "check it");
   if (const auto nul = text.find('\0'); nul != std::string::npos) {
     throw InputError(where, fmt::format("byte {} is NUL", nul + 1), "this is not a text file",
                      "export it as UTF-8 text");

@@ -37,8 +37,8 @@ void Progress::draw(std::size_t done) {
   const double elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const double left =
-      elapsed * (static_cast<double>(total_) / static_cast<double>(std::max<std::size_t>(done, 1)) -
-                 1.0);
+      elapsed *
+      (static_cast<double>(total_) / static_cast<double>(std::max<std::size_t>(done, 1)) - 1.0);
   const std::size_t filled = total_ == 0 ? width : width * std::min(done, total_) / total_;
   fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}/{}, {:.0f} s left", label_, "", filled, "",
              width - filled, done, total_, left);

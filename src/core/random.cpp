@@ -1,9 +1,9 @@
 #include "core/random.hpp"
 
 #include <Random123/philox.h>
-#include <Random123/uniform.hpp>
 #include <gsl/gsl_cdf.h>
 
+#include <Random123/u01fixedpt.h>
 #include <cassert>
 
 namespace recoil {
@@ -23,7 +23,7 @@ std::uint64_t RandomStream::next() {
   return buffer_[used_++];
 }
 
-double RandomStream::uniform() { return r123::u01<double>(next()); }
+double RandomStream::uniform() { return u01fixedpt_open_open_64_double(next()); }
 
 double RandomStream::normal() { return gsl_cdf_ugaussian_Pinv(uniform()); }
 

@@ -61,8 +61,8 @@ std::string unanswered_point(const ImpactModel& model, const Observations& data,
 
 void record_predictions(FitResult& result, const Observations& data) {
   for (const Observation& point : data.points) {
-    const Prediction at = predict(result.model, result.theta, point.dataset, point.diameter,
-                                  point.velocity, false);
+    const Prediction at =
+        predict(result.model, result.theta, point.dataset, point.diameter, point.velocity, false);
     result.prediction_squared.push_back(at.restitution_squared);
     result.prediction.push_back(at.restitution());
   }
@@ -172,7 +172,8 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
   for (const std::vector<double>& start : starting_points(model, first, options.several_starts)) {
     LeastSquaresResult run = minimise(problem, start, options.minimiser);
     result.starts.push_back({start, run.theta, run.sum_of_squares, run.converged, run.message});
-    const bool better = run.converged && (!best.converged || run.sum_of_squares < best.sum_of_squares);
+    const bool better =
+        run.converged && (!best.converged || run.sum_of_squares < best.sum_of_squares);
     if (better) {
       best = std::move(run);
       best_start = result.starts.size() - 1;
@@ -215,7 +216,8 @@ double root_mean_square(const ImpactModel& model, std::span<const double> theta,
   double sum = 0.0;
   std::size_t count = 0;
   const auto add = [&](const Observation& point) {
-    const Prediction at = predict(model, theta, point.dataset, point.diameter, point.velocity, false);
+    const Prediction at =
+        predict(model, theta, point.dataset, point.diameter, point.velocity, false);
     const double measured = point.censored ? 0.0 : point.restitution;
     sum += std::pow(measured - at.restitution(), 2);
     ++count;

@@ -66,20 +66,20 @@ struct FitResult {
   bool usable = false;
   std::string failure;  ///< why not, with the parameter or point that stood in the way
   ImpactModel model;
-  std::vector<double> theta;            ///< [slots]
-  std::vector<bool> at_bound;           ///< [slots]
-  std::vector<double> covariance;       ///< [slots x slots]; scaled by noise_scale^2
-  std::vector<double> std_error;        ///< [slots]; 0 for fixed ones and those at a bound
-  std::vector<double> residuals;        ///< weighted, [points]
-  std::vector<double> prediction;       ///< e at each point [1]
+  std::vector<double> theta;               ///< [slots]
+  std::vector<bool> at_bound;              ///< [slots]
+  std::vector<double> covariance;          ///< [slots x slots]; scaled by noise_scale^2
+  std::vector<double> std_error;           ///< [slots]; 0 for fixed ones and those at a bound
+  std::vector<double> residuals;           ///< weighted, [points]
+  std::vector<double> prediction;          ///< e at each point [1]
   std::vector<double> prediction_squared;  ///< e^2, continued below zero
-  std::vector<double> leverage;         ///< diagonal of the hat matrix [points]
+  std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
   double chi2 = 0.0;
   int dof = 0;
-  double p_value = 0.0;       ///< of chi2; NaN-free: 0 or 1 at the ends; meaningless if !sd_stated
-  double rmse = 0.0;          ///< of e over all points that rebounded [1]
-  double noise_scale = 1.0;   ///< what the stated (or unit) sd is multiplied by in every interval
-  std::string noise_text;     ///< why, in a sentence
+  double p_value = 0.0;      ///< of chi2; NaN-free: 0 or 1 at the ends; meaningless if !sd_stated
+  double rmse = 0.0;         ///< of e over all points that rebounded [1]
+  double noise_scale = 1.0;  ///< what the stated (or unit) sd is multiplied by in every interval
+  std::string noise_text;    ///< why, in a sentence
   std::vector<StartSummary> starts;
   std::vector<std::string> warnings;
 };

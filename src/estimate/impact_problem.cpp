@@ -16,8 +16,8 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
     const std::size_t p = theta.size();
     for (std::size_t i = 0; i < data.points.size(); ++i) {
       const Observation& point = data.points[i];
-      const Prediction at = predict(model, theta, point.dataset, point.diameter, point.velocity,
-                                    !jacobian.empty());
+      const Prediction at =
+          predict(model, theta, point.dataset, point.diameter, point.velocity, !jacobian.empty());
       if (!at.usable()) return false;
       const WeightedResidual r = weighted_residual(point, at.restitution_squared);
       residuals[i] = r.value;

@@ -225,8 +225,8 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const 
   std::vector<bool> held = fixed;
   LeastSquaresResult result = solve(problem, start, held, options);
   // A projected trust-region step that runs into a bound can end the descent short of the minimum
-  // along the others. Hold what rests on a bound, descend along the rest, and let go of whatever the
-  // slope pulls back inside, until nothing changes (an active-set iteration).
+  // along the others. Hold what rests on a bound, descend along the rest, and let go of whatever
+  // the slope pulls back inside, until nothing changes (an active-set iteration).
   for (std::size_t round = 0; result.converged && round < 2 * p; ++round) {
     bool changed = false;
     for (std::size_t j = 0; j < p; ++j) {

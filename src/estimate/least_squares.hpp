@@ -18,10 +18,10 @@ struct LeastSquaresProblem {
                                       std::span<double> jacobian)>;
 
   std::size_t residual_count = 0;
-  std::vector<double> lower;     ///< [p], -infinity allowed
-  std::vector<double> upper;     ///< [p]
-  std::vector<bool> log_scale;   ///< [p] minimised in ln(theta); needs lower > 0
-  std::vector<bool> fixed;       ///< [p] kept at the start; empty means none
+  std::vector<double> lower;    ///< [p], -infinity allowed
+  std::vector<double> upper;    ///< [p]
+  std::vector<bool> log_scale;  ///< [p] minimised in ln(theta); needs lower > 0
+  std::vector<bool> fixed;      ///< [p] kept at the start; empty means none
   Evaluate evaluate;
 };
 
@@ -39,11 +39,11 @@ struct LeastSquaresResult {
   std::vector<double> theta;  ///< [p]
   double sum_of_squares = 0.0;
   int iterations = 0;
-  std::vector<double> residuals;    ///< [n] at theta
-  std::vector<double> jacobian;     ///< [n x p] at theta
-  std::vector<bool> at_bound;       ///< [p] resting on a bound
-  std::vector<double> covariance;   ///< [p x p] (J'J)^-1; zero rows for fixed parameters and those
-                                    ///< at a bound; empty when J'J is singular
+  std::vector<double> residuals;   ///< [n] at theta
+  std::vector<double> jacobian;    ///< [n x p] at theta
+  std::vector<bool> at_bound;      ///< [p] resting on a bound
+  std::vector<double> covariance;  ///< [p x p] (J'J)^-1; zero rows for fixed parameters and those
+                                   ///< at a bound; empty when J'J is singular
 };
 
 /// Ceres trust-region Levenberg-Marquardt within bounds from `start`. Parameters that rest on a

@@ -35,8 +35,8 @@ struct VelocityRoot {
   bool usable;
 };
 
-/// e^2 V^2 as a function of V^2: nearly a straight line of slope 1 for weak damping (the energy that
-/// is lost hardly depends on V near capture), which Newton likes.
+/// e^2 V^2 as a function of V^2: nearly a straight line of slope 1 for weak damping (the energy
+/// that is lost hardly depends on V near capture), which Newton likes.
 VelocityRoot rebound_energy(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset, double diameter, double velocity) {
   const ImpactConditions c = conditions_at(model, theta, dataset, diameter, velocity);
@@ -46,10 +46,10 @@ VelocityRoot rebound_energy(const ImpactModel& model, std::span<const double> th
   options.gradient = true;
   const ImpactResult impact = model.solver == Solver::fast ? simulate_impact_fast(groups, options)
                                                            : simulate_impact(groups, options);
-  const double per_velocity = (groups.alpha * impact.gradient[0] -
-                               0.8 * groups.beta * impact.gradient[1] +
-                               groups.gamma * impact.gradient[2]) /
-                              velocity;  // d e^2 / d V
+  const double per_velocity =
+      (groups.alpha * impact.gradient[0] - 0.8 * groups.beta * impact.gradient[1] +
+       groups.gamma * impact.gradient[2]) /
+      velocity;  // d e^2 / d V
   const double e2 = impact.restitution_squared;
   return {e2 * velocity * velocity, e2 + 0.5 * velocity * per_velocity, impact.usable()};
 }
@@ -78,7 +78,8 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
                                                                 : model.slot_f0;
     // f0 belongs to a pair of materials: where it is derived, every dataset has its own.
     const bool derived = parameter.name == "f0" && !parameter.initial_stated;
-    const bool split = datasets.size() > 1 && (parameter.per_dataset || (derived && !parameter.free));
+    const bool split =
+        datasets.size() > 1 && (parameter.per_dataset || (derived && !parameter.free));
     for (std::size_t d = 0; d < datasets.size(); ++d) {
       if (d > 0 && !split) {
         index.push_back(index.front());
@@ -139,12 +140,13 @@ CaptureVelocity capture_velocity(const ImpactModel& model, std::span<const doubl
     return result;
   }
   // Small damping: V*^2 = 2 J (C_A + 2 C_H) V_a^3 with J = 0.827350 (rebound), twice C_A (both).
-  const double damping = (model.phase == AdhesionDampingPhase::both ? 2.0 : 1.0) *
-                             c.adhesion_damping + 2.0 * c.hertz_damping;
+  const double damping =
+      (model.phase == AdhesionDampingPhase::both ? 2.0 : 1.0) * c.adhesion_damping +
+      2.0 * c.hertz_damping;
   constexpr double J = 0.827350;
   double square = guess > 0.0 ? guess * guess : 2.0 * J * damping * scale * scale * scale;
-  double captured = 0.0;                        // largest V^2 seen that is captured
-  double rebounds = 1e6 * scale * scale;        // smallest V^2 seen that rebounds
+  double captured = 0.0;                  // largest V^2 seen that is captured
+  double rebounds = 1e6 * scale * scale;  // smallest V^2 seen that rebounds
   bool rebound_seen = false;
   constexpr int most_iterations = 60;
   for (int i = 0; i < most_iterations; ++i) {
@@ -155,7 +157,8 @@ CaptureVelocity capture_velocity(const ImpactModel& model, std::span<const doubl
     rebound_seen = rebound_seen || root.excess > 0.0;
     double next = square - root.excess / root.slope;
     if (!(root.slope > 0.0) || !(next > captured) || !(next < rebounds)) {
-      next = rebound_seen ? std::sqrt(std::max(captured, 1e-4 * rebounds) * rebounds) : 4.0 * square;
+      next =
+          rebound_seen ? std::sqrt(std::max(captured, 1e-4 * rebounds) * rebounds) : 4.0 * square;
       if (!rebound_seen && next > 1e6 * scale * scale) return result;  // nothing rebounds
     }
     const bool settled = std::abs(next - square) <= 2e-9 * square;

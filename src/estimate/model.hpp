@@ -36,14 +36,14 @@ struct ImpactModel {
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   Solver solver = Solver::fast;
   std::vector<ParameterSlot> slots;
-  std::vector<ContactProperties> contacts;  ///< per dataset
+  std::vector<ContactProperties> contacts;               ///< per dataset
   std::vector<std::size_t> slot_C_H, slot_C_A, slot_f0;  ///< per dataset: index into `slots`
 
   std::vector<double> initial() const;
 };
 
-/// Lays out theta for `spec`. f0 that is not free, or has no stated start, takes the value of eq. 12
-/// for its dataset.
+/// Lays out theta for `spec`. f0 that is not free, or has no stated start, takes the value of eq.
+/// 12 for its dataset.
 ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets);
 
 /// A model's answer for one (diameter, velocity).

@@ -13,8 +13,8 @@ namespace recoil {
 namespace {
 
 constexpr int most_iterations = 200;
-constexpr double settled = 1e-10;  // relative change of both factors
-constexpr double root_tolerance = 1e-12;   // relative, of each factor
+constexpr double settled = 1e-8;         // relative change of both factors
+constexpr double root_tolerance = 1e-9;  // relative, of each factor; Newton ends far below it
 
 struct Excess {
   double value;  // e^2 of the model minus e^2 of the point
@@ -26,23 +26,30 @@ struct Excess {
 /// leaves it above, or the model has no answer.
 std::optional<double> damping_for(const std::function<Excess(double)>& excess, double guess,
                                   double upper) {
-  const Excess none = excess(0.0);
-  if (!(none.value >= 0.0)) return std::nullopt;
   double low = 0.0;
   double high = upper;
-  double damping = guess > 0.0 ? guess : std::min(-none.value / none.slope, upper);
+  bool zero_allows_it = false;  // excess(0) >= 0: there is a root above zero
+  double damping = guess;
   constexpr int most_steps = 200;
   for (int i = 0; i < most_steps; ++i) {
     const Excess at = excess(damping);
     if (!std::isfinite(at.value)) return std::nullopt;
+    if (damping == 0.0) {
+      if (at.value < 0.0) return std::nullopt;
+      zero_allows_it = true;
+    }
     if (at.value > 0.0 && damping >= upper) return std::nullopt;
     (at.value > 0.0 ? low : high) = damping;
-    const double newton = damping - at.value / at.slope;
-    const bool inside = newton > low && newton < high;
-    const double bisection = low > 0.0 ? std::min(4.0 * low, std::sqrt(low * high)) : 0.25 * high;
-    // Newton overshoots upwards from a point short of the root, where the whole range is allowed.
-    const double next = inside ? newton : newton >= upper && high == upper ? upper : bisection;
-    if (std::abs(next - damping) <= root_tolerance * damping) return next;
+    double next = damping - at.value / at.slope;
+    if (next <= 0.0 && !zero_allows_it) {
+      next = 0.0;
+    } else if (!(next > low) || !(next < high)) {
+      // Newton left the bracket: from below a root it may overshoot into the flat or captured
+      // range.
+      next = low > 0.0 ? std::min(4.0 * low, std::sqrt(low * high)) : 0.25 * high;
+      if (high == upper && next > 0.5 * upper) next = upper;
+    }
+    if (next > 0.0 && std::abs(next - damping) <= root_tolerance * next) return next;
     damping = next;
   }
   return damping;
@@ -150,8 +157,7 @@ TwoPointResult two_point(const ImpactModel& model, const Observations& data, std
                                 model.slots[adhesion].upper, describe(low), result.theta[hertz]);
     } else {
       result.status = TwoPointStatus::converged;
-      result.text = fmt::format("{} iterations on {} and {}", result.iterations, describe(low),
-                                describe(high));
+      result.text = fmt::format("from {} and {}", describe(low), describe(high));
     }
     return result;
   }

@@ -19,8 +19,8 @@ enum class TwoPointStatus {
 std::string to_string(TwoPointStatus status);
 
 /// The calibration of Li, Dunn & Brach (1999), section 4: the point of the highest velocity gives
-/// C_H with the effects of adhesion neglected (C_A = 0 at first), the point of the lowest gives C_A,
-/// and so on until nothing changes. f0 is fixed by eq. 12.
+/// C_H with the effects of adhesion neglected (C_A = 0 at first), the point of the lowest gives
+/// C_A, and so on until nothing changes. f0 is fixed by eq. 12.
 struct TwoPointResult {
   TwoPointStatus status = TwoPointStatus::too_few_points;
   std::string text;           ///< the status in a sentence, with numbers

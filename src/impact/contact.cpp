@@ -73,8 +73,8 @@ ContactProperties derive_contact(const ImpactSystem& system, double reference_di
 
   contact.gamma_particle = system.particle.surface_energy.value_or(
       gilman_surface_energy(system.particle.youngs_modulus));
-  contact.gamma_surface = system.surface.surface_energy.value_or(
-      gilman_surface_energy(system.surface.youngs_modulus));
+  contact.gamma_surface =
+      system.surface.surface_energy.value_or(gilman_surface_energy(system.surface.youngs_modulus));
   const double energy_derived = 2.0 * std::sqrt(contact.gamma_particle * contact.gamma_surface);
   contact.adhesion_energy = system.adhesion_energy.value_or(energy_derived);
   if (contact.adhesion_energy > 0.0 && disagree(contact.adhesion_energy, energy_derived)) {

@@ -13,14 +13,14 @@ namespace recoil {
 /// A value stated by the dataset wins over the derived one; the derived one is kept beside it, and
 /// a disagreement becomes a sentence in `contradictions`.
 struct ContactProperties {
-  double k_particle = 0.0;            ///< eq. 7: k = (1 - nu^2) / (pi E) [1/Pa]
-  double k_surface = 0.0;             ///< eq. 7 [1/Pa]
-  double gamma_particle = 0.0;        ///< surface energy, stated or eq. 11 [J/m2]
-  double gamma_surface = 0.0;         ///< [J/m2]
-  double stiffness_derived = 0.0;     ///< eq. 6: K = 4 / (3 pi (k1 + k2)) = (4/3) E* [Pa]
-  double stiffness = 0.0;             ///< the K that is used [Pa]
-  double adhesion_energy = 0.0;       ///< W_A = 2 sqrt(gamma1 gamma2), or as stated [J/m2]
-  double equilibrium_radius = 0.0;    ///< eq. 10: a_eq = (6 pi W_A r^2 / K)^(1/3) [m]
+  double k_particle = 0.0;              ///< eq. 7: k = (1 - nu^2) / (pi E) [1/Pa]
+  double k_surface = 0.0;               ///< eq. 7 [1/Pa]
+  double gamma_particle = 0.0;          ///< surface energy, stated or eq. 11 [J/m2]
+  double gamma_surface = 0.0;           ///< [J/m2]
+  double stiffness_derived = 0.0;       ///< eq. 6: K = 4 / (3 pi (k1 + k2)) = (4/3) E* [Pa]
+  double stiffness = 0.0;               ///< the K that is used [Pa]
+  double adhesion_energy = 0.0;         ///< W_A = 2 sqrt(gamma1 gamma2), or as stated [J/m2]
+  double equilibrium_radius = 0.0;      ///< eq. 10: a_eq = (6 pi W_A r^2 / K)^(1/3) [m]
   double adhesion_force_derived = 0.0;  ///< eq. 9: f0 = K a_eq^2 / (2 pi r) [N/m]
   double adhesion_force = 0.0;          ///< the f0 that is used, at the reference diameter [N/m]
   double reference_diameter = 0.0;      ///< [m]

@@ -13,7 +13,7 @@
 namespace recoil {
 namespace {
 
-constexpr double tolerance = 1e-11;   // error of q and u per step; both are of order one
+constexpr double tolerance = 1e-11;  // error of q and u per step; both are of order one
 constexpr double smallest_step = 1e-9;
 constexpr int most_steps = 3000;  // an impact takes 50; a sphere creeping into the well 1500
 
@@ -44,8 +44,7 @@ struct Impact {
   bool adhesion_damping_acts = false;
 
   State<T> rate(const State<T>& s, Clock clock) const {
-    const T f =
-        regularised_acceleration(s.q, s.u, alpha, beta, gamma, adhesion_damping_acts);
+    const T f = regularised_acceleration(s.q, s.u, alpha, beta, gamma, adhesion_damping_acts);
     switch (clock) {
       case Clock::approach:
         return {s.u / f, T(1.0)};
@@ -157,8 +156,8 @@ class Flight {
       State<T> next;
       const T h = T(fraction) * left();
       const double error = impact_.step(state_, h, clock, next);
-      const bool sound = std::isfinite(value_of(next.q)) && std::isfinite(value_of(next.u)) &&
-                         error <= 1.0;
+      const bool sound =
+          std::isfinite(value_of(next.q)) && std::isfinite(value_of(next.u)) && error <= 1.0;
       if (sound) {
         state_ = next;
         if (fraction == 1.0) {
@@ -213,8 +212,8 @@ ImpactResult simulate_impact_fast(const ImpactGroups& groups, const ImpactOption
   if (options.gradient) {
     using Dual = ceres::Jet<double, 3>;
     Dual twice_energy;
-    arrived = run(Dual(groups.alpha, 0), Dual(groups.beta, 1), Dual(groups.gamma, 2),
-                  options.phase, twice_energy, result);
+    arrived = run(Dual(groups.alpha, 0), Dual(groups.beta, 1), Dual(groups.gamma, 2), options.phase,
+                  twice_energy, result);
     result.restitution_squared = twice_energy.a;
     std::copy_n(twice_energy.v.data(), 3, result.gradient.begin());
   } else {
@@ -225,7 +224,8 @@ ImpactResult simulate_impact_fast(const ImpactGroups& groups, const ImpactOption
     ++handovers;
     return simulate_impact(groups, options);
   }
-  result.outcome = result.restitution_squared > 0.0 ? ImpactOutcome::rebound : ImpactOutcome::captured;
+  result.outcome =
+      result.restitution_squared > 0.0 ? ImpactOutcome::rebound : ImpactOutcome::captured;
   return result;
 }
 

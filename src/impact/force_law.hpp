@@ -6,7 +6,8 @@
 
 namespace recoil {
 
-/// The four contact forces of eq. 5 per m V^2 / n_c, at penetration x = q^2 and approach velocity u.
+/// The four contact forces of eq. 5 per m V^2 / n_c, at penetration x = q^2 and approach velocity
+/// u.
 template <class T>
 struct ContactForces {
   T hertz;             ///< -x^(3/2)
@@ -52,9 +53,9 @@ inline bool has_settled(double q, double u, double beta) {
   return 0.5 * u * u + potential_energy(q, beta) - depth < -settled_part * depth;
 }
 
-/// Above this (C_H + C_A) V_a nothing turns twice and everything settles: the creep is so stiff that
-/// following it step by step costs more than it tells. The well is reached to better than 1e-9 of
-/// its depth (tests/impact/outcome_test.cpp compares).
+/// Above this (C_H + C_A) V_a nothing turns twice and everything settles: the creep is so stiff
+/// that following it step by step costs more than it tells. The well is reached to better than 1e-9
+/// of its depth (tests/impact/outcome_test.cpp compares).
 inline bool creeps_into_the_well(const ImpactGroups& groups) {
   constexpr double stiff_creep = 20.0;
   return (groups.alpha + groups.gamma) * std::pow(groups.beta, 1.25) > stiff_creep;

@@ -15,12 +15,12 @@ std::string to_string(AdhesionDampingPhase phase);
 
 /// One sphere about to hit one surface, in SI units.
 struct ImpactConditions {
-  double diameter = 0.0;         ///< [m]
-  double velocity = 0.0;         ///< incident V [m/s], > 0
-  double density = 0.0;          ///< of the sphere [kg/m3]
-  double stiffness = 0.0;        ///< K [Pa]
-  double adhesion_force = 0.0;   ///< f0 at this diameter [N/m], >= 0
-  double hertz_damping = 0.0;    ///< C_H [s/m], >= 0
+  double diameter = 0.0;          ///< [m]
+  double velocity = 0.0;          ///< incident V [m/s], > 0
+  double density = 0.0;           ///< of the sphere [kg/m3]
+  double stiffness = 0.0;         ///< K [Pa]
+  double adhesion_force = 0.0;    ///< f0 at this diameter [N/m], >= 0
+  double hertz_damping = 0.0;     ///< C_H [s/m], >= 0
   double adhesion_damping = 0.0;  ///< C_A [s/m], >= 0
 };
 
@@ -58,11 +58,11 @@ std::string to_string(ImpactOutcome outcome);
 
 /// Where the incident kinetic energy went, in units of m V^2 (so it starts with 1/2).
 struct EnergyBudget {
-  double kinetic = 0.0;         ///< at the end: of the rebound, or 0 when captured
-  double potential = 0.0;       ///< at the end: Hertz minus adhesion; 0 after a release
-  double hertz_loss = 0.0;      ///< taken by C_H
-  double adhesion_loss = 0.0;   ///< taken by C_A
-  double largest = 0.0;         ///< largest single energy on the way, the yardstick of the audit
+  double kinetic = 0.0;        ///< at the end: of the rebound, or 0 when captured
+  double potential = 0.0;      ///< at the end: Hertz minus adhesion; 0 after a release
+  double hertz_loss = 0.0;     ///< taken by C_H
+  double adhesion_loss = 0.0;  ///< taken by C_A
+  double largest = 0.0;        ///< largest single energy on the way, the yardstick of the audit
 
   /// 1/2 - (kinetic + potential + losses), relative to `largest`: zero but for integration error.
   double audit() const;
@@ -94,8 +94,8 @@ struct ImpactResult {
 /// What to compute and how exactly.
 struct ImpactOptions {
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
-  bool gradient = false;    ///< forward sensitivities
-  bool budget = false;      ///< energy budget, contact time and peak forces
+  bool gradient = false;     ///< forward sensitivities
+  bool budget = false;       ///< energy budget, contact time and peak forces
   double tolerance = 1e-11;  ///< relative, per step, of the integrator
   long max_steps = 200000;
 };

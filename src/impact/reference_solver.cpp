@@ -16,7 +16,7 @@ namespace recoil {
 namespace {
 
 constexpr int groups_count = 3;
-constexpr int anderson_depth = 0;  // the field is not stiff: plain functional iteration
+constexpr int anderson_depth = 0;    // the field is not stiff: plain functional iteration
 constexpr double longest_arc = 1e9;  // "until an event": no impact is this long in sigma
 // At the separatrix q falls like sigma^-2 and release is never reached. Inside this circle about
 // q = u = 0 the energy that is left is below 1e-15 m V^2 (see near_cusp_radius) and decides.
@@ -52,9 +52,9 @@ int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vec
                                 N_Vector* s_dot, void* user_data, N_Vector, N_Vector) {
   const Field& f = field_of(user_data);
   using Dual = ceres::Jet<double, 2 + groups_count>;
-  const Dual acceleration = regularised_acceleration(
-      Dual(NV_Ith_S(y, 0), 0), Dual(NV_Ith_S(y, 1), 1), Dual(f.alpha, 2), Dual(f.beta, 3),
-      Dual(f.gamma, 4), f.adhesion_damping_acts());
+  const Dual acceleration =
+      regularised_acceleration(Dual(NV_Ith_S(y, 0), 0), Dual(NV_Ith_S(y, 1), 1), Dual(f.alpha, 2),
+                               Dual(f.beta, 3), Dual(f.gamma, 4), f.adhesion_damping_acts());
   for (int i = 0; i < count; ++i) {
     const double s_q = NV_Ith_S(s[i], 0);
     const double s_u = NV_Ith_S(s[i], 1);
@@ -70,8 +70,7 @@ int quadrature_right_hand_side(realtype, N_Vector y, N_Vector rates, void* user_
   const Field& f = field_of(user_data);
   const double q = NV_Ith_S(y, 0);
   const double u = NV_Ith_S(y, 1);
-  const auto forces =
-      contact_forces(q, u, f.alpha, f.beta, f.gamma, f.adhesion_damping_acts());
+  const auto forces = contact_forces(q, u, f.alpha, f.beta, f.gamma, f.adhesion_damping_acts());
   NV_Ith_S(rates, 0) = 2.0 * q;
   NV_Ith_S(rates, 1) = -2.0 * q * forces.hertz_damping * u;
   NV_Ith_S(rates, 2) = -2.0 * q * forces.adhesion_damping * u;
@@ -86,8 +85,8 @@ int turning_event(realtype, N_Vector y, realtype* value, void*) {
 int end_events(realtype, N_Vector y, realtype* value, void* user_data) {
   const double q = NV_Ith_S(y, 0);
   const double u = NV_Ith_S(y, 1);
-  value[0] = q;                                                      // release
-  value[1] = u;                                                      // outer turning point
+  value[0] = q;                                                        // release
+  value[1] = u;                                                        // outer turning point
   value[2] = q * q + u * u - field_of(user_data).cusp_radius_squared;  // separatrix
   return 0;
 }

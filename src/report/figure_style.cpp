@@ -36,8 +36,9 @@ std::string key_above() {
   return "set tmargin -1\nset key outside top center horizontal Left reverse samplen 0.8\n";
 }
 
-std::string key_below() {
-  return "set key outside bottom center horizontal Left reverse samplen 1.4 maxcols 2 width -1\n";
+std::string key_below(int rows) {
+  return fmt::format("set key outside bottom center vertical Left reverse samplen 1.4 maxrows {}\n",
+                     rows);
 }
 
 Range range_of(const std::vector<double>& values, double margin) {

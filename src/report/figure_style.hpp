@@ -33,7 +33,7 @@ std::string title(const std::string& text, const std::string& remark = "",
 
 /// The key in its own rows above or below the axes, where it hides nothing.
 std::string key_above();
-std::string key_below();
+std::string key_below(int rows);
 
 /// A range that holds all finite values, with a margin; [0, 1] when there are none.
 struct Range {

@@ -112,8 +112,9 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
   script.name = fmt::format("force-history-{}", dataset + 1);
   script.title = fmt::format("Contact forces during one impact, {}", analysis.datasets[dataset].id);
   script.height = 390;
-  const std::string heading =
+  std::string heading =
       fmt::format("d = {} µm, V = {} m/s", diameter_text(conditions.diameter), number(velocity, 3));
+  if (analysis.datasets.size() > 1) heading += ", " + analysis.datasets[dataset].id;
   std::string& c = script.commands;
   c = style::preamble() + style::title(heading) +
       fmt::format("set xrange [0:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
@@ -121,7 +122,7 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
                   top * force.factor + 0.06 * span) +
       fmt::format("set xlabel 'time since touch  [{}]' offset 0,0.4\n", time.name) +
       fmt::format("set ylabel 'force on the sphere  [{}]' offset 1,0\n", force.name) +
-      style::key_below() + "set key maxcols 3\nset xzeroaxis lc rgb '#999999' lw 1\n" +
+      style::key_below(3) + "set xzeroaxis lc rgb '#999999' lw 1\n" +
       data_block("history", history_rows(history, scales, time.factor, force.factor));
   c += fmt::format(
       "plot $history using 1:2 with lines lc rgb '{}' lw 2 title 'Hertz', \\\n"
@@ -132,9 +133,10 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
       style::blue, style::sky, style::vermillion, style::orange, style::ink);
 
   std::string caption = fmt::format(
-      "Reference diameter {} µm at {} m/s with the fitted parameters: {}. Forces "
+      "{}. Reference diameter {} µm at {} m/s with the fitted parameters: {}. Forces "
       "away from the surface are positive.",
-      diameter_text(conditions.diameter), number(velocity, 3), to_string(result.outcome));
+      analysis.datasets[dataset].id, diameter_text(conditions.diameter), number(velocity, 3),
+      to_string(result.outcome));
   if (result.outcome == ImpactOutcome::rebound) {
     caption += fmt::format(" e = {}. {}.", number(std::sqrt(result.restitution_squared), 3),
                            budget_words(result));

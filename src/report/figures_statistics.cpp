@@ -156,8 +156,10 @@ std::vector<Figure> per_dataset(const Analysis& analysis, const std::string& id,
     PlotScript script = make_script(rows);
     script.name = fmt::format("{}-{}", id, k + 1);
     script.title = fmt::format("{}, {}", title, analysis.datasets[k].id);
-    figures.push_back({script.name, script.title,
-                       residual_words(analysis) + beyond_two(rows) + extra, draw_svg(script)});
+    figures.push_back(
+        {script.name, script.title,
+         analysis.datasets[k].id + ". " + residual_words(analysis) + beyond_two(rows) + extra,
+         draw_svg(script)});
   }
   return figures;
 }
@@ -230,7 +232,8 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
                   range.lower, range.upper, 0.92 * h.width) +
       fmt::format("set xlabel '{}{}  [{}]' offset 0,0.4\n", style::symbol(parameter.name),
                   parameter.dataset.empty() ? "" : ", " + parameter.dataset, scale.unit) +
-      "set bmargin 3.6\nset ylabel 'replicates' offset 1,0\nset format x '%g'\nset xtics autofreq\n" +
+      "set bmargin 3.6\nset ylabel 'replicates' offset 1,0\nset format x '%g'\nset xtics "
+      "autofreq\n" +
       style::key_above();
   if (interval.available()) {
     c += fmt::format(

@@ -98,7 +98,8 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
       fmt::format(
           "set xlabel 'C_{{H}}  [{}]' offset 0,0.4\nset ylabel 'C_{{A}}  [{}]' offset 1,0\n",
           scale_H.unit, scale_A.unit) +
-      "set bmargin 3.6\n" + style::key_above() + data_block("two", thinned(two_pairs, x, y, outside)) +
+      "set bmargin 3.6\n" + style::key_above() +
+      data_block("two", thinned(two_pairs, x, y, outside)) +
       data_block("full", thinned(full_pairs, x, y, outside)) +
       data_block("estimates", {{full_H, full_A}, {two_H, two_A}});
   c += fmt::format(

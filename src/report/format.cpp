@@ -41,14 +41,23 @@ Interval no_interval(const std::string& why) {
 
 std::string version() { return RECOIL_VERSION; }
 
-std::string number(double value, int digits) {
+std::string number(double value, int count) {
   if (!std::isfinite(value)) return "n/a";
   if (value == 0.0) return "0";
-  std::string text = fmt::format("{:.{}g}", value, digits);
-  // 3e-05 reads worse than 3.0e-5 but better than 0.00003; only the padding zero goes.
+  const double size = std::abs(value);
+  if (size >= std::pow(10.0, count) && size < 1e6) return fmt::format("{:.0f}", value);
+  std::string text = fmt::format("{:.{}g}", value, count);
+  // 3e-05 has a zero that says nothing.
   const auto e = text.find('e');
   if (e != std::string::npos && text.size() == e + 4 && text[e + 2] == '0') text.erase(e + 2, 1);
   return text;
+}
+
+std::string digits(double value, int count) {
+  if (!std::isfinite(value) || value == 0.0) return number(value, count);
+  const int leading = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (leading < -4 || leading > 5) return number(value, count);
+  return fmt::format("{:.{}f}", value, std::max(0, count - 1 - leading));
 }
 
 std::pair<std::string, std::string> number_with_error(double value, double error) {
@@ -57,17 +66,17 @@ std::pair<std::string, std::string> number_with_error(double value, double error
   }
   const double largest = std::max(std::abs(value), error);
   if (largest < 1e-4 || largest >= 1e6) {
-    const int digits =
+    const int count =
         std::clamp(2 + static_cast<int>(std::floor(std::log10(largest / error))), 2, 12);
-    return {number(value, digits), number(error, 2)};
+    return {number(value, count), number(error, 2)};
   }
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
   return {fmt::format("{:.{}f}", value, decimals), fmt::format("{:.{}f}", error, decimals)};
 }
 
-std::string interval_text(const Interval& interval, int digits) {
+std::string interval_text(const Interval& interval, int count) {
   if (!interval.available()) return "none";
-  return fmt::format("[{}, {}]", number(*interval.lower, digits), number(*interval.upper, digits));
+  return fmt::format("[{}, {}]", digits(*interval.lower, count), digits(*interval.upper, count));
 }
 
 std::string p_value_text(double p) {
@@ -149,6 +158,22 @@ IntervalSet intervals_of(const Analysis& analysis, std::size_t slot) {
   if (fixed) set.recommended.clear();
   if (set.recommended.empty() && set.recommended_why.empty()) set.recommended_why = why;
   return set;
+}
+
+std::string reason_without(const IntervalSet& set) {
+  const std::string& why = recommended_interval(set).why;
+  return why.empty() ? set.recommended_why : why;
+}
+
+std::vector<std::string> recommendations(const Analysis& analysis) {
+  std::vector<std::string> sentences;
+  for (std::size_t slot = 0; slot < analysis.fitted.model.slots.size(); ++slot) {
+    const IntervalSet set = intervals_of(analysis, slot);
+    if (set.recommended.empty() || !recommended_interval(set).available()) continue;
+    add_new(sentences, {fmt::format("The {} interval is recommended: {}.", set.recommended,
+                                    set.recommended_why)});
+  }
+  return sentences;
 }
 
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b) {

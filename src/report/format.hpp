@@ -12,15 +12,18 @@
 /// that never run out of range when a stage was skipped.
 namespace recoil {
 
-/// `value` with `digits` significant digits; "n/a" for anything that is not finite.
-std::string number(double value, int digits = 4);
+/// `value` with at most `count` significant digits; "n/a" for anything that is not finite.
+std::string number(double value, int count = 4);
+
+/// `value` with all of its `count` significant digits, zeros at the end included: "1.00".
+std::string digits(double value, int count);
 
 /// A value and its error, the error with two significant digits and both with the same decimals:
 /// ("0.00312", "0.00021").
 std::pair<std::string, std::string> number_with_error(double value, double error);
 
 /// "[0.0027, 0.0035]", or "none".
-std::string interval_text(const Interval& interval, int digits = 4);
+std::string interval_text(const Interval& interval, int count = 4);
 
 /// A p-value for people: "0.43", "0.0021", "< 1e-6".
 std::string p_value_text(double p);
@@ -43,6 +46,12 @@ std::string words_of(std::string identifier);
 
 /// Every interval of one slot; with `why` filled in when the assessment has none for it.
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot);
+
+/// Why `set` has no recommended interval.
+std::string reason_without(const IntervalSet& set);
+
+/// Which interval is recommended and why, one sentence per kind.
+std::vector<std::string> recommendations(const Analysis& analysis);
 
 /// Correlation of two slots from the covariance; 0 when either has no variance.
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b);

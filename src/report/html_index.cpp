@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -15,10 +16,11 @@ using Json = nlohmann::ordered_json;  // parameters in the order of the fit
 
 /// fit.json at a JSON pointer; null when it is not there, so that an index never fails on a key
 /// that a later version drops.
-Json at(const Json& fit, const std::string& pointer) {
-  const Json::json_pointer path(pointer);
+Json at(const Json& fit, const Json::json_pointer& path) {
   return fit.contains(path) ? fit.at(path) : Json();
 }
+
+Json at(const Json& fit, const char* pointer) { return at(fit, Json::json_pointer(pointer)); }
 
 std::string text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : std::string();
@@ -35,14 +37,31 @@ std::string interval_cell(const Json& interval) {
 
 std::string recommended_cell(const Json& parameter) {
   const std::string kind = text(at(parameter, "/recommended/interval"));
-  return kind.empty() ? "–" : interval_cell(at(parameter, "/intervals/" + kind));
+  return kind.empty() ? "–" : interval_cell(at(parameter, Json::json_pointer("/intervals") / kind));
+}
+
+/// The values of `pointer` in the two-point comparison of every dataset that has it: one number, or
+/// the range that they span.
+std::string two_point_cell(const Json& fit, const Json::json_pointer& pointer) {
+  double lower = INFINITY;
+  double upper = -INFINITY;
+  const Json comparisons = at(fit, "/two_point_by_dataset");
+  for (const Json& comparison : comparisons) {
+    const Json value = at(comparison, pointer);
+    if (!value.is_number()) continue;
+    lower = std::min(lower, value.get<double>());
+    upper = std::max(upper, value.get<double>());
+  }
+  if (!(lower <= upper)) return "–";
+  const std::string first = number(lower, 3);
+  const std::string last = number(upper, 3);
+  return first == last ? first : fmt::format("{} to {}", first, last);
 }
 
 std::string numbers_table(const Json& fit) {
   HtmlTable table;
   table.head = {"", "all points", "interval", "two points"};
   const Json parameters = at(fit, "/parameters");
-  const Json two = at(fit, "/two_point/parameters");
   for (const auto& [label, parameter] : parameters.items()) {
     if (!parameter.is_object()) continue;
     const bool free = parameter.value("free", false);
@@ -51,10 +70,10 @@ std::string numbers_table(const Json& fit) {
     table.rows.push_back(
         {fmt::format("{} [{}]", parameter_html(label), prose_html(parameter.value("unit", ""))),
          number_cell(at(parameter, "/value")), free ? recommended_cell(parameter) : "fixed",
-         two.is_object() && two.contains(label) ? number_cell(at(two[label], "/value")) : "–"});
+         two_point_cell(fit, Json::json_pointer("/parameters") / label / "value")});
   }
   table.rows.push_back({"rms of <i>e</i>", number_cell(at(fit, "/goodness/rmse")), "",
-                        number_cell(at(fit, "/two_point/rmse"))});
+                        two_point_cell(fit, Json::json_pointer("/rmse"))});
   const Json chi2 = at(fit, "/goodness/chi2");
   const Json dof = at(fit, "/goodness/dof");
   if (chi2.is_number() && dof.is_number() && dof.get<double>() > 0.0) {

@@ -42,11 +42,12 @@ std::string fit_quality_words(const Analysis& a) {
                        number(f.rmse, 2));
   }
   const double reduced = f.chi2 / f.dof;
-  const char* verdict = f.p_value < 0.01   ? "the model does not describe these points within "
-                                             "their stated deviations"
-                        : f.p_value > 0.99 ? "the points scatter less than their stated deviations"
-                                           : "the model describes the points within their stated "
-                                             "deviations";
+  const char* verdict = "the model describes the points within their stated deviations";
+  if (f.p_value < 0.05) verdict = "the model hardly describes the points within their deviations";
+  if (f.p_value < 0.01) {
+    verdict = "the model does not describe these points within their stated deviations";
+  }
+  if (f.p_value > 0.99) verdict = "the points scatter less than their stated deviations";
   return fmt::format(
       "Chi-square is {} on {} degrees of freedom ({} each, p {}): {}. The root mean square miss is "
       "{} in e.",
@@ -73,7 +74,7 @@ std::string two_point_words(const Analysis& a) {
       where, number(two.theta[H], 3), number(two.theta[A], 3), number(comparison->rmse, 2),
       number(comparison->full_rmse, 2));
   if (comparison->held_out_rmse && comparison->full_held_out_rmse) {
-    text += fmt::format("; on the diameters that neither has seen, by {} against {}",
+    text += fmt::format("; fitted to one diameter and judged on the others, {} against {}",
                         number(*comparison->held_out_rmse, 2),
                         number(*comparison->full_held_out_rmse, 2));
   }

@@ -77,7 +77,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
 .card .provenance { margin: 0; font-size: .86rem; line-height: 1.4; }
 .card .wide { width: 100%; border: 0; margin: 0; border-radius: 0; }
 .card table { font-size: .86rem; }
-.card tbody th { white-space: normal; }
+.card tbody th, .card td:last-child { white-space: normal; }
 .card th, .card td { padding: .35rem .6rem; }
 .card .more { margin: auto 0 0; padding: .7rem 1rem; border-top: 1px solid var(--line); }
 @media (max-width: 34rem) {
@@ -102,8 +102,8 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .wide { overflow: visible; }
   table { font-size: 8pt; }
   th, td { padding: .15rem .4rem; white-space: normal; }
-  td.words, th.words { text-align: left; }
-td.words { min-width: 0; }
+  td.words { min-width: 0; }
+  table.compact th, table.compact td { white-space: nowrap; padding: .08rem .4rem; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
   a { color: inherit; text-decoration: none; }

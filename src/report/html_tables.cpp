@@ -59,17 +59,19 @@ std::string parameters_table(const Analysis& a) {
     std::string remark;
     if (s < f.at_bound.size() && f.at_bound[s]) {
       remark =
-          fmt::format("rests on a bound of [{}, {}]. ", number(slot.lower), number(slot.upper));
+          fmt::format("Rests on a bound of [{}, {}]. ", number(slot.lower), number(slot.upper));
     }
-    remark += interval.available()   ? set.recommended_why
-              : interval.why.empty() ? set.recommended_why
-                                     : "no interval: " + interval.why;
+    if (!interval.available()) remark += as_sentence("no interval: " + reason_without(set));
     table.rows.push_back({parameter_html(slot.label()), value, error > 0.0 ? spread : "–",
                           prose_html(slot.unit), interval_cell(interval),
                           interval.available() ? escape_html(set.recommended) : "–",
-                          number(slot.initial), prose_html(as_sentence(remark))});
+                          number(slot.initial), prose_html(remark)});
   }
-  return table_html(table);
+  std::string out = table_html(table);
+  for (const std::string& sentence : recommendations(a)) {
+    out += fmt::format("<p>{}</p>\n", prose_html(sentence));
+  }
+  return out;
 }
 
 std::string intervals_table(const Analysis& a) {
@@ -153,7 +155,7 @@ std::string capture_table(const Analysis& a) {
   for (const CaptureEstimate& capture : a.uncertainty.capture) {
     table.rows.push_back(
         {escape_html(a.datasets[capture.dataset].id), diameter_text(capture.diameter),
-         capture.found ? number(capture.value) : "none found", interval_cell(capture.interval),
+         capture.found ? digits(capture.value, 4) : "none found", interval_cell(capture.interval),
          capture.interval.available() ? "" : prose_html(capture.interval.why)});
   }
   return table_html(table);
@@ -195,6 +197,11 @@ std::string two_point_tables(const Analysis& a) {
     out += table_html(table);
     std::string words = fmt::format("Two-point iteration: {}. {}", words_of(to_string(two.status)),
                                     as_sentence(two.text));
+    if (comparison.full_held_out_rmse) {
+      words +=
+          " For the diameters not seen, all points of the calibration diameter alone were "
+          "fitted.";
+    }
     if (!comparison.held_out_why.empty()) words += " " + as_sentence(comparison.held_out_why);
     out += fmt::format("<p>{}</p>\n", prose_html(words));
   }
@@ -248,8 +255,10 @@ std::string points_table(const Analysis& a) {
   const FitResult& f = a.fitted;
   HtmlTable table;
   table.compact = true;
-  table.head = {"dataset", "series", "d [µm]",        "<i>V</i> [m/s]", "<i>e</i>",
-                "sd",      "fit",    "residual [sd]", "leverage"};
+  const bool joint = a.datasets.size() > 1;
+  table.head = {"series", "d [µm]", "<i>V</i> [m/s]", "<i>e</i>",
+                "sd",     "fit",    "residual [sd]",  "leverage"};
+  if (joint) table.head.insert(table.head.begin(), "dataset");
   const double unit = residual_unit(a);
   const std::size_t count = std::min(a.data.points.size(), most_points);
   for (std::size_t i = 0; i < count; ++i) {
@@ -258,13 +267,13 @@ std::string points_table(const Analysis& a) {
     const std::string series =
         point.series < dataset.series.size() ? dataset.series[point.series] : "";
     table.rows.push_back(
-        {escape_html(dataset.id), escape_html(series), diameter_text(point.diameter),
-         number(point.velocity),
+        {escape_html(series), diameter_text(point.diameter), number(point.velocity),
          point.censored ? "captured" : fmt::format("{:.4f}", point.restitution),
          a.data.sd_stated ? number(point.sd, 2) : "–",
          i < f.prediction.size() ? fmt::format("{:.4f}", f.prediction[i]) : "–",
          i < f.residuals.size() ? fmt::format("{:+.2f}", f.residuals[i] / unit) : "–",
          i < f.leverage.size() ? fmt::format("{:.3f}", f.leverage[i]) : "–"});
+    if (joint) table.rows.back().insert(table.rows.back().begin(), escape_html(dataset.id));
   }
   std::string out = table_html(table);
   if (count < a.data.points.size()) {

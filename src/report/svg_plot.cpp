@@ -169,6 +169,21 @@ void remove_unused_definitions(std::string& text) {
   }
 }
 
+/// "rgb( 34,  34,  34)" as "#222222".
+void shorten_colours(std::string& text) {
+  for (std::size_t at = 0; (at = text.find("rgb(", at)) != std::string::npos; ++at) {
+    int red = 0;
+    int green = 0;
+    int blue = 0;
+    int length = 0;
+    if (std::sscanf(text.c_str() + at, "rgb(%d,%d,%d)%n", &red, &green, &blue, &length) == 3 &&
+        length > 0) {
+      text.replace(at, static_cast<std::size_t>(length),
+                   fmt::format("#{:02x}{:02x}{:02x}", red, green, blue));
+    }
+  }
+}
+
 }  // namespace
 
 std::string draw_svg(const PlotScript& script, const std::string& program) {
@@ -190,6 +205,8 @@ std::string draw_svg(const PlotScript& script, const std::string& program) {
   remove_unused_definitions(svg);
   replace_all(svg, " font-family=\"DejaVu Sans\" ", " ");
   replace_all(svg, "<tspan >", "<tspan>");
+  replace_all(svg, " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"", "");  // the defaults
+  shorten_colours(svg);
   replace_all(svg, "\"gnuplot_canvas\"", fmt::format("\"{}-canvas\"", script.name));
   replace_all(svg, "'gp", fmt::format("'{}-gp", script.name));
   replace_all(svg, "'#gp", fmt::format("'#{}-gp", script.name));

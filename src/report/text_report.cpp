@@ -5,50 +5,13 @@
 
 #include "core/units.hpp"
 #include "report/format.hpp"
+#include "report/text_blocks.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t columns = 100;
-constexpr std::size_t margin = 4;
 constexpr double least_correlation = 0.1;
 constexpr std::size_t most_starts = 8;
-
-/// The report as it grows; every line is kept within `columns`.
-class Blocks {
- public:
-  void open(const std::string& name, const std::string& remark = "") {
-    text_ += fmt::format("[[{}]]{}\n", name, remark);
-  }
-
-  /// A sentence, wrapped.
-  void say(const std::string& sentence, std::size_t indent = margin) {
-    text_ += std::string(indent, ' ') + wrap(sentence, columns, indent) + '\n';
-  }
-
-  /// One of a list.
-  void entry(const std::string& words) {
-    text_ += fmt::format("    - {}\n", wrap(words, columns, margin + 2));
-  }
-
-  /// A line whose blanks align it; only one that is too long is wrapped.
-  void line(const std::string& content) {
-    if (margin + content.size() <= columns) {
-      text_ += std::string(margin, ' ') + content + '\n';
-    } else {
-      text_ += std::string(margin, ' ') + wrap(content, columns, 2 * margin) + '\n';
-    }
-  }
-
-  void item(const std::string& name, const std::string& value) {
-    text_ += fmt::format("    {:<19}= {}\n", name, wrap(value, columns, margin + 21));
-  }
-
-  std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
 
 void write_provenance(Blocks& out, const Analysis& a) {
   out.open("Provenance");
@@ -149,12 +112,12 @@ void write_variables(Blocks& out, const Analysis& a) {
     const std::string lead(std::min<std::size_t>(widest + 3, 30), ' ');
     const std::string words =
         interval.available()
-            ? fmt::format("{} interval {} ({}): {}", percent(a.uncertainty.options.level),
-                          interval_text(interval), set.recommended, set.recommended_why)
-            : fmt::format("no interval: {}",
-                          interval.why.empty() ? set.recommended_why : interval.why);
-    out.say(words, margin + lead.size());
+            ? fmt::format("{} interval {} ({})", percent(a.uncertainty.options.level),
+                          interval_text(interval), set.recommended)
+            : "no interval: " + reason_without(set);
+    out.say(words, Blocks::margin + lead.size());
   }
+  for (const std::string& sentence : recommendations(a)) out.say(sentence);
 }
 
 void write_correlations(Blocks& out, const Analysis& a) {
@@ -191,7 +154,7 @@ void write_capture(Blocks& out, const Analysis& a) {
     if (!capture.found) {
       content += "none found";
     } else {
-      content += fmt::format("V* = {:>7} m/s", number(capture.value));
+      content += fmt::format("V* = {:>7} m/s", digits(capture.value, 4));
       content += capture.interval.available()
                      ? fmt::format("   {} {}", percent(a.uncertainty.options.level),
                                    interval_text(capture.interval))

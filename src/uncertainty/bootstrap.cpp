@@ -59,8 +59,8 @@ struct Plan {
     Observations sample = data;
     for (std::size_t i = 0; i < sample.points.size(); ++i) {
       Observation& point = sample.points[i];
-      const double noise = parametric ? fitted.noise_scale * random.normal()
-                                      : pool[random.below(pool.size())];
+      const double noise =
+          parametric ? fitted.noise_scale * random.normal() : pool[random.below(pool.size())];
       if (point.censored) continue;  // a capture stays one; its stream position is kept
       point.restitution = std::max(0.0, fitted.prediction[i] + point.sd * noise);
     }
@@ -83,8 +83,8 @@ struct Plan {
     }
     for (std::size_t d = 0; d < two_point.size(); ++d) {
       const TwoPointResult run = recoil::two_point(fitted.model, sample, d, two_point[d].diameter);
-      replicate.two_point.push_back(run.status == TwoPointStatus::converged ? run.theta
-                                                                            : std::vector<double>{});
+      replicate.two_point.push_back(
+          run.status == TwoPointStatus::converged ? run.theta : std::vector<double>{});
     }
     return replicate;
   }
@@ -105,7 +105,12 @@ BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
                             "drawn about the fit"
                           : "no standard deviations are stated: the fit's own residuals, corrected "
                             "for leverage, are drawn about the fit";
-  const Plan plan{fitted,    data, capture, two_point, options.seed, data.sd_stated,
+  const Plan plan{fitted,
+                  data,
+                  capture,
+                  two_point,
+                  options.seed,
+                  data.sd_stated,
                   data.sd_stated ? std::vector<double>{} : resampling_pool(fitted, data)};
 
   std::vector<Replicate> replicates(static_cast<std::size_t>(options.replicates));

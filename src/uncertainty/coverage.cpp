@@ -29,7 +29,8 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list = {
-      {"recommended", [](const IntervalSet& s) -> const Interval& { return recommended_interval(s); }},
+      {"recommended",
+       [](const IntervalSet& s) -> const Interval& { return recommended_interval(s); }},
       {"profile", [](const IntervalSet& s) -> const Interval& { return s.profile; }},
       {"percentile", [](const IntervalSet& s) -> const Interval& { return s.percentile; }},
       {"bca", [](const IntervalSet& s) -> const Interval& { return s.bca; }},

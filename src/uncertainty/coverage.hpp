@@ -11,12 +11,12 @@ namespace recoil {
 
 /// How often one kind of interval of one parameter held the truth.
 struct CoverageCell {
-  std::string interval;             ///< "wald", "profile", ..., "recommended"
-  int offered = 0;                  ///< data sets in which there was such an interval
-  int held = 0;                     ///< of those, how many contained the truth
-  int offered_identifiable = 0;     ///< the same where the verdict called it identifiable
+  std::string interval;          ///< "wald", "profile", ..., "recommended"
+  int offered = 0;               ///< data sets in which there was such an interval
+  int held = 0;                  ///< of those, how many contained the truth
+  int offered_identifiable = 0;  ///< the same where the verdict called it identifiable
   int held_identifiable = 0;
-  double median_width = 0.0;        ///< [parameter's unit]
+  double median_width = 0.0;  ///< [parameter's unit]
 };
 
 struct CoverageRow {

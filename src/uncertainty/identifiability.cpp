@@ -102,7 +102,8 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
   result.verdict = good == free_count ? "identifiable" : good > 0 ? "partly" : "not_identifiable";
   if (free_count == 0) result.verdict = "identifiable";
   if (sentences.empty()) {
-    sentences.push_back(free_count == 0 ? "nothing was free" : "every free parameter is determined");
+    sentences.push_back(free_count == 0 ? "nothing was free"
+                                        : "every free parameter is determined");
   }
   describe_correlations(fitted, sentences);
   describe_reach(data, capture, sentences);

@@ -10,8 +10,8 @@ namespace recoil {
 /// the noise is estimated from the residuals, q is the quantile of F(1, dof) (Bates & Watts 1988,
 /// Nonlinear Regression Analysis and its Applications, section 6.1.2).
 ///
-/// An end that reaches the parameter's bound stays there: shape "one-sided" for one such end, "flat"
-/// for both, "bounded" for none. @pre the slot is free
+/// An end that reaches the parameter's bound stays there: shape "one-sided" for one such end,
+/// "flat" for both, "bounded" for none. @pre the slot is free
 Interval profile_interval(const FitResult& fitted, const Observations& data, std::size_t slot,
                           double level);
 

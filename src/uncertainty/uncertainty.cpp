@@ -145,8 +145,8 @@ TwoPointComparison compare_two_point(const FitResult& fitted, const Observations
   // Parameters of other datasets stay out of this: only what this diameter can tell is refitted.
   ImpactModel alone = fitted.model;
   for (std::size_t j = 0; j < alone.slots.size(); ++j) {
-    const bool used = j == alone.slot_C_H[dataset] || j == alone.slot_C_A[dataset] ||
-                      j == alone.slot_f0[dataset];
+    const bool used =
+        j == alone.slot_C_H[dataset] || j == alone.slot_C_A[dataset] || j == alone.slot_f0[dataset];
     alone.slots[j].free = alone.slots[j].free && used;
   }
   const FitResult on_one = fit(alone, seen);
@@ -173,11 +173,10 @@ void add_spread(UncertaintyResult& result, std::size_t slots) {
 void add_warnings(UncertaintyResult& result, const std::vector<Dataset>& datasets) {
   const BootstrapResult& boot = result.bootstrap;
   if (boot.failed > failures_to_warn * boot.replicates) {
-    result.warnings.push_back(fmt::format("{} of {} bootstrap refits failed{}", boot.failed,
-                                          boot.replicates,
-                                          boot.failed > failures_to_withhold * boot.replicates
-                                              ? ": their intervals are withheld"
-                                              : ""));
+    result.warnings.push_back(fmt::format(
+        "{} of {} bootstrap refits failed{}", boot.failed, boot.replicates,
+        boot.failed > failures_to_withhold * boot.replicates ? ": their intervals are withheld"
+                                                             : ""));
   }
   for (const TwoPointComparison& comparison : result.two_point) {
     if (comparison.result.status == TwoPointStatus::converged) continue;

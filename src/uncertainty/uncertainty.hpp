@@ -47,38 +47,38 @@ struct CaptureEstimate {
   double diameter = 0.0;  ///< [m]
   double value = 0.0;     ///< [m/s]
   bool found = false;
-  Interval interval;      ///< percentile of the bootstrap
+  Interval interval;  ///< percentile of the bootstrap
 };
 
 /// One curve e(V) of a diameter with its pointwise band.
 struct RestitutionCurve {
   std::size_t dataset = 0;
   std::string series;
-  double diameter = 0.0;               ///< [m]
-  std::vector<double> velocity;        ///< [m/s]
-  std::vector<double> restitution;     ///< full fit [1]
-  std::vector<double> lower, upper;    ///< band of the full fit [1]; empty without a bootstrap
-  std::vector<double> two_point;       ///< the two-point calibration [1]; empty when it failed
+  double diameter = 0.0;             ///< [m]
+  std::vector<double> velocity;      ///< [m/s]
+  std::vector<double> restitution;   ///< full fit [1]
+  std::vector<double> lower, upper;  ///< band of the full fit [1]; empty without a bootstrap
+  std::vector<double> two_point;     ///< the two-point calibration [1]; empty when it failed
 };
 
 /// Two points against all: both calibrated on one diameter, both judged on the others.
 struct TwoPointComparison {
   std::size_t dataset = 0;
   TwoPointResult result;
-  double rmse = 0.0;                           ///< of the two-point calibration, all points [1]
-  std::optional<double> held_out_rmse;         ///< on the diameters that it did not see [1]
-  double full_rmse = 0.0;                      ///< of the full fit, all points of the dataset [1]
-  std::optional<double> full_held_out_rmse;    ///< full fit of that diameter alone, on the others
-  std::string held_out_why;                    ///< when there are no others
-  std::vector<double> spread;                  ///< sd of each slot under resampling, two-point
-  std::vector<double> full_spread;             ///< the same of the full fit
-  int failed = 0;                              ///< replicates without a two-point answer
+  double rmse = 0.0;                         ///< of the two-point calibration, all points [1]
+  std::optional<double> held_out_rmse;       ///< on the diameters that it did not see [1]
+  double full_rmse = 0.0;                    ///< of the full fit, all points of the dataset [1]
+  std::optional<double> full_held_out_rmse;  ///< full fit of that diameter alone, on the others
+  std::string held_out_why;                  ///< when there are no others
+  std::vector<double> spread;                ///< sd of each slot under resampling, two-point
+  std::vector<double> full_spread;           ///< the same of the full fit
+  int failed = 0;                            ///< replicates without a two-point answer
 };
 
 /// What the data can tell about the parameters.
 struct Identifiability {
-  std::string verdict;  ///< "identifiable", "partly" or "not_identifiable"
-  std::string text;     ///< which parameter, why, and what to measure
+  std::string verdict;          ///< "identifiable", "partly" or "not_identifiable"
+  std::string text;             ///< which parameter, why, and what to measure
   std::vector<bool> parameter;  ///< [slots] identifiable on its own
 };
 
@@ -102,7 +102,8 @@ struct UncertaintyResult {
   std::vector<std::string> warnings;
 };
 
-/// Everything that follows a fit: bootstrap, intervals, capture velocities, bands, two-point spread.
+/// Everything that follows a fit: bootstrap, intervals, capture velocities, bands, two-point
+/// spread.
 UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations& data,
                                      const std::vector<Dataset>& datasets,
                                      const UncertaintyOptions& options);

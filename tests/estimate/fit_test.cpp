@@ -32,7 +32,8 @@ TEST(Residual, IsGaussianInRestitutionAwayFromCapture) {
 }
 
 TEST(Residual, HasTheVarianceOfTheSquareAtCapture) {
-  // At e = m = 0 the variance of e^2 for Gaussian noise is 2 sigma^4 (+ psi): finite, not 4 e^2 s^2.
+  // At e = m = 0 the variance of e^2 for Gaussian noise is 2 sigma^4 (+ psi): finite, not 4 e^2
+  // s^2.
   Observation point;
   point.restitution = 0.0;
   point.sd = 0.02;
@@ -170,9 +171,9 @@ TEST(CaptureVelocity, MatchesTheIndependentSimulator) {
       std::vector<double> more = theta, less = theta;
       more[j] *= 1.0 + 1e-4;
       less[j] *= 1.0 - 1e-4;
-      const double difference = (capture_velocity(model, more, 0, d).value -
-                                 capture_velocity(model, less, 0, d).value) /
-                                (2e-4 * theta[j]);
+      const double difference =
+          (capture_velocity(model, more, 0, d).value - capture_velocity(model, less, 0, d).value) /
+          (2e-4 * theta[j]);
       EXPECT_NEAR(found.gradient[j] / difference, 1.0, 1e-3) << "slot " << j;
     }
   }

@@ -118,13 +118,16 @@ double conservative_integral(double w, double power) {
 TEST(ClosedForm, FirstOrderLossAtAnyVelocity) {
   for (const double w : {0.5, 1.0, 5.0, 50.0}) {
     const double g = 1e-5, h = 2e-6;
-    const double expected = 2.0 / (w * w) * (g * conservative_integral(w, 0.5) +
-                                             2.0 * h * conservative_integral(w, 1.5));
+    const double expected =
+        2.0 / (w * w) *
+        (g * conservative_integral(w, 0.5) + 2.0 * h * conservative_integral(w, 1.5));
     const double loss = 1.0 - in_adhesion_units(w, h, g).restitution_squared;
     EXPECT_NEAR(loss / expected, 1.0, 1e-3) << "w = " << w;
-    const double both = 1.0 - in_adhesion_units(w, h, g, AdhesionDampingPhase::both).restitution_squared;
-    const double expected_both = 2.0 / (w * w) * (2.0 * g * conservative_integral(w, 0.5) +
-                                                  2.0 * h * conservative_integral(w, 1.5));
+    const double both =
+        1.0 - in_adhesion_units(w, h, g, AdhesionDampingPhase::both).restitution_squared;
+    const double expected_both =
+        2.0 / (w * w) *
+        (2.0 * g * conservative_integral(w, 0.5) + 2.0 * h * conservative_integral(w, 1.5));
     EXPECT_NEAR(both / expected_both, 1.0, 1e-3) << "w = " << w;
   }
 }
@@ -135,9 +138,9 @@ TEST(ClosedForm, LossAtHighVelocity) {
   EXPECT_NEAR((1.0 - in_adhesion_units(w, 0.0, 1e-6).restitution_squared) /
                   (1.1534 * 1e-6 * std::pow(w, 0.2)),
               1.0, 1e-3);
-  EXPECT_NEAR((1.0 - in_adhesion_units(w, 1e-10, 0.0).restitution_squared) /
-                  (4.0 / 3.0 * 1e-10 * w),
-              1.0, 1e-3);
+  EXPECT_NEAR(
+      (1.0 - in_adhesion_units(w, 1e-10, 0.0).restitution_squared) / (4.0 / 3.0 * 1e-10 * w), 1.0,
+      1e-3);
 }
 
 /// w* by bisection on the sign of the energy left.
@@ -152,16 +155,16 @@ double capture_by_bisection(double h, double g, AdhesionDampingPhase phase) {
 
 TEST(CaptureLaw, SmallDamping) {
   // w*^2 = 2 J (g + 2 h), J = (5/3)^(3/2) sqrt((4/3)(5/3)^(3/2)) B(9/4, 3/2) (rebound reading)
-  const double J = std::pow(5.0 / 3.0, 1.5) *
-                   std::sqrt(4.0 / 3.0 * std::pow(5.0 / 3.0, 1.5)) * gsl_sf_beta(2.25, 1.5);
+  const double J = std::pow(5.0 / 3.0, 1.5) * std::sqrt(4.0 / 3.0 * std::pow(5.0 / 3.0, 1.5)) *
+                   gsl_sf_beta(2.25, 1.5);
   EXPECT_NEAR(J, 0.827350, 1e-6);
   for (const auto& [h, g] : {std::pair{0.0, 1e-4}, std::pair{5e-5, 0.0}, std::pair{2e-5, 6e-5}}) {
     EXPECT_NEAR(capture_by_bisection(h, g, AdhesionDampingPhase::rebound) /
                     std::sqrt(2.0 * J * (g + 2.0 * h)),
                 1.0, 2e-4);
-    EXPECT_NEAR(capture_by_bisection(h, g, AdhesionDampingPhase::both) /
-                    std::sqrt(4.0 * J * (g + h)),
-                1.0, 2e-4);
+    EXPECT_NEAR(
+        capture_by_bisection(h, g, AdhesionDampingPhase::both) / std::sqrt(4.0 * J * (g + h)), 1.0,
+        2e-4);
   }
 }
 

@@ -55,8 +55,7 @@ class WideBox {
     for (int i = 0; i < 50; ++i) {
       Draw trial = d;
       trial.w = std::sqrt(low * high);
-      const bool back =
-          simulate_impact_fast(groups_of(trial), options).restitution_squared > 0.0;
+      const bool back = simulate_impact_fast(groups_of(trial), options).restitution_squared > 0.0;
       (back ? high : low) = trial.w;
     }
     d.w = low * (1.0 + (flip() ? 1.0 : -1.0) * between(1e-6, 1e-1));
@@ -66,7 +65,9 @@ class WideBox {
 
  private:
   double between(double low, double high) { return low * std::pow(high / low, unit_(random_)); }
-  double zero_or(double low, double high) { return unit_(random_) < 0.2 ? 0.0 : between(low, high); }
+  double zero_or(double low, double high) {
+    return unit_(random_) < 0.2 ? 0.0 : between(low, high);
+  }
 
   std::mt19937_64 random_{20260101};
   std::uniform_real_distribution<double> unit_{0.0, 1.0};

@@ -44,14 +44,14 @@ TEST_P(Gradient, MatchesComplexStep) {
 
 INSTANTIATE_TEST_SUITE_P(
     Impacts, Gradient,
-    testing::Combine(testing::Values(ImpactGroups{0.3, 0.0, 0.0},      // no adhesion
-                                     ImpactGroups{0.01, 0.1, 2.0},     // fast
-                                     ImpactGroups{0.05, 0.5, 0.3},     // moderate
-                                     ImpactGroups{0.005, 1.2, 0.1},    // slow
-                                     ImpactGroups{0.0, 0.7, 0.2},      // C_H = 0
-                                     ImpactGroups{0.1, 0.7, 0.0},      // C_A = 0
-                                     ImpactGroups{0.02, 3.0, 0.02},    // captured
-                                     ImpactGroups{2.0, 0.4, 1.5}),     // strong damping
+    testing::Combine(testing::Values(ImpactGroups{0.3, 0.0, 0.0},    // no adhesion
+                                     ImpactGroups{0.01, 0.1, 2.0},   // fast
+                                     ImpactGroups{0.05, 0.5, 0.3},   // moderate
+                                     ImpactGroups{0.005, 1.2, 0.1},  // slow
+                                     ImpactGroups{0.0, 0.7, 0.2},    // C_H = 0
+                                     ImpactGroups{0.1, 0.7, 0.0},    // C_A = 0
+                                     ImpactGroups{0.02, 3.0, 0.02},  // captured
+                                     ImpactGroups{2.0, 0.4, 1.5}),   // strong damping
                      testing::Values(AdhesionDampingPhase::rebound, AdhesionDampingPhase::both)));
 
 /// Groups of the impact at relative distance `d` from capture for g = C_A V_a, C_H = 0.
@@ -65,8 +65,7 @@ TEST(GradientNearCapture, ContinuesSmoothlyThroughTheThreshold) {
   double low = 0.1, high = 1.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    const bool comes_back =
-        simulate_impact(near_capture(g, middle, 0.0)).restitution_squared > 0.0;
+    const bool comes_back = simulate_impact(near_capture(g, middle, 0.0)).restitution_squared > 0.0;
     (comes_back ? high : low) = middle;
   }
   ImpactOptions options;

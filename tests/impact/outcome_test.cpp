@@ -22,8 +22,8 @@ RC_GTEST_PROP(Energy, EveryBudgetClosesAndNothingIsGained, ()) {
   const bool adhesive = *rc::gen::inRange(0, 6) != 0;
   ImpactOptions options;
   options.budget = true;
-  options.phase = *rc::gen::arbitrary<bool>() ? AdhesionDampingPhase::both
-                                              : AdhesionDampingPhase::rebound;
+  options.phase =
+      *rc::gen::arbitrary<bool>() ? AdhesionDampingPhase::both : AdhesionDampingPhase::rebound;
   const ImpactResult impact =
       simulate_impact({h * w, adhesive ? std::pow(w, -0.8) : 0.0, g * w}, options);
   RC_ASSERT(impact.usable());
@@ -119,8 +119,8 @@ TEST(Outcome, HistoryEndsAtReleaseAndAddsUp) {
     const auto total = [](const ImpactMoment& m) {
       return m.hertz + m.hertz_damping + m.adhesion + m.adhesion_damping;
     };
-    impulse += 0.5 * (total(history[i]) + total(history[i - 1])) *
-               (history[i].time - history[i - 1].time);
+    impulse +=
+        0.5 * (total(history[i]) + total(history[i - 1])) * (history[i].time - history[i - 1].time);
   }
   EXPECT_NEAR(impulse, 1.0 + std::sqrt(impact.restitution_squared), 2e-3);
 }

@@ -95,6 +95,8 @@ TEST_F(Browser, ComplainsOfTheNetwork) {
 
 TEST_F(Browser, ComplainsOfAPageThatScrollsSideways) {
   EXPECT_EQ(open(replaced(page_, "</main>", "<div style='width:2000px'>.</div></main>"), 1), 1);
+  EXPECT_EQ(open(replaced(page_, "</main>", "<div style='width:600px'>.</div></main>"), 1), 1)
+      << "too wide for a phone only";
 }
 
 }  // namespace

@@ -38,17 +38,18 @@ TEST(Percentile, NeedsEnoughReplicates) {
 }
 
 TEST(Bca, ConstantsByHand) {
-  // Two of five below the estimate: z0 = Phi^-1(0.4) = -0.253347. Delete-one values 1, 2, 6: mean 3,
-  // d = 2, 1, -3, sum d^3 = 8 + 1 - 27 = -18, sum d^2 = 14: a = -18 / (6 * 14^1.5) = -0.0572703.
-  const auto constants = bca_constants(std::vector<double>{1, 2, 3, 4, 5}, 2.5,
-                                       std::vector<double>{1, 2, 6});
+  // Two of five below the estimate: z0 = Phi^-1(0.4) = -0.253347. Delete-one values 1, 2, 6: mean
+  // 3, d = 2, 1, -3, sum d^3 = 8 + 1 - 27 = -18, sum d^2 = 14: a = -18 / (6 * 14^1.5) = -0.0572703.
+  const auto constants =
+      bca_constants(std::vector<double>{1, 2, 3, 4, 5}, 2.5, std::vector<double>{1, 2, 6});
   ASSERT_TRUE(constants);
   EXPECT_NEAR(constants->bias, -0.2533471031, 1e-9);
   EXPECT_NEAR(constants->acceleration, -18.0 / (6.0 * std::pow(14.0, 1.5)), 1e-12);
 }
 
 TEST(Bca, TiesCountOneHalf) {
-  const auto constants = bca_constants(std::vector<double>{1, 2, 3}, 2.0, std::vector<double>{1, 1});
+  const auto constants =
+      bca_constants(std::vector<double>{1, 2, 3}, 2.0, std::vector<double>{1, 1});
   ASSERT_TRUE(constants);
   EXPECT_NEAR(constants->bias, 0.0, 1e-15);
   EXPECT_EQ(constants->acceleration, 0.0);

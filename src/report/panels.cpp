@@ -1,0 +1,119 @@
+#include "report/panels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_panels = 24;  // per page, so that it stays under 1 MB
+constexpr std::size_t most_curve_points = 120;
+
+/// Every point goes to the panel of its dataset with the nearest diameter and, among equals, its
+/// own series.
+void distribute_points(const Analysis& analysis, std::vector<Panel>& panels) {
+  const auto& points = analysis.data.points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Panel* nearest = nullptr;
+    double smallest = INFINITY;
+    for (Panel& panel : panels) {
+      if (panel.dataset != points[i].dataset) continue;
+      const auto& names = analysis.datasets[panel.dataset].series;
+      const bool own = points[i].series < names.size() && names[points[i].series] == panel.series;
+      const double distance =
+          std::abs(std::log(points[i].diameter / panel.diameter)) + (own ? 0.0 : 1e-6);
+      if (distance < smallest) {
+        smallest = distance;
+        nearest = &panel;
+      }
+    }
+    if (nearest != nullptr) nearest->points.push_back(i);
+  }
+}
+
+}  // namespace
+
+std::vector<Panel> panels_of(const Analysis& analysis) {
+  std::vector<Panel> panels;
+  for (const RestitutionCurve& curve : analysis.uncertainty.curves) {
+    panels.push_back({curve.dataset, curve.diameter, curve.series, &curve, nullptr, {}});
+  }
+  if (panels.empty()) {
+    for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
+      for (const double diameter : distinct_diameters(analysis.datasets[k])) {
+        panels.push_back({k, diameter, "", nullptr, nullptr, {}});
+      }
+    }
+  }
+  for (Panel& panel : panels) {
+    for (const CaptureEstimate& capture : analysis.uncertainty.capture) {
+      if (capture.dataset == panel.dataset && capture.found &&
+          std::abs(std::log(capture.diameter / panel.diameter)) < 1e-6) {
+        panel.capture = &capture;
+      }
+    }
+  }
+  distribute_points(analysis, panels);
+  if (panels.size() > most_panels) panels.resize(most_panels);
+  return panels;
+}
+
+Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::size_t dataset) {
+  double lower = INFINITY;
+  double upper = 0.0;
+  Axes axes;
+  for (const Observation& point : analysis.data.points) {
+    if (point.dataset != dataset) continue;
+    lower = std::min(lower, point.velocity);
+    upper = std::max(upper, point.velocity);
+    const double sd = analysis.data.sd_stated ? point.sd : 0.0;
+    axes.top = std::max(axes.top, std::min(1.5, 1.03 * (point.restitution + sd)));
+  }
+  const double slowest = lower;
+  for (const Panel& panel : panels) {
+    if (panel.dataset != dataset || panel.capture == nullptr) continue;
+    const double edge = panel.capture->interval.lower.value_or(panel.capture->value);
+    // A capture velocity far below the data would squeeze them to the right edge.
+    lower = std::min(lower, std::max(std::min(edge, panel.capture->value), slowest / 10.0));
+  }
+  axes.velocity = {lower / 1.35, upper * 1.25};
+  return axes;
+}
+
+std::vector<std::vector<double>> curve_rows(const RestitutionCurve& curve) {
+  const std::size_t count = std::min(curve.velocity.size(), curve.restitution.size());
+  const std::size_t stride =
+      std::max<std::size_t>(1, (count + most_curve_points - 1) / most_curve_points);
+  const auto at = [](const std::vector<double>& values, std::size_t i) {
+    return i < values.size() ? values[i] : NAN;
+  };
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    // Where the curve rises from capture every point is needed; the plateau can be thinned.
+    const bool steep =
+        i + 1 < count &&
+        std::abs(curve.restitution[i + 1] - curve.restitution[i]) +
+                std::abs(i > 0 ? curve.restitution[i] - curve.restitution[i - 1] : 0.0) >
+            0.02;
+    if (i % stride != 0 && i + 1 != count && !steep) continue;
+    rows.push_back({curve.velocity[i], curve.restitution[i], at(curve.lower, i), at(curve.upper, i),
+                    at(curve.two_point, i)});
+  }
+  return rows;
+}
+
+PointRows point_rows(const Analysis& analysis, const std::vector<std::size_t>& points) {
+  PointRows rows;
+  const std::size_t stride = points.size() / most_panel_points + 1;
+  for (std::size_t k = 0; k < points.size(); k += stride) {
+    const Observation& point = analysis.data.points[points[k]];
+    if (point.censored) {
+      rows.captures.push_back({point.velocity, 0.0});
+    } else {
+      rows.rebounds.push_back({point.velocity, point.restitution, point.sd});
+    }
+  }
+  return rows;
+}
+
+}  // namespace recoil

@@ -1,0 +1,145 @@
+// The commands as people script against them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.hpp"
+
+namespace {
+
+using program::Outcome;
+using program::Workplace;
+
+/// The number behind `key` at the start of a line.
+double number_after(const std::string& text, const std::string& key) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(key);
+    if (at != std::string::npos) return std::stod(line.substr(at + key.size()));
+  }
+  ADD_FAILURE() << "no '" << key << "' in:\n" << text;
+  return 0.0;
+}
+
+TEST(Simulate, HertzWithHuntCrossleyDampingToNineDigits) {
+  // C_H V = 0.1 without adhesion: e = 0.9374755799 by Lambert's W.
+  const Workplace place;
+  place.write("hertz.toml",
+              "dataset = \"data\"\n[parameters]\nC_H = { initial = 0.02 }\nC_A = { initial = 0, "
+              "free = false }\nf0 = { initial = 0, free = false }\n");
+  const Outcome run =
+      place.run({"simulate", "hertz.toml", "--velocity", "5", "--diameter", "4.9"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("restitution: 0.93747558\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("outcome: rebound\n"), std::string::npos);
+  EXPECT_NEAR(number_after(run.out, "rebound  "), 100.0 * 0.9374755799 * 0.9374755799, 2e-5);
+}
+
+TEST(Simulate, BudgetAddsUpToTheWhole) {
+  const Workplace place;
+  const Outcome run = place.run({"simulate", "fit.toml", "--velocity", "8", "--diameter", "4.9"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NEAR(number_after(run.out, "rebound  ") + number_after(run.out, "Hertz damping (C_H)") +
+                  number_after(run.out, "adhesion damping (C_A)"),
+              100.0, 3e-5);
+}
+
+TEST(Simulate, WritesTheForceHistory) {
+  const Workplace place;
+  const Outcome run = place.run({"simulate", "fit.toml", "--velocity", "5.2", "--diameter", "4.9",
+                                 "--history", "forces.csv"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string csv = place.read("forces.csv");
+  EXPECT_EQ(csv.rfind("time_ns,penetration_nm,approach_velocity_m_s,hertz_force_uN,", 0), 0U);
+  EXPECT_GT(std::count(csv.begin(), csv.end(), '\n'), 50);
+  EXPECT_EQ(csv.find("nan"), std::string::npos);
+}
+
+TEST(Simulate, CapturedIsAnOutcome) {
+  const Workplace place;
+  const Outcome run = place.run({"simulate", "fit.toml", "--velocity", "0.05", "--diameter", "2"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("restitution: 0.00000000\n"), std::string::npos);
+  EXPECT_NE(run.out.find("outcome: captured\n"), std::string::npos);
+}
+
+TEST(Fit, WritesTheSameBytesAtAnyThreadCount) {
+  const Workplace place;
+  for (const char* threads : {"1", "3"}) {
+    const Outcome run = place.run({"fit", "fit.toml", "--out", threads, "--replicates", "99",
+                                   "--threads", threads});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(run.err.empty()) << run.err;
+  }
+  EXPECT_EQ(place.read("1/fit.json"), place.read("3/fit.json"));
+}
+
+TEST(Fit, SeedIsInTheFileAndChangesTheBootstrapOnly) {
+  const Workplace place;
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "a", "--replicates", "99"}).status, 0);
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "b", "--replicates", "99", "--seed", "5"}).status,
+            0);
+  const auto a = nlohmann::json::parse(place.read("a/fit.json"));
+  const auto b = nlohmann::json::parse(place.read("b/fit.json"));
+  EXPECT_EQ(b["bootstrap"]["seed"], 5);
+  EXPECT_EQ(a["parameters"]["C_A"]["value"], b["parameters"]["C_A"]["value"]);
+  EXPECT_NE(a["parameters"]["C_A"]["intervals"]["percentile"],
+            b["parameters"]["C_A"]["intervals"]["percentile"]);
+}
+
+TEST(Fit, ReferenceSolverAgrees) {
+  const Workplace place;
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "fast", "--replicates", "39"}).status, 0);
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "slow", "--replicates", "39", "--solver",
+                       "reference"})
+                .status,
+            0);
+  const auto fast = nlohmann::json::parse(place.read("fast/fit.json"));
+  const auto slow = nlohmann::json::parse(place.read("slow/fit.json"));
+  for (const char* name : {"C_H", "C_A"}) {
+    const auto& f = fast["parameters"][name];
+    const auto& s = slow["parameters"][name];
+    if (s["std_error"].is_null()) continue;
+    EXPECT_NEAR(f["value"].get<double>(), s["value"].get<double>(),
+                0.01 * s["std_error"].get<double>());
+  }
+}
+
+TEST(Fit, FittedValuesCanBeSimulated) {
+  const Workplace place;
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "out", "--replicates", "39"}).status, 0);
+  const Outcome run = place.run({"simulate", "fit.toml", "--velocity", "8", "--diameter", "4.9",
+                                 "--parameters", "out/fit.json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const Outcome wrong = place.run({"simulate", "fit.toml", "--velocity", "8", "--diameter", "4.9",
+                                   "--parameters", "data/datapackage.json"});
+  EXPECT_EQ(wrong.status, 2);
+}
+
+TEST(Fit, WithoutAnAnswerEndsWithStatusThree) {
+  const Workplace place;
+  const std::string points = place.read("data/points.csv");
+  const std::size_t header = points.find('\n');
+  const std::size_t first = points.find('\n', header + 1);
+  place.write("data/points.csv", points.substr(0, first + 1));  // one point, two parameters
+  const Outcome run = place.run({"fit", "fit.toml", "--out", "out"});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_NE(run.err.find("cannot determine"), std::string::npos) << run.err;
+}
+
+TEST(Help, TeachesEveryCommand) {
+  const Workplace place;
+  const Outcome help = place.run({"--help"});
+  EXPECT_EQ(help.status, 0);
+  for (const char* command : {"check", "simulate", "fit", "coverage", "reconstruct", "report"}) {
+    EXPECT_NE(help.out.find(command), std::string::npos) << command;
+    const Outcome one = place.run({command, "--help"});
+    EXPECT_EQ(one.status, 0);
+    EXPECT_NE(one.out.find(std::string("recoil ") + command), std::string::npos) << one.out;
+  }
+}
+
+}  // namespace
