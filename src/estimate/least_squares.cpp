@@ -57,6 +57,8 @@ class Coordinates {
   std::vector<std::size_t> free_;
 };
 
+/// The problem as Ceres sees it. A trial step is evaluated with its Jacobian at once and kept: most
+/// trials are accepted, and then Ceres asks for the Jacobian at the same place.
 class Residuals : public ceres::CostFunction {
  public:
   Residuals(const LeastSquaresProblem& problem, const Coordinates& coordinates)
@@ -67,27 +69,38 @@ class Residuals : public ceres::CostFunction {
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
-    const std::size_t n = problem_.residual_count;
-    const std::vector<double> theta = coordinates_.to_theta(parameters[0]);
-    const std::size_t p = theta.size();
-    const bool wanted = jacobians != nullptr && jacobians[0] != nullptr;
-    std::vector<double> jacobian(wanted ? n * p : 0);
-    if (!problem_.evaluate(theta, {residuals, n}, jacobian)) return false;
-    if (!wanted) return true;
+    if (!refresh(parameters[0])) return false;
+    std::copy(residuals_.begin(), residuals_.end(), residuals);
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     const std::vector<std::size_t>& free = coordinates_.free();
-    for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t p = theta_.size();
+    for (std::size_t i = 0; i < residuals_.size(); ++i) {
       for (std::size_t k = 0; k < free.size(); ++k) {
         const std::size_t j = free[k];
-        const double chain = problem_.log_scale[j] ? theta[j] : 1.0;
-        jacobians[0][i * free.size() + k] = jacobian[i * p + j] * chain;
+        const double chain = problem_.log_scale[j] ? theta_[j] : 1.0;
+        jacobians[0][i * free.size() + k] = jacobian_[i * p + j] * chain;
       }
     }
     return true;
   }
 
  private:
+  bool refresh(const double* z) const {
+    std::vector<double> theta = coordinates_.to_theta(z);
+    if (answered_ && theta == theta_) return true;
+    theta_ = std::move(theta);
+    residuals_.resize(problem_.residual_count);
+    jacobian_.resize(problem_.residual_count * theta_.size());
+    answered_ = problem_.evaluate(theta_, residuals_, jacobian_);
+    return answered_;
+  }
+
   const LeastSquaresProblem& problem_;
   const Coordinates& coordinates_;
+  mutable std::vector<double> theta_;
+  mutable std::vector<double> residuals_;
+  mutable std::vector<double> jacobian_;
+  mutable bool answered_ = false;
 };
 
 bool rests_on_bound(double value, double bound) {

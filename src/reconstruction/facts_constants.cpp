@@ -3,15 +3,15 @@
 
 #include "core/units.hpp"
 #include "reconstruction/fact_tools.hpp"
-#include "reconstruction/seed_calibration.hpp"
+#include "reconstruction/two_point_calibration.hpp"
 
 namespace recoil {
 namespace {
 
 /// The seed's model of the recipe's system, f0 by eq. 12 at `diameter`, no damping yet.
-SeedTruth seed_model_of(const Recipe& recipe, double diameter) {
+RingAdhesionTruth ring_adhesion_model_of(const Recipe& recipe, double diameter) {
   const DerivedContact derived = derive_recipe_contact(recipe.particle, recipe.surface);
-  SeedTruth model;
+  RingAdhesionTruth model;
   model.density = recipe.particle.density;
   model.stiffness = derived.stiffness;
   model.reference_diameter = diameter;
@@ -54,7 +54,7 @@ FactOutcome contradictory_constants(const FactContext& context, const FactLimits
                       derived.stiffness / units::GPa, K_ratio, f0, f0_ratio)};
 }
 
-FactOutcome seed_runs_low(const FactContext& context, const FactLimits& limits) {
+FactOutcome two_point_runs_low(const FactContext& context, const FactLimits& limits) {
   std::vector<GeneratedPoint> calibration;
   std::vector<GeneratedPoint> judged;
   for (const GeneratedPoint& point : context.points) {
@@ -65,8 +65,8 @@ FactOutcome seed_runs_low(const FactContext& context, const FactLimits& limits) 
     }
   }
   if (calibration.size() < 2 || judged.empty()) return {false, "no such diameters"};
-  const SeedCalibration seed = calibrate_seed(
-      seed_model_of(context.recipe, limits.at("calibrated_on")), limits.at("calibrated_on"),
+  const TwoPointCalibration seed = calibrate_by_two_points(
+      ring_adhesion_model_of(context.recipe, limits.at("calibrated_on")), limits.at("calibrated_on"),
       {calibration.front().velocity, calibration.front().restitution},
       {calibration.back().velocity, calibration.back().restitution});
   if (!seed.found) return {false, "no two-point calibration: " + seed.why};

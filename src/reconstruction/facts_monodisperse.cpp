@@ -230,9 +230,9 @@ const std::vector<FactKind>& monodisperse_facts() {
       {"printed-constants",
        {"diameter", "stiffness_K", "adhesion_energy", "adhesion_force_f0", "tolerance"},
        printed_constants},
-      {"seed-runs-low",
+      {"two-point-runs-low",
        {"calibrated_on", "judged_on", "below_velocity", "mean_from", "mean_to"},
-       seed_runs_low},
+       two_point_runs_low},
   };
   return catalogue;
 }

@@ -29,9 +29,9 @@ Material read_material(TomlTable table, bool with_density) {
   return material;
 }
 
-Truth read_seed_truth(TomlTable& table, const Recipe& recipe) {
+Truth read_ring_adhesion_truth(TomlTable& table, const Recipe& recipe) {
   const DerivedContact derived = derive_recipe_contact(recipe.particle, recipe.surface);
-  SeedTruth truth;
+  RingAdhesionTruth truth;
   truth.density = recipe.particle.density;
   truth.stiffness = table.optional_positive("stiffness_K").value_or(derived.stiffness);
   truth.reference_diameter = table.positive("reference_diameter");
@@ -64,11 +64,11 @@ Truth read_elastoplastic_truth(TomlTable& table, const Recipe& recipe) {
 
 Truth read_truth(TomlTable table, const Recipe& recipe) {
   const std::string model = table.text("model");
-  if (model != "seed" && model != "elastoplastic") {
-    table.fail("model", "no such truth", "write \"seed\" or \"elastoplastic\"");
+  if (model != "ring-adhesion" && model != "elastoplastic") {
+    table.fail("model", "no such truth", "write \"ring-adhesion\" or \"elastoplastic\"");
   }
   Truth truth =
-      model == "seed" ? read_seed_truth(table, recipe) : read_elastoplastic_truth(table, recipe);
+      model == "ring-adhesion" ? read_ring_adhesion_truth(table, recipe) : read_elastoplastic_truth(table, recipe);
   table.finish();
   return truth;
 }

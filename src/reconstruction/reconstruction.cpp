@@ -71,7 +71,7 @@ Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t 
 }
 
 std::map<std::string, double> true_parameters(const Recipe& recipe) {
-  const auto* seed = std::get_if<SeedTruth>(&recipe.truth);
+  const auto* seed = std::get_if<RingAdhesionTruth>(&recipe.truth);
   if (seed == nullptr) return {};
   return {{"C_H", seed->C_H},
           {"C_A", seed->C_A},

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "reconstruction/elastoplastic_truth.hpp"
-#include "reconstruction/seed_truth.hpp"
+#include "reconstruction/ring_adhesion_truth.hpp"
 
 namespace recoil {
 namespace {
@@ -16,8 +16,8 @@ double mass_of(double density, double diameter) {
   return density * pi / 6.0 * diameter * diameter * diameter;
 }
 
-double restitution(const SeedTruth& truth, double diameter, double velocity) {
-  SeedContact contact;
+double restitution(const RingAdhesionTruth& truth, double diameter, double velocity) {
+  RingAdhesionContact contact;
   contact.stiffness = truth.stiffness;
   contact.adhesion_force =
       truth.adhesion_force * std::cbrt(diameter / truth.reference_diameter);  // eq. 12
@@ -26,7 +26,7 @@ double restitution(const SeedTruth& truth, double diameter, double velocity) {
   contact.C_H = truth.C_H;
   contact.C_A = truth.C_A;
   contact.damped_in_both_phases = truth.damped_in_both_phases;
-  return seed_impact(contact, velocity).restitution;
+  return ring_adhesion_impact(contact, velocity).restitution;
 }
 
 ElastoplasticImpact impact_of(const ElastoplasticTruth& truth, double diameter, double velocity) {
@@ -82,7 +82,7 @@ double true_capture_velocity(const Truth& truth, double diameter) {
 }
 
 Truth without_adhesion(Truth truth) {
-  if (auto* seed = std::get_if<SeedTruth>(&truth)) seed->adhesion_force = 0.0;
+  if (auto* seed = std::get_if<RingAdhesionTruth>(&truth)) seed->adhesion_force = 0.0;
   if (auto* plastic = std::get_if<ElastoplasticTruth>(&truth)) {
     plastic->adhesion_energy = 0.0;
     plastic->adhesion_hysteresis = 0.0;

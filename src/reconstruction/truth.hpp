@@ -6,8 +6,8 @@
 
 namespace recoil {
 
-/// A truth made by the seed's own equation, see `SeedContact`.
-struct SeedTruth {
+/// A truth made by the equation of the paper, see `RingAdhesionContact`.
+struct RingAdhesionTruth {
   double density = 0.0;             ///< of the sphere [kg/m3]
   double stiffness = 0.0;           ///< K [Pa]
   double adhesion_force = 0.0;      ///< f0 at `reference_diameter` [N/m]; f0 ~ d^(1/3) elsewhere
@@ -30,7 +30,7 @@ struct ElastoplasticTruth {
   double rate_exponent = 0.0;          ///< q [1]
 };
 
-using Truth = std::variant<SeedTruth, ElastoplasticTruth>;
+using Truth = std::variant<RingAdhesionTruth, ElastoplasticTruth>;
 
 /// Noiseless restitution e [1] of one sphere of `diameter` [m] at `velocity` [m/s]; 0 when
 /// captured.
@@ -44,7 +44,7 @@ double true_capture_velocity(const Truth& truth, double diameter);
 Truth without_adhesion(Truth truth);
 
 /// Part of the incident energy that goes into plastic flow, see `ElastoplasticImpact`; 0 for the
-/// seed's model.
+/// ring-adhesion model.
 double true_plastic_share(const Truth& truth, double diameter, double velocity);
 
 /// Eq. 6, 7, 9 to 12 of Li, Dunn & Brach (1999) from the two materials.

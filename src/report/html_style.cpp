@@ -84,6 +84,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   body { padding: 1rem .75rem 2rem; }
   h1 { font-size: 1.4rem; }
   th, td { padding: .38rem .6rem; }
+  tbody th { white-space: normal; min-width: 6.5rem; }
 }
 @media print {
   :root { --paper: #fff; --ground: #fff; --ink: #000; --quiet: #333; --line: #bbb;

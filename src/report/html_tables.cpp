@@ -13,22 +13,37 @@ namespace recoil {
 namespace {
 
 constexpr double least_correlation = 0.1;
-constexpr std::size_t most_points = 1000;
+const std::string none = "–";
 
 std::string quantity(const std::string& symbol, const std::string& unit) {
   return fmt::format("{} [{}]", prose_html(symbol), prose_html(unit));
 }
 
 std::string interval_cell(const Interval& interval) {
-  return interval.available() ? interval_text(interval) : "–";
+  return interval.available() ? interval_text(interval) : none;
 }
 
 std::string number_at(const std::vector<double>& values, std::size_t i, int digits = 4) {
-  return i < values.size() ? number(values[i], digits) : "–";
+  return i < values.size() ? number(values[i], digits) : none;
 }
 
 std::string optional_number(const std::optional<double>& value) {
-  return value ? number(*value) : "–";
+  return value ? number(*value) : none;
+}
+
+/// Removes the columns in which no row but the first column's says anything.
+void drop_empty_columns(HtmlTable& table) {
+  for (std::size_t column = table.head.size(); column-- > 1;) {
+    const bool empty = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+      return row[column].empty() || row[column] == none;
+    });
+    if (!empty) continue;
+    const auto place = static_cast<std::ptrdiff_t>(column);
+    table.head.erase(table.head.begin() + place);
+    for (auto& row : table.rows) row.erase(row.begin() + place);
+    std::erase(table.words, column);
+    for (std::size_t& word : table.words) word -= word > column ? 1 : 0;
+  }
 }
 
 }  // namespace
@@ -48,8 +63,8 @@ std::string parameters_table(const Analysis& a) {
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
     if (!slot.free) {
-      table.rows.push_back({parameter_html(slot.label()), number(f.theta[s]), "–",
-                            prose_html(slot.unit), "–", "–", "–", "Fixed."});
+      table.rows.push_back({parameter_html(slot.label()), number(f.theta[s]), none,
+                            prose_html(slot.unit), none, "fixed", none, ""});
       continue;
     }
     const double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
@@ -62,11 +77,12 @@ std::string parameters_table(const Analysis& a) {
           fmt::format("Rests on a bound of [{}, {}]. ", number(slot.lower), number(slot.upper));
     }
     if (!interval.available()) remark += as_sentence("no interval: " + reason_without(set));
-    table.rows.push_back({parameter_html(slot.label()), value, error > 0.0 ? spread : "–",
+    table.rows.push_back({parameter_html(slot.label()), value, error > 0.0 ? spread : none,
                           prose_html(slot.unit), interval_cell(interval),
-                          interval.available() ? escape_html(set.recommended) : "–",
+                          interval.available() ? escape_html(set.recommended) : none,
                           number(slot.initial), prose_html(remark)});
   }
+  drop_empty_columns(table);
   std::string out = table_html(table);
   for (const std::string& sentence : recommendations(a)) {
     out += fmt::format("<p>{}</p>\n", prose_html(sentence));
@@ -100,6 +116,7 @@ std::string intervals_table(const Analysis& a) {
     }
   }
   if (table.rows.empty()) return "";
+  drop_empty_columns(table);
   std::string out = table_html(table);
   if (!reasons.empty()) {
     out += "<details><summary>Why some intervals are missing</summary><ul>\n" + reasons +
@@ -134,11 +151,11 @@ std::string goodness_table(const Analysis& a) {
                 {"variables", fmt::format("{}", free)},
                 {"chi-square", number(f.chi2, 6)},
                 {"degrees of freedom", fmt::format("{}", f.dof)},
-                {"reduced chi-square", f.dof > 0 ? number(f.chi2 / f.dof, 4) : "–"},
+                {"reduced chi-square", f.dof > 0 ? number(f.chi2 / f.dof, 4) : none},
                 {"p-value", a.data.sd_stated && f.dof > 0 ? escape_html(p_value_text(f.p_value))
                                                           : "– (no deviations stated)"},
                 {"rms of <i>e</i>", number(f.rmse)}};
-  if (a.data.sd_stated && f.dof <= 0) table.rows[5][1] = "–";
+  if (a.data.sd_stated && f.dof <= 0) table.rows[5][1] = none;
   std::string out = table_html(table);
   if (!f.noise_text.empty())
     out += fmt::format("<p>{}</p>\n", prose_html(as_sentence(f.noise_text)));
@@ -158,6 +175,7 @@ std::string capture_table(const Analysis& a) {
          capture.found ? digits(capture.value, 4) : "none found", interval_cell(capture.interval),
          capture.interval.available() ? "" : prose_html(capture.interval.why)});
   }
+  drop_empty_columns(table);
   return table_html(table);
 }
 
@@ -168,13 +186,14 @@ std::string two_point_tables(const Analysis& a) {
     const TwoPointResult& two = comparison.result;
     const bool answered = two.status != TwoPointStatus::too_few_points;
     const auto point = [&](std::size_t i) {
-      if (!answered || i >= a.data.points.size()) return std::string("–");
+      if (!answered || i >= a.data.points.size()) return std::string(none);
       return fmt::format("e = {} at {} m/s", number(a.data.points[i].restitution, 3),
                          number(a.data.points[i].velocity, 3));
     };
     HtmlTable table;
-    table.caption = fmt::format("{}, two points calibrated at d = {} um",
-                                a.datasets[comparison.dataset].id, diameter_text(two.diameter));
+    table.caption = fmt::format("{}, two points calibrated at d = {} um: {} and {}",
+                                a.datasets[comparison.dataset].id, diameter_text(two.diameter),
+                                point(two.high_point), point(two.low_point));
     table.head = {"", "two points", "all points"};
     for (const std::size_t s :
          {f.model.slot_C_H[comparison.dataset], f.model.slot_C_A[comparison.dataset]}) {
@@ -185,13 +204,11 @@ std::string two_point_tables(const Analysis& a) {
                             number_at(comparison.spread, s, 2),
                             number_at(comparison.full_spread, s, 2)});
     }
-    table.rows.push_back({"rms of <i>e</i>, all points", answered ? number(comparison.rmse) : "–",
+    table.rows.push_back({"rms of <i>e</i>, all points", answered ? number(comparison.rmse) : none,
                           number(comparison.full_rmse)});
     table.rows.push_back({"rms of <i>e</i>, diameters not seen",
                           optional_number(comparison.held_out_rmse),
                           optional_number(comparison.full_held_out_rmse)});
-    table.rows.push_back({"high point", point(two.high_point), ""});
-    table.rows.push_back({"low point", point(two.low_point), ""});
     table.rows.push_back(
         {"replicates without an answer", fmt::format("{}", comparison.failed), ""});
     out += table_html(table);
@@ -249,38 +266,6 @@ std::string starts_table(const Analysis& a) {
     table.rows.push_back(std::move(row));
   }
   return table_html(table);
-}
-
-std::string points_table(const Analysis& a) {
-  const FitResult& f = a.fitted;
-  HtmlTable table;
-  table.compact = true;
-  const bool joint = a.datasets.size() > 1;
-  table.head = {"series", "d [µm]", "<i>V</i> [m/s]", "<i>e</i>",
-                "sd",     "fit",    "residual [sd]",  "leverage"};
-  if (joint) table.head.insert(table.head.begin(), "dataset");
-  const double unit = residual_unit(a);
-  const std::size_t count = std::min(a.data.points.size(), most_points);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Observation& point = a.data.points[i];
-    const Dataset& dataset = a.datasets[point.dataset];
-    const std::string series =
-        point.series < dataset.series.size() ? dataset.series[point.series] : "";
-    table.rows.push_back(
-        {escape_html(series), diameter_text(point.diameter), number(point.velocity),
-         point.censored ? "captured" : fmt::format("{:.4f}", point.restitution),
-         a.data.sd_stated ? number(point.sd, 2) : "–",
-         i < f.prediction.size() ? fmt::format("{:.4f}", f.prediction[i]) : "–",
-         i < f.residuals.size() ? fmt::format("{:+.2f}", f.residuals[i] / unit) : "–",
-         i < f.leverage.size() ? fmt::format("{:.3f}", f.leverage[i]) : "–"});
-    if (joint) table.rows.back().insert(table.rows.back().begin(), escape_html(dataset.id));
-  }
-  std::string out = table_html(table);
-  if (count < a.data.points.size()) {
-    out += fmt::format("<p>The first {} of {} points; fit.json has them all.</p>\n", count,
-                       a.data.points.size());
-  }
-  return out;
 }
 
 }  // namespace recoil

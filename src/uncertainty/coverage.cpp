@@ -1,6 +1,7 @@
 #include "uncertainty/coverage.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -87,12 +88,12 @@ CoverageCell count(const std::vector<Trial>& trials, const char* name, double tr
   return cell;
 }
 
+/// "95.0 % [92.1, 97.0]": the share with its exact 95 % limits (Clopper & Pearson 1934).
 std::string percentage(int part, int whole) {
   if (whole == 0) return "-";
-  const double p = static_cast<double>(part) / whole;
-  // Wilson's half-width would be more exact; the plain standard error is what a reader expects.
-  return fmt::format("{:.1f} ± {:.1f} %", 100.0 * p,
-                     100.0 * std::sqrt(std::max(p * (1.0 - p), 0.25 / whole) / whole));
+  const double low = part == 0 ? 0.0 : gsl_cdf_beta_Pinv(0.025, part, whole - part + 1.0);
+  const double high = part == whole ? 1.0 : gsl_cdf_beta_Pinv(0.975, part + 1.0, whole - part);
+  return fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100.0 * part / whole, 100.0 * low, 100.0 * high);
 }
 
 }  // namespace
@@ -151,7 +152,8 @@ std::string to_markdown(const CoverageResult& result, const FitSpec& spec,
                         const CoverageOptions& options) {
   std::string text = fmt::format(
       "## Coverage of the intervals of `{}`\n\n{} data sets; {}. Level {:.0f} %, {} bootstrap "
-      "replicates each, seed {}. {} fits and {} refits failed.\n\n",
+      "replicates each, seed {}. {} fits and {} refits failed. In square brackets: "
+      "the exact 95 % limits of each share.\n\n",
       spec.id, result.datasets, result.truth_source, 100.0 * options.uncertainty.level,
       options.uncertainty.replicates, options.uncertainty.seed, result.failed,
       result.refits_failed);

@@ -66,7 +66,7 @@ CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& data
 
 Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::size_t dataset) {
   const ContactProperties& contact = model.contacts[dataset];
-  SeedTruth truth;
+  RingAdhesionTruth truth;
   truth.density = contact.particle_density;
   truth.stiffness = contact.stiffness;
   truth.adhesion_force = theta[model.slot_f0[dataset]];

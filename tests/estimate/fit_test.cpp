@@ -156,7 +156,7 @@ TEST(CaptureVelocity, MatchesTheIndependentSimulator) {
   const std::vector<Dataset> datasets = {synthetic::dataset(design)};
   const ImpactModel model = make_model(synthetic::spec(), datasets);
   const std::vector<double> theta = {design.C_H, design.C_A, design.f0};
-  SeedTruth truth;
+  RingAdhesionTruth truth;
   truth.density = 1350.0;
   truth.stiffness = 1.789e9;
   truth.adhesion_force = design.f0;

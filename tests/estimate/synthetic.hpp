@@ -31,7 +31,7 @@ inline Dataset dataset(const Design& design) {
   data.system.reference_diameter = 4.9e-6;
   data.system.stiffness_K = 1.789e9;
   data.system.adhesion_force_f0 = 8.9;
-  SeedTruth truth;
+  RingAdhesionTruth truth;
   truth.density = 1350.0;
   truth.stiffness = 1.789e9;
   truth.adhesion_force = design.f0;

@@ -74,7 +74,7 @@ TEST_P(Committed, DatasetStatesTheMaterialsOfTheRecipe) {
   EXPECT_EQ(system.particle.poisson_ratio, recipe.particle.poisson_ratio);
   EXPECT_EQ(system.surface.youngs_modulus, recipe.surface.youngs_modulus);
   EXPECT_EQ(system.surface.poisson_ratio, recipe.surface.poisson_ratio);
-  if (const auto* truth = std::get_if<SeedTruth>(&recipe.truth)) {
+  if (const auto* truth = std::get_if<RingAdhesionTruth>(&recipe.truth)) {
     EXPECT_EQ(system.reference_diameter, truth->reference_diameter);
     EXPECT_EQ(system.stiffness_K.value_or(truth->stiffness), truth->stiffness);
     EXPECT_EQ(system.adhesion_force_f0.value_or(truth->adhesion_force), truth->adhesion_force);
@@ -137,7 +137,7 @@ TEST(Reconstruction, ATruthThatContradictsAFactIsFound) {
   EXPECT_TRUE(fails(copies, "li1999-sst65-silicon", "capture-range"));
 }
 
-TEST(Reconstruction, TrueParametersAreThoseOfTheSeedsModel) {
+TEST(Reconstruction, TrueParametersAreThoseOfTheRingAdhesionModel) {
   const auto dahneke = true_parameters(load_recipe(dataset_folder("dahneke1975-quartz")));
   EXPECT_EQ(dahneke.at("C_H"), 6e-4);
   EXPECT_EQ(dahneke.at("C_A"), 3.8e-3);

@@ -40,7 +40,7 @@ TEST_P(RecipeMistakes, AreOneLineWithItsPlace) {
 }
 
 const std::string wall = "wall1990-mica";
-const std::string seed_made = "dahneke1975-quartz";
+const std::string ring_adhesion_made = "dahneke1975-quartz";
 const std::string mixed = "li1999-sst65-silicon";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -53,10 +53,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"text_for_number", wall, "floor = 0.01", "floor = \"0.01\"", "not a finite number"},
         Mistake{"nan", wall, "floor = 0.01", "floor = nan", "not a finite number"},
         Mistake{"negative", wall, "density = 1350", "density = -1350", "above zero"},
-        Mistake{"no_noise", seed_made, "relative = 0.02", "relative = 0", "without noise"},
+        Mistake{"no_noise", ring_adhesion_made, "relative = 0.02", "relative = 0", "without noise"},
         Mistake{"poisson", wall, "poisson_ratio = 0.33", "poisson_ratio = 0.8", "isotropic"},
         Mistake{"no_such_truth", wall, "\"elastoplastic\"", "\"magic\"", "no such truth"},
-        Mistake{"no_such_phase", seed_made, "\"rebound\"", "\"never\"", "rebound"},
+        Mistake{"no_such_phase", ring_adhesion_made, "\"rebound\"", "\"never\"", "rebound"},
         Mistake{"unknown_fact", wall, "\"capture-slope\"", "\"capture-slop\"",
                 "did you mean 'capture-slope'"},
         Mistake{"repeated_fact", wall, "\"near-capture\"", "\"capture-slope\"", "twice"},
@@ -64,10 +64,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "lacks the limit 'most'"},
         Mistake{"fact_with_other_limit", wall, "most = 0.03", "most = 0.03, more = 1",
                 "takes no limit 'more'"},
-        Mistake{"backwards", seed_made, "from = 2.5", "from = 250.0", "above 'from'"},
-        Mistake{"two_designs", seed_made, "diameter = 1.27e-6\nvelocity",
+        Mistake{"backwards", ring_adhesion_made, "from = 2.5", "from = 250.0", "above 'from'"},
+        Mistake{"two_designs", ring_adhesion_made, "diameter = 1.27e-6\nvelocity",
                 "diameter = 1.27e-6\ndrop_heights = [1.0]\nvelocity", "one of the two"},
-        Mistake{"comma_in_name", seed_made, "\"1.27 um\"", "\"1,27 um\"", "cell"},
+        Mistake{"comma_in_name", ring_adhesion_made, "\"1.27 um\"", "\"1,27 um\"", "cell"},
         Mistake{"sizes_upside_down", mixed, "upper = 110e-6", "upper = 10e-6", "whole micrometres"},
         Mistake{"bad_height", mixed, "[0.01, ", "[-0.01, ", "above zero"}),
     [](const auto& instance) { return instance.param.name; });

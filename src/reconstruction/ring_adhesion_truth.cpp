@@ -1,4 +1,4 @@
-#include "reconstruction/seed_truth.hpp"
+#include "reconstruction/ring_adhesion_truth.hpp"
 
 #include <fmt/format.h>
 #include <gsl/gsl_errno.h>
@@ -23,7 +23,7 @@ constexpr int max_steps = 20000;     // an impact takes about 100
 using State = std::array<double, 2>;
 
 /// Acceleration n'' [m/s2] outside contact and within.
-double acceleration(const SeedContact& c, double n, double v) {
+double acceleration(const RingAdhesionContact& c, double n, double v) {
   if (n <= 0.0) return 0.0;
   const double hertz = std::sqrt(c.radius) * c.stiffness * n * std::sqrt(n) * (1.0 + c.C_H * v);
   const double damped = v < 0.0 || c.damped_in_both_phases ? -v : 0.0;
@@ -35,13 +35,13 @@ double acceleration(const SeedContact& c, double n, double v) {
 // The same motion with t, n' or n as the independent variable.
 int by_time(double, const double y[], double dydt[], void* data) {
   dydt[0] = y[1];
-  dydt[1] = acceleration(*static_cast<const SeedContact*>(data), y[0], y[1]);
+  dydt[1] = acceleration(*static_cast<const RingAdhesionContact*>(data), y[0], y[1]);
   return GSL_SUCCESS;
 }
 
 /// y = (n, t), independent variable n'.
 int by_velocity(double v, const double y[], double dydv[], void* data) {
-  const double a = acceleration(*static_cast<const SeedContact*>(data), y[0], v);
+  const double a = acceleration(*static_cast<const RingAdhesionContact*>(data), y[0], v);
   if (a == 0.0) return GSL_EBADFUNC;
   dydv[0] = v / a;
   dydv[1] = 1.0 / a;
@@ -51,7 +51,7 @@ int by_velocity(double v, const double y[], double dydv[], void* data) {
 /// y = (n', t), independent variable n.
 int by_penetration(double n, const double y[], double dydn[], void* data) {
   if (y[0] >= 0.0) return GSL_EBADFUNC;
-  dydn[0] = acceleration(*static_cast<const SeedContact*>(data), n, y[0]) / y[0];
+  dydn[0] = acceleration(*static_cast<const RingAdhesionContact*>(data), n, y[0]) / y[0];
   dydn[1] = 1.0 / y[0];
   return GSL_SUCCESS;
 }
@@ -61,7 +61,7 @@ class Integrator {
  public:
   using Field = int (*)(double, const double[], double[], void*);
 
-  Integrator(Field field, const SeedContact& contact, State error)
+  Integrator(Field field, const RingAdhesionContact& contact, State error)
       : contact_(contact),
         system_{field, nullptr, 2, &contact_},
         step_(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2), &gsl_odeiv2_step_free),
@@ -86,7 +86,7 @@ class Integrator {
   }
 
  private:
-  SeedContact contact_;
+  RingAdhesionContact contact_;
   gsl_odeiv2_system system_;
   std::unique_ptr<gsl_odeiv2_step, decltype(&gsl_odeiv2_step_free)> step_;
   std::unique_ptr<gsl_odeiv2_control, decltype(&gsl_odeiv2_control_free)> control_;
@@ -100,7 +100,7 @@ class Integrator {
 
 }  // namespace
 
-SeedImpact seed_impact(const SeedContact& contact, double velocity) {
+RingAdhesionImpact ring_adhesion_impact(const RingAdhesionContact& contact, double velocity) {
   gsl_errors_are_values();
   // Scales of an undamped Hertz impact without adhesion, for tolerances and the first step.
   const double depth = std::pow(5.0 * contact.mass * velocity * velocity /
@@ -112,7 +112,7 @@ SeedImpact seed_impact(const SeedContact& contact, double velocity) {
   const double t_error = tolerance * duration;
   const double far = 1e9 * duration;
 
-  SeedImpact impact;
+  RingAdhesionImpact impact;
   double t = 0.0;
   double h = 1e-3 * duration;
   State y = {0.0, velocity};

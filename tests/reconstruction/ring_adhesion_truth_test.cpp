@@ -1,5 +1,5 @@
-// The truth simulator of the seed's model against closed forms and expansions that it does not use.
-#include "reconstruction/seed_truth.hpp"
+// The truth simulator of the ring-adhesion model against closed forms and expansions that it does not use.
+#include "reconstruction/ring_adhesion_truth.hpp"
 
 #include <gsl/gsl_sf_lambert.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-SeedContact fluorescein_on_molybdenum() {
-  SeedContact contact;
+RingAdhesionContact fluorescein_on_molybdenum() {
+  RingAdhesionContact contact;
   contact.stiffness = 1.789e9;
   contact.adhesion_force = 8.9;
   contact.radius = 2.45e-6;
@@ -24,59 +24,59 @@ SeedContact fluorescein_on_molybdenum() {
 }
 
 /// V_a = (2 pi f0)^(5/4) r^(1/4) K^(-3/4) m^(-1/2) [m/s].
-double adhesion_velocity(const SeedContact& c) {
+double adhesion_velocity(const RingAdhesionContact& c) {
   return std::pow(2.0 * pi * c.adhesion_force, 1.25) * std::pow(c.radius, 0.25) *
          std::pow(c.stiffness, -0.75) / std::sqrt(c.mass);
 }
 
-double capture_velocity(const SeedContact& contact) {
+double capture_velocity(const RingAdhesionContact& contact) {
   double captured = 1e-3 * adhesion_velocity(contact);
   double free = 5.0 * adhesion_velocity(contact);
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (captured + free);
-    (seed_impact(contact, middle).rebounded ? free : captured) = middle;
+    (ring_adhesion_impact(contact, middle).rebounded ? free : captured) = middle;
   }
   return free;
 }
 
-TEST(SeedTruth, HuntCrossleyAloneFollowsLambertW) {
-  SeedContact contact = fluorescein_on_molybdenum();
+TEST(RingAdhesionTruth, HuntCrossleyAloneFollowsLambertW) {
+  RingAdhesionContact contact = fluorescein_on_molybdenum();
   contact.adhesion_force = 0.0;
   contact.C_H = 0.1;
   for (const double x : {0.01, 0.1, 0.5, 1.0, 3.0, 10.0}) {
-    const double e = seed_impact(contact, x / contact.C_H).restitution;
+    const double e = ring_adhesion_impact(contact, x / contact.C_H).restitution;
     const double exact = (1.0 + gsl_sf_lambert_W0(-(1.0 + x) * std::exp(-(1.0 + x)))) / x;
     EXPECT_NEAR(e, exact, 1e-9) << "C_H V = " << x;
   }
 }
 
-TEST(SeedTruth, WithoutDampingNothingIsLost) {
-  const SeedContact contact = fluorescein_on_molybdenum();
+TEST(RingAdhesionTruth, WithoutDampingNothingIsLost) {
+  const RingAdhesionContact contact = fluorescein_on_molybdenum();
   for (const double v : {0.05, 0.5, 2.0, 20.0, 200.0}) {
-    EXPECT_NEAR(seed_impact(contact, v).restitution, 1.0, 1e-9) << v << " m/s";
+    EXPECT_NEAR(ring_adhesion_impact(contact, v).restitution, 1.0, 1e-9) << v << " m/s";
   }
 }
 
-TEST(SeedTruth, HertzContactTimeAndDepth) {
-  SeedContact contact = fluorescein_on_molybdenum();
+TEST(RingAdhesionTruth, HertzContactTimeAndDepth) {
+  RingAdhesionContact contact = fluorescein_on_molybdenum();
   contact.adhesion_force = 0.0;
   const double A = std::sqrt(contact.radius) * contact.stiffness / contact.mass;
   const double v = 5.2;
   const double depth = std::pow(5.0 * v * v / (4.0 * A), 0.4);
   const double factor = 2.0 * std::sqrt(pi) * std::tgamma(1.4) / std::tgamma(0.9);
-  const SeedImpact impact = seed_impact(contact, v);
+  const RingAdhesionImpact impact = ring_adhesion_impact(contact, v);
   EXPECT_NEAR(impact.deepest / depth, 1.0, 1e-10);
   EXPECT_NEAR(impact.contact_time / (factor * depth / v), 1.0, 1e-8);
 }
 
-TEST(SeedTruth, CaptureLawOfSmallDamping) {
+TEST(RingAdhesionTruth, CaptureLawOfSmallDamping) {
   // V*^2 = 2 J (C_A + 2 C_H) V_a^3, J = (5/3)^(3/2) sqrt((4/3)(5/3)^(3/2)) B(9/4, 3/2); for the
   // adhesion damping the next orders are (1 + 0.81 g + 0.62 g^2 + 0.78 g^3) on V*.
   const double beta = std::tgamma(2.25) * std::tgamma(1.5) / std::tgamma(3.75);
   const double J =
       std::pow(5.0 / 3.0, 1.5) * std::sqrt(4.0 / 3.0 * std::pow(5.0 / 3.0, 1.5)) * beta;
   EXPECT_NEAR(std::sqrt(2.0 * J), 1.2864, 1e-4);
-  SeedContact contact = fluorescein_on_molybdenum();
+  RingAdhesionContact contact = fluorescein_on_molybdenum();
   const double V_a = adhesion_velocity(contact);
   for (const double g : {1e-4, 0.01, 0.05, 0.1, 0.2, 0.3}) {
     contact.C_A = g / V_a;
@@ -89,22 +89,22 @@ TEST(SeedTruth, CaptureLawOfSmallDamping) {
   EXPECT_NEAR(capture_velocity(contact) / (std::sqrt(4.0 * J * small) * V_a), 1.0, 1e-3);
 }
 
-TEST(SeedTruth, DampingBothPhasesDoublesTheSmallLoss) {
-  SeedContact contact = fluorescein_on_molybdenum();
+TEST(RingAdhesionTruth, DampingBothPhasesDoublesTheSmallLoss) {
+  RingAdhesionContact contact = fluorescein_on_molybdenum();
   contact.C_A = 1e-4 / adhesion_velocity(contact);
   const double v = 10.0;
-  const auto loss = [&] { return 1.0 - std::pow(seed_impact(contact, v).restitution, 2); };
+  const auto loss = [&] { return 1.0 - std::pow(ring_adhesion_impact(contact, v).restitution, 2); };
   const double rebound_only = loss();
   contact.damped_in_both_phases = true;
   EXPECT_NEAR(loss() / rebound_only, 2.0, 1e-3);
 }
 
-TEST(SeedTruth, OnlyTheThreeVelocitiesCount) {
+TEST(RingAdhesionTruth, OnlyTheThreeVelocitiesCount) {
   // e depends on V/V_a, C_H V_a and C_A V_a alone.
-  SeedContact one = fluorescein_on_molybdenum();
+  RingAdhesionContact one = fluorescein_on_molybdenum();
   one.C_H = 0.03;
   one.C_A = 0.08;
-  SeedContact other = one;
+  RingAdhesionContact other = one;
   other.stiffness = 113e9;
   other.radius = 24.5e-6;
   other.mass = 4.9e-10;
@@ -113,11 +113,11 @@ TEST(SeedTruth, OnlyTheThreeVelocitiesCount) {
   other.C_H /= ratio;
   other.C_A /= ratio;
   for (const double v : {3.0, 10.0, 30.0}) {
-    EXPECT_NEAR(seed_impact(one, v).restitution, seed_impact(other, ratio * v).restitution, 1e-9);
+    EXPECT_NEAR(ring_adhesion_impact(one, v).restitution, ring_adhesion_impact(other, ratio * v).restitution, 1e-9);
   }
 }
 
-TEST(SeedTruth, DerivedInputsReproduceTable1) {
+TEST(RingAdhesionTruth, DerivedInputsReproduceTable1) {
   Material fluorescein{"", 1350.0, 1.2e9, 0.33, {}};
   const struct {
     double modulus, poisson, K, W, f0;

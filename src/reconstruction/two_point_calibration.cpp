@@ -1,4 +1,4 @@
-#include "reconstruction/seed_calibration.hpp"
+#include "reconstruction/two_point_calibration.hpp"
 
 #include <cmath>
 
@@ -11,7 +11,7 @@ constexpr double settled = 1e-6;  // relative change; points carry 1e-3 at best
 constexpr int max_rounds = 50;
 
 /// The damping `coefficient` of the model that gives `point`; negative when none >= 0 does.
-double damping_for(SeedTruth model, double SeedTruth::*coefficient, double diameter,
+double damping_for(RingAdhesionTruth model, double RingAdhesionTruth::*coefficient, double diameter,
                    const CalibrationPoint& point) {
   const auto excess = [&](double value) {
     model.*coefficient = value;
@@ -28,20 +28,20 @@ double damping_for(SeedTruth model, double SeedTruth::*coefficient, double diame
 
 }  // namespace
 
-SeedCalibration calibrate_seed(SeedTruth model, double diameter, const CalibrationPoint& low,
+TwoPointCalibration calibrate_by_two_points(RingAdhesionTruth model, double diameter, const CalibrationPoint& low,
                                const CalibrationPoint& high) {
-  SeedCalibration result;
+  TwoPointCalibration result;
   model.C_H = 0.0;
   model.C_A = 0.0;
   for (int round = 0; round < max_rounds; ++round) {
-    const double C_H = damping_for(model, &SeedTruth::C_H, diameter, high);
+    const double C_H = damping_for(model, &RingAdhesionTruth::C_H, diameter, high);
     if (C_H < 0.0) {
       result.why = "adhesion alone costs more than was lost at the highest velocity";
       return result;
     }
     model.C_H = C_H;
     const double before = model.C_A;
-    const double C_A = damping_for(model, &SeedTruth::C_A, diameter, low);
+    const double C_A = damping_for(model, &RingAdhesionTruth::C_A, diameter, low);
     if (C_A < 0.0) {
       result.why = "no adhesion damping gives the restitution of the lowest velocity";
       return result;
