@@ -1,3 +1,4 @@
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sf_erf.h>
 
 #include <algorithm>
@@ -19,7 +20,9 @@ WeightedResidual tobit_residual(const Observation& point, double m) {
   gsl_errors_are_values();
   const double scale = std::numbers::sqrt2 * point.sd * point.sd;
   const double z = m / scale;
-  const double log_q = gsl_sf_log_erfc(z / std::numbers::sqrt2) - std::numbers::ln2;
+  // ln Phi(-z), without cancellation on either side.
+  const double log_q = z < 0.0 ? std::log1p(-gsl_cdf_ugaussian_P(z))
+                               : gsl_sf_log_erfc(z / std::numbers::sqrt2) - std::numbers::ln2;
   const double deviance = -2.0 * log_q;
   if (deviance < 1e-280) return {0.0, 0.0};
   const double value = std::sqrt(deviance);

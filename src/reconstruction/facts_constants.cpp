@@ -8,7 +8,7 @@
 namespace recoil {
 namespace {
 
-/// The seed's model of the recipe's system, f0 by eq. 12 at `diameter`, no damping yet.
+/// The ring-adhesion model of the recipe's system, f0 by eq. 12 at `diameter`, no damping yet.
 RingAdhesionTruth ring_adhesion_model_of(const Recipe& recipe, double diameter) {
   const DerivedContact derived = derive_recipe_contact(recipe.particle, recipe.surface);
   RingAdhesionTruth model;
@@ -65,16 +65,16 @@ FactOutcome two_point_runs_low(const FactContext& context, const FactLimits& lim
     }
   }
   if (calibration.size() < 2 || judged.empty()) return {false, "no such diameters"};
-  const TwoPointCalibration seed = calibrate_by_two_points(
-      ring_adhesion_model_of(context.recipe, limits.at("calibrated_on")), limits.at("calibrated_on"),
-      {calibration.front().velocity, calibration.front().restitution},
+  const TwoPointCalibration calibrated = calibrate_by_two_points(
+      ring_adhesion_model_of(context.recipe, limits.at("calibrated_on")),
+      limits.at("calibrated_on"), {calibration.front().velocity, calibration.front().restitution},
       {calibration.back().velocity, calibration.back().restitution});
-  if (!seed.found) return {false, "no two-point calibration: " + seed.why};
+  if (!calibrated.found) return {false, "no two-point calibration: " + calibrated.why};
   double sum = 0.0;
   int lower = 0;
   for (const GeneratedPoint& point : judged) {
     const double difference =
-        true_restitution(seed.model, point.diameter, point.velocity) - point.restitution;
+        true_restitution(calibrated.model, point.diameter, point.velocity) - point.restitution;
     sum += difference;
     lower += difference < 0.0 ? 1 : 0;
   }
@@ -83,7 +83,7 @@ FactOutcome two_point_runs_low(const FactContext& context, const FactLimits& lim
           fmt::format("mean difference {:+.3f} (allowed {:+.3f} .. {:+.3f}), lower at {} of {} "
                       "points; C_H {:.2e}, C_A {:.2e} s/m",
                       mean, limits.at("mean_from"), limits.at("mean_to"), lower, judged.size(),
-                      seed.model.C_H, seed.model.C_A)};
+                      calibrated.model.C_H, calibrated.model.C_A)};
 }
 
 }  // namespace recoil

@@ -67,8 +67,8 @@ Truth read_truth(TomlTable table, const Recipe& recipe) {
   if (model != "ring-adhesion" && model != "elastoplastic") {
     table.fail("model", "no such truth", "write \"ring-adhesion\" or \"elastoplastic\"");
   }
-  Truth truth =
-      model == "ring-adhesion" ? read_ring_adhesion_truth(table, recipe) : read_elastoplastic_truth(table, recipe);
+  Truth truth = model == "ring-adhesion" ? read_ring_adhesion_truth(table, recipe)
+                                         : read_elastoplastic_truth(table, recipe);
   table.finish();
   return truth;
 }

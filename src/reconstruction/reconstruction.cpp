@@ -71,12 +71,12 @@ Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t 
 }
 
 std::map<std::string, double> true_parameters(const Recipe& recipe) {
-  const auto* seed = std::get_if<RingAdhesionTruth>(&recipe.truth);
-  if (seed == nullptr) return {};
-  return {{"C_H", seed->C_H},
-          {"C_A", seed->C_A},
-          {"f0", seed->adhesion_force},
-          {"reference_diameter", seed->reference_diameter}};
+  const auto* ring = std::get_if<RingAdhesionTruth>(&recipe.truth);
+  if (ring == nullptr) return {};
+  return {{"C_H", ring->C_H},
+          {"C_A", ring->C_A},
+          {"f0", ring->adhesion_force},
+          {"reference_diameter", ring->reference_diameter}};
 }
 
 bool ReconstructionResult::good() const {

@@ -21,8 +21,8 @@ std::string generate_points(const Recipe& recipe, std::uint64_t seed);
 /// @throws InputError when `original` does not have the design of the recipe.
 Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t seed);
 
-/// C_H [s/m], C_A [s/m] and f0 [N/m] at `reference_diameter` [m] of a truth made by the ring-adhesion
-/// model, by these names; empty when the truth is another model.
+/// C_H [s/m], C_A [s/m] and f0 [N/m] at `reference_diameter` [m] of a truth made by the
+/// ring-adhesion model, by these names; empty when the truth is another model.
 std::map<std::string, double> true_parameters(const Recipe& recipe);
 
 /// What `recoil reconstruct` found or made.

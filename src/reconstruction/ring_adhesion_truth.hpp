@@ -2,8 +2,8 @@
 
 namespace recoil {
 
-/// One sphere of the ring-adhesion model as it stands in the paper, in SI units: eq. 5 of Li, Dunn & Brach
-/// (1999) with the adhesion damping always taking energy out,
+/// One sphere of the ring-adhesion model as it stands in the paper, in SI units: eq. 5 of Li, Dunn
+/// & Brach (1999) with the adhesion damping always taking energy out,
 ///   m n'' = -sqrt(r) K n^(3/2) (1 + C_H n') + 2 pi sqrt(r n) f0 (1 + C_A s),
 ///   s = -n' on rebound (n' < 0); on approach 0, or -n' when both phases are damped.
 struct RingAdhesionContact {

@@ -35,7 +35,7 @@ ElastoplasticImpact impact_of(const ElastoplasticTruth& truth, double diameter, 
   contact.radius = 0.5 * diameter;
   contact.mass = mass_of(truth.density, diameter);
   contact.adhesion_energy = truth.adhesion_energy;
-  contact.hysteresis = truth.adhesion_hysteresis;
+  contact.hysteresis = truth.adhesion_hysteresis * std::pow(velocity, truth.hysteresis_exponent);
   contact.yield_pressure = truth.static_yield_pressure *
                            (1.0 + std::pow(velocity / truth.rate_velocity, truth.rate_exponent));
   return elastoplastic_impact(contact, velocity);
@@ -82,7 +82,7 @@ double true_capture_velocity(const Truth& truth, double diameter) {
 }
 
 Truth without_adhesion(Truth truth) {
-  if (auto* seed = std::get_if<RingAdhesionTruth>(&truth)) seed->adhesion_force = 0.0;
+  if (auto* ring = std::get_if<RingAdhesionTruth>(&truth)) ring->adhesion_force = 0.0;
   if (auto* plastic = std::get_if<ElastoplasticTruth>(&truth)) {
     plastic->adhesion_energy = 0.0;
     plastic->adhesion_hysteresis = 0.0;

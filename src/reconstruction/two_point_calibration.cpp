@@ -28,8 +28,9 @@ double damping_for(RingAdhesionTruth model, double RingAdhesionTruth::*coefficie
 
 }  // namespace
 
-TwoPointCalibration calibrate_by_two_points(RingAdhesionTruth model, double diameter, const CalibrationPoint& low,
-                               const CalibrationPoint& high) {
+TwoPointCalibration calibrate_by_two_points(RingAdhesionTruth model, double diameter,
+                                            const CalibrationPoint& low,
+                                            const CalibrationPoint& high) {
   TwoPointCalibration result;
   model.C_H = 0.0;
   model.C_A = 0.0;

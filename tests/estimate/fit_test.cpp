@@ -14,11 +14,18 @@ namespace {
 
 using synthetic::Design;
 
-FitResult fit_design(const Design& design, bool f0_free = false, Solver solver = Solver::fast) {
+FitOptions one_start() {
+  FitOptions options;
+  options.several_starts = false;
+  return options;
+}
+
+FitResult fit_design(const Design& design, bool f0_free = false, Solver solver = Solver::fast,
+                     const FitOptions& options = one_start()) {
   const std::vector<Dataset> datasets = {synthetic::dataset(design)};
   ImpactModel model = make_model(synthetic::spec(f0_free), datasets);
   model.solver = solver;
-  return fit(model, gather(datasets));
+  return fit(model, gather(datasets), options);
 }
 
 TEST(Residual, IsGaussianInRestitutionAwayFromCapture) {
@@ -102,7 +109,7 @@ TEST(Fit, BothSolversGiveTheSameEstimate) {
 }
 
 TEST(Fit, AllStartsAgreeAndAreReported) {
-  const FitResult result = fit_design(Design{});
+  const FitResult result = fit_design(Design{}, false, Solver::fast, FitOptions{});
   ASSERT_GE(result.starts.size(), 9U);
   int agreeing = 0;
   for (const StartSummary& start : result.starts) {
@@ -122,7 +129,7 @@ TEST(Fit, NoAdhesionDampingInTheDataRestsOnTheBound) {
     if (point.incident_velocity < 10.0) point.restitution = std::min(1.0, point.restitution + 0.02);
   }
   const std::vector<Dataset> datasets = {data};
-  const FitResult result = fit(make_model(synthetic::spec(), datasets), gather(datasets));
+  const FitResult result = fit(make_model(synthetic::spec(), datasets), gather(datasets), one_start());
   ASSERT_TRUE(result.usable);
   EXPECT_TRUE(result.at_bound[1]);
   EXPECT_EQ(result.theta[1], 0.0);
@@ -144,7 +151,7 @@ TEST(Fit, WidensTheErrorsWhereTheModelMisses) {
     data.points[i].restitution += i % 2 == 0 ? 0.04 : -0.04;  // four standard deviations
   }
   const std::vector<Dataset> datasets = {data};
-  const FitResult result = fit(make_model(synthetic::spec(), datasets), gather(datasets));
+  const FitResult result = fit(make_model(synthetic::spec(), datasets), gather(datasets), one_start());
   ASSERT_TRUE(result.usable);
   EXPECT_LT(result.p_value, 1e-6);
   EXPECT_NEAR(result.noise_scale, std::sqrt(result.chi2 / result.dof), 1e-12);

@@ -1,4 +1,5 @@
-// The truth simulator of the ring-adhesion model against closed forms and expansions that it does not use.
+// The truth simulator of the ring-adhesion model against closed forms and expansions that it does
+// not use.
 #include "reconstruction/ring_adhesion_truth.hpp"
 
 #include <gsl/gsl_sf_lambert.h>
@@ -113,7 +114,8 @@ TEST(RingAdhesionTruth, OnlyTheThreeVelocitiesCount) {
   other.C_H /= ratio;
   other.C_A /= ratio;
   for (const double v : {3.0, 10.0, 30.0}) {
-    EXPECT_NEAR(ring_adhesion_impact(one, v).restitution, ring_adhesion_impact(other, ratio * v).restitution, 1e-9);
+    EXPECT_NEAR(ring_adhesion_impact(one, v).restitution,
+                ring_adhesion_impact(other, ratio * v).restitution, 1e-9);
   }
 }
 
