@@ -14,6 +14,8 @@ namespace {
 
 // A chi-squared less likely than this under the stated noise widens every interval.
 constexpr double misfit_level = 0.01;
+// One less likely than this is worth a word, but may well be chance.
+constexpr double doubtful_level = 0.05;
 // Two minima within this relative difference of chi2 are a tie, if their parameters differ.
 constexpr double tie_tolerance = 1e-6;
 
@@ -84,6 +86,10 @@ void record_leverage(FitResult& result, const std::vector<double>& jacobian,
   }
 }
 
+std::string in_words(double p_value) {
+  return p_value < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p_value);
+}
+
 /// Decides what the stated standard deviations are worth.
 void judge_noise(FitResult& result, bool sd_stated) {
   if (result.dof <= 0) {
@@ -99,11 +105,15 @@ void judge_noise(FitResult& result, bool sd_stated) {
   } else if (result.p_value < misfit_level) {
     result.noise_scale = std::sqrt(reduced);
     result.noise_text = fmt::format(
-        "the residuals are {:.3g} times larger than the stated noise explains (p = {:.2g}): every "
-        "error and interval is widened by that factor, and still describes this model, not the "
-        "truth",
-        result.noise_scale, result.p_value);
+        "the residuals are {:.3g} times larger than the stated noise explains ({}): every error "
+        "and "
+        "interval is widened by that factor, and still describes this model, not the truth",
+        result.noise_scale, in_words(result.p_value));
     result.warnings.push_back(result.noise_text);
+  } else if (result.p_value < doubtful_level) {
+    result.noise_text = fmt::format(
+        "the scatter is at the edge of what the stated standard deviations explain ({})",
+        in_words(result.p_value));
   } else {
     result.noise_text = "the stated standard deviations explain the scatter";
   }

@@ -37,7 +37,7 @@ ElastoplasticImpact impact_of(const ElastoplasticTruth& truth, double diameter, 
   contact.adhesion_energy = truth.adhesion_energy;
   contact.hysteresis = truth.adhesion_hysteresis * std::pow(velocity, truth.hysteresis_exponent);
   contact.yield_pressure = truth.static_yield_pressure *
-                           (1.0 + std::pow(velocity / truth.rate_velocity, truth.rate_exponent));
+                           std::pow(1.0 + velocity / truth.rate_velocity, truth.rate_exponent);
   return elastoplastic_impact(contact, velocity);
 }
 

@@ -2,6 +2,8 @@
 // purpose.
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -25,7 +27,8 @@ class Browser : public testing::Test {
   void SetUp() override {
     folder_ =
         fs::temp_directory_path() / (std::string("recoil-browser-") +
-                                     testing::UnitTest::GetInstance()->current_test_info()->name());
+                                     testing::UnitTest::GetInstance()->current_test_info()->name() +
+                                     "-" + std::to_string(getpid()));
     fs::remove_all(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
