@@ -18,7 +18,6 @@ LeastSquaresOptions refit_options() {
   options.gradient_tolerance = 1e-10;
   options.parameter_tolerance = 1e-8;
   options.max_iterations = 100;
-  options.covariance = false;
   return options;
 }
 
@@ -37,9 +36,26 @@ std::vector<double> resampling_pool(const FitResult& fitted, const Observations&
   return pool;
 }
 
+/// Standard errors of a refit: with the noise of the original fit where that is known, with its own
+/// where it is estimated. Zero where there is none.
+std::vector<double> standard_errors(const LeastSquaresResult& refit, const FitResult& fitted,
+                                    bool noise_known) {
+  const std::size_t p = refit.theta.size();
+  std::vector<double> errors(p, 0.0);
+  if (refit.covariance.empty()) return errors;
+  const double scale = noise_known      ? fitted.noise_scale
+                       : fitted.dof > 0 ? std::sqrt(refit.sum_of_squares / fitted.dof)
+                                        : 0.0;
+  for (std::size_t j = 0; j < p; ++j) {
+    errors[j] = scale * std::sqrt(refit.covariance[j * p + j]);
+  }
+  return errors;
+}
+
 struct Replicate {
   bool usable = false;
   std::vector<double> theta;
+  std::vector<double> std_error;
   std::vector<double> capture;
   std::vector<std::vector<double>> two_point;  // one per dataset, empty when it failed
 };
@@ -75,6 +91,7 @@ struct Plan {
     replicate.usable = refit.converged;
     if (replicate.usable) {
       replicate.theta = refit.theta;
+      replicate.std_error = standard_errors(refit, fitted, parametric);
       for (const CaptureEstimate& at : capture) {
         const CaptureVelocity v =
             capture_velocity(fitted.model, refit.theta, at.dataset, at.diameter, at.value);
@@ -126,6 +143,7 @@ BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
   for (Replicate& replicate : replicates) {
     if (replicate.usable) {
       result.theta.push_back(std::move(replicate.theta));
+      result.std_error.push_back(std::move(replicate.std_error));
       result.capture_velocity.push_back(std::move(replicate.capture));
     } else {
       ++result.failed;

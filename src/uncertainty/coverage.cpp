@@ -35,6 +35,7 @@ const std::vector<Kind>& kinds() {
       {"profile", [](const IntervalSet& s) -> const Interval& { return s.profile; }},
       {"percentile", [](const IntervalSet& s) -> const Interval& { return s.percentile; }},
       {"bca", [](const IntervalSet& s) -> const Interval& { return s.bca; }},
+      {"studentized", [](const IntervalSet& s) -> const Interval& { return s.studentized; }},
       {"wald", [](const IntervalSet& s) -> const Interval& { return s.wald; }},
   };
   return list;

@@ -78,6 +78,30 @@ Interval bca_interval(std::vector<double> replicates, double estimate,
   return interval;
 }
 
+Interval studentized_interval(std::span<const double> replicates,
+                              std::span<const double> replicate_errors, double estimate,
+                              double std_error, double level, double lower, double upper) {
+  if (!(std_error > 0.0)) return missing("no standard error (at a bound, or not determined)");
+  std::vector<double> pivots;
+  for (std::size_t i = 0; i < replicates.size(); ++i) {
+    if (replicate_errors[i] > 0.0) {
+      pivots.push_back((replicates[i] - estimate) / replicate_errors[i]);
+    }
+  }
+  constexpr double most_without_error = 0.1;
+  const double left_out = static_cast<double>(replicates.size() - pivots.size());
+  if (left_out > most_without_error * static_cast<double>(replicates.size())) {
+    return missing("more than a tenth of the replicates rest on a bound and have no error");
+  }
+  if (pivots.size() < fewest_replicates) return missing("fewer than 39 usable replicates");
+  std::sort(pivots.begin(), pivots.end());
+  const double tail = (1.0 - level) / 2.0;
+  Interval interval;
+  interval.lower = std::max(lower, estimate - std_error * sorted_quantile(pivots, 1.0 - tail));
+  interval.upper = std::min(upper, estimate - std_error * sorted_quantile(pivots, tail));
+  return interval;
+}
+
 Interval wald_interval(double estimate, double std_error, double level, int dof, double lower,
                        double upper) {
   if (!(std_error > 0.0)) return missing("no standard error (at a bound, or not determined)");

@@ -29,6 +29,14 @@ std::optional<BcaConstants> bca_constants(std::span<const double> replicates, do
 Interval bca_interval(std::vector<double> replicates, double estimate,
                       std::span<const double> delete_one, double level);
 
+/// Studentised (bootstrap-t) interval (Davison & Hinkley 1997, section 5.2.1):
+///   [estimate - s t*_(1-a), estimate - s t*_(a)],  t* = (replicate - estimate) / s*,
+/// cut at the bounds.
+/// @param replicate_errors s* of each replicate; 0 where it has none, and the replicate is left out
+Interval studentized_interval(std::span<const double> replicates,
+                              std::span<const double> replicate_errors, double estimate,
+                              double std_error, double level, double lower, double upper);
+
 /// estimate +- quantile * std_error, cut at the bounds.
 /// @param dof degrees of freedom of the estimated noise; 0: the noise is known (normal quantile)
 Interval wald_interval(double estimate, double std_error, double level, int dof, double lower,

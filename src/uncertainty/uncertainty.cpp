@@ -73,7 +73,6 @@ std::vector<IntervalSet> all_intervals(const FitResult& fitted, const Observatio
     set.recommended_why =
         "of the intervals offered it kept its promise best in the coverage study, and it respects "
         "the bounds";
-    set.studentized.why = "not computed by this version";
     if (!slot.free) {
       for (Interval* interval :
            {&set.wald, &set.profile, &set.percentile, &set.bca, &set.studentized}) {
@@ -92,10 +91,14 @@ std::vector<IntervalSet> all_intervals(const FitResult& fitted, const Observatio
       const std::string why = fmt::format("{} of {} refits failed", boot.failed, boot.replicates);
       withhold(set.percentile, why);
       withhold(set.bca, why);
+      withhold(set.studentized, why);
     } else {
       const std::vector<double> replicates = column(boot.theta, j);
       set.percentile = percentile_interval(replicates, options.level);
       set.bca = bca_interval(replicates, fitted.theta[j], column(delete_one, j), options.level);
+      set.studentized =
+          studentized_interval(replicates, column(boot.std_error, j), fitted.theta[j],
+                               fitted.std_error[j], options.level, slot.lower, slot.upper);
     }
     if (!set.profile.available()) {
       set.recommended = set.percentile.available() ? "percentile" : "wald";

@@ -35,6 +35,7 @@ struct BootstrapResult {
   int failed = 0;
   std::uint64_t seed = 0;
   std::vector<std::vector<double>> theta;             ///< usable replicates [count][slots]
+  std::vector<std::vector<double>> std_error;         ///< of each replicate [count][slots], 0: none
   std::vector<std::vector<double>> capture_velocity;  ///< [count][diameters], per CaptureEstimate
   std::vector<int> two_point_failed;  ///< [datasets] replicates in which it did not converge
   /// [datasets][converged replicates][slots]

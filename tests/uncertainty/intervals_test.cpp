@@ -69,6 +69,34 @@ TEST(Bca, AtABoundThereIsNone) {
   EXPECT_NE(interval.why.find("one side"), std::string::npos);
 }
 
+TEST(Studentized, ByHand) {
+  // 99 replicates at estimate + (k - 50) / 50 with equal errors 0.5: pivots (k - 50) / 25, their 5
+  // % and 95 % quantiles are k = 5 and 95, so +-1.8; with s = 2 the interval is 10 -+ 3.6.
+  std::vector<double> replicates;
+  for (int k = 1; k <= 99; ++k) replicates.push_back(10.0 + (k - 50) / 50.0);
+  const std::vector<double> errors(99, 0.5);
+  const Interval interval = studentized_interval(replicates, errors, 10.0, 2.0, 0.9, 0.0, 13.0);
+  EXPECT_NEAR(*interval.lower, 6.4, 1e-9);
+  EXPECT_EQ(*interval.upper, 13.0);  // 13.6 cut at the bound
+}
+
+TEST(Studentized, SkewedPivotsGoTheOtherWay) {
+  // Replicates far above the estimate mean that the estimate itself tends to lie above the truth.
+  std::vector<double> replicates;
+  for (int k = 1; k <= 99; ++k) replicates.push_back(10.0 + 0.1 * k);
+  const Interval interval =
+      studentized_interval(replicates, std::vector<double>(99, 1.0), 10.0, 1.0, 0.9, 0.0, 100.0);
+  EXPECT_NEAR(*interval.lower, 10.0 - 9.5, 1e-9);
+  EXPECT_NEAR(*interval.upper, 10.0 - 0.5, 1e-9);
+}
+
+TEST(Studentized, WithoutErrorsThereIsNone) {
+  const std::vector<double> replicates(99, 1.0);
+  EXPECT_FALSE(
+      studentized_interval(replicates, std::vector<double>(99, 0.0), 1.0, 1.0, 0.95, 0.0, 2.0)
+          .available());
+}
+
 TEST(Wald, NormalAndStudentQuantilesAndBounds) {
   const Interval normal = wald_interval(1.0, 0.1, 0.95, 0, 0.0, 10.0);
   EXPECT_NEAR(*normal.lower, 1.0 - 0.1959963985, 1e-9);
