@@ -1,6 +1,9 @@
 // Facts that compare with the paper's Table 1 and with its calibration.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/units.hpp"
 #include "reconstruction/fact_tools.hpp"
 #include "reconstruction/two_point_calibration.hpp"
@@ -22,6 +25,22 @@ RingAdhesionTruth ring_adhesion_model_of(const Recipe& recipe, double diameter) 
 
 bool near(double value, double printed, double tolerance) {
   return std::abs(value / printed - 1.0) <= tolerance;
+}
+
+/// The paper's calibration by the lowest and the highest velocity of one size.
+TwoPointCalibration calibrate(const FactContext& context, double diameter) {
+  std::vector<GeneratedPoint> points;
+  for (const GeneratedPoint& point : context.points) {
+    if (near(point.diameter, diameter, 1e-6)) points.push_back(point);
+  }
+  if (points.size() < 2) {
+    TwoPointCalibration none;
+    none.why = "no such diameter";
+    return none;
+  }
+  return calibrate_by_two_points(ring_adhesion_model_of(context.recipe, diameter), diameter,
+                                 {points.front().velocity, points.front().restitution},
+                                 {points.back().velocity, points.back().restitution});
 }
 
 }  // namespace
@@ -55,35 +74,56 @@ FactOutcome contradictory_constants(const FactContext& context, const FactLimits
 }
 
 FactOutcome two_point_runs_low(const FactContext& context, const FactLimits& limits) {
-  std::vector<GeneratedPoint> calibration;
-  std::vector<GeneratedPoint> judged;
-  for (const GeneratedPoint& point : context.points) {
-    if (near(point.diameter, limits.at("calibrated_on"), 1e-6)) calibration.push_back(point);
-    if (near(point.diameter, limits.at("judged_on"), 1e-6) &&
-        point.velocity < limits.at("below_velocity")) {
-      judged.push_back(point);
-    }
-  }
-  if (calibration.size() < 2 || judged.empty()) return {false, "no such diameters"};
-  const TwoPointCalibration calibrated = calibrate_by_two_points(
-      ring_adhesion_model_of(context.recipe, limits.at("calibrated_on")),
-      limits.at("calibrated_on"), {calibration.front().velocity, calibration.front().restitution},
-      {calibration.back().velocity, calibration.back().restitution});
+  const TwoPointCalibration calibrated = calibrate(context, limits.at("calibrated_on"));
   if (!calibrated.found) return {false, "no two-point calibration: " + calibrated.why};
   double sum = 0.0;
   int lower = 0;
-  for (const GeneratedPoint& point : judged) {
+  int count = 0;
+  for (const GeneratedPoint& point : context.points) {
+    if (!near(point.diameter, limits.at("judged_on"), 1e-6) ||
+        point.velocity >= limits.at("below_velocity")) {
+      continue;
+    }
     const double difference =
         true_restitution(calibrated.model, point.diameter, point.velocity) - point.restitution;
     sum += difference;
     lower += difference < 0.0 ? 1 : 0;
+    ++count;
   }
-  const double mean = sum / static_cast<double>(judged.size());
+  if (count == 0) return {false, "no such diameter"};
+  const double mean = sum / count;
   return {within(mean, limits.at("mean_from"), limits.at("mean_to")),
           fmt::format("mean difference {:+.3f} (allowed {:+.3f} .. {:+.3f}), lower at {} of {} "
                       "points; C_H {:.2e}, C_A {:.2e} s/m",
-                      mean, limits.at("mean_from"), limits.at("mean_to"), lower, judged.size(),
+                      mean, limits.at("mean_from"), limits.at("mean_to"), lower, count,
                       calibrated.model.C_H, calibrated.model.C_A)};
+}
+
+FactOutcome two_point_agrees(const FactContext& context, const FactLimits& limits) {
+  const TwoPointCalibration calibrated = calibrate(context, limits.at("calibrated_on"));
+  if (!calibrated.found) return {false, "no two-point calibration: " + calibrated.why};
+  double squares = 0.0;
+  double largest = 0.0;
+  int count = 0;
+  for (std::size_t series = 0; series < context.recipe.series.size(); ++series) {
+    const double diameter = context.recipe.series[series].diameter;
+    if (near(diameter, limits.at("calibrated_on"), 1e-6)) continue;
+    const double away = limits.at("away") * true_capture_velocity(context.recipe.truth, diameter);
+    for (const GeneratedPoint& point : points_of(context, series)) {
+      if (point.velocity < away) continue;
+      const double difference =
+          true_restitution(calibrated.model, diameter, point.velocity) - point.restitution;
+      squares += difference * difference;
+      largest = std::max(largest, std::abs(difference));
+      ++count;
+    }
+  }
+  if (count == 0) return {false, "no other diameter"};
+  const double rms = std::sqrt(squares / count);
+  return {rms <= limits.at("most"),
+          fmt::format("rms difference {:.3f} over {} points of the other sizes from {:g} V* on (at "
+                      "most {:.3f}), largest {:.3f}",
+                      rms, count, limits.at("away"), limits.at("most"), largest)};
 }
 
 }  // namespace recoil

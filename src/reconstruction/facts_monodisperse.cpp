@@ -186,6 +186,27 @@ FactOutcome plastic_loss_near_capture(const FactContext& context, const FactLimi
                       least, most, limits.at("least"))};
 }
 
+FactOutcome highest_restitution(const FactContext& context, const FactLimits& limits) {
+  const Truth& truth = context.recipe.truth;
+  const double diameter = limits.at("diameter");
+  const double last = context.recipe.series.back().velocities.back();
+  double highest = 0.0;
+  double where = 0.0;
+  for (const double velocity : log_grid(1.01 * true_capture_velocity(truth, diameter), last, 200)) {
+    const double e = true_restitution(truth, diameter, velocity);
+    if (e > highest) {
+      highest = e;
+      where = velocity;
+    }
+  }
+  const double fall = highest - true_restitution(truth, diameter, last);
+  return {within(where, limits.at("from"), limits.at("to")) && fall >= limits.at("least_fall"),
+          fmt::format("e is highest, {:.3f}, at {:.1f} m/s (allowed {:g} .. {:g}) and falls by "
+                      "{:.3f} up to {:g} m/s (at least {:.3f})",
+                      highest, where, limits.at("from"), limits.at("to"), fall, last,
+                      limits.at("least_fall"))};
+}
+
 FactOutcome falls_below(const FactContext& context, const FactLimits& limits) {
   const double onset = limits.at("velocity");
   bool steady = true;
@@ -233,6 +254,8 @@ const std::vector<FactKind>& monodisperse_facts() {
       {"two-point-runs-low",
        {"calibrated_on", "judged_on", "below_velocity", "mean_from", "mean_to"},
        two_point_runs_low},
+      {"two-point-agrees", {"calibrated_on", "away", "most"}, two_point_agrees},
+      {"highest-restitution", {"diameter", "from", "to", "least_fall"}, highest_restitution},
   };
   return catalogue;
 }

@@ -18,13 +18,15 @@ struct RingAdhesionTruth {
 };
 
 /// A truth made by yield and adhesion, see `ElastoplasticContact`. The yield pressure rises with
-/// the rate of straining, for which the impact velocity stands:
-///   p_Y(V) = p_0 (1 + (V / V_0)^q).
+/// the rate of straining and the work of parting with the speed at which the contact edge runs
+/// (Gent & Schultz 1972; Maugis & Barquins 1978). The impact velocity V stands for both:
+///   p_Y(V) = p_0 (1 + V / V_0)^q,   dw(V) = dw_1 (V / (1 m/s))^k.
+/// Both exponents are of the form, not of a theory: 0 gives constants.
 struct ElastoplasticTruth {
   double density = 0.0;                ///< of the sphere [kg/m3]
   double reduced_modulus = 0.0;        ///< E* [Pa]
   double adhesion_energy = 0.0;        ///< w [J/m2]
-  double adhesion_hysteresis = 0.0;    ///< dw at 1 m/s [J/m2]
+  double adhesion_hysteresis = 0.0;    ///< dw_1, what parting costs more at 1 m/s [J/m2]
   double hysteresis_exponent = 0.0;    ///< k [1]
   double static_yield_pressure = 0.0;  ///< p_0 [Pa]
   double rate_velocity = 0.0;          ///< V_0 [m/s]

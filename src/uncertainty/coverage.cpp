@@ -52,6 +52,7 @@ Trial run_trial(const FitSpec& spec, const CoverageTruth& truth, const Uncertain
   own.seed = options.seed + index;
   own.threads = 1;  // the data sets themselves run in parallel
   own.curves = false;
+  own.two_point = false;
   const UncertaintyResult result = assess_uncertainty(fitted, data, datasets, own);
   trial.usable = true;
   trial.refits_failed = result.bootstrap.failed;

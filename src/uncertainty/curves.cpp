@@ -96,7 +96,9 @@ std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted, const 
     curve.restitution = evaluate(fitted.model, fitted.theta, curve);
     drop_unanswered(curve);
     add_band(fitted.model, so_far, curve);
-    const TwoPointResult& two_point = so_far.two_point[capture.dataset].result;
+    const bool compared = !so_far.two_point.empty();
+    const TwoPointResult two_point =
+        compared ? so_far.two_point[capture.dataset].result : TwoPointResult{};
     if (two_point.status == TwoPointStatus::converged) {
       curve.two_point = evaluate(fitted.model, two_point.theta, curve);
       const bool sound = std::all_of(curve.two_point.begin(), curve.two_point.end(),

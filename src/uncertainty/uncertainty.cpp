@@ -202,7 +202,7 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations
   result.options = options;
   result.capture = capture_estimates(fitted, datasets);
   std::vector<TwoPointResult> two_points;
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
+  for (std::size_t d = 0; options.two_point && d < datasets.size(); ++d) {
     result.two_point.push_back(compare_two_point(fitted, data, d));
     two_points.push_back(result.two_point.back().result);
   }

@@ -90,6 +90,7 @@ struct UncertaintyOptions {
   int threads = 0;  ///< 0: all cores. No digit depends on it.
   bool profile = true;
   bool curves = true;
+  bool two_point = true;  ///< compare with the paper's calibration; without it the list is empty
 };
 
 struct UncertaintyResult {
@@ -98,7 +99,7 @@ struct UncertaintyResult {
   BootstrapResult bootstrap;
   std::vector<CaptureEstimate> capture;
   std::vector<RestitutionCurve> curves;
-  std::vector<TwoPointComparison> two_point;  ///< one per dataset
+  std::vector<TwoPointComparison> two_point;  ///< one per dataset, unless it was not asked for
   Identifiability identifiability;
   std::vector<std::string> warnings;
 };
