@@ -98,13 +98,14 @@ void print_impact(const ImpactConditions& c, const ImpactResult& impact, const D
   fmt::print("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
   fmt::print("energy budget, of {:.6g} J incident:\n", incident);
   const auto share = [&](const char* name, double energy) {
-    fmt::print("  {:<28}{:>10.5f} %\n", name, 200.0 * energy);
+    fmt::print("  {:<28}{:>14.5f} %  {:>13.6g} J\n", name, 200.0 * energy, energy * scales.energy);
   };
   share("rebound", captured ? 0.0 : impact.energy.kinetic);
   share("Hertz damping (C_H)", impact.energy.hertz_loss);
   share("adhesion damping (C_A)", impact.energy.adhesion_loss);
-  if (captured) share("left in the contact", impact.energy.kinetic + impact.energy.potential);
-  fmt::print("  {:<28}{:>10.1e}\n", "audit (should be 0)", impact.energy.audit());
+  if (captured)
+    share("still bound in the contact", impact.energy.kinetic + impact.energy.potential);
+  fmt::print("  {:<28}{:>14.1e}\n", "audit (should be 0)", impact.energy.audit());
   fmt::print("groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)\n",
              groups.alpha, groups.gamma,
              groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY, adhesion_velocity(c));

@@ -117,17 +117,23 @@ TEST(Reconstruction, ATruthThatContradictsAFactIsFound) {
   };
   CopiedDatasets copies;
   // A yield pressure that does not rise leaves far less than half of the energy at 100 m/s.
-  copies.replace("wall1990-molybdenum", "recipe.toml", "rate_exponent = 0.5",
-                 "rate_exponent = 0.1");
+  copies.replace("wall1990-molybdenum", "recipe.toml", "rate_exponent = 0.295",
+                 "rate_exponent = 0.05");
   EXPECT_TRUE(fails(copies, "wall1990-molybdenum", "high-velocity-loss"));
   EXPECT_TRUE(fails(copies, "wall1990-molybdenum", "target-independence"));
   // A sibling that differs at high velocity is seen from the other target too.
   EXPECT_TRUE(fails(copies, "wall1990-mica", "target-independence"));
-  // Spheres that never yield lose nothing to flow near capture and fall with the JKR slope.
+  // Work of parting that does not rise with velocity lets the paper's curve run far too low.
+  copies.replace("wall1990-mica", "recipe.toml", "hysteresis_exponent = 0.42",
+                 "hysteresis_exponent = 0");
+  EXPECT_TRUE(fails(copies, "wall1990-mica", "two-point-runs-low"));
+  EXPECT_TRUE(fails(copies, "wall1990-mica", "two-point-agrees"));
+  EXPECT_TRUE(fails(copies, "wall1990-mica", "capture-slope"));
+  // Spheres that never yield lose nothing to flow: not near capture, nor ever more with velocity.
   copies.replace("wall1990-silicon", "recipe.toml", "static_yield_pressure = 35.3e6",
                  "static_yield_pressure = 35.3e9");
   EXPECT_TRUE(fails(copies, "wall1990-silicon", "plastic-loss-near-capture"));
-  EXPECT_TRUE(fails(copies, "wall1990-silicon", "capture-slope"));
+  EXPECT_TRUE(fails(copies, "wall1990-silicon", "highest-restitution"));
   // Starting below the capture velocity makes captures.
   copies.replace("dahneke1975-quartz", "recipe.toml", "from = 2.5", "from = 0.5");
   EXPECT_TRUE(fails(copies, "dahneke1975-quartz", "no-capture"));

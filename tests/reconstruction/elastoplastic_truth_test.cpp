@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "reconstruction/truth.hpp"
+
 namespace recoil {
 namespace {
 
@@ -106,6 +108,24 @@ TEST(ElastoplasticTruth, FlatteningMakesAdhesionStronger) {
   EXPECT_GT(yielded.unloading_radius, 1.2 * contact.radius);
   EXPECT_NEAR(adhesive_loss / elastic_loss,
               std::pow(yielded.unloading_radius / contact.radius, 4.0 / 3.0), 1e-9);
+}
+
+TEST(ElastoplasticTruth, YieldPressureAndWorkOfPartingRiseWithVelocity) {
+  ElastoplasticTruth truth;
+  truth.density = 1350.0;
+  truth.reduced_modulus = 1.334e9;
+  truth.adhesion_energy = 0.2;
+  truth.adhesion_hysteresis = 0.1;
+  truth.hysteresis_exponent = 0.5;
+  truth.static_yield_pressure = 30e6;
+  truth.rate_velocity = 2.0;
+  truth.rate_exponent = 0.5;
+  ElastoplasticContact contact = fluorescein();
+  contact.adhesion_energy = 0.2;
+  contact.hysteresis = 0.4;       // 0.1 * 16^0.5
+  contact.yield_pressure = 90e6;  // 30 * (1 + 16 / 2)^0.5
+  EXPECT_NEAR(true_restitution(truth, 4.9e-6, 16.0),
+              elastoplastic_impact(contact, 16.0).restitution, 1e-12);
 }
 
 RC_GTEST_PROP(ElastoplasticTruth, NeverGivesMoreThanItGot, ()) {
