@@ -1,9 +1,9 @@
 #include "core/random.hpp"
 
 #include <Random123/philox.h>
+#include <Random123/u01fixedpt.h>
 #include <gsl/gsl_cdf.h>
 
-#include <Random123/u01fixedpt.h>
 #include <cassert>
 
 namespace recoil {

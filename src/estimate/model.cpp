@@ -29,29 +29,32 @@ std::size_t add_slot(ImpactModel& model, const ParameterSpec& spec, const std::s
   return model.slots.size() - 1;
 }
 
-struct VelocityRoot {
-  double excess;  // e^2 V^2 [m2/s2]
-  double slope;   // its derivative with respect to V^2 [1]
-  bool usable;
-};
-
-/// e^2 V^2 as a function of V^2: nearly a straight line of slope 1 for weak damping (the energy
-/// that is lost hardly depends on V near capture), which Newton likes.
-VelocityRoot rebound_energy(const ImpactModel& model, std::span<const double> theta,
-                            std::size_t dataset, double diameter, double velocity) {
-  const ImpactConditions c = conditions_at(model, theta, dataset, diameter, velocity);
-  const ImpactGroups groups = impact_groups(c);
+/// The impact under `conditions` by the model's solver, with gradient when asked for.
+ImpactResult solve_impact(const ImpactModel& model, const ImpactGroups& groups, bool gradient) {
   ImpactOptions options;
   options.phase = model.phase;
-  options.gradient = true;
-  const ImpactResult impact = model.solver == Solver::fast ? simulate_impact_fast(groups, options)
-                                                           : simulate_impact(groups, options);
-  const double per_velocity =
-      (groups.alpha * impact.gradient[0] - 0.8 * groups.beta * impact.gradient[1] +
-       groups.gamma * impact.gradient[2]) /
-      velocity;  // d e^2 / d V
-  const double e2 = impact.restitution_squared;
-  return {e2 * velocity * velocity, e2 + 0.5 * velocity * per_velocity, impact.usable()};
+  options.gradient = gradient;
+  return model.solver == Solver::fast ? simulate_impact_fast(groups, options)
+                                      : simulate_impact(groups, options);
+}
+
+/// The gradient in the groups turned into one in theta.
+std::vector<double> theta_gradient(const ImpactModel& model, std::span<const double> theta,
+                                   std::size_t dataset, double velocity, const ImpactGroups& groups,
+                                   const ImpactResult& impact) {
+  std::vector<double> gradient(model.slots.size(), 0.0);
+  gradient[model.slot_C_H[dataset]] += velocity * impact.gradient[0];
+  gradient[model.slot_C_A[dataset]] += velocity * impact.gradient[2];
+  const double f0 = theta[model.slot_f0[dataset]];
+  if (f0 > 0.0) gradient[model.slot_f0[dataset]] += groups.beta / f0 * impact.gradient[1];
+  return gradient;  // beta is proportional to f0
+}
+
+/// d e^2 / d V at fixed theta: alpha and gamma grow with V, beta falls like V^(-4/5).
+double velocity_slope(const ImpactGroups& groups, const ImpactResult& impact, double velocity) {
+  return (groups.alpha * impact.gradient[0] - 0.8 * groups.beta * impact.gradient[1] +
+          groups.gamma * impact.gradient[2]) /
+         velocity;
 }
 
 }  // namespace
@@ -109,22 +112,12 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
 
 Prediction predict(const ImpactModel& model, std::span<const double> theta, std::size_t dataset,
                    double diameter, double velocity, bool gradient) {
-  const ImpactConditions c = conditions_at(model, theta, dataset, diameter, velocity);
-  const ImpactGroups groups = impact_groups(c);
-  ImpactOptions options;
-  options.phase = model.phase;
-  options.gradient = gradient;
-  const ImpactResult impact = model.solver == Solver::fast ? simulate_impact_fast(groups, options)
-                                                           : simulate_impact(groups, options);
+  const ImpactGroups groups =
+      impact_groups(conditions_at(model, theta, dataset, diameter, velocity));
+  const ImpactResult impact = solve_impact(model, groups, gradient);
   Prediction prediction{impact.outcome, impact.restitution_squared, {}};
   if (gradient) {
-    prediction.gradient.assign(model.slots.size(), 0.0);
-    prediction.gradient[model.slot_C_H[dataset]] += velocity * impact.gradient[0];
-    prediction.gradient[model.slot_C_A[dataset]] += velocity * impact.gradient[2];
-    const double f0 = theta[model.slot_f0[dataset]];
-    if (f0 > 0.0) {  // beta is proportional to f0
-      prediction.gradient[model.slot_f0[dataset]] += groups.beta / f0 * impact.gradient[1];
-    }
+    prediction.gradient = theta_gradient(model, theta, dataset, velocity, groups, impact);
   }
   return prediction;
 }
@@ -151,32 +144,32 @@ CaptureVelocity capture_velocity(const ImpactModel& model, std::span<const doubl
   constexpr int most_iterations = 60;
   for (int i = 0; i < most_iterations; ++i) {
     const double velocity = std::sqrt(square);
-    const VelocityRoot root = rebound_energy(model, theta, dataset, diameter, velocity);
-    if (!root.usable) return result;
-    (root.excess > 0.0 ? rebounds : captured) = square;
-    rebound_seen = rebound_seen || root.excess > 0.0;
-    double next = square - root.excess / root.slope;
-    if (!(root.slope > 0.0) || !(next > captured) || !(next < rebounds)) {
+    const ImpactGroups groups =
+        impact_groups(conditions_at(model, theta, dataset, diameter, velocity));
+    const ImpactResult impact = solve_impact(model, groups, true);
+    if (!impact.usable()) return result;
+    // Newton on e^2 V^2 as a function of V^2: nearly a straight line of slope 1 for weak damping,
+    // as the energy that is lost hardly depends on V near capture.
+    const double per_velocity = velocity_slope(groups, impact, velocity);
+    const double excess = impact.restitution_squared * square;
+    const double slope = impact.restitution_squared + 0.5 * velocity * per_velocity;
+    (excess > 0.0 ? rebounds : captured) = square;
+    rebound_seen = rebound_seen || excess > 0.0;
+    double next = square - excess / slope;
+    if (!(slope > 0.0) || !(next > captured) || !(next < rebounds)) {
       next =
           rebound_seen ? std::sqrt(std::max(captured, 1e-4 * rebounds) * rebounds) : 4.0 * square;
       if (!rebound_seen && next > 1e6 * scale * scale) return result;  // nothing rebounds
     }
-    const bool settled = std::abs(next - square) <= 2e-9 * square;
-    square = next;
-    if (settled) {
+    if (std::abs(next - square) <= 2e-9 * square) {
       result.found = true;
+      result.value = std::sqrt(next);
+      // Differentiate e^2(V*, theta) = 0.
+      result.gradient = theta_gradient(model, theta, dataset, velocity, groups, impact);
+      for (double& entry : result.gradient) entry /= -per_velocity;
       break;
     }
-  }
-  if (!result.found) return result;
-  result.value = std::sqrt(square);
-  // Differentiate e^2(V*, theta) = 0.
-  const Prediction at = predict(model, theta, dataset, diameter, result.value, true);
-  const VelocityRoot root = rebound_energy(model, theta, dataset, diameter, result.value);
-  if (!at.usable() || !root.usable) return {};
-  const double per_velocity = 2.0 * (root.slope - at.restitution_squared) / result.value;
-  for (std::size_t j = 0; j < model.slots.size(); ++j) {
-    result.gradient[j] = -at.gradient[j] / per_velocity;
+    square = next;
   }
   return result;
 }

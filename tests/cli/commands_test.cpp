@@ -29,8 +29,7 @@ TEST(Simulate, HertzWithHuntCrossleyDampingToNineDigits) {
   place.write("hertz.toml",
               "dataset = \"data\"\n[parameters]\nC_H = { initial = 0.02 }\nC_A = { initial = 0, "
               "free = false }\nf0 = { initial = 0, free = false }\n");
-  const Outcome run =
-      place.run({"simulate", "hertz.toml", "--velocity", "5", "--diameter", "4.9"});
+  const Outcome run = place.run({"simulate", "hertz.toml", "--velocity", "5", "--diameter", "4.9"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find("restitution: 0.93747558\n"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("outcome: rebound\n"), std::string::npos);
@@ -68,8 +67,8 @@ TEST(Simulate, CapturedIsAnOutcome) {
 TEST(Fit, WritesTheSameBytesAtAnyThreadCount) {
   const Workplace place;
   for (const char* threads : {"1", "3"}) {
-    const Outcome run = place.run({"fit", "fit.toml", "--out", threads, "--replicates", "99",
-                                   "--threads", threads});
+    const Outcome run = place.run(
+        {"fit", "fit.toml", "--out", threads, "--replicates", "99", "--threads", threads});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_TRUE(run.err.empty()) << run.err;
   }
@@ -79,8 +78,8 @@ TEST(Fit, WritesTheSameBytesAtAnyThreadCount) {
 TEST(Fit, SeedIsInTheFileAndChangesTheBootstrapOnly) {
   const Workplace place;
   ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "a", "--replicates", "99"}).status, 0);
-  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "b", "--replicates", "99", "--seed", "5"}).status,
-            0);
+  ASSERT_EQ(
+      place.run({"fit", "fit.toml", "--out", "b", "--replicates", "99", "--seed", "5"}).status, 0);
   const auto a = nlohmann::json::parse(place.read("a/fit.json"));
   const auto b = nlohmann::json::parse(place.read("b/fit.json"));
   EXPECT_EQ(b["bootstrap"]["seed"], 5);
@@ -92,10 +91,10 @@ TEST(Fit, SeedIsInTheFileAndChangesTheBootstrapOnly) {
 TEST(Fit, ReferenceSolverAgrees) {
   const Workplace place;
   ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "fast", "--replicates", "39"}).status, 0);
-  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "slow", "--replicates", "39", "--solver",
-                       "reference"})
-                .status,
-            0);
+  ASSERT_EQ(
+      place.run({"fit", "fit.toml", "--out", "slow", "--replicates", "39", "--solver", "reference"})
+          .status,
+      0);
   const auto fast = nlohmann::json::parse(place.read("fast/fit.json"));
   const auto slow = nlohmann::json::parse(place.read("slow/fit.json"));
   for (const char* name : {"C_H", "C_A"}) {

@@ -129,7 +129,8 @@ TEST(Fit, NoAdhesionDampingInTheDataRestsOnTheBound) {
     if (point.incident_velocity < 10.0) point.restitution = std::min(1.0, point.restitution + 0.02);
   }
   const std::vector<Dataset> datasets = {data};
-  const FitResult result = fit(make_model(synthetic::spec(), datasets), gather(datasets), one_start());
+  const FitResult result =
+      fit(make_model(synthetic::spec(), datasets), gather(datasets), one_start());
   ASSERT_TRUE(result.usable);
   EXPECT_TRUE(result.at_bound[1]);
   EXPECT_EQ(result.theta[1], 0.0);
@@ -151,7 +152,8 @@ TEST(Fit, WidensTheErrorsWhereTheModelMisses) {
     data.points[i].restitution += i % 2 == 0 ? 0.04 : -0.04;  // four standard deviations
   }
   const std::vector<Dataset> datasets = {data};
-  const FitResult result = fit(make_model(synthetic::spec(), datasets), gather(datasets), one_start());
+  const FitResult result =
+      fit(make_model(synthetic::spec(), datasets), gather(datasets), one_start());
   ASSERT_TRUE(result.usable);
   EXPECT_LT(result.p_value, 1e-6);
   EXPECT_NEAR(result.noise_scale, std::sqrt(result.chi2 / result.dof), 1e-12);
