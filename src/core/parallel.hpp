@@ -1,10 +1,12 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <cstddef>
+#include <optional>
 
 namespace recoil {
 
@@ -12,6 +14,12 @@ namespace recoil {
 /// own slot, so no result depends on the number of threads.
 template <class Body>
 void parallel_over(std::size_t count, int threads, const Body& body) {
+  // More threads than cores are somebody's choice; TBB would warn on stderr and run fewer.
+  std::optional<tbb::global_control> allowance;
+  if (threads > tbb::this_task_arena::max_concurrency()) {
+    allowance.emplace(tbb::global_control::max_allowed_parallelism,
+                      static_cast<std::size_t>(threads));
+  }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1),

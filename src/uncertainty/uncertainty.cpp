@@ -71,8 +71,8 @@ std::vector<IntervalSet> all_intervals(const FitResult& fitted, const Observatio
     IntervalSet& set = sets[j];
     set.recommended = "profile";
     set.recommended_why =
-        "of the intervals offered it kept its promise best in the coverage study, and it respects "
-        "the bounds";
+        "it follows the likelihood where that is not a parabola and stops at the bounds; in the "
+        "coverage study it did no worse than the others";
     if (!slot.free) {
       for (Interval* interval :
            {&set.wald, &set.profile, &set.percentile, &set.bca, &set.studentized}) {

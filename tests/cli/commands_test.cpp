@@ -68,7 +68,7 @@ TEST(Fit, WritesTheSameBytesAtAnyThreadCount) {
   const Workplace place;
   for (const char* threads : {"1", "3"}) {
     const Outcome run = place.run(
-        {"fit", "fit.toml", "--out", threads, "--replicates", "99", "--threads", threads});
+        {"fit", "fit.toml", "--out", threads, "--replicates", "39", "--threads", threads});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_TRUE(run.err.empty()) << run.err;
   }
@@ -77,9 +77,9 @@ TEST(Fit, WritesTheSameBytesAtAnyThreadCount) {
 
 TEST(Fit, SeedIsInTheFileAndChangesTheBootstrapOnly) {
   const Workplace place;
-  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "a", "--replicates", "99"}).status, 0);
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "a", "--replicates", "39"}).status, 0);
   ASSERT_EQ(
-      place.run({"fit", "fit.toml", "--out", "b", "--replicates", "99", "--seed", "5"}).status, 0);
+      place.run({"fit", "fit.toml", "--out", "b", "--replicates", "39", "--seed", "5"}).status, 0);
   const auto a = nlohmann::json::parse(place.read("a/fit.json"));
   const auto b = nlohmann::json::parse(place.read("b/fit.json"));
   EXPECT_EQ(b["bootstrap"]["seed"], 5);

@@ -5,39 +5,16 @@
 
 #include <cmath>
 
-#include "core/random.hpp"
-#include "synthetic.hpp"
+#include "noisy_case.hpp"
 #include "uncertainty/profile.hpp"
 
 namespace recoil {
 namespace {
 
+using synthetic::Case;
 using synthetic::Design;
-
-struct Case {
-  std::vector<Dataset> datasets;
-  Observations data;
-  FitResult fitted;
-};
-
-Case noisy_case(std::uint64_t seed = 7) {
-  Case made;
-  made.datasets = {synthetic::dataset(Design{})};
-  RandomStream random(seed, RandomPurpose::coverage, 0);
-  for (ImpactPoint& point : made.datasets[0].points) {
-    point.restitution += *point.restitution_sd * random.normal();
-  }
-  made.data = gather(made.datasets);
-  made.fitted = fit(make_model(synthetic::spec(), made.datasets), made.data);
-  return made;
-}
-
-UncertaintyOptions small(int threads) {
-  UncertaintyOptions options;
-  options.replicates = 39;
-  options.threads = threads;
-  return options;
-}
+using synthetic::noisy_case;
+using synthetic::small;
 
 TEST(Bootstrap, EveryDigitIsTheSameAtAnyThreadCount) {
   const Case c = noisy_case();
@@ -59,19 +36,6 @@ TEST(Bootstrap, SeedChangesTheReplicatesOnly) {
   EXPECT_NE(a.bootstrap.theta, b.bootstrap.theta);
   EXPECT_EQ(a.intervals[0].wald.lower, b.intervals[0].wald.lower);
   EXPECT_EQ(a.intervals[0].profile.lower, b.intervals[0].profile.lower);
-}
-
-TEST(Bootstrap, SpreadMatchesTheLinearisedError) {
-  // 14 precise points: nearly linear, so the replicates scatter by the standard error.
-  const Case c = noisy_case();
-  UncertaintyOptions options = small(0);
-  options.replicates = 299;
-  options.curves = false;
-  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, options);
-  EXPECT_EQ(result.bootstrap.failed, 0);
-  for (std::size_t j = 0; j < 2; ++j) {
-    EXPECT_NEAR(result.two_point[0].full_spread[j] / c.fitted.std_error[j], 1.0, 0.12);
-  }
 }
 
 TEST(Profile, RisesByTheQuantileAtItsEnds) {
