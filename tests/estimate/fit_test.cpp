@@ -160,6 +160,35 @@ TEST(Fit, WidensTheErrorsWhereTheModelMisses) {
   EXPECT_GT(result.noise_scale, 3.0);
 }
 
+TEST(Predict, GradientInEveryParameterMatchesDifferences) {
+  const std::vector<Dataset> datasets = {synthetic::dataset(Design{})};
+  for (const Solver solver : {Solver::fast, Solver::reference}) {
+    ImpactModel model = make_model(synthetic::spec(true), datasets);
+    model.solver = solver;
+    const std::vector<double> theta = {3e-3, 0.03, 8.9};
+    for (const double d : {2.58e-6, 6.89e-6}) {  // not the diameter at which f0 is stated
+      for (const double v : {0.5, 3.0, 30.0}) {  // captured (2.58 um), slow, fast
+        const Prediction at = predict(model, theta, 0, d, v, true);
+        ASSERT_TRUE(at.usable());
+        for (std::size_t j = 0; j < 3; ++j) {
+          // Fourth-order central difference: truncation ~1e-9, noise of the integrator ~1e-11 / h.
+          const double h = 2e-3 * theta[j];
+          const auto e2 = [&](double steps) {
+            std::vector<double> moved = theta;
+            moved[j] += steps * h;
+            return predict(model, moved, 0, d, v, false).restitution_squared;
+          };
+          const double difference =
+              (8.0 * (e2(1.0) - e2(-1.0)) - (e2(2.0) - e2(-2.0))) / (12.0 * h);
+          EXPECT_NEAR(at.gradient[j] * theta[j], difference * theta[j],
+                      1e-7 * std::max(1.0, std::abs(difference * theta[j])))
+              << "slot " << j << ", d = " << d << ", V = " << v;
+        }
+      }
+    }
+  }
+}
+
 TEST(CaptureVelocity, MatchesTheIndependentSimulator) {
   const Design design;
   const std::vector<Dataset> datasets = {synthetic::dataset(design)};
