@@ -129,7 +129,7 @@ std::vector<double> covariance_of(const LeastSquaresResult& result,
   const Eigen::MatrixXd scaled = jacobian * scale.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled.transpose() * scaled);
   if (eigen.info() != Eigen::Success) return {};
-  const Eigen::VectorXd values = eigen.eigenvalues();
+  const Eigen::VectorXd& values = eigen.eigenvalues();
   if (!(values.minCoeff() > singular_ratio * values.maxCoeff())) return {};
   const Eigen::MatrixXd inverse = scale.cwiseInverse().asDiagonal() * eigen.eigenvectors() *
                                   values.cwiseInverse().asDiagonal() *

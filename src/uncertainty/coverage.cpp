@@ -90,12 +90,18 @@ CoverageCell count(const std::vector<Trial>& trials, const char* name, double tr
   return cell;
 }
 
-/// "95.0 % [92.1, 97.0]": the share with its exact 95 % limits (Clopper & Pearson 1934).
+/// "95.0 % [92.1, 97.0]": the share with its 95 % limits by the score of Wilson (1927), J. Am.
+/// Stat. Assoc. 22, 209-212.
 std::string percentage(int part, int whole) {
   if (whole == 0) return "-";
-  const double low = part == 0 ? 0.0 : gsl_cdf_beta_Pinv(0.025, part, whole - part + 1.0);
-  const double high = part == whole ? 1.0 : gsl_cdf_beta_Pinv(0.975, part + 1.0, whole - part);
-  return fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100.0 * part / whole, 100.0 * low, 100.0 * high);
+  const double n = whole;
+  const double share = part / n;
+  const double z = gsl_cdf_ugaussian_Pinv(0.975);
+  const double middle = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
+  const double half =
+      z / (1.0 + z * z / n) * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
+  return fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100.0 * share,
+                     100.0 * std::max(0.0, middle - half), 100.0 * std::min(1.0, middle + half));
 }
 
 }  // namespace
@@ -155,7 +161,7 @@ std::string to_markdown(const CoverageResult& result, const FitSpec& spec,
   std::string text = fmt::format(
       "## Coverage of the intervals of `{}`\n\n{} data sets; {}. Level {:.0f} %, {} bootstrap "
       "replicates each, seed {}. {} fits and {} refits failed. In square brackets: "
-      "the exact 95 % limits of each share.\n\n",
+      "the 95 % limits of each share (Wilson).\n\n",
       spec.id, result.datasets, result.truth_source, 100.0 * options.uncertainty.level,
       options.uncertainty.replicates, options.uncertainty.seed, result.failed,
       result.refits_failed);

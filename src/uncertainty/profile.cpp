@@ -98,9 +98,10 @@ Interval profile_interval(const FitResult& fitted, const Observations& data, std
                           double level) {
   Interval interval;
   const double scale = fitted.noise_scale * fitted.noise_scale;
-  const double quantile = data.sd_stated || fitted.dof <= 0
-                              ? gsl_cdf_chisq_Pinv(level, 1.0)
-                              : gsl_cdf_fdist_Pinv(level, 1.0, fitted.dof);
+  // The quantile of F(1, dof) is the square of Student's.
+  const double student = fitted.dof > 0 ? gsl_cdf_tdist_Pinv(0.5 + level / 2.0, fitted.dof) : 0.0;
+  const double quantile =
+      data.sd_stated || fitted.dof <= 0 ? gsl_cdf_chisq_Pinv(level, 1.0) : student * student;
   const double allowed = quantile * scale;
   const Profile profile(fitted, data, slot);
   const double value = fitted.theta[slot];

@@ -99,7 +99,7 @@ void assert_sound(const Dataset& dataset) {
     RC_ASSERT(std::isfinite(point.incident_velocity) && point.incident_velocity > 0.0);
     RC_ASSERT(point.restitution >= 0.0 && point.restitution <= 1.2);
     RC_ASSERT(point.captured >= 0 && point.captured <= point.events);
-    RC_ASSERT(!point.restitution_sd || *point.restitution_sd > 0.0);
+    RC_ASSERT((!point.restitution_sd || *point.restitution_sd > 0.0));  // short-circuits
   }
   RC_ASSERT(!describe(dataset).empty());
 }
