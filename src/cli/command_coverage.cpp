@@ -31,6 +31,9 @@ void add_coverage(CLI::App& program) {
   command->add_option("--out", options->out, "write the table here, too");
   add_analysis_flags(*command, options->analysis);
   command->callback([options] {
+    if (!options->out.empty()) {
+      require_writable_folder(std::filesystem::absolute(options->out).parent_path());
+    }
     const FitSpec spec = load_fit(options->fit_file);
     const std::vector<Dataset> datasets = load_datasets(spec);
     const AnalysisOptions flags = options->analysis.resolved();

@@ -24,6 +24,7 @@ void add_fit(CLI::App& program) {
   command->add_option("--out", *out, "folder for fit.json (default: nothing is written)");
   add_analysis_flags(*command, *options);
   command->callback([=] {
+    if (!out->empty()) require_writable_folder(*out);
     const Analysis analysis = analyse(*fit_file, options->resolved());
     if (!out->empty()) {
       write_whole_file(std::filesystem::path(*out) / "fit.json", json_report(analysis));

@@ -60,6 +60,7 @@ bool is_current(const fs::path& stamp, const std::string& expected,
 
 void report(const ReportOptions& options) {
   const fs::path out = options.out;
+  require_writable_folder(out);
   std::vector<IndexEntry> entries;
   for (const fs::path& fit_file : fits_to_report(options)) {
     const std::string id = fit_file.stem().string();

@@ -76,6 +76,23 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
   }
 }
 
+void require_writable_folder(const std::filesystem::path& folder) {
+  const Location where{folder.string()};
+  std::error_code failed;
+  std::filesystem::path nearest = std::filesystem::absolute(folder, failed);
+  while (!std::filesystem::exists(nearest, failed) && nearest.has_relative_path()) {
+    nearest = nearest.parent_path();
+  }
+  if (!std::filesystem::is_directory(nearest, failed)) {
+    throw InputError(where, fmt::format("{} is a file", nearest.string()),
+                     "results are written into a folder", "choose another --out");
+  }
+  if (access(nearest.c_str(), W_OK) != 0) {
+    throw InputError(where, fmt::format("no permission to write into {}", nearest.string()),
+                     "results are written there at the end", "choose another --out");
+  }
+}
+
 std::string sha256_hex(std::string_view bytes) {
   char digest[SHA256_DIGEST_STRING_LENGTH];
   SHA256Data(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), digest);

@@ -16,6 +16,10 @@ std::string read_text_file(const std::filesystem::path& path,
 /// Makes the folder when it is missing. @throws InputError when the place cannot be written.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
+/// Complains before a long computation, and without making anything, when results could not be
+/// written into `folder` at its end: it is a file, or the nearest folder above it is read-only.
+void require_writable_folder(const std::filesystem::path& folder);
+
 /// SHA-256 of `bytes` as 64 lower-case hexadecimal digits (FIPS 180-4).
 std::string sha256_hex(std::string_view bytes);
 

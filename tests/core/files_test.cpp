@@ -88,6 +88,14 @@ TEST_F(Files, WritesWholeAndLeavesNothingBeside) {
   EXPECT_EQ(entries(), 3U) << "two folders and one file";
 }
 
+TEST_F(Files, AskingWhetherAFolderCanBeWrittenMakesNothing) {
+  require_writable_folder(folder_ / "new" / "deeper");
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
+  put("file", "x");
+  EXPECT_THROW(require_writable_folder(folder_ / "file"), InputError);
+  EXPECT_THROW(require_writable_folder(folder_ / "file" / "below"), InputError);
+}
+
 TEST_F(Files, AFailedWriteLeavesNeitherPartNorDamage) {
   put("occupied", "x");
   EXPECT_THROW(write_whole_file(folder_ / "occupied" / "a.json", "y"), InputError);
