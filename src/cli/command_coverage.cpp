@@ -44,7 +44,10 @@ void add_coverage(CLI::App& program) {
     coverage.uncertainty.seed = flags.seed.value_or(spec.uncertainty.seed);
     coverage.uncertainty.threads = flags.threads;
     const CoverageTruth truth = coverage_truth(spec, datasets, coverage.uncertainty.seed);
-    const std::string table = to_markdown(measure_coverage(spec, truth, coverage), spec, coverage);
+    std::string table = to_markdown(measure_coverage(spec, truth, coverage), spec, coverage);
+    for (const Dataset& dataset : datasets) {
+      table += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));
+    }
     if (!options->out.empty()) write_whole_file(options->out, table);
     fmt::print("{}", table);
   });
