@@ -111,6 +111,12 @@ void print_impact(const ImpactConditions& c, const ImpactResult& impact, const D
              groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY, adhesion_velocity(c));
   fmt::print("model: K = {:.6g} GPa, f0 = {:.6g} N/m at this diameter, adhesion damping: {}\n",
              c.stiffness / units::GPa, c.adhesion_force, to_string(phase));
+  if (captured) {
+    fmt::print(
+        "note: adhesion did work on the sphere on its way in, so the shares can exceed 100 %; what "
+        "is "
+        "bound is negative\n");
+  }
   for (const std::string& line : contact.contradictions) fmt::print("note: {}\n", line);
   fmt::print("dataset: {} ({}): {}\n", dataset.id, to_string(dataset.provenance),
              provenance_sentence(dataset.provenance));
@@ -138,6 +144,11 @@ void simulate(const SimulateOptions& options) {
     write_whole_file(options.history, history_csv(history, impact_scales(conditions)));
   }
   print_impact(conditions, impact, datasets[d], model.contacts[d], model.phase);
+  fmt::print("parameters: C_H = {:.6g} s/m, C_A = {:.6g} s/m ({})\n", conditions.hertz_damping,
+             conditions.adhesion_damping,
+             options.parameters.empty()
+                 ? "initial values of the fit file; --parameters fit.json takes fitted ones"
+                 : "from " + options.parameters);
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ AnalysisOptions AnalysisFlags::resolved() const {
 void add_analysis_flags(CLI::App& command, AnalysisFlags& flags) {
   command
       .add_option("--replicates", flags.replicates,
-                  "bootstrap replicates (default: the fit file's)")
-      ->check(CLI::Range(39, 1000000));
+                  "bootstrap replicates, 0 for none (default: the fit file's)")
+      ->check(CLI::Range(0, 1000000));
   command.add_option("--seed", flags.seed, "fixes every digit (default: the fit file's)")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   command.add_option("--threads", flags.threads, "threads to use (default: all cores)")

@@ -13,6 +13,30 @@ namespace {
 constexpr int wrong_input = 2;
 constexpr int no_answer = 3;
 
+/// The first --option that its command does not have, with the nearest that it has; empty when all
+/// are known.
+std::string unknown_option(const CLI::App& program, int argc, char** argv) {
+  const std::vector<const CLI::App*> commands = program.get_subcommands({});
+  const auto found = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* command) {
+    return argc > 1 && command->get_name() == argv[1];
+  });
+  if (found == commands.end()) return "";
+  std::vector<std::string> known;
+  for (const CLI::Option* option : (*found)->get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (word.rfind("--", 0) != 0 || word == "--") continue;
+    if (std::find(known.begin(), known.end(), word) != known.end()) continue;
+    const std::string near = recoil::nearest_word(word, known);
+    return fmt::format("unknown option '{}' (recoil {} does not have it) {}", word, argv[1],
+                       near.empty() ? fmt::format("see recoil {} --help", argv[1])
+                                    : fmt::format("did you mean {}?", near));
+  }
+  return "";
+}
+
 /// CLI11's complaint as one line, with a suggestion.
 std::string one_line(const CLI::ParseError& error, const CLI::App& program, int argc, char** argv) {
   std::string message = error.what();
@@ -26,6 +50,9 @@ std::string one_line(const CLI::ParseError& error, const CLI::App& program, int 
     const std::string near = recoil::nearest_word(argv[1], known);
     return fmt::format("unknown command '{}' {}", argv[1],
                        near.empty() ? "see recoil --help" : fmt::format("did you mean {}?", near));
+  }
+  if (const std::string option = unknown_option(program, argc, argv); !option.empty()) {
+    return option;
   }
   const std::string command = argc > 1 && argv[1][0] != '-' ? fmt::format(" {}", argv[1]) : "";
   return fmt::format("{} (the command line is wrong) see recoil{} --help", message, command);
@@ -52,6 +79,10 @@ int main(int argc, char** argv) {
   recoil::add_report(program);
   try {
     program.parse(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      throw recoil::ComputationError(
+          "the output could not be written: standard output is full or closed");
+    }
     return 0;
   } catch (const CLI::Success& request) {  // --help, --version
     return program.exit(request);

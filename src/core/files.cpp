@@ -63,7 +63,7 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
     out.close();
     if (!out) {
       std::filesystem::remove(beside, failed);
-      throw InputError(where, "cannot write the file", "permission, a full disk or no such folder",
+      throw InputError(where, "cannot write the file", "permission or a full disk",
                        "choose another --out");
     }
   }

@@ -90,6 +90,16 @@ std::string in_words(double p_value) {
   return p_value < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p_value);
 }
 
+/// A captured point that the model captures has no residual to speak of, whatever the parameters:
+/// it fixes a side, not a value, and is no degree of freedom of the noise.
+int degrees_of_freedom(const FitResult& result, const Observations& data, int free_count) {
+  int informative = 0;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    if (!data.points[i].censored || result.prediction_squared[i] > 0.0) ++informative;
+  }
+  return informative - free_count;
+}
+
 /// Decides what the stated standard deviations are worth.
 void judge_noise(FitResult& result, bool sd_stated) {
   if (result.dof <= 0) {
@@ -203,6 +213,7 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
   result.chi2 = best.sum_of_squares;
   record_predictions(result, data);
   record_leverage(result, best.jacobian, best.covariance);
+  result.dof = degrees_of_freedom(result, data, static_cast<int>(free_count));
   judge_noise(result, data.sd_stated);
   result.covariance = best.covariance;
   for (double& entry : result.covariance) entry *= result.noise_scale * result.noise_scale;

@@ -75,7 +75,8 @@ struct FitResult {
   std::vector<double> prediction_squared;  ///< e^2, continued below zero
   std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
   double chi2 = 0.0;
-  int dof = 0;
+  int dof = 0;               ///< points less free parameters; captured points that the model also
+                             ///< captures do not count, as they cannot scatter
   double p_value = 0.0;      ///< of chi2; NaN-free: 0 or 1 at the ends; meaningless if !sd_stated
   double rmse = 0.0;         ///< of e over all points that rebounded [1]
   double noise_scale = 1.0;  ///< what the stated (or unit) sd is multiplied by in every interval

@@ -120,6 +120,10 @@ Json matrix_json(const Analysis& a, bool as_correlation) {
     Json row = Json::object();
     for (std::size_t j = 0; j < slots; ++j) {
       if (!f.model.slots[j].free) continue;
+      if (!(f.std_error[i] > 0.0) || !(f.std_error[j] > 0.0)) {  // fixed, or resting on a bound
+        row[f.model.slots[j].label()] = nullptr;
+        continue;
+      }
       const double value = !as_correlation ? f.covariance[i * slots + j]
                            : i == j        ? 1.0
                                            : correlation(a, i, j);

@@ -41,7 +41,7 @@ void describe_correlations(const FitResult& fitted, std::vector<std::string>& se
       const double r = fitted.covariance[a * p + b] / scale;
       if (std::abs(r) < strong_correlation) continue;
       sentences.push_back(fmt::format(
-          "{} and {} can hardly be told apart (correlation {:.3f}): one can make up for the other",
+          "{} and {} trade against each other (correlation {:.3f}): quote their intervals together",
           fitted.model.slots[a].label(), fitted.model.slots[b].label(), r));
     }
   }

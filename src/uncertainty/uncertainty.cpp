@@ -26,8 +26,9 @@ std::vector<double> column(const std::vector<std::vector<double>>& rows, std::si
   return values;
 }
 
+/// NaN, which every writer shows as "none", for fewer than two values.
 double standard_deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return 0.0;
+  if (values.size() < 2) return std::nan("");
   double mean = 0.0;
   for (const double v : values) mean += v / static_cast<double>(values.size());
   double sum = 0.0;
@@ -209,9 +210,16 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations
   result.bootstrap = bootstrap(fitted, data, result.capture, two_points, options);
   const auto delete_one = jackknife(fitted, data, options.threads);
   result.intervals = all_intervals(fitted, data, result, delete_one);
+  const auto& slots = fitted.model.slots;
+  const bool nothing_free =
+      std::none_of(slots.begin(), slots.end(), [](const ParameterSlot& slot) { return slot.free; });
   for (std::size_t k = 0; k < result.capture.size(); ++k) {
     CaptureEstimate& capture = result.capture[k];
     if (!capture.found) continue;
+    if (nothing_free) {
+      capture.interval.why = "nothing was free in this fit";
+      continue;
+    }
     capture.interval =
         percentile_interval(column(result.bootstrap.capture_velocity, k), options.level);
   }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -127,6 +128,21 @@ TEST(Fit, WithoutAnAnswerEndsWithStatusThree) {
   EXPECT_EQ(run.status, 3);
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   EXPECT_NE(run.err.find("cannot determine"), std::string::npos) << run.err;
+}
+
+TEST(CommandLine, SuggestsTheNearestOption) {
+  const Workplace place;
+  const Outcome run = place.run({"fit", "fit.toml", "--replicate", "99"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("did you mean --replicates?"), std::string::npos) << run.err;
+}
+
+TEST(CommandLine, OutputThatCannotBeWrittenIsNotSuccess) {
+  const Workplace place;
+  const std::string command = "cd '" + place.folder().string() +
+                              "' && '" RECOIL_BINARY "' check data > /dev/full 2> complaint.txt";
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_NE(place.read("complaint.txt").find("could not be written"), std::string::npos);
 }
 
 TEST(Help, TeachesEveryCommand) {

@@ -98,6 +98,15 @@ TEST(Fit, CapturedPointsAreDataNotGaps) {
   EXPECT_NEAR(result.theta[1], design.C_A, 0.3 * result.std_error[1]);
 }
 
+TEST(Fit, CapturedPointsThatTheModelCapturesAreNoDegreesOfFreedom) {
+  Design design;
+  design.velocities = {0.1, 0.2, 0.3, 2.5, 4.0, 6.5, 12.0, 25.0, 90.0};  // three deep in capture
+  design.diameters = {4.9e-6};
+  const FitResult result = fit_design(design);
+  ASSERT_TRUE(result.usable) << result.failure;
+  EXPECT_EQ(result.dof, 6 - 2);
+}
+
 TEST(Fit, BothSolversGiveTheSameEstimate) {
   const Design design;
   const FitResult fast = fit_design(design);
