@@ -30,8 +30,9 @@ struct Field {
   Stage stage = Stage::compression;
   double cusp_radius_squared = 0.0;
 
-  bool adhesion_damping_acts() const {
-    return phase == AdhesionDampingPhase::both || stage == Stage::restitution;
+  /// Whether the adhesion damping acts: 0 or 1.
+  double acts() const {
+    return phase == AdhesionDampingPhase::both || stage == Stage::restitution ? 1.0 : 0.0;
   }
 };
 
@@ -42,8 +43,7 @@ int right_hand_side(realtype, N_Vector y, N_Vector y_dot, void* user_data) {
   const double q = NV_Ith_S(y, 0);
   const double u = NV_Ith_S(y, 1);
   NV_Ith_S(y_dot, 0) = u;
-  NV_Ith_S(y_dot, 1) =
-      regularised_acceleration(q, u, f.alpha, f.beta, f.gamma, f.adhesion_damping_acts());
+  NV_Ith_S(y_dot, 1) = regularised_acceleration(q, u, f.alpha, f.beta, f.gamma, f.acts());
   return 0;
 }
 
@@ -54,7 +54,7 @@ int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vec
   using Dual = ceres::Jet<double, 2 + groups_count>;
   const Dual acceleration =
       regularised_acceleration(Dual(NV_Ith_S(y, 0), 0), Dual(NV_Ith_S(y, 1), 1), Dual(f.alpha, 2),
-                               Dual(f.beta, 3), Dual(f.gamma, 4), f.adhesion_damping_acts());
+                               Dual(f.beta, 3), Dual(f.gamma, 4), f.acts());
   for (int i = 0; i < count; ++i) {
     const double s_q = NV_Ith_S(s[i], 0);
     const double s_u = NV_Ith_S(s[i], 1);
@@ -70,7 +70,7 @@ int quadrature_right_hand_side(realtype, N_Vector y, N_Vector rates, void* user_
   const Field& f = field_of(user_data);
   const double q = NV_Ith_S(y, 0);
   const double u = NV_Ith_S(y, 1);
-  const auto forces = contact_forces(q, u, f.alpha, f.beta, f.gamma, f.adhesion_damping_acts());
+  const auto forces = contact_forces(q, u, f.alpha, f.beta, f.gamma, f.acts());
   NV_Ith_S(rates, 0) = 2.0 * q;
   NV_Ith_S(rates, 1) = -2.0 * q * forces.hertz_damping * u;
   NV_Ith_S(rates, 2) = -2.0 * q * forces.adhesion_damping * u;
@@ -155,6 +155,15 @@ class Integration {
            CVodeSetRootDirection(memory_.get(), directions.data()) == CV_SUCCESS;
   }
 
+  /// Puts a sphere that has all but settled to rest at the bottom of the well; true when it did.
+  bool settles() {
+    const double energy = 0.5 * u() * u() + potential_energy(q(), field_.beta);
+    if (!(energy < (1.0 - settled_part) * well_depth(field_.beta))) return false;
+    NV_Ith_S(state_.get(), 0) = std::sqrt(field_.beta);
+    NV_Ith_S(state_.get(), 1) = 0.0;
+    return true;
+  }
+
   /// d (2 H) / d group at the end of the impact. Both ends need no correction for the change of the
   /// arc length: u' = 0 at a release (q = 0) and H' = 0 at a turning point (u = 0).
   bool energy_gradient(std::array<double, 3>& gradient) {
@@ -229,8 +238,7 @@ void observe(const Integration& run, const ImpactOptions& options, ImpactResult&
              std::vector<ImpactMoment>* history) {
   const Field& f = run.field();
   const double q = std::max(run.q(), 0.0);
-  const auto forces =
-      contact_forces(q, run.u(), f.alpha, f.beta, f.gamma, f.adhesion_damping_acts());
+  const auto forces = contact_forces(q, run.u(), f.alpha, f.beta, f.gamma, f.acts());
   const double push =
       -(forces.hertz + forces.hertz_damping + forces.adhesion + forces.adhesion_damping);
   result.penetration_max = std::max(result.penetration_max, q * q);
@@ -292,7 +300,7 @@ ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& op
     const int code = run.step();
     if (code < 0) return result;
     observe(run, options, result, history);
-    if (turned && has_settled(run.q(), run.u(), groups.beta)) break;
+    if (turned && run.settles()) break;
     if (code != CV_ROOT_RETURN) continue;
     if (turned) break;
     turned = true;

@@ -1,0 +1,25 @@
+// Compiled once for every instruction set (see CMakeLists.txt), each time with its own
+// RECOIL_KERNEL and RECOIL_LANES. No two of them have the same number of lanes: the templates are
+// then of different types, and the linker cannot mistake a function that was compiled for one
+// instruction set for that of another (tests/impact/kernel_symbols.sh looks at the symbols).
+#include <experimental/simd>
+
+#include "impact/flights.hpp"
+#include "impact/force_law.hpp"
+
+namespace recoil::RECOIL_KERNEL {
+
+using Pack = std::experimental::fixed_size_simd<double, RECOIL_LANES>;
+
+std::size_t lanes() { return RECOIL_LANES; }
+
+void fly(std::span<const ImpactGroups> groups, AdhesionDampingPhase phase, bool gradient,
+         std::span<ImpactResult> results) {
+  if (gradient) {
+    Flights<RingAdhesionLaw, Pack, true>(groups, phase, results).fly();
+  } else {
+    Flights<RingAdhesionLaw, Pack, false>(groups, phase, results).fly();
+  }
+}
+
+}  // namespace recoil::RECOIL_KERNEL

@@ -1,0 +1,296 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <experimental/simd>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "impact/dop853.hpp"
+#include "impact/force_law.hpp"
+#include "impact/impact.hpp"
+#include "impact/partial.hpp"
+
+namespace recoil {
+
+/// Several impacts under way at once, one per lane of `Pack`, each with its own step and
+/// its own end; a lane that has landed takes the next impact of the queue.
+///
+/// Every lane integrates dq/dsigma = u, du/dsigma = f(q, u; p) by DOP853, f from `Law`. Its last
+/// step before an event takes u (turning point) or q (release) as the independent variable and so
+/// lands on zero exactly (Henon 1982, Physica D 5, 412-414).
+///
+/// The gradient uses that a planar flow has only one direction in which neighbouring paths can
+/// part: with F = (u, f), the area D_p = F x (d state / d p) obeys
+///   D_p' = (df/du) D_p + u df/dp,   D_p = 0 at touch,
+/// whatever the parametrisation of the path (Melnikov 1963 uses the same area). So
+///   D_p = (1/mu) integral mu u (df/dp) dsigma,   mu' = -(df/du) mu,  mu = 1 at touch:
+/// one more component and one integral per parameter instead of two components per parameter. At
+/// both ends d(e^2)/dp = 2 D_p + 2 dP/dp at constant q, P = potential energy; at the inner turning
+/// point D_p passes on unchanged, as f does not jump there.
+template <class Law, class Pack, bool with_gradient>
+class Flights {
+ public:
+  Flights(std::span<const ImpactGroups> groups, AdhesionDampingPhase phase,
+          std::span<ImpactResult> results)
+      : queue_(groups), results_(results), phase_(phase) {}
+
+  void fly() {
+    for (std::size_t lane = 0; lane < lanes; ++lane) take_next(lane);
+    while (any_of(busy_)) {
+      const Step step = any_of(landing_) ? make_step<true>() : make_step<false>();
+      take(step);
+      finish_lanes();
+    }
+  }
+
+ private:
+  static constexpr std::size_t lanes = Pack::size();
+  using Mask = typename Pack::mask_type;
+  static constexpr unsigned parameters = Law::groups;
+
+  static constexpr double tolerance = 1e-10;    // error of q and u per step; both are of order one
+  static constexpr double mu_tolerance = 1e-9;  // relative error of mu per step
+  static constexpr double smallest_step = 1e-9;
+  static constexpr double smallest_fraction = 1e-3;  // of what is left to an event
+  static constexpr double most_steps = 3000.0;  // an impact takes 40; a creep into the well 1500
+
+  struct Step {
+    Pack q, u, mu;
+    std::array<Pack, parameters> areas;
+    Pack error;  // relative to the tolerance
+  };
+
+  static Pack select(const Mask& mask, const Pack& yes, Pack no) {
+    where(mask, no) = yes;
+    return no;
+  }
+
+  /// sum_j coefficient(j) k[j] over the coefficients that are not zero.
+  template <class Row>
+  static Pack combine(const std::array<Pack, dop853::stages>& k, Row row) {
+    Pack sum = 0.0;
+    [&]<std::size_t... j>(std::index_sequence<j...>) {
+      const auto add = [&]<std::size_t column>() {
+        constexpr double coefficient = Row{}(column);
+        if constexpr (coefficient != 0.0) sum += coefficient * k[column];
+      };
+      (add.template operator()<j>(), ...);
+    }
+    (std::make_index_sequence<dop853::stages>{});
+    static_cast<void>(row);
+    return sum;
+  }
+
+  /// One Runge-Kutta step of every lane. With `some_land`, lanes that are landing use their own
+  /// clock: u or q instead of the arc length.
+  template <bool some_land>
+  [[gnu::flatten]] Step make_step() const {
+    const Pack length =
+        some_land ? select(landing_, fraction_ * select(to_turning_, -u_, -q_), length_) : length_;
+    std::array<Pack, dop853::stages> rate_q, rate_u, rate_mu;
+    Step to;
+    to.areas.fill(Pack(0.0));
+    Pack q5 = 0.0, u5 = 0.0, mu5 = 0.0, q3 = 0.0, u3 = 0.0, mu3 = 0.0;
+    const auto stage = [&]<std::size_t i>() {
+      Pack q = q_, u = u_, mu = mu_;
+      if constexpr (i > 0) {
+        constexpr auto row = [](std::size_t j) { return j < i ? dop853::stage[i][j] : 0.0; };
+        q += length * combine(rate_q, row);
+        u += length * combine(rate_u, row);
+        if constexpr (with_gradient) mu += length * combine(rate_mu, row);
+      }
+      const auto f = field(q, u);
+      Pack per_clock = 1.0;
+      if constexpr (some_land) {
+        per_clock = 1.0 / select(landing_, select(to_turning_, f.value, u), Pack(1.0));
+      }
+      const auto on_clock = [&](const Pack& rate) { return some_land ? rate * per_clock : rate; };
+      rate_q[i] = on_clock(u);
+      rate_u[i] = on_clock(f.value);
+      if constexpr (with_gradient) rate_mu[i] = on_clock(-(f.template derivative<0>() * mu));
+      if constexpr (dop853::weight[i] != 0.0) {
+        q5 += dop853::error5[i] * rate_q[i];
+        u5 += dop853::error5[i] * rate_u[i];
+        q3 += dop853::error3[i] * rate_q[i];
+        u3 += dop853::error3[i] * rate_u[i];
+        if constexpr (with_gradient) {
+          mu5 += dop853::error5[i] * rate_mu[i];
+          mu3 += dop853::error3[i] * rate_mu[i];
+          const Pack weight = dop853::weight[i] * on_clock(mu * u);
+          [&]<unsigned... p>(std::integer_sequence<unsigned, p...>) {
+            ((to.areas[p] += weight * f.template derivative<p + 1>()), ...);
+          }
+          (std::make_integer_sequence<unsigned, parameters>{});
+        }
+      }
+    };
+    [&]<std::size_t... i>(std::index_sequence<i...>) { (stage.template operator()<i>(), ...); }
+    (std::make_index_sequence<dop853::stages>{});
+
+    constexpr auto weights = [](std::size_t j) { return dop853::weight[j]; };
+    to.q = q_ + length * combine(rate_q, weights);
+    to.u = u_ + length * combine(rate_u, weights);
+    to.mu = with_gradient ? mu_ + length * combine(rate_mu, weights) : mu_;
+    for (Pack& area : to.areas) area *= length;
+    const Pack per_q = 1.0 / (tolerance * max(Pack(1.0), abs(q_)));
+    const Pack per_u = 1.0 / (tolerance * max(Pack(1.0), abs(u_)));
+    Pack fifth = q5 * per_q * (q5 * per_q) + u5 * per_u * (u5 * per_u);
+    Pack third = q3 * per_q * (q3 * per_q) + u3 * per_u * (u3 * per_u);
+    if constexpr (with_gradient) {
+      const Pack per_mu = 1.0 / (mu_tolerance * mu_);
+      fifth += mu5 * per_mu * (mu5 * per_mu);
+      third += mu3 * per_mu * (mu3 * per_mu);
+    }
+    constexpr double never_zero = 1e-300;
+    to.error = abs(length) * fifth / sqrt(2.0 * (fifth + 0.01 * third) + never_zero);
+    return to;
+  }
+
+  /// f with its derivatives: variable 0 is u, variable k + 1 is group k.
+  auto field(const Pack& q, const Pack& u) const {
+    return [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
+      if constexpr (with_gradient) {
+        return Law::acceleration(q, variable<0>(u), acts_, variable<k + 1>(groups_[k])...);
+      } else {
+        return Partial<Pack, 0U>{Law::acceleration(q, u, acts_, groups_[k]...), {}};
+      }
+    }
+    (std::make_integer_sequence<unsigned, parameters>{});
+  }
+
+  /// Accepts, repeats or turns into a landing the step of every lane.
+  [[gnu::flatten]] void take(const Step& to) {
+    steps_ += 1.0;
+    const Mask good = to.error <= 1.0;  // false for NaN
+    const Mask event = turned_ && (to.q <= 0.0 || to.u >= 0.0);
+    const Mask crosses = good && !landing_ && (event || (!turned_ && to.u <= 0.0));
+    const Mask accepted = good && !crosses;
+    where(crosses, to_turning_) = !(turned_ && to.q <= 0.0);
+    where(accepted, q_) = to.q;
+    where(accepted, u_) = to.u;
+    if constexpr (with_gradient) {
+      where(accepted, mu_) = to.mu;
+      for (unsigned p = 0; p < parameters; ++p) where(accepted, areas_[p]) += to.areas[p];
+    }
+    const Mask landed = landing_ && good && fraction_ == 1.0;
+    where(landed && to_turning_, u_) = 0.0;
+    where(landed && !to_turning_, q_) = 0.0;
+    adapt(to.error, good, crosses);
+    landing_ = (landing_ || crosses) && !landed;
+    ended_ = landed && turned_;
+    const Mask turns = landed && !turned_;
+    turned_ = turned_ || turns;
+    where(turns, acts_) = 1.0;
+    settled_ = turned_ && !landing_ && !ended_ && energy(q_, u_) < settle_below_;
+    lost_ = steps_ >= most_steps || length_ < smallest_step || fraction_ < smallest_fraction;
+  }
+
+  /// The next step of every lane, for a method of order 8.
+  void adapt(const Pack& error, const Mask& good, const Mask& crosses) {
+    constexpr double safety = 0.9, most_shrinking = 0.2, most_growing = 6.0, after_failure = 0.8;
+    Pack factor = safety / sqrt(sqrt(sqrt(max(error, Pack(1e-16)))));
+    factor = min(Pack(most_growing), max(Pack(most_shrinking), factor));
+    where(!good, factor) = min(Pack(after_failure), factor);
+    where(!(error == error), factor) = most_shrinking;
+    where(!landing_ && !crosses, length_) *= factor;
+    // What remains to the event after a part of it has been covered is 1 - fraction_.
+    constexpr double never_zero = 1e-300;
+    const Pack covered = min(Pack(1.0), fraction_ / (1.0 - fraction_ + never_zero) * factor);
+    where(landing_, fraction_) = select(good, covered, fraction_ * factor);
+    where(crosses, fraction_) = 1.0;
+  }
+
+  Pack energy(const Pack& q, const Pack& u) const {
+    return 0.5 * u * u + [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
+      return Law::potential(q, groups_[k]...);
+    }
+    (std::make_integer_sequence<unsigned, parameters>{});
+  }
+
+  void finish_lanes() {
+    const Mask done = busy_ && (ended_ || settled_ || lost_);
+    if (!any_of(done)) return;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!done[lane]) continue;
+      write(lane, results_[impact_[lane]]);
+      take_next(lane);
+    }
+  }
+
+  void write(std::size_t lane, ImpactResult& result) const {
+    result.steps = static_cast<long>(double(steps_[lane]));
+    if (!ended_[lane] && !settled_[lane]) {
+      result.outcome = steps_[lane] >= most_steps ? ImpactOutcome::step_limit
+                                                  : ImpactOutcome::integration_failure;
+      return;
+    }
+    // At rest in the well the path no longer matters, only the depth.
+    const double q = settled_[lane] ? resting_q_[lane] : q_[lane];
+    const double u = settled_[lane] ? 0.0 : double(u_[lane]);
+    [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
+      const Partial<double, (1U << parameters) - 1U> none{};
+      const auto potential = Law::potential(q, variable<k>(double(groups_[k][lane]))...) + none;
+      result.restitution_squared = u * u + 2.0 * potential.value;
+      if constexpr (with_gradient) {
+        const auto area = [&](unsigned p) {
+          return settled_[lane] ? 0.0 : areas_[p][lane] / mu_[lane];
+        };
+        ((result.gradient[k] = 2.0 * (area(k) + potential.template derivative<k>())), ...);
+      }
+    }
+    (std::make_integer_sequence<unsigned, parameters>{});
+    result.outcome =
+        result.restitution_squared > 0.0 ? ImpactOutcome::rebound : ImpactOutcome::captured;
+  }
+
+  /// Puts the next impact of the queue into `lane`; an idle lane flies an impact that counts for
+  /// nothing.
+  void take_next(std::size_t lane) {
+    const bool work = next_ < queue_.size();
+    const ImpactGroups groups = work ? queue_[next_] : ImpactGroups{};
+    impact_[lane] = next_;
+    next_ += work ? 1 : 0;
+    busy_[lane] = work;
+    const std::array<double, parameters> values = Law::groups_of(groups);
+    for (unsigned k = 0; k < parameters; ++k) {
+      groups_[k][lane] = values[k];
+      areas_[k][lane] = 0.0;
+    }
+    acts_[lane] = phase_ == AdhesionDampingPhase::both ? 1.0 : 0.0;
+    q_[lane] = 0.0;
+    u_[lane] = 1.0;
+    mu_[lane] = 1.0;
+    // A first guess; the error estimate corrects it at once.
+    length_[lane] = 0.3 / (1.0 + __builtin_sqrt(groups.beta) + groups.alpha);
+    fraction_[lane] = 1.0;
+    steps_[lane] = 0.0;
+    resting_q_[lane] = Law::resting_place(groups);
+    settle_below_[lane] = (1.0 - settled_part) * energy(resting_q_, Pack(0.0))[lane];
+    turned_[lane] = landing_[lane] = to_turning_[lane] = false;
+    ended_[lane] = settled_[lane] = lost_[lane] = false;
+  }
+
+  std::span<const ImpactGroups> queue_;
+  std::span<ImpactResult> results_;
+  AdhesionDampingPhase phase_;
+  std::size_t next_ = 0;
+  std::array<std::size_t, lanes> impact_ = {};  // which one flies in each lane
+
+  std::array<Pack, parameters> groups_ = {};
+  Pack acts_ = 0.0;  // whether the adhesion damping acts: 0 or 1
+  Pack q_ = 0.0, u_ = 0.0, mu_ = 0.0;
+  std::array<Pack, parameters> areas_ = {};  // integral of mu u df/dp
+  Pack length_ = 0.0;                        // of the next step, in arc length
+  Pack fraction_ = 0.0;                      // of the way to the event, of the next landing step
+  Pack steps_ = 0.0;
+  Pack resting_q_ = 0.0, settle_below_ = 0.0;
+  Mask busy_{false};
+  Mask turned_{false};      // past the inner turning point
+  Mask landing_{false};     // the next step is on the event's own clock:
+  Mask to_turning_{false};  // u towards a turning point, else q towards the release
+  Mask ended_{false}, settled_{false}, lost_{false};
+};
+
+}  // namespace recoil

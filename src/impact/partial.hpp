@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace recoil {
+
+/// A value together with those of its first partial derivatives that are not identically zero: bit
+/// k of `Carried` says that the derivative in variable k is carried. Products and sums work out at
+/// compile time which derivatives they have, so that q * q of an undifferentiated q costs one
+/// multiplication and the derivative of the whole force law little more than the law itself.
+template <class T, unsigned Carried>
+struct Partial {
+  T value;
+  std::array<T, static_cast<std::size_t>(std::popcount(Carried))> derivatives;
+
+  static constexpr bool carries(unsigned k) { return (Carried >> k & 1U) != 0; }
+  static constexpr std::size_t place(unsigned k) {
+    return static_cast<std::size_t>(std::popcount(Carried & ((1U << k) - 1U)));
+  }
+  /// d value / d (variable k); zero where it is not carried.
+  template <unsigned k>
+  constexpr T derivative() const {
+    if constexpr (carries(k)) {
+      return derivatives[place(k)];
+    } else {
+      return T(0.0);
+    }
+  }
+};
+
+/// The independent variable number k.
+template <unsigned k, class T>
+constexpr Partial<T, 1U << k> variable(const T& value) {
+  return {value, {T(1.0)}};
+}
+
+namespace partial_detail {
+
+inline constexpr unsigned most_variables = 16;
+
+/// rule.template operator()<k>() for every variable that `Carried` has.
+template <unsigned Carried, class Rule>
+constexpr void for_each_carried(Rule&& rule) {
+  [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
+    const auto visit = [&]<unsigned variable>() {
+      if constexpr ((Carried >> variable & 1U) != 0) rule.template operator()<variable>();
+    };
+    (visit.template operator()<k>(), ...);
+  }
+  (std::make_integer_sequence<unsigned, most_variables>{});
+}
+
+}  // namespace partial_detail
+
+template <class T, unsigned A, unsigned B>
+constexpr Partial<T, A | B> operator*(const Partial<T, A>& a, const Partial<T, B>& b) {
+  using First = Partial<T, A>;
+  using Second = Partial<T, B>;
+  Partial<T, A | B> product{a.value * b.value, {}};
+  partial_detail::for_each_carried<A | B>([&]<unsigned k>() {
+    T& entry = product.derivatives[product.place(k)];
+    if constexpr (First::carries(k) && Second::carries(k)) {
+      entry = a.template derivative<k>() * b.value + a.value * b.template derivative<k>();
+    } else if constexpr (First::carries(k)) {
+      entry = a.template derivative<k>() * b.value;
+    } else {
+      entry = a.value * b.template derivative<k>();
+    }
+  });
+  return product;
+}
+
+template <class T, unsigned A, unsigned B>
+constexpr Partial<T, A | B> operator+(const Partial<T, A>& a, const Partial<T, B>& b) {
+  using First = Partial<T, A>;
+  using Second = Partial<T, B>;
+  Partial<T, A | B> sum{a.value + b.value, {}};
+  partial_detail::for_each_carried<A | B>([&]<unsigned k>() {
+    T& entry = sum.derivatives[sum.place(k)];
+    if constexpr (First::carries(k) && Second::carries(k)) {
+      entry = a.template derivative<k>() + b.template derivative<k>();
+    } else if constexpr (First::carries(k)) {
+      entry = a.template derivative<k>();
+    } else {
+      entry = b.template derivative<k>();
+    }
+  });
+  return sum;
+}
+
+template <class T, unsigned A>
+constexpr Partial<T, A> operator-(const Partial<T, A>& a) {
+  Partial<T, A> negative{-a.value, {}};
+  for (std::size_t i = 0; i < a.derivatives.size(); ++i) {
+    negative.derivatives[i] = -a.derivatives[i];
+  }
+  return negative;
+}
+
+/// A factor that depends on none of the variables.
+template <class T, unsigned A>
+constexpr Partial<T, A> operator*(const std::type_identity_t<T>& factor, const Partial<T, A>& a) {
+  Partial<T, A> product{factor * a.value, {}};
+  for (std::size_t i = 0; i < a.derivatives.size(); ++i) {
+    product.derivatives[i] = factor * a.derivatives[i];
+  }
+  return product;
+}
+template <class T, unsigned A>
+constexpr Partial<T, A> operator*(const Partial<T, A>& a, const std::type_identity_t<T>& factor) {
+  return factor * a;
+}
+
+/// A term that depends on none of the variables.
+template <class T, unsigned A>
+constexpr Partial<T, A> operator+(const std::type_identity_t<T>& term, const Partial<T, A>& a) {
+  return {term + a.value, a.derivatives};
+}
+template <class T, unsigned A>
+constexpr Partial<T, A> operator+(const Partial<T, A>& a, const std::type_identity_t<T>& term) {
+  return {a.value + term, a.derivatives};
+}
+
+}  // namespace recoil
