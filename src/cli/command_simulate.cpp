@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
+#include "impact/sensitivity.hpp"
 
 namespace recoil {
 namespace {
@@ -122,6 +123,32 @@ void print_impact(const ImpactConditions& c, const ImpactResult& impact, const D
              provenance_sentence(dataset.provenance));
 }
 
+/// Percent of e for one percent of every quantity.
+void print_sensitivity(const ImpactConditions& c, const ImpactResult& impact,
+                       const Dataset& dataset) {
+  if (!(impact.restitution_squared > 0.0)) return;
+  const ImpactSensitivity s = impact_sensitivity(c, impact);
+  const auto line = [&](const char* name, double slope, double value) {
+    fmt::print("  {:<28}{:>+14.5f} %\n", name, 0.5 * slope * value / impact.restitution_squared);
+  };
+  fmt::print("change of e for 1 % more of one quantity, the others held:\n");
+  line("incident velocity", s.velocity, c.velocity);
+  line("diameter (f0 held)", s.diameter, c.diameter);
+  line("C_H", s.hertz_damping, c.hertz_damping);
+  line("C_A", s.adhesion_damping, c.adhesion_damping);
+  line("f0", s.adhesion_force, c.adhesion_force);
+  line("K", s.stiffness, c.stiffness);
+  line("density", s.density, c.density);
+  if (dataset.system.stiffness_K) return;
+  const StiffnessSensitivity k = stiffness_sensitivity(dataset.system);
+  const Material& sphere = dataset.system.particle;
+  const Material& surface = dataset.system.surface;
+  line("Young's modulus, sphere", s.stiffness * k.youngs_particle, sphere.youngs_modulus);
+  line("Young's modulus, surface", s.stiffness * k.youngs_surface, surface.youngs_modulus);
+  line("Poisson's ratio, sphere", s.stiffness * k.poisson_particle, sphere.poisson_ratio);
+  line("Poisson's ratio, surface", s.stiffness * k.poisson_surface, surface.poisson_ratio);
+}
+
 void simulate(const SimulateOptions& options) {
   const FitSpec spec = load_fit(options.fit_file);
   const std::vector<Dataset> datasets = load_datasets(spec);
@@ -133,6 +160,7 @@ void simulate(const SimulateOptions& options) {
   ImpactOptions impact_options;
   impact_options.phase = model.phase;
   impact_options.budget = true;
+  impact_options.gradient = true;
   std::vector<ImpactMoment> history;
   const ImpactResult impact = simulate_impact(impact_groups(conditions), impact_options, &history);
   if (!impact.usable()) {
@@ -144,6 +172,7 @@ void simulate(const SimulateOptions& options) {
     write_whole_file(options.history, history_csv(history, impact_scales(conditions)));
   }
   print_impact(conditions, impact, datasets[d], model.contacts[d], model.phase);
+  print_sensitivity(conditions, impact, datasets[d]);
   fmt::print("parameters: C_H = {:.6g} s/m, C_A = {:.6g} s/m ({})\n", conditions.hertz_damping,
              conditions.adhesion_damping,
              options.parameters.empty()

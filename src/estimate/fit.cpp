@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/units.hpp"
 #include "estimate/impact_problem.hpp"
@@ -48,23 +49,31 @@ std::string describe_point(const Observation& point) {
                      point.velocity);
 }
 
+std::vector<Prediction> predict_observations(const ImpactModel& model,
+                                             std::span<const double> theta,
+                                             const Observations& data) {
+  std::vector<PointConditions> points;
+  for (const Observation& point : data.points) {
+    points.push_back({point.dataset, point.diameter, point.velocity});
+  }
+  return predict(model, theta, std::move(points), false);
+}
+
 /// The first point that the model cannot answer at `theta`, in words.
 std::string unanswered_point(const ImpactModel& model, const Observations& data,
                              std::span<const double> theta) {
-  for (const Observation& point : data.points) {
-    const Prediction at =
-        predict(model, theta, point.dataset, point.diameter, point.velocity, false);
-    if (!at.usable()) {
-      return fmt::format("{}: {}", describe_point(point), to_string(at.outcome));
+  const std::vector<Prediction> predictions = predict_observations(model, theta, data);
+  for (std::size_t i = 0; i < predictions.size(); ++i) {
+    if (!predictions[i].usable()) {
+      return fmt::format("{}: {}", describe_point(data.points[i]),
+                         to_string(predictions[i].outcome));
     }
   }
   return "";
 }
 
 void record_predictions(FitResult& result, const Observations& data) {
-  for (const Observation& point : data.points) {
-    const Prediction at =
-        predict(result.model, result.theta, point.dataset, point.diameter, point.velocity, false);
+  for (const Prediction& at : predict_observations(result.model, result.theta, data)) {
     result.prediction_squared.push_back(at.restitution_squared);
     result.prediction.push_back(at.restitution());
   }
@@ -234,21 +243,25 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
 
 double root_mean_square(const ImpactModel& model, std::span<const double> theta,
                         const Observations& data, const std::vector<std::size_t>& subset) {
-  double sum = 0.0;
-  std::size_t count = 0;
-  const auto add = [&](const Observation& point) {
-    const Prediction at =
-        predict(model, theta, point.dataset, point.diameter, point.velocity, false);
-    const double measured = point.censored ? 0.0 : point.restitution;
-    sum += std::pow(measured - at.restitution(), 2);
-    ++count;
-  };
-  if (subset.empty()) {
-    for (const Observation& point : data.points) add(point);
-  } else {
-    for (const std::size_t i : subset) add(data.points[i]);
+  std::vector<std::size_t> points = subset;
+  if (points.empty()) {
+    points.resize(data.points.size());
+    std::iota(points.begin(), points.end(), std::size_t{0});
   }
-  return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
+  if (points.empty()) return 0.0;
+  std::vector<PointConditions> conditions;
+  for (const std::size_t i : points) {
+    const Observation& point = data.points[i];
+    conditions.push_back({point.dataset, point.diameter, point.velocity});
+  }
+  const std::vector<Prediction> predictions = predict(model, theta, std::move(conditions), false);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Observation& point = data.points[points[k]];
+    const double measured = point.censored ? 0.0 : point.restitution;
+    sum += std::pow(measured - predictions[k].restitution(), 2);
+  }
+  return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
 }  // namespace recoil

@@ -1,5 +1,7 @@
 #include "estimate/impact_problem.hpp"
 
+#include <memory>
+
 namespace recoil {
 
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data) {
@@ -11,19 +13,21 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
     problem.log_scale.push_back(slot.log_scale);
     problem.fixed.push_back(!slot.free);
   }
-  problem.evaluate = [&model, &data](std::span<const double> theta, std::span<double> residuals,
-                                     std::span<double> jacobian) {
+  std::vector<PointConditions> points;
+  for (const Observation& point : data.points) {
+    points.push_back({point.dataset, point.diameter, point.velocity});
+  }
+  const auto predictor = std::make_shared<PointPredictor>(model, std::move(points));
+  problem.evaluate = [predictor, &data](std::span<const double> theta, std::span<double> residuals,
+                                        std::span<double> jacobian) {
     const std::size_t p = theta.size();
+    predictor->evaluate(theta, !jacobian.empty());
     for (std::size_t i = 0; i < data.points.size(); ++i) {
-      const Observation& point = data.points[i];
-      const Prediction at =
-          predict(model, theta, point.dataset, point.diameter, point.velocity, !jacobian.empty());
-      if (!at.usable()) return false;
-      const WeightedResidual r = weighted_residual(point, at.restitution_squared);
+      if (!predictor->at(i).usable()) return false;
+      const WeightedResidual r =
+          weighted_residual(data.points[i], predictor->at(i).restitution_squared);
       residuals[i] = r.value;
-      for (std::size_t j = 0; !jacobian.empty() && j < p; ++j) {
-        jacobian[i * p + j] = r.slope * at.gradient[j];
-      }
+      if (!jacobian.empty()) predictor->gradient_row(i, r.slope, jacobian.subspan(i * p, p));
     }
     return true;
   };

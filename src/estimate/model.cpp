@@ -29,34 +29,6 @@ std::size_t add_slot(ImpactModel& model, const ParameterSpec& spec, const std::s
   return model.slots.size() - 1;
 }
 
-/// The impact under `conditions` by the model's solver, with gradient when asked for.
-ImpactResult solve_impact(const ImpactModel& model, const ImpactGroups& groups, bool gradient) {
-  ImpactOptions options;
-  options.phase = model.phase;
-  options.gradient = gradient;
-  return model.solver == Solver::fast ? simulate_impact_fast(groups, options)
-                                      : simulate_impact(groups, options);
-}
-
-/// The gradient in the groups turned into one in theta.
-std::vector<double> theta_gradient(const ImpactModel& model, std::span<const double> theta,
-                                   std::size_t dataset, double velocity, const ImpactGroups& groups,
-                                   const ImpactResult& impact) {
-  std::vector<double> gradient(model.slots.size(), 0.0);
-  gradient[model.slot_C_H[dataset]] += velocity * impact.gradient[0];
-  gradient[model.slot_C_A[dataset]] += velocity * impact.gradient[2];
-  const double f0 = theta[model.slot_f0[dataset]];
-  if (f0 > 0.0) gradient[model.slot_f0[dataset]] += groups.beta / f0 * impact.gradient[1];
-  return gradient;  // beta is proportional to f0
-}
-
-/// d e^2 / d V at fixed theta: alpha and gamma grow with V, beta falls like V^(-4/5).
-double velocity_slope(const ImpactGroups& groups, const ImpactResult& impact, double velocity) {
-  return (groups.alpha * impact.gradient[0] - 0.8 * groups.beta * impact.gradient[1] +
-          groups.gamma * impact.gradient[2]) /
-         velocity;
-}
-
 }  // namespace
 
 std::string ParameterSlot::label() const {
@@ -110,68 +82,82 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
           theta[model.slot_C_A[dataset]]};
 }
 
-Prediction predict(const ImpactModel& model, std::span<const double> theta, std::size_t dataset,
-                   double diameter, double velocity, bool gradient) {
-  const ImpactGroups groups =
-      impact_groups(conditions_at(model, theta, dataset, diameter, velocity));
-  const ImpactResult impact = solve_impact(model, groups, gradient);
-  Prediction prediction{impact.outcome, impact.restitution_squared, {}};
-  if (gradient) {
-    prediction.gradient = theta_gradient(model, theta, dataset, velocity, groups, impact);
+PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointConditions> points)
+    : model_(model),
+      points_(std::move(points)),
+      beta_per_f0_(points_.size()),
+      groups_(points_.size()),
+      results_(points_.size()) {
+  std::vector<double> unit_adhesion = model.initial();
+  for (const std::size_t slot : model.slot_f0) unit_adhesion[slot] = 1.0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PointConditions& p = points_[i];
+    beta_per_f0_[i] =
+        impact_groups(conditions_at(model, unit_adhesion, p.dataset, p.diameter, p.velocity)).beta;
   }
-  return prediction;
 }
 
-CaptureVelocity capture_velocity(const ImpactModel& model, std::span<const double> theta,
-                                 std::size_t dataset, double diameter, double guess) {
-  CaptureVelocity result;
-  result.gradient.assign(model.slots.size(), 0.0);
-  const ImpactConditions c = conditions_at(model, theta, dataset, diameter, 1.0);
-  const double scale = adhesion_velocity(c);
-  if (!(scale > 0.0) || (c.hertz_damping == 0.0 && c.adhesion_damping == 0.0)) {
-    result.found = true;  // conservative: everything comes back
-    return result;
+void PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
+  assert(theta.size() == model_.slots.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PointConditions& p = points_[i];
+    groups_[i] = {theta[model_.slot_C_H[p.dataset]] * p.velocity,
+                  theta[model_.slot_f0[p.dataset]] * beta_per_f0_[i],
+                  theta[model_.slot_C_A[p.dataset]] * p.velocity};
   }
-  // Small damping: V*^2 = 2 J (C_A + 2 C_H) V_a^3 with J = 0.827350 (rebound), twice C_A (both).
-  const double damping =
-      (model.phase == AdhesionDampingPhase::both ? 2.0 : 1.0) * c.adhesion_damping +
-      2.0 * c.hertz_damping;
-  constexpr double J = 0.827350;
-  double square = guess > 0.0 ? guess * guess : 2.0 * J * damping * scale * scale * scale;
-  double captured = 0.0;                  // largest V^2 seen that is captured
-  double rebounds = 1e6 * scale * scale;  // smallest V^2 seen that rebounds
-  bool rebound_seen = false;
-  constexpr int most_iterations = 60;
-  for (int i = 0; i < most_iterations; ++i) {
-    const double velocity = std::sqrt(square);
-    const ImpactGroups groups =
-        impact_groups(conditions_at(model, theta, dataset, diameter, velocity));
-    const ImpactResult impact = solve_impact(model, groups, true);
-    if (!impact.usable()) return result;
-    // Newton on e^2 V^2 as a function of V^2: nearly a straight line of slope 1 for weak damping,
-    // as the energy that is lost hardly depends on V near capture.
-    const double per_velocity = velocity_slope(groups, impact, velocity);
-    const double excess = impact.restitution_squared * square;
-    const double slope = impact.restitution_squared + 0.5 * velocity * per_velocity;
-    (excess > 0.0 ? rebounds : captured) = square;
-    rebound_seen = rebound_seen || excess > 0.0;
-    double next = square - excess / slope;
-    if (!(slope > 0.0) || !(next > captured) || !(next < rebounds)) {
-      next =
-          rebound_seen ? std::sqrt(std::max(captured, 1e-4 * rebounds) * rebounds) : 4.0 * square;
-      if (!rebound_seen && next > 1e6 * scale * scale) return result;  // nothing rebounds
-    }
-    if (std::abs(next - square) <= 2e-9 * square) {
-      result.found = true;
-      result.value = std::sqrt(next);
-      // Differentiate e^2(V*, theta) = 0.
-      result.gradient = theta_gradient(model, theta, dataset, velocity, groups, impact);
-      for (double& entry : result.gradient) entry /= -per_velocity;
-      break;
-    }
-    square = next;
+  ImpactOptions options;
+  options.phase = model_.phase;
+  options.gradient = gradient;
+  options.tolerance *= model_.loosened;
+  options.fast_tolerance *= model_.loosened;
+  if (model_.solver == Solver::fast) {
+    simulate_impacts_fast(groups_, options, results_);
+    return;
   }
-  return result;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    results_[i] = simulate_impact(groups_[i], options);
+  }
+}
+
+void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double> row) const {
+  const PointConditions& p = points_[i];
+  const std::array<double, 3>& by_group = results_[i].gradient;
+  std::fill(row.begin(), row.end(), 0.0);
+  row[model_.slot_C_H[p.dataset]] += scale * p.velocity * by_group[0];
+  row[model_.slot_f0[p.dataset]] += scale * beta_per_f0_[i] * by_group[1];
+  row[model_.slot_C_A[p.dataset]] += scale * p.velocity * by_group[2];
+}
+
+double PointPredictor::velocity_slope(std::size_t i) const {
+  const ImpactGroups& g = groups_[i];
+  const std::array<double, 3>& by_group = results_[i].gradient;
+  return (g.alpha * by_group[0] - 0.8 * g.beta * by_group[1] + g.gamma * by_group[2]) /
+         points_[i].velocity;
+}
+
+double PointPredictor::diameter_slope(std::size_t i) const {
+  // beta ~ f0 / D with f0 ~ D^(1/3) (eq. 12).
+  return -2.0 / 3.0 * groups_[i].beta * results_[i].gradient[1] / points_[i].diameter;
+}
+
+std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
+                                std::vector<PointConditions> points, bool gradient) {
+  PointPredictor predictor(model, std::move(points));
+  predictor.evaluate(theta, gradient);
+  std::vector<Prediction> predictions(predictor.size());
+  for (std::size_t i = 0; i < predictor.size(); ++i) {
+    predictions[i].outcome = predictor.at(i).outcome;
+    predictions[i].restitution_squared = predictor.at(i).restitution_squared;
+    if (!gradient) continue;
+    predictions[i].gradient.resize(model.slots.size());
+    predictor.gradient_row(i, 1.0, predictions[i].gradient);
+  }
+  return predictions;
+}
+
+Prediction predict(const ImpactModel& model, std::span<const double> theta, std::size_t dataset,
+                   double diameter, double velocity, bool gradient) {
+  return predict(model, theta, {{dataset, diameter, velocity}}, gradient).front();
 }
 
 }  // namespace recoil

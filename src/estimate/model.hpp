@@ -35,6 +35,7 @@ struct ParameterSlot {
 struct ImpactModel {
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   Solver solver = Solver::fast;
+  double loosened = 1.0;  ///< the solver's tolerance is its own times this
   std::vector<ParameterSlot> slots;
   std::vector<ContactProperties> contacts;               ///< per dataset
   std::vector<std::size_t> slot_C_H, slot_C_A, slot_f0;  ///< per dataset: index into `slots`
@@ -45,6 +46,13 @@ struct ImpactModel {
 /// Lays out theta for `spec`. f0 that is not free, or has no stated start, takes the value of eq.
 /// 12 for its dataset.
 ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets);
+
+/// A sphere of one dataset about to hit: where a model is asked for an answer.
+struct PointConditions {
+  std::size_t dataset = 0;
+  double diameter = 0.0;  ///< [m]
+  double velocity = 0.0;  ///< [m/s]
+};
 
 /// A model's answer for one (diameter, velocity).
 struct Prediction {
@@ -67,6 +75,37 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
 Prediction predict(const ImpactModel& model, std::span<const double> theta, std::size_t dataset,
                    double diameter, double velocity, bool gradient);
 
+/// The model at a fixed list of points under many theta: what does not depend on theta is worked
+/// out once, all points fly together, and nothing is allocated after the first evaluation.
+class PointPredictor {
+ public:
+  /// Refers to `model`, which must outlive it.
+  PointPredictor(const ImpactModel& model, std::vector<PointConditions> points);
+
+  /// Simulates every point under `theta`, with gradients when asked for.
+  void evaluate(std::span<const double> theta, bool gradient);
+
+  std::size_t size() const { return points_.size(); }
+  /// The outcome at point i; `gradient` is that in the groups.
+  const ImpactResult& at(std::size_t i) const { return results_[i]; }
+  /// Writes scale * d e^2(point i) / d theta into `row` [slots].
+  void gradient_row(std::size_t i, double scale, std::span<double> row) const;
+  /// d e^2 / d V [s/m] and d e^2 / d D [1/m] at point i, theta held.
+  double velocity_slope(std::size_t i) const;
+  double diameter_slope(std::size_t i) const;
+
+ private:
+  const ImpactModel& model_;
+  std::vector<PointConditions> points_;
+  std::vector<double> beta_per_f0_;  // beta is proportional to f0
+  std::vector<ImpactGroups> groups_;
+  std::vector<ImpactResult> results_;
+};
+
+/// Simulates every point under `theta` at once.
+std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
+                                std::vector<PointConditions> points, bool gradient);
+
 /// A velocity below which spheres are captured, with its gradient.
 struct CaptureVelocity {
   bool found = false;
@@ -74,8 +113,20 @@ struct CaptureVelocity {
   std::vector<double> gradient;  ///< d V* / d theta
 };
 
-/// Solves e^2(V) = 0 for the largest V at which capture turns into rebound.
-/// @param guess [m/s] where to look first; 0 uses the law for small damping.
+/// A sphere whose capture velocity is sought.
+struct CaptureQuery {
+  std::size_t dataset = 0;
+  double diameter = 0.0;  ///< [m]
+  double guess = 0.0;     ///< [m/s] where to look first; 0 uses the law for small damping
+};
+
+/// Solves e^2(V) = 0 for the largest V at which capture turns into rebound, for all spheres
+/// together.
+std::vector<CaptureVelocity> capture_velocities(const ImpactModel& model,
+                                                std::span<const double> theta,
+                                                std::span<const CaptureQuery> queries);
+
+/// The same for one sphere.
 CaptureVelocity capture_velocity(const ImpactModel& model, std::span<const double> theta,
                                  std::size_t dataset, double diameter, double guess = 0.0);
 

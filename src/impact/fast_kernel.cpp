@@ -13,12 +13,12 @@ using Pack = std::experimental::fixed_size_simd<double, RECOIL_LANES>;
 
 std::size_t lanes() { return RECOIL_LANES; }
 
-void fly(std::span<const ImpactGroups> groups, AdhesionDampingPhase phase, bool gradient,
+void fly(std::span<const ImpactGroups> groups, const ImpactOptions& options,
          std::span<ImpactResult> results) {
-  if (gradient) {
-    Flights<RingAdhesionLaw, Pack, true>(groups, phase, results).fly();
+  if (options.gradient) {
+    Flights<RingAdhesionLaw, Pack, true>(groups, options, results).fly();
   } else {
-    Flights<RingAdhesionLaw, Pack, false>(groups, phase, results).fly();
+    Flights<RingAdhesionLaw, Pack, false>(groups, options, results).fly();
   }
 }
 

@@ -8,16 +8,31 @@
 
 namespace recoil {
 
-/// The inner loop of the fast solver, compiled once per instruction set from one source. All of
-/// them give the same digits: every lane does the same IEEE operations in the same order, and none
-/// of them is fused.
+/// Fills outcome, restitution_squared, steps and, when asked for, the gradient of every impact. An
+/// outcome that is not usable() is for the caller to hand over.
+using FlyImpacts = void(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                        std::span<ImpactResult> results);
+
+// One per instruction set, all compiled from fast_kernel.cpp; the last two on x86-64 only.
+namespace baseline {
+std::size_t lanes();
+FlyImpacts fly;
+}  // namespace baseline
+namespace avx2 {
+std::size_t lanes();
+FlyImpacts fly;
+}  // namespace avx2
+namespace avx512 {
+std::size_t lanes();
+FlyImpacts fly;
+}  // namespace avx512
+
+/// The inner loop of the fast solver for one instruction set. All of them give the same digits:
+/// every lane does the same IEEE operations in the same order, and none of them is fused.
 struct FastKernel {
   const char* name;   ///< "avx512", "avx2", "baseline"
-  std::size_t lanes;  ///< impacts per register
-  /// Fills outcome, restitution_squared, steps and, when asked for, the gradient of every impact.
-  /// An outcome that is not usable() is for the caller to hand over.
-  void (*fly)(std::span<const ImpactGroups> groups, AdhesionDampingPhase phase, bool gradient,
-              std::span<ImpactResult> results);
+  std::size_t lanes;  ///< impacts at a time
+  FlyImpacts* fly;
 };
 
 /// The kernels that this machine can run, the widest first.

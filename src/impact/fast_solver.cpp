@@ -10,20 +10,6 @@
 
 namespace recoil {
 
-// One of these per instruction set, all compiled from fast_kernel.cpp.
-#define RECOIL_DECLARE_KERNEL(name)                                                         \
-  namespace name {                                                                          \
-  std::size_t lanes();                                                                      \
-  void fly(std::span<const ImpactGroups> groups, AdhesionDampingPhase phase, bool gradient, \
-           std::span<ImpactResult> results);                                                \
-  }
-RECOIL_DECLARE_KERNEL(baseline)
-#ifdef RECOIL_X86_64_KERNELS
-RECOIL_DECLARE_KERNEL(avx2)
-RECOIL_DECLARE_KERNEL(avx512)
-#endif
-#undef RECOIL_DECLARE_KERNEL
-
 namespace {
 
 std::atomic<long> handovers{0};
@@ -48,7 +34,7 @@ bool answer_at_once(const ImpactGroups& groups, ImpactResult& result) {
 
 void fly_some(std::span<const ImpactGroups> groups, const ImpactOptions& options,
               std::span<ImpactResult> results) {
-  fast_kernels().front().fly(groups, options.phase, options.gradient, results);
+  fast_kernels().front().fly(groups, options, results);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (results[i].usable() && std::isfinite(results[i].restitution_squared)) continue;
     ++handovers;

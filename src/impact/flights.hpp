@@ -32,9 +32,12 @@ namespace recoil {
 template <class Law, class Pack, bool with_gradient>
 class Flights {
  public:
-  Flights(std::span<const ImpactGroups> groups, AdhesionDampingPhase phase,
+  Flights(std::span<const ImpactGroups> groups, const ImpactOptions& options,
           std::span<ImpactResult> results)
-      : queue_(groups), results_(results), phase_(phase) {}
+      : queue_(groups),
+        results_(results),
+        phase_(options.phase),
+        tolerance_(options.fast_tolerance) {}
 
   void fly() {
     for (std::size_t lane = 0; lane < lanes; ++lane) take_next(lane);
@@ -50,8 +53,9 @@ class Flights {
   using Mask = typename Pack::mask_type;
   static constexpr unsigned parameters = Law::groups;
 
-  static constexpr double tolerance = 1e-10;    // error of q and u per step; both are of order one
-  static constexpr double mu_tolerance = 1e-9;  // relative error of mu per step
+  // Error of mu per step, relative to mu, in units of the tolerance of q and u: the gradient needs
+  // fewer digits than e^2.
+  static constexpr double mu_tolerance = 10.0;
   static constexpr double smallest_step = 1e-9;
   static constexpr double smallest_fraction = 1e-3;  // of what is left to an event
   static constexpr double most_steps = 3000.0;  // an impact takes 40; a creep into the well 1500
@@ -134,12 +138,12 @@ class Flights {
     to.u = u_ + length * combine(rate_u, weights);
     to.mu = with_gradient ? mu_ + length * combine(rate_mu, weights) : mu_;
     for (Pack& area : to.areas) area *= length;
-    const Pack per_q = 1.0 / (tolerance * max(Pack(1.0), abs(q_)));
-    const Pack per_u = 1.0 / (tolerance * max(Pack(1.0), abs(u_)));
+    const Pack per_q = 1.0 / (tolerance_ * max(Pack(1.0), abs(q_)));
+    const Pack per_u = 1.0 / (tolerance_ * max(Pack(1.0), abs(u_)));
     Pack fifth = q5 * per_q * (q5 * per_q) + u5 * per_u * (u5 * per_u);
     Pack third = q3 * per_q * (q3 * per_q) + u3 * per_u * (u3 * per_u);
     if constexpr (with_gradient) {
-      const Pack per_mu = 1.0 / (mu_tolerance * mu_);
+      const Pack per_mu = 1.0 / (mu_tolerance * tolerance_ * mu_);
       fifth += mu5 * per_mu * (mu5 * per_mu);
       third += mu3 * per_mu * (mu3 * per_mu);
     }
@@ -275,6 +279,7 @@ class Flights {
   std::span<const ImpactGroups> queue_;
   std::span<ImpactResult> results_;
   AdhesionDampingPhase phase_;
+  double tolerance_;  // error of q and u per step; both are of order one
   std::size_t next_ = 0;
   std::array<std::size_t, lanes> impact_ = {};  // which one flies in each lane
 

@@ -94,10 +94,11 @@ struct ImpactResult {
 /// What to compute and how exactly.
 struct ImpactOptions {
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
-  bool gradient = false;     ///< forward sensitivities
-  bool budget = false;       ///< energy budget, contact time and peak forces
-  double tolerance = 1e-11;  ///< relative, per step, of the integrator
-  long max_steps = 200000;
+  bool gradient = false;          ///< forward sensitivities
+  bool budget = false;            ///< energy budget, contact time and peak forces
+  double tolerance = 1e-11;       ///< relative, per step, of the reference
+  long max_steps = 200000;        ///< of the reference
+  double fast_tolerance = 1e-10;  ///< absolute error of q and u per step of the fast solver
 };
 
 /// One moment of an impact, dimensionless as above; forces are signed, positive pushes outward.

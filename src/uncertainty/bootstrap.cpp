@@ -92,9 +92,11 @@ struct Plan {
     if (replicate.usable) {
       replicate.theta = refit.theta;
       replicate.std_error = standard_errors(refit, fitted, parametric);
+      std::vector<CaptureQuery> queries;
       for (const CaptureEstimate& at : capture) {
-        const CaptureVelocity v =
-            capture_velocity(fitted.model, refit.theta, at.dataset, at.diameter, at.value);
+        queries.push_back({at.dataset, at.diameter, at.value});
+      }
+      for (const CaptureVelocity& v : capture_velocities(fitted.model, refit.theta, queries)) {
         replicate.capture.push_back(v.found ? v.value : std::nan(""));
       }
     }

@@ -31,9 +31,10 @@ std::vector<double> velocity_grid(double slowest, double fastest, double capture
 /// e at every velocity; NaN where the model has no answer.
 std::vector<double> evaluate(const ImpactModel& model, std::span<const double> theta,
                              const RestitutionCurve& curve) {
+  std::vector<PointConditions> points;
+  for (const double v : curve.velocity) points.push_back({curve.dataset, curve.diameter, v});
   std::vector<double> e;
-  for (const double v : curve.velocity) {
-    const Prediction at = predict(model, theta, curve.dataset, curve.diameter, v, false);
+  for (const Prediction& at : predict(model, theta, std::move(points), false)) {
     e.push_back(at.usable() ? at.restitution() : std::nan(""));
   }
   return e;

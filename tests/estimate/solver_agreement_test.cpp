@@ -1,0 +1,81 @@
+// Which solver answers, and how exactly, is no part of an estimate: on every shipped fit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "data/dataset.hpp"
+#include "estimate/fit.hpp"
+#include "estimate/fit_spec.hpp"
+
+namespace recoil {
+namespace {
+
+std::vector<std::string> shipped_fits() {
+  std::vector<std::string> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(RECOIL_SOURCE_DIR) + "/fits")) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class SolverAgreement : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    const FitSpec spec = load_fit(GetParam());
+    for (const auto& folder : spec.datasets) datasets_.push_back(load_dataset(folder));
+    model_ = make_model(spec, datasets_);
+    data_ = gather(datasets_);
+    best_ = fit(model_, data_);
+    ASSERT_TRUE(best_.usable) << best_.failure;
+  }
+
+  /// One descent from 30 % beside the estimate.
+  FitResult refit(Solver solver, double loosened) const {
+    ImpactModel model = model_;
+    model.solver = solver;
+    model.loosened = loosened;
+    FitOptions options;
+    options.several_starts = false;
+    options.start = best_.theta;
+    for (std::size_t j = 0; j < options.start.size(); ++j) {
+      if (model.slots[j].free) options.start[j] *= 1.3;
+    }
+    return fit(model, data_, options);
+  }
+
+  void expect_the_same(const FitResult& other) const {
+    ASSERT_TRUE(other.usable) << other.failure;
+    for (std::size_t j = 0; j < best_.theta.size(); ++j) {
+      const double error = best_.std_error[j];
+      EXPECT_NEAR(other.theta[j], best_.theta[j], 0.01 * error) << model_.slots[j].label();
+      EXPECT_NEAR(other.std_error[j], error, 0.01 * error) << model_.slots[j].label();
+    }
+  }
+
+  std::vector<Dataset> datasets_;
+  ImpactModel model_;
+  Observations data_;
+  FitResult best_;
+};
+
+TEST_P(SolverAgreement, BetweenFastAndReference) { expect_the_same(refit(Solver::reference, 1.0)); }
+
+TEST_P(SolverAgreement, AcrossTolerances) {
+  expect_the_same(refit(Solver::fast, 100.0));
+  expect_the_same(refit(Solver::fast, 0.01));
+  expect_the_same(refit(Solver::reference, 100.0));
+}
+
+INSTANTIATE_TEST_SUITE_P(ShippedFits, SolverAgreement, testing::ValuesIn(shipped_fits()),
+                         [](const auto& parameter) {
+                           std::string name =
+                               std::filesystem::path(parameter.param).stem().string();
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace recoil
