@@ -185,7 +185,7 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
   FitResult result;
   result.model = model;
   result.warnings = data.warnings;
-  const LeastSquaresProblem problem = impact_problem(model, data);
+  const LeastSquaresProblem problem = impact_problem(model, data, &result.handovers);
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
   const auto free_count = std::count_if(model.slots.begin(), model.slots.end(),
                                         [](const ParameterSlot& slot) { return slot.free; });

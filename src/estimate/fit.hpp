@@ -81,6 +81,7 @@ struct FitResult {
   double rmse = 0.0;         ///< of e over all points that rebounded [1]
   double noise_scale = 1.0;  ///< what the stated (or unit) sd is multiplied by in every interval
   std::string noise_text;    ///< why, in a sentence
+  long handovers = 0;        ///< impacts that the fast solver left to the reference
   std::vector<StartSummary> starts;
   std::vector<std::string> warnings;
 };

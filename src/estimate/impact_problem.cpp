@@ -4,7 +4,8 @@
 
 namespace recoil {
 
-LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data) {
+LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
+                                   long* handovers) {
   LeastSquaresProblem problem;
   problem.residual_count = data.points.size();
   for (const ParameterSlot& slot : model.slots) {
@@ -18,10 +19,12 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
     points.push_back({point.dataset, point.diameter, point.velocity});
   }
   const auto predictor = std::make_shared<PointPredictor>(model, std::move(points));
-  problem.evaluate = [predictor, &data](std::span<const double> theta, std::span<double> residuals,
-                                        std::span<double> jacobian) {
+  problem.evaluate = [predictor, &data, handovers](std::span<const double> theta,
+                                                   std::span<double> residuals,
+                                                   std::span<double> jacobian) {
     const std::size_t p = theta.size();
-    predictor->evaluate(theta, !jacobian.empty());
+    const long handed_over = predictor->evaluate(theta, !jacobian.empty());
+    if (handovers != nullptr) *handovers += handed_over;
     for (std::size_t i = 0; i < data.points.size(); ++i) {
       if (!predictor->at(i).usable()) return false;
       const WeightedResidual r =

@@ -97,7 +97,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
   }
 }
 
-void PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
+long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   assert(theta.size() == model_.slots.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointConditions& p = points_[i];
@@ -111,12 +111,12 @@ void PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   options.tolerance *= model_.loosened;
   options.fast_tolerance *= model_.loosened;
   if (model_.solver == Solver::fast) {
-    simulate_impacts_fast(groups_, options, results_);
-    return;
+    return simulate_impacts_fast(groups_, options, results_);
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     results_[i] = simulate_impact(groups_[i], options);
   }
+  return 0;
 }
 
 void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double> row) const {

@@ -83,7 +83,8 @@ class PointPredictor {
   PointPredictor(const ImpactModel& model, std::vector<PointConditions> points);
 
   /// Simulates every point under `theta`, with gradients when asked for.
-  void evaluate(std::span<const double> theta, bool gradient);
+  /// @return how many impacts the fast solver handed over to the reference
+  long evaluate(std::span<const double> theta, bool gradient);
 
   std::size_t size() const { return points_.size(); }
   /// The outcome at point i; `gradient` is that in the groups.

@@ -32,14 +32,17 @@ bool answer_at_once(const ImpactGroups& groups, ImpactResult& result) {
   return true;
 }
 
-void fly_some(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+long fly_some(std::span<const ImpactGroups> groups, const ImpactOptions& options,
               std::span<ImpactResult> results) {
   fast_kernels().front().fly(groups, options, results);
+  long handed_over = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (results[i].usable() && std::isfinite(results[i].restitution_squared)) continue;
-    ++handovers;
+    ++handed_over;
     results[i] = simulate_impact(groups[i], options);
   }
+  handovers += handed_over;
+  return handed_over;
 }
 
 }  // namespace
@@ -60,20 +63,23 @@ const std::vector<FastKernel>& fast_kernels() {
   return kernels;
 }
 
-void simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+long simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                            std::span<ImpactResult> results) {
   assert(!options.budget && results.size() == groups.size());
   // Runs of impacts between those that are answered at once fly together.
   std::size_t begin = 0;
+  long handed_over = 0;
   for (std::size_t i = 0; i <= groups.size(); ++i) {
     if (i < groups.size()) {
       results[i] = ImpactResult{};
       if (!answer_at_once(groups[i], results[i])) continue;
     }
     if (i > begin)
-      fly_some(groups.subspan(begin, i - begin), options, results.subspan(begin, i - begin));
+      handed_over +=
+          fly_some(groups.subspan(begin, i - begin), options, results.subspan(begin, i - begin));
     begin = i + 1;
   }
+  return handed_over;
 }
 
 ImpactResult simulate_impact_fast(const ImpactGroups& groups, const ImpactOptions& options) {

@@ -15,7 +15,8 @@ namespace recoil {
 /// instead, and is counted. The same digits come out for an impact alone or among others, at any
 /// register width. No memory is allocated.
 /// `options.budget` is not supported here. @pre !options.budget, results.size() == groups.size()
-void simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+/// @return how many impacts were handed over
+long simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                            std::span<ImpactResult> results);
 
 /// The same for one impact. Many at once cost a fraction of this each.

@@ -233,6 +233,8 @@ std::string json_report(const Analysis& analysis) {
   out["covariance"] = matrix_json(analysis, false);
   out["correlation"] = matrix_json(analysis, true);
   out["derived"] = {{"capture_velocity", capture_json(analysis)}};
+  out["solver"] = {{"name", analysis.fitted.model.solver == Solver::fast ? "fast" : "reference"},
+                   {"handovers", analysis.fitted.handovers}};
   out["goodness"] = goodness_json(analysis);
   out["identifiability"] = identifiability_json(analysis);
   out["bootstrap"] = bootstrap_json(analysis);

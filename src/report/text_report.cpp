@@ -60,12 +60,18 @@ void write_model(Blocks& out, const Analysis& a) {
   }
 }
 
+std::string solver_text(const FitResult& f) {
+  if (f.model.solver == Solver::reference) return "reference (CVODES)";
+  return fmt::format("fast; {} impacts of the fit were handed over to the reference", f.handovers);
+}
+
 void write_statistics(Blocks& out, const Analysis& a) {
   const FitResult& f = a.fitted;
   const auto free = std::count_if(f.model.slots.begin(), f.model.slots.end(),
                                   [](const ParameterSlot& slot) { return slot.free; });
   out.open("Fit Statistics");
   out.item("method", "weighted least squares in e^2, trust region within bounds (Ceres)");
+  out.item("solver", solver_text(f));
   out.item("data points", fmt::format("{}", a.data.points.size()));
   out.item("variables", fmt::format("{}", free));
   out.item("chi-square", number(f.chi2, 6));
