@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "core/files.hpp"
+#include "uncertainty/coverage_grid.hpp"
 #include "uncertainty/coverage_truth.hpp"
 
 namespace recoil {
@@ -21,6 +22,9 @@ void add_coverage(CLI::App& program) {
     std::string fit_file;
     std::string out;
     int datasets = 100;
+    bool grid = false;
+    std::string designs;
+    std::string keep;
     AnalysisFlags analysis;
   };
   const auto options = std::make_shared<Options>();
@@ -28,6 +32,14 @@ void add_coverage(CLI::App& program) {
   command->add_option("--datasets", options->datasets, "simulated data sets")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
+  command->add_flag("--grid", options->grid,
+                    "instead of the fit's own design, many: 10, 20, 60 points, three kinds of "
+                    "scatter, stated or not, f0 fixed or free, with and without captures");
+  command->add_option("--designs", options->designs,
+                      "of the grid, only the designs whose name contains this, e.g. \"n20 equal\"");
+  command->add_option("--keep", options->keep,
+                      "a folder for the finished designs of the grid, from which a stopped study "
+                      "goes on");
   command->add_option("--out", options->out, "write the table here, too");
   add_analysis_flags(*command, options->analysis);
   command->callback([options] {
@@ -43,8 +55,18 @@ void add_coverage(CLI::App& program) {
     coverage.uncertainty.replicates = flags.replicates.value_or(spec.uncertainty.replicates);
     coverage.uncertainty.seed = flags.seed.value_or(spec.uncertainty.seed);
     coverage.uncertainty.threads = flags.threads;
-    const CoverageTruth truth = coverage_truth(spec, datasets, coverage.uncertainty.seed);
-    std::string table = to_markdown(measure_coverage(spec, truth, coverage), spec, coverage);
+    std::string table;
+    if (options->grid) {
+      std::vector<GridDesign> designs = coverage_grid();
+      std::erase_if(designs, [&](const GridDesign& design) {
+        return design.name().find(options->designs) == std::string::npos;
+      });
+      table = grid_markdown(measure_grid(spec, datasets.front(), designs, coverage, options->keep),
+                            spec, coverage);
+    } else {
+      const CoverageTruth truth = coverage_truth(spec, datasets, coverage.uncertainty.seed);
+      table = to_markdown(measure_coverage(spec, truth, coverage), spec, coverage);
+    }
     for (const Dataset& dataset : datasets) {
       table += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));
     }

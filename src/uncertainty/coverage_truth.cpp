@@ -80,15 +80,10 @@ Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::siz
 CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        std::uint64_t seed) {
   const Observations data = gather(datasets);
-  const FitResult fitted = fit(make_model(spec, datasets), data);
-  if (!fitted.usable) throw ComputationError("no truth to simulate: " + fitted.failure);
+  const auto [fitted, truths] = truth_at_estimate(spec, datasets, data);
   CoverageTruth truth;
   truth.source = "the fit's own estimate as truth, simulated independently of the fitter";
   truth.theta = fitted.theta;
-  std::vector<Truth> truths;
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    truths.push_back(truth_at(fitted.model, fitted.theta, d));
-  }
   add_capture_velocities(truth, datasets, truths);
   std::vector<std::vector<double>> clean;
   for (std::size_t d = 0; d < datasets.size(); ++d) {
@@ -122,6 +117,19 @@ CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& da
   std::vector<KnownRecipe> recipes = known_recipes(datasets);
   if (!recipes.empty()) return from_recipes(spec, datasets, std::move(recipes), seed);
   return from_fit(spec, datasets, seed);
+}
+
+EstimatedTruth truth_at_estimate(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                                 const Observations& data) {
+  EstimatedTruth found;
+  found.fitted = fit(make_model(spec, datasets), data);
+  if (!found.fitted.usable) {
+    throw ComputationError("no truth to simulate: " + found.fitted.failure);
+  }
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    found.truths.push_back(truth_at(found.fitted.model, found.fitted.theta, d));
+  }
+  return found;
 }
 
 }  // namespace recoil

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reconstruction/truth.hpp"
 #include "uncertainty/coverage.hpp"
 
 namespace recoil {
@@ -13,5 +14,14 @@ namespace recoil {
 /// @throws ComputationError when that fit has no usable answer.
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed);
+
+/// The fit's own estimate for `datasets`, and the independent simulator's truth of each there.
+/// @throws ComputationError when the fit has no usable answer.
+struct EstimatedTruth {
+  FitResult fitted;
+  std::vector<Truth> truths;
+};
+EstimatedTruth truth_at_estimate(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                                 const Observations& data);
 
 }  // namespace recoil
