@@ -202,6 +202,39 @@ Json bootstrap_json(const Analysis& a) {
           {"two_point_failed", two_point_failed}};
 }
 
+/// What the points know, direction by direction, and what more of them would do.
+Json information_json(const Analysis& a) {
+  const Information& information = a.uncertainty.identifiability.information;
+  const std::vector<ParameterSlot>& slots = a.fitted.model.slots;
+  const auto by_parameter = [&](const std::vector<double>& values) {
+    Json out = Json::object();
+    for (std::size_t s = 0; s < values.size() && s < slots.size(); ++s) {
+      if (slots[s].free && values[s] != 0.0) out[slots[s].label()] = number_or_null(values[s]);
+    }
+    return out;
+  };
+  Json directions = Json::array();
+  for (const InformationDirection& direction : information.directions) {
+    directions.push_back({{"exponents", by_parameter(direction.exponents)},
+                          {"relative_sd", number_or_null(direction.relative_sd)},
+                          {"words", direction.words}});
+  }
+  Json plans = Json::array();
+  constexpr std::size_t most_plans = 3;
+  for (const PlannedPoints& plan : information.plans) {
+    if (plans.size() == most_plans) break;
+    plans.push_back({{"dataset", a.datasets[plan.dataset].id},
+                     {"diameter_um", plan.diameter / units::um},
+                     {"incident_velocity", plan.velocity},
+                     {"points", plan.points},
+                     {"relative_sd", by_parameter(plan.relative_sd)}});
+  }
+  return {{"directions", directions},
+          {"relative_sd", by_parameter(information.relative_sd)},
+          {"condition", number_or_null(information.condition)},
+          {"more_points", plans}};
+}
+
 Json identifiability_json(const Analysis& a) {
   const Identifiability& found = a.uncertainty.identifiability;
   Json parameters = Json::object();
@@ -209,7 +242,10 @@ Json identifiability_json(const Analysis& a) {
     if (!a.fitted.model.slots[s].free) continue;
     parameters[a.fitted.model.slots[s].label()] = static_cast<bool>(found.parameter[s]);
   }
-  return {{"verdict", found.verdict}, {"text", found.text}, {"parameters", parameters}};
+  return {{"verdict", found.verdict},
+          {"text", found.text},
+          {"parameters", parameters},
+          {"information", information_json(a)}};
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct GridDesign {
   bool sd_stated = true;       ///< every point comes with its standard deviation
   bool adhesion_free = false;  ///< f0 is fitted, too
   bool captures = false;       ///< every point averages 40 impacts whose velocities scatter by 3 %;
-                          ///< those below the capture velocity stay and are counted
+                               ///< those below the capture velocity stay and are counted
 
   /// "n20 equal stated f0-fixed captures"
   std::string name() const;

@@ -31,24 +31,44 @@ std::string obstacle(const FitResult& fitted, std::size_t j, const Interval& int
   return "";
 }
 
-void describe_correlations(const FitResult& fitted, std::vector<std::string>& sentences) {
+/// "2.1 %", or "a factor of 3" where percents no longer make sense.
+std::string known_to(double relative_sd) {
+  constexpr double still_percent = 0.5;
+  if (!std::isfinite(relative_sd)) return "nothing at all";
+  if (relative_sd < still_percent) return fmt::format("{:.2g} %", 100.0 * relative_sd);
+  return fmt::format("a factor of {:.2g}", std::exp(relative_sd));
+}
+
+void describe_correlations(const FitResult& fitted, const Information& information,
+                           std::vector<std::string>& sentences) {
   const std::size_t p = fitted.theta.size();
   if (fitted.covariance.empty()) return;
+  bool any = false;
   for (std::size_t a = 0; a < p; ++a) {
     for (std::size_t b = a + 1; b < p; ++b) {
       const double scale = fitted.std_error[a] * fitted.std_error[b];
       if (!(scale > 0.0)) continue;
       const double r = fitted.covariance[a * p + b] / scale;
       if (std::abs(r) < strong_correlation) continue;
-      sentences.push_back(fmt::format(
-          "{} and {} trade against each other (correlation {:.3f}): quote their intervals together",
-          fitted.model.slots[a].label(), fitted.model.slots[b].label(), r));
+      any = true;
+      sentences.push_back(
+          fmt::format("{} and {} can hardly be told apart (correlation {:.3f}): quote their "
+                      "intervals together",
+                      fitted.model.slots[a].label(), fitted.model.slots[b].label(), r));
     }
   }
+  if (!any || information.directions.size() < 2) return;
+  const InformationDirection& stiff = information.directions.front();
+  const InformationDirection& sloppy = information.directions.back();
+  sentences.push_back(fmt::format(
+      "what the points do know is {}, to {}; what they hardly know is {}, to {}", stiff.words,
+      known_to(stiff.relative_sd), sloppy.words, known_to(sloppy.relative_sd)));
 }
 
-void describe_reach(const Observations& data, const std::vector<CaptureEstimate>& capture,
-                    std::vector<std::string>& sentences) {
+/// How far the points reach down to the capture velocity, and what more of them would do.
+void describe_reach(const FitResult& fitted, const Observations& data,
+                    const std::vector<CaptureEstimate>& capture, const Information& information,
+                    bool wanting, std::vector<std::string>& sentences) {
   double nearest = INFINITY;
   for (const CaptureEstimate& at : capture) {
     if (!at.found || !(at.value > 0.0)) continue;
@@ -58,15 +78,40 @@ void describe_reach(const Observations& data, const std::vector<CaptureEstimate>
       }
     }
   }
-  // 1.5 V*: inside it the shape of the rise separates the adhesion from the plateau (measured on
-  // the expected information of log-spaced designs).
-  constexpr double close_enough = 1.5;
-  if (std::isfinite(nearest) && nearest > close_enough) {
+  constexpr double close_enough = 1.5;  // inside it the rise of e separates adhesion from plateau
+  const bool far = std::isfinite(nearest) && nearest > close_enough;
+  if (far) {
     sentences.push_back(fmt::format(
-        "the slowest impacts are at {:.2g} times the fitted capture velocity; points below {:.2g} "
-        "times would tell most about the adhesion",
-        nearest, close_enough));
+        "the slowest impacts are at {:.2g} times the fitted capture velocity", nearest));
   }
+  if (!(far || wanting) || information.plans.empty()) return;
+  const PlannedPoints& plan = information.plans.front();
+  std::vector<std::string> gains;
+  constexpr double worth_a_word = 0.8;  // of the present error
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    const double now = information.relative_sd[j];
+    const double then = plan.relative_sd[j];
+    if (!(now > 0.0) || !(then < worth_a_word * now)) continue;
+    gains.push_back(fmt::format("of {} from {} to {}", fitted.model.slots[j].label(), known_to(now),
+                                known_to(then)));
+  }
+  if (gains.empty()) return;
+  const auto at = std::find_if(capture.begin(), capture.end(), [&](const CaptureEstimate& c) {
+    return c.dataset == plan.dataset && c.diameter == plan.diameter;
+  });
+  sentences.push_back(fmt::format(
+      "{} more points at d = {:.3g} um, V = {:.3g} m/s ({:.3g} times the capture velocity) would "
+      "tell {}",
+      plan.points, plan.diameter / units::um, plan.velocity, plan.velocity / at->value,
+      fmt::join(gains, ", ")));
+}
+
+std::vector<CapturePlace> places_of(const std::vector<CaptureEstimate>& capture) {
+  std::vector<CapturePlace> places;
+  for (const CaptureEstimate& at : capture) {
+    places.push_back({at.dataset, at.diameter, at.found ? at.value : 0.0});
+  }
+  return places;
 }
 
 }  // namespace
@@ -105,8 +150,9 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
     sentences.push_back(free_count == 0 ? "nothing was free"
                                         : "every free parameter is determined");
   }
-  describe_correlations(fitted, sentences);
-  describe_reach(data, capture, sentences);
+  result.information = information_at(fitted, data, places_of(capture));
+  describe_correlations(fitted, result.information, sentences);
+  describe_reach(fitted, data, capture, result.information, good < free_count, sentences);
   result.text = fmt::format("{}.", fmt::join(sentences, "; "));
   return result;
 }

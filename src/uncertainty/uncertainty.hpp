@@ -7,6 +7,7 @@
 
 #include "estimate/fit.hpp"
 #include "estimate/two_point.hpp"
+#include "uncertainty/information.hpp"
 
 namespace recoil {
 
@@ -81,6 +82,7 @@ struct Identifiability {
   std::string verdict;          ///< "identifiable", "partly" or "not_identifiable"
   std::string text;             ///< which parameter, why, and what to measure
   std::vector<bool> parameter;  ///< [slots] identifiable on its own
+  Information information;      ///< what the points know, direction by direction
 };
 
 struct UncertaintyOptions {

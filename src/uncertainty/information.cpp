@@ -1,0 +1,217 @@
+#include "uncertainty/information.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "estimate/impact_problem.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int planned_points = 5;
+// A combination is called by its physical name when it points this closely along it.
+constexpr double close_direction = 0.97;
+// Exponents below this are left out of the words.
+constexpr double negligible = 0.05;
+
+/// The slots that were estimated inside their bounds.
+std::vector<std::size_t> inner_slots(const FitResult& fitted) {
+  std::vector<std::size_t> inner;
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    if (fitted.model.slots[j].free && !fitted.at_bound[j] && fitted.theta[j] > 0.0) {
+      inner.push_back(j);
+    }
+  }
+  return inner;
+}
+
+/// Derivatives of the weighted residuals of `data` by ln theta of `inner`, at the estimate [n x p].
+Eigen::MatrixXd logarithmic_jacobian(const FitResult& fitted, const Observations& data,
+                                     const std::vector<std::size_t>& inner) {
+  const std::size_t n = data.points.size();
+  const std::size_t p = fitted.theta.size();
+  std::vector<double> residuals(n);
+  std::vector<double> full(n * p);
+  Eigen::MatrixXd jacobian =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(inner.size()));
+  if (!impact_problem(fitted.model, data).evaluate(fitted.theta, residuals, full)) return jacobian;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < inner.size(); ++k) {
+      jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          full[i * p + inner[k]] * fitted.theta[inner[k]] / fitted.noise_scale;
+    }
+  }
+  return jacobian;
+}
+
+/// Standard deviations of ln theta [slots]; infinite where J'J is singular.
+std::vector<double> relative_deviations(const Eigen::MatrixXd& fisher, std::size_t slots,
+                                        const std::vector<std::size_t>& inner) {
+  std::vector<double> sd(slots, 0.0);
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(fisher);
+  const bool regular = lu.isInvertible();
+  const Eigen::MatrixXd covariance =
+      regular ? Eigen::MatrixXd(lu.inverse()) : Eigen::MatrixXd(fisher);
+  for (std::size_t k = 0; k < inner.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    sd[inner[k]] = regular ? std::sqrt(std::max(0.0, covariance(at, at))) : INFINITY;
+  }
+  return sd;
+}
+
+/// A combination of parameters that has a meaning, as the gradient of its logarithm in ln theta.
+struct Physical {
+  std::string name;
+  std::vector<double> gradient;  // [slots]
+};
+
+std::vector<Physical> physical_combinations(const FitResult& fitted) {
+  std::vector<Physical> list;
+  const ImpactModel& model = fitted.model;
+  for (std::size_t d = 0; d < model.contacts.size(); ++d) {
+    const std::size_t H = model.slot_C_H[d];
+    const std::size_t A = model.slot_C_A[d];
+    const std::size_t f = model.slot_f0[d];
+    const double total = fitted.theta[A] + 2.0 * fitted.theta[H];
+    if (!(total > 0.0)) continue;
+    // V_a ~ f0^(5/4).
+    std::vector<double> near(fitted.theta.size(), 0.0);
+    near[f] = 3.75;
+    near[A] += fitted.theta[A] / total;
+    near[H] += 2.0 * fitted.theta[H] / total;
+    list.push_back({"the capture velocity: V*^2 ~ V_a^3 (C_A + 2 C_H)", near});
+    std::vector<double> far(fitted.theta.size(), 0.0);
+    far[f] = 1.0;
+    far[A] = 1.0;
+    list.push_back({"the loss to adhesion far above capture, C_A f0", far});
+    std::vector<double> plateau(fitted.theta.size(), 0.0);
+    plateau[H] = 1.0;
+    list.push_back({"the loss of the fastest impacts, C_H", plateau});
+  }
+  return list;
+}
+
+std::string in_words(const std::vector<double>& exponents, const FitResult& fitted) {
+  std::string product;
+  for (std::size_t j = 0; j < exponents.size(); ++j) {
+    if (std::abs(exponents[j]) < negligible) continue;
+    if (!product.empty()) product += " ";
+    product += std::abs(exponents[j] - 1.0) < 0.005
+                   ? fitted.model.slots[j].label()
+                   : fmt::format("{}^{:.2f}", fitted.model.slots[j].label(), exponents[j]);
+  }
+  for (Physical& physical : physical_combinations(fitted)) {
+    double dot = 0.0;
+    double length = 0.0;
+    for (std::size_t j = 0; j < exponents.size(); ++j) {
+      if (!fitted.model.slots[j].free || fitted.at_bound[j]) continue;
+      dot += exponents[j] * physical.gradient[j];
+      length += physical.gradient[j] * physical.gradient[j];
+    }
+    if (length > 0.0 && std::abs(dot) > close_direction * std::sqrt(length)) {
+      return product + " (" + physical.name + ")";
+    }
+  }
+  return product;
+}
+
+std::vector<InformationDirection> directions_of(
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& eigen, const FitResult& fitted,
+    const std::vector<std::size_t>& inner) {
+  std::vector<InformationDirection> directions;
+  for (Eigen::Index k = eigen.eigenvalues().size() - 1; k >= 0; --k) {
+    InformationDirection direction;
+    direction.exponents.assign(fitted.theta.size(), 0.0);
+    Eigen::Index largest = 0;
+    eigen.eigenvectors().col(k).cwiseAbs().maxCoeff(&largest);
+    const double sign = eigen.eigenvectors()(largest, k) < 0.0 ? -1.0 : 1.0;
+    for (std::size_t i = 0; i < inner.size(); ++i) {
+      direction.exponents[inner[i]] = sign * eigen.eigenvectors()(static_cast<Eigen::Index>(i), k);
+    }
+    const double value = eigen.eigenvalues()(k);
+    direction.relative_sd = value > 0.0 ? 1.0 / std::sqrt(value) : INFINITY;
+    direction.words = in_words(direction.exponents, fitted);
+    directions.push_back(std::move(direction));
+  }
+  return directions;
+}
+
+/// The observation of `like` that stands nearest in log V, moved to `velocity`.
+Observation planned(const Observations& data, const CapturePlace& place, double velocity) {
+  const Observation* nearest = nullptr;
+  const auto distance = [&](const Observation& o) {
+    const bool elsewhere = o.dataset != place.dataset || o.diameter != place.diameter;
+    return std::abs(std::log(o.velocity / velocity)) + (elsewhere ? 100.0 : 0.0) +
+           (o.censored ? 1000.0 : 0.0);
+  };
+  for (const Observation& o : data.points) {
+    if (nearest == nullptr || distance(o) < distance(*nearest)) nearest = &o;
+  }
+  Observation moved = *nearest;
+  moved.dataset = place.dataset;
+  moved.diameter = place.diameter;
+  moved.velocity = velocity;
+  moved.censored = false;
+  return moved;
+}
+
+std::vector<PlannedPoints> plans_for(const FitResult& fitted, const Observations& data,
+                                     const std::vector<CapturePlace>& places,
+                                     const Eigen::MatrixXd& fisher,
+                                     const std::vector<std::size_t>& inner) {
+  double fastest = 0.0;
+  for (const Observation& o : data.points) fastest = std::max(fastest, o.velocity);
+  std::vector<PlannedPoints> plans;
+  for (const CapturePlace& place : places) {
+    if (!(place.velocity > 0.0)) continue;
+    std::vector<double> velocities;
+    for (const double ratio : {1.05, 1.2, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0}) {
+      if (ratio * place.velocity < fastest) velocities.push_back(ratio * place.velocity);
+    }
+    velocities.push_back(fastest);
+    for (const double velocity : velocities) {
+      Observations more = data;
+      more.points = {planned(data, place, velocity)};
+      more.points.front().restitution =
+          predict(fitted.model, fitted.theta, place.dataset, place.diameter, velocity, false)
+              .restitution();
+      const Eigen::MatrixXd row = logarithmic_jacobian(fitted, more, inner);
+      const Eigen::MatrixXd then = fisher + planned_points * row.transpose() * row;
+      plans.push_back({place.dataset, place.diameter, velocity, planned_points,
+                       relative_deviations(then, fitted.theta.size(), inner)});
+    }
+  }
+  return plans;
+}
+
+}  // namespace
+
+Information information_at(const FitResult& fitted, const Observations& data,
+                           const std::vector<CapturePlace>& capture) {
+  Information information;
+  const std::vector<std::size_t> inner = inner_slots(fitted);
+  information.relative_sd.assign(fitted.theta.size(), 0.0);
+  if (inner.empty() || data.points.empty()) return information;
+  const Eigen::MatrixXd jacobian = logarithmic_jacobian(fitted, data, inner);
+  const Eigen::MatrixXd fisher = jacobian.transpose() * jacobian;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fisher);
+  information.directions = directions_of(eigen, fitted, inner);
+  const double smallest = eigen.eigenvalues().minCoeff();
+  information.condition = smallest > 0.0 ? eigen.eigenvalues().maxCoeff() / smallest : INFINITY;
+  information.relative_sd = relative_deviations(fisher, fitted.theta.size(), inner);
+  information.plans = plans_for(fitted, data, capture, fisher, inner);
+  const auto worst =
+      std::max_element(information.relative_sd.begin(), information.relative_sd.end()) -
+      information.relative_sd.begin();
+  std::stable_sort(information.plans.begin(), information.plans.end(),
+                   [&](const PlannedPoints& a, const PlannedPoints& b) {
+                     return a.relative_sd[static_cast<std::size_t>(worst)] <
+                            b.relative_sd[static_cast<std::size_t>(worst)];
+                   });
+  return information;
+}
+
+}  // namespace recoil
