@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -34,6 +35,8 @@ constexpr int replicates = 1999;
 /// Google Benchmark's table on the terminal, and the medians kept in seconds by benchmark name.
 class Keeper : public benchmark::ConsoleReporter {
  public:
+  Keeper() : ConsoleReporter(isatty(STDOUT_FILENO) != 0 ? OO_ColorTabular : OO_Tabular) {}
+
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs) {
       if (run.error_occurred) failure_ = run.benchmark_name() + ": " + run.error_message;
@@ -57,23 +60,27 @@ class Keeper : public benchmark::ConsoleReporter {
   std::string failure_;
 };
 
+/// The time of one of `count` equal pieces of work of an iteration.
+benchmark::Counter time_of_each(std::size_t count) {
+  return {static_cast<double>(count),
+          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
+}
+
 using RunImpacts = void (*)(const std::vector<ImpactGroups>&, bool, std::vector<ImpactResult>&);
 
 void register_impacts(const std::string& name, const std::vector<ImpactGroups>& impacts,
                       bool gradient, RunImpacts run) {
-  benchmark::RegisterBenchmark(
-      name.c_str(),
-      [&impacts, gradient, run](benchmark::State& state) {
-        const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-        std::vector<ImpactResult> results;
-        for (auto _ : state) {
-          run(impacts, gradient, results);
-          benchmark::DoNotOptimize(results.data());
-        }
-        state.counters["per_impact"] = benchmark::Counter(
-            static_cast<double>(impacts.size()),
-            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-      })
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [&impacts, gradient, run](benchmark::State& state) {
+                                 const tbb::global_control one_thread(
+                                     tbb::global_control::max_allowed_parallelism, 1);
+                                 std::vector<ImpactResult> results;
+                                 for (auto _ : state) {
+                                   run(impacts, gradient, results);
+                                   benchmark::DoNotOptimize(results.data());
+                                 }
+                                 state.counters["each"] = time_of_each(impacts.size());
+                               })
       ->Unit(benchmark::kMillisecond)
       ->UseRealTime()
       ->Repetitions(5)
@@ -128,6 +135,7 @@ void register_bootstrap(const FitResult& fitted, const Observations& data) {
                                    for (auto _ : state) {
                                      benchmark::DoNotOptimize(refit_all(fitted, data, threads));
                                    }
+                                   state.counters["each"] = time_of_each(replicates);
                                  })
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime()

@@ -75,7 +75,7 @@ class Comparison {
     const double exact = chi2(theta);
     result["difference_in_std_errors"] = named(off);
     result["largest_difference"] = largest;
-    result["chi2_above_least"] = exact - least_;
+    result["chi2_above_yardstick"] = exact - least_;
     double low = 1e300, high = 0.0;
     for (std::size_t j = 0; j < names.size(); ++j) {
       const Json& error = result["std_error"][names[j]];
@@ -105,18 +105,13 @@ class Comparison {
     const double excess = exact - least_;
     // At d standard errors along one parameter a parabola is at least d^2 above its minimum.
     if (!(excess > 0.25 * largest * largest)) {
-      return fmt::format("differs, though chi2 is only {:.2g} above the least", excess);
+      return fmt::format("differs, though chi2 is only {:.2g} higher", excess);
     }
     if (std::abs(own - exact) > 0.1 * excess) {
-      return fmt::format(
-          "is wrong: chi2 = {:.4g} at its estimate, not {:.4g} as its integrator has it (least: "
-          "{:.4g})",
-          exact, own, least_);
+      return fmt::format("wrong: its integrator computes chi2 = {:.4g} where it is {:.4g}", own,
+                         exact);
     }
-    return fmt::format(
-        "is wrong: it stopped at chi2 = {:.4g} (least: {:.4g}), misled by differences that are the "
-        "integrator's errors",
-        exact, least_);
+    return "wrong: its residuals are right, but differences of them are its integrator's errors";
   }
 
   const Case& case_;

@@ -11,8 +11,8 @@ namespace recoil::bench {
 /// deSolve), one process and one thread each. Peers that are not installed are left out and named.
 ///
 /// Estimates are compared with those of recoil on CVODES at its default tolerance, in its standard
-/// errors. Whoever is off by more than `agreement` is judged by chi2, computed with CVODES at all
-/// estimates: the least is right.
+/// errors. Whoever is off by more than `agreement` is judged by chi2, computed with CVODES at its
+/// estimate: a minimum that is higher is none.
 /// @param folder where `write_peer_case` has written
 /// @param scripts the folder of peer_lmfit.py and peer_r.R
 Json measure_peers(const Case& the_case, const std::filesystem::path& folder,

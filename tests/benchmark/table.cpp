@@ -2,16 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace recoil::bench {
 namespace {
 
 /// A time with two or three digits in the unit that suits it.
 std::string time_text(double seconds) {
-  if (seconds < 1e-6) return fmt::format("{:.0f} ns", seconds * 1e9);
-  if (seconds < 1e-3) return fmt::format("{:.3g} us", seconds * 1e6);
-  if (seconds < 1.0) return fmt::format("{:.3g} ms", seconds * 1e3);
+  if (seconds < 0.9995e-6) return fmt::format("{:.0f} ns", seconds * 1e9);
+  if (seconds < 0.9995e-3) return fmt::format("{:.3g} us", seconds * 1e6);
+  if (seconds < 0.9995) return fmt::format("{:.3g} ms", seconds * 1e3);
   if (seconds < 600.0) return fmt::format("{:.3g} s", seconds);
   if (seconds < 2.0 * 3600.0) return fmt::format("{:.3g} min", seconds / 60.0);
   return fmt::format("{:.3g} h", seconds / 3600.0);
@@ -19,21 +21,19 @@ std::string time_text(double seconds) {
 
 std::string time_of(const Json& seconds) { return time_text(seconds.get<double>()); }
 
+/// A whole number with a comma between thousands.
+std::string count_text(double count) {
+  std::string digits = fmt::format("{:.0f}", count);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+  return digits;
+}
+
 /// A ratio to two digits, with a comma between thousands.
 std::string ratio_text(double ratio) {
   if (ratio < 100.0) return fmt::format("{:.2g}", ratio);
   double rounding = 1.0;
   while (ratio / rounding >= 100.0) rounding *= 10.0;
-  std::string digits = fmt::format("{:.0f}", std::round(ratio / rounding) * rounding);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-  return digits;
-}
-
-/// "1e4" as 10^4 would be read aloud.
-std::string count_text(double count) {
-  std::string digits = fmt::format("{:.0f}", count);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-  return digits;
+  return count_text(std::round(ratio / rounding) * rounding);
 }
 
 std::string machine_text(const Json& results) {
@@ -120,7 +120,7 @@ std::string peer_row(const Json& one) {
   return fmt::format(
       "| {} | {} | {} | {:.2g} | {:.2g} | {} | {} |\n", one.at("name").get<std::string>(), setting,
       time_of(one.at("seconds")), one.at("largest_difference").get<double>(),
-      one.at("chi2_above_least").get<double>(),
+      one.at("chi2_above_yardstick").get<double>(),
       one.contains("std_error_ratio") ? fmt::format("{:.3g} to {:.3g}", ratio(0), ratio(1))
                                       : "none",
       one.at("verdict").get<std::string>());
@@ -136,7 +136,7 @@ std::string peer_section(const Json& peer) {
       "everybody's estimate. lmfit and R take differences, recoil has the gradient. `leastsq` and "
       "`nls.lm` stop at 1.5e-8, recoil at the same number. recoil's whole `fit`, from nine starts "
       "and to the last digit, takes {}.\n\n"
-      "| fit | setting | time | distance | chi2 above the least | std. errors, ratio | verdict |\n"
+      "| fit | setting | time | distance | chi2 above that fit's | std. errors, ratio | verdict |\n"
       "|---|---|---|---|---|---|---|\n",
       peer.at("points").get<int>(), peer.at("free_parameters").get<int>(),
       time_of(peer.at("fits")[0].at("seconds_of_full_fit")));
@@ -205,7 +205,7 @@ std::string short_table(const Json& results) {
                         ratio_text(peer.at("ratio").get<double>()));
   }
   if (peer.contains("r_ratio")) {
-    text += fmt::format("| the same | {} | {}: R, minpack.lm and deSolve | {} |\n", own,
+    text += fmt::format("| {} | {} | {}: R, minpack.lm and deSolve | {} |\n", fit, own,
                         time_of(peer.at("r_seconds_per_fit")),
                         ratio_text(peer.at("r_ratio").get<double>()));
   }
