@@ -88,9 +88,7 @@ void run_fast(const std::vector<ImpactGroups>& impacts, bool gradient,
   ImpactOptions options;
   options.gradient = gradient;
   results.resize(impacts.size());
-  for (std::size_t i = 0; i < impacts.size(); ++i) {
-    results[i] = simulate_impact_fast(impacts[i], options);
-  }
+  simulate_impacts_fast(impacts, options, results);
 }
 
 void run_reference(const std::vector<ImpactGroups>& impacts, bool gradient,
