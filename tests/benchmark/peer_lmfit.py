@@ -23,7 +23,7 @@ import os
 import statistics
 import sys
 import time
-from math import hypot, pi, sqrt
+from math import hypot, isfinite, pi, sqrt
 
 for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(threads, "1")  # one fit, one thread
@@ -114,17 +114,48 @@ def residuals(parameters, points, method, rtol):
     for i, point in enumerate(points):
         model = restitution_squared(point, C_H, C_A, f0, method, rtol)
         variance = point.sd**2
-        root = sqrt(0.5 * (model + hypot(model, variance)))
+        root = sqrt(max(0.0, 0.5 * (model + hypot(model, variance))))
         width = point.sd * sqrt((point.restitution + root) ** 2 + 2.0 * variance)
         result[i] = (point.restitution**2 - variance - model) / width
     return result
 
 
+def parameters_of(values):
+    parameters = lmfit.Parameters()
+    for name, value in values.items():
+        parameters.add(name, value=value, min=0.0)
+    return parameters
+
+
+def finite(number):
+    """Itself, or None: lmfit has no standard error when its differences came out singular."""
+    return number if number is not None and isfinite(number) else None
+
+
+def integration_errors(setting, points, estimate):
+    """What the setting's integrator does to the residuals at the estimate, and to the differences
+    that leastsq takes of them, beside a much tighter one: the largest error of a residual, and the
+    largest relative error of a column of the Jacobian."""
+    _, method, rtol, epsfcn = setting
+
+    def column(name, step, *integrator):
+        moved = dict(estimate)
+        moved[name] *= 1.0 + step
+        here, there = (residuals(parameters_of(p), points, *integrator) for p in (estimate, moved))
+        return (there - here) / step, here
+
+    worst_residual, worst_column = 0.0, 0.0
+    for name in estimate:
+        mine, here = column(name, sqrt(epsfcn or np.finfo(float).eps), method, rtol)
+        true, truly = column(name, 1e-4, "LSODA", 1e-11)
+        worst_residual = max(worst_residual, np.max(np.abs(here - truly)))
+        worst_column = max(worst_column, np.linalg.norm(mine - true) / np.linalg.norm(true))
+    return {"residual_error": worst_residual, "difference_error": worst_column}
+
+
 def run(setting, points, start):
     name, method, rtol, epsfcn = setting
-    parameters = lmfit.Parameters()
-    for parameter, value in start.items():
-        parameters.add(parameter, value=value, min=0.0)
+    parameters = parameters_of(start)
     options = {} if epsfcn is None else {"epsfcn": epsfcn}
     begin = time.perf_counter()
     fit = lmfit.minimize(
@@ -146,8 +177,7 @@ def run(setting, points, start):
         "success": bool(fit.success),
         "chi2": fit.chisqr,
         "estimate": {k: fit.params[k].value for k in start},
-        # lmfit has none when its differences came out singular
-        "std_error": {k: fit.params[k].stderr for k in start},
+        "std_error": {k: finite(fit.params[k].stderr) for k in start},
     }
 
 
@@ -165,6 +195,8 @@ def main(folder):
     fits[0]["seconds"] = statistics.median(seconds)
     fits[0]["repeats"] = len(seconds)
     fits += [run(setting, points, start) for setting in SETTINGS[1:]]
+    for setting, fit in zip(SETTINGS, fits):
+        fit.update(integration_errors(setting, points, fit["estimate"]))
 
     result = {
         "versions": {

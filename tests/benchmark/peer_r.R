@@ -61,7 +61,7 @@ predict_all <- function(theta) vapply(seq_len(nrow(points)), restitution_squared
 residuals_of <- function(theta, data) {
   model <- predict_all(theta)
   variance <- data$restitution_sd^2
-  root <- sqrt(0.5 * (model + sqrt(model^2 + variance^2)))
+  root <- sqrt(pmax(0, 0.5 * (model + sqrt(model^2 + variance^2))))
   (data$restitution^2 - variance - model) /
     (data$restitution_sd * sqrt((data$restitution + root)^2 + 2 * variance))
 }
