@@ -13,7 +13,8 @@ namespace recoil {
 using FlyImpacts = void(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                         std::span<ImpactResult> results);
 
-// One per instruction set, all compiled from fast_kernel.cpp; the last two on x86-64 only.
+// One per instruction set, all compiled from fast_kernel.cpp; which of the last two there are is
+// decided in CMakeLists.txt.
 namespace baseline {
 std::size_t lanes();
 FlyImpacts fly;

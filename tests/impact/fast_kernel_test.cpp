@@ -36,6 +36,11 @@ void expect_same_digits(const ImpactResult& a, const ImpactResult& b) {
 TEST(FastKernel, EveryInstructionSetGivesTheSameDigits) {
   const std::vector<ImpactGroups> impacts = mixed_impacts(203);
   ASSERT_EQ(std::string(fast_kernels().back().name), "baseline");
+#ifdef RECOIL_AVX512_EXPECTED
+  if (__builtin_cpu_supports("avx512vl")) {
+    ASSERT_EQ(std::string(fast_kernels().front().name), "avx512");
+  }
+#endif
   for (const bool gradient : {false, true}) {
     ImpactOptions options;
     options.gradient = gradient;
