@@ -122,8 +122,10 @@ void write_variables(Blocks& out, const Analysis& a) {
                           interval_text(interval), set.recommended)
             : "no interval: " + reason_without(set);
     out.say(words, Blocks::margin + lead.size());
+    if (!interval.note.empty()) out.say(interval.note, Blocks::margin + lead.size());
   }
   for (const std::string& sentence : recommendations(a)) out.say(sentence);
+  for (const std::string& sentence : disagreements(a)) out.say(sentence);
 }
 
 void write_correlations(Blocks& out, const Analysis& a) {
@@ -228,7 +230,11 @@ void write_bootstrap(Blocks& out, const Analysis& a) {
                          ? bootstrap.scheme
                          : fmt::format("{} ({})", bootstrap.scheme, bootstrap.scheme_why));
   out.item("replicates", fmt::format("{}, {} failed", bootstrap.replicates, bootstrap.failed));
+  if (const std::string chance = chance_text(bootstrap); !chance.empty()) {
+    out.item("Monte-Carlo error", chance);
+  }
   out.item("seed", fmt::format("{}", bootstrap.seed));
+  if (bootstrap.failed > 0) out.say(as_sentence(bootstrap.failures.text));
 }
 
 void write_starts(Blocks& out, const Analysis& a) {

@@ -30,6 +30,9 @@ class Bootstrap {
 
   const ResamplingPlan& plan() const { return plan_; }
 
+  /// Of everything that decides a replicate's digits; empty without `options.keep`.
+  const std::string& key() const { return key_; }
+
  private:
   void keep() const;
 

@@ -15,6 +15,7 @@ namespace {
 constexpr double clear_difference = 0.15;  // of the recommended width
 constexpr double many_at_bound = 0.05;
 constexpr double strong_correlation = 0.97;
+constexpr double coupled = 0.5;  // correlation at which another parameter's bound is felt
 constexpr double clear_acceleration = 0.05;
 constexpr double clear_bias = 0.15;
 constexpr double clear_asymmetry = 1.25;
@@ -49,28 +50,42 @@ double difference(const Interval& interval, const Interval& reference) {
   return std::max(low, high) / width;
 }
 
-std::string bound_reason(const FitResult& fitted, std::size_t slot, const IntervalSet& set) {
+/// Correlation of two free parameters; 0 where either has no error.
+double correlation_of(const FitResult& fitted, std::size_t a, std::size_t b) {
+  const double scale = fitted.std_error[a] * fitted.std_error[b];
+  if (fitted.covariance.empty() || !(scale > 0.0)) return 0.0;
+  return fitted.covariance[a * fitted.theta.size() + b] / scale;
+}
+
+std::string bound_reason(const FitResult& fitted, std::size_t slot,
+                         const std::vector<IntervalSet>& sets) {
   if (fitted.at_bound[slot]) {
     return "the estimate rests on its bound, where the quadratic picture behind a standard error "
            "ends";
   }
-  if (set.bound_share.value_or(0.0) <= many_at_bound) return "";
-  return fmt::format("{:.0f} % of the replicates rest on a bound", 100.0 * *set.bound_share);
+  const double own = sets[slot].bound_share.value_or(0.0);
+  if (own > many_at_bound) {
+    return fmt::format("{:.0f} % of the replicates rest on a bound", 100.0 * own);
+  }
+  for (std::size_t j = 0; j < sets.size(); ++j) {
+    const double share = sets[j].bound_share.value_or(0.0);
+    const double r = j == slot ? 0.0 : correlation_of(fitted, slot, j);
+    if (share <= many_at_bound || std::abs(r) <= coupled) continue;
+    return fmt::format(
+        "{:.0f} % of the replicates have {} on its bound, with which it is correlated ({:.2f})",
+        100.0 * share, fitted.model.slots[j].label(), r);
+  }
+  return "";
 }
 
 std::string ridge_reason(const FitResult& fitted, std::size_t slot) {
-  const std::size_t p = fitted.theta.size();
-  if (fitted.covariance.empty()) return "";
   double largest = 0.0;
   std::size_t partner = slot;
-  for (std::size_t j = 0; j < p; ++j) {
-    const double scale = fitted.std_error[slot] * fitted.std_error[j];
-    if (j == slot || !(scale > 0.0)) continue;
-    const double r = fitted.covariance[slot * p + j] / scale;
-    if (std::abs(r) > std::abs(largest)) {
-      largest = r;
-      partner = j;
-    }
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    const double r = j == slot ? 0.0 : correlation_of(fitted, slot, j);
+    if (std::abs(r) <= std::abs(largest)) continue;
+    largest = r;
+    partner = j;
   }
   if (std::abs(largest) <= strong_correlation) return "";
   return fmt::format("it trades along a ridge against {} (correlation {:.3f})",
@@ -123,8 +138,10 @@ void recommend(IntervalSet& set) {
   set.recommended_why = "the profile is not available: " + set.profile.why;
 }
 
-std::string explain_disagreement(const FitResult& fitted, std::size_t slot, const IntervalSet& set,
-                                 bool sd_stated, double level) {
+std::string explain_disagreement(const FitResult& fitted, std::size_t slot,
+                                 const std::vector<IntervalSet>& sets, bool sd_stated,
+                                 double level) {
+  const IntervalSet& set = sets[slot];
   const Interval& reference = recommended_interval(set);
   if (!reference.available()) return "";
   std::vector<std::string> differing;
@@ -137,8 +154,8 @@ std::string explain_disagreement(const FitResult& fitted, std::size_t slot, cons
   if (differing.empty()) return "";
   std::vector<std::string> reasons;
   for (std::string reason :
-       {bound_reason(fitted, slot, set), ridge_reason(fitted, slot), skew_reason(fitted, slot, set),
-        few_reason(fitted, sd_stated, level)}) {
+       {bound_reason(fitted, slot, sets), ridge_reason(fitted, slot),
+        skew_reason(fitted, slot, set), few_reason(fitted, sd_stated, level)}) {
     if (!reason.empty()) reasons.push_back(std::move(reason));
   }
   return fmt::format("{}: intervals differ from the {} one ({} of its width): {}",

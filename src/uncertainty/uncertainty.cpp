@@ -141,11 +141,15 @@ void read_off(const FitResult& fitted, const Observations& data,
     }
     recommend(set);
     if (!slot.free) continue;
-    set.disagreement = explain_disagreement(fitted, j, set, data.sd_stated, options.level);
     worst = std::max(
         {worst, relative_error(set.percentile), relative_error(recommended_interval(set))});
   }
   const auto& slots = fitted.model.slots;
+  for (std::size_t j = 0; j < slots.size(); ++j) {
+    if (!slots[j].free) continue;
+    result.intervals[j].disagreement =
+        explain_disagreement(fitted, j, result.intervals, data.sd_stated, options.level);
+  }
   const bool nothing_free =
       std::none_of(slots.begin(), slots.end(), [](const ParameterSlot& slot) { return slot.free; });
   for (std::size_t k = 0; k < result.capture.size(); ++k) {
