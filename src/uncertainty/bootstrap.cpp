@@ -93,6 +93,10 @@ LeastSquaresOptions refit_options() {
   return options;
 }
 
+bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted) {
+  return refit.converged && (!refit.covariance.empty() || fitted.covariance.empty());
+}
+
 Bootstrap::Bootstrap(const FitResult& fitted, const Observations& data,
                      const std::vector<CaptureEstimate>& capture, const UncertaintyOptions& options)
     : fitted_(fitted),
@@ -127,13 +131,14 @@ void Bootstrap::extend(int count) {
     resample(plan_, options_.seed, i, sample);
     const LeastSquaresResult found =
         minimise(impact_problem(fitted_.model, sample), fitted_.theta, minimiser);
-    if (found.converged) {
+    const bool usable = has_answer(found, fitted_);
+    if (usable) {
       const auto at = static_cast<std::ptrdiff_t>(i * table_.slots);
       const std::vector<double> errors = standard_errors(found, fitted_, plan_);
       std::copy(found.theta.begin(), found.theta.end(), table_.theta.begin() + at);
       std::copy(errors.begin(), errors.end(), table_.std_error.begin() + at);
     }
-    table_.state[i] = found.converged ? State::usable : State::failed;
+    table_.state[i] = usable ? State::usable : State::failed;
   };
   const auto start = Clock::now();
   auto saved = start;
@@ -251,7 +256,7 @@ std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threa
     }
     const LeastSquaresResult found =
         minimise(impact_problem(plan.fitted->model, rest), plan.fitted->theta, refit_options());
-    if (found.converged) estimates[unit] = found.theta;
+    if (has_answer(found, *plan.fitted)) estimates[unit] = found.theta;
   });
   return estimates;
 }

@@ -10,6 +10,10 @@ namespace recoil {
 /// scatter has.
 LeastSquaresOptions refit_options();
 
+/// Did a refit give an answer? It has to converge, and its data have to determine the parameters
+/// (J'J regular) where those of the fit do: where they do not, it merely stays where it started.
+bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted);
+
 /// One bootstrap of a fit, which can be extended. A replicate is a pure function of (seed, index):
 /// how many batches or threads make it, and whether the run was stopped in between, changes
 /// nothing.

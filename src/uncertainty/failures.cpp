@@ -82,9 +82,10 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
   // The first failure once more, for what the minimiser has to say.
   Observations sample = *plan.data;
   resample(plan, seed, result.index.front(), sample);
+  const LeastSquaresResult again =
+      minimise(impact_problem(plan.fitted->model, sample), plan.fitted->theta, refit_options());
   result.message =
-      minimise(impact_problem(plan.fitted->model, sample), plan.fitted->theta, refit_options())
-          .message;
+      again.converged ? "its points do not determine all free parameters" : again.message;
   result.text = fmt::format(
       "{} of {} refits failed; in them {}. The first is replicate {} (seed {}): {}",
       result.index.size(), replicates, most_unlike.empty() ? "no point stands out" : most_unlike,

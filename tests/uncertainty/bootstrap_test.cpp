@@ -143,8 +143,8 @@ TEST(Failures, TheDisturbedPointIsFound) {
 }
 
 TEST(Failures, TenPercentWithholdOnePercentWarns) {
-  // A fit whose answer lies where the model has none for larger damping would be needed to make
-  // refits fail; cases drawn from few points do it: samples without the second velocity.
+  // Two points, two parameters: half of the samples of cases hold one of the points twice, and
+  // cannot determine both.
   Case c = noisy_case();
   synthetic::Design design;
   design.diameters = {4.9e-6};
@@ -158,8 +158,9 @@ TEST(Failures, TenPercentWithholdOnePercentWarns) {
   options.curves = false;
   options.two_point = false;
   const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, options);
-  // Half of the samples hold one point twice: they cannot determine two parameters.
-  EXPECT_GT(result.bootstrap.failed, 30);
+  EXPECT_NEAR(result.bootstrap.failed, 49.5, 20.0);  // four standard errors of a fair coin
+  EXPECT_NE(result.bootstrap.failures.text.find("do not determine"), std::string::npos)
+      << result.bootstrap.failures.text;
   EXPECT_FALSE(result.intervals[0].percentile.available());
   EXPECT_NE(result.intervals[0].percentile.why.find("withheld"), std::string::npos);
   EXPECT_FALSE(result.capture[0].interval.available());
@@ -176,15 +177,16 @@ TEST(Automatic, AddsBatchesUntilTheErrorIsSmall) {
   options.replicates_auto = true;
   options.wanted_error = 0.03;
   options.profile = false;
+  options.capture = false;
   options.curves = false;
   options.two_point = false;
   const UncertaintyResult loose = assess_uncertainty(c.fitted, c.data, c.datasets, options);
   ASSERT_TRUE(loose.bootstrap.relative_error);
   EXPECT_LE(*loose.bootstrap.relative_error, 0.03);
   EXPECT_EQ(loose.bootstrap.replicates, 999);  // 2.7 / sqrt(999) / 3.9 = 2.2 % for a normal one
-  options.wanted_error = 0.017;
+  options.wanted_error = 0.02;
   const UncertaintyResult tight = assess_uncertainty(c.fitted, c.data, c.datasets, options);
-  EXPECT_LE(*tight.bootstrap.relative_error, 0.017);
+  EXPECT_LE(*tight.bootstrap.relative_error, 0.02);
   EXPECT_GT(tight.bootstrap.replicates, 999);
   EXPECT_EQ((tight.bootstrap.replicates + 1) % 1000, 0);
   // What was there stays: the first replicates are those of the smaller run.
