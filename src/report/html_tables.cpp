@@ -214,7 +214,9 @@ std::string two_point_tables(const Analysis& a) {
                           optional_number(comparison.held_out_rmse),
                           optional_number(comparison.full_held_out_rmse)});
     table.rows.push_back(
-        {"replicates without an answer", fmt::format("{}", comparison.failed), ""});
+        {"replicates without an answer",
+         fmt::format("{} of {}", comparison.failed, a.uncertainty.bootstrap.two_point_replicates),
+         ""});
     out += table_html(table);
     std::string words = fmt::format("Two-point iteration: {}. {}", words_of(to_string(two.status)),
                                     as_sentence(two.text));

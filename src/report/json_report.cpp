@@ -205,6 +205,7 @@ Json bootstrap_json(const Analysis& a) {
            bootstrap.relative_error ? number_or_null(*bootstrap.relative_error) : Json(nullptr)},
           {"seed", bootstrap.seed},
           {"usable", bootstrap.theta.size()},
+          {"two_point_replicates", bootstrap.two_point_replicates},
           {"two_point_failed", two_point_failed}};
 }
 

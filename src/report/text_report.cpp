@@ -213,8 +213,8 @@ void write_two_point(Blocks& out, const Analysis& a) {
         comparison.full_held_out_rmse ? number(*comparison.full_held_out_rmse) : "none");
     if (!comparison.held_out_why.empty()) out.say(comparison.held_out_why);
     if (comparison.failed > 0) {
-      out.say(fmt::format("In {} replicates the two-point iteration found no answer.",
-                          comparison.failed));
+      out.say(fmt::format("In {} of {} replicates the two-point iteration found no answer.",
+                          comparison.failed, a.uncertainty.bootstrap.two_point_replicates));
     }
   }
 }

@@ -41,7 +41,6 @@ class Bootstrap {
   void keep() const;
 
   const FitResult& fitted_;
-  const Observations& data_;
   const std::vector<CaptureEstimate>& capture_;
   const UncertaintyOptions& options_;
   ResamplingPlan plan_;
@@ -52,8 +51,8 @@ class Bootstrap {
   std::vector<std::vector<double>> capture_velocity_;  // [count][diameters]
 };
 
-/// Runs the paper's two-point iteration on the same resampled data as the replicates of `result`,
-/// and adds what came out of it.
+/// Runs the paper's two-point iteration on the same resampled data as the replicates of `result`
+/// (the first 999 of them), and adds what came out of it.
 void bootstrap_two_point(const ResamplingPlan& plan, const std::vector<TwoPointResult>& two_point,
                          const UncertaintyOptions& options, BootstrapResult& result);
 

@@ -55,7 +55,9 @@ struct BootstrapResult {
   std::vector<std::vector<double>> theta;             ///< usable replicates [count][slots]
   std::vector<std::vector<double>> std_error;         ///< of each replicate [count][slots], 0: none
   std::vector<std::vector<double>> capture_velocity;  ///< [count][diameters], per CaptureEstimate
-  std::vector<int> two_point_failed;  ///< [datasets] replicates in which it did not converge
+  int two_point_replicates = 0;  ///< the first of them also ran the two-point iteration
+  std::vector<int>
+      two_point_failed;  ///< [datasets] of those, replicates in which it did not converge
   /// [datasets][converged replicates][slots]
   std::vector<std::vector<std::vector<double>>> two_point_theta;
 };
