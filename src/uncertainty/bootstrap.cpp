@@ -268,6 +268,17 @@ void bootstrap_two_point(const ResamplingPlan& plan, const std::vector<TwoPointR
   }
 }
 
+BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
+                          const std::vector<CaptureEstimate>& capture,
+                          const std::vector<TwoPointResult>& two_point,
+                          const UncertaintyOptions& options) {
+  Bootstrap run(fitted, data, capture, options);
+  run.extend(options.replicates);
+  BootstrapResult result = run.result();
+  bootstrap_two_point(run.plan(), two_point, options, result);
+  return result;
+}
+
 std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threads) {
   std::vector<std::vector<double>> estimates(plan.units());
   parallel_over(estimates.size(), threads, [&](std::size_t unit) {

@@ -20,7 +20,7 @@ bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted);
 class Bootstrap {
  public:
   /// Prepares the scheme and takes over what an earlier run of the same bootstrap has left in
-  /// `options.keep`. All arguments have to outlive the object.
+  /// `options.keep`. Fit, data and options have to outlive the object.
   Bootstrap(const FitResult& fitted, const Observations& data,
             const std::vector<CaptureEstimate>& capture, const UncertaintyOptions& options);
 
@@ -41,7 +41,7 @@ class Bootstrap {
   void keep() const;
 
   const FitResult& fitted_;
-  const std::vector<CaptureEstimate>& capture_;
+  std::vector<CaptureEstimate> capture_;
   const UncertaintyOptions& options_;
   ResamplingPlan plan_;
   std::vector<double> reference_error_;
@@ -55,6 +55,12 @@ class Bootstrap {
 /// (the first 999 of them), and adds what came out of it.
 void bootstrap_two_point(const ResamplingPlan& plan, const std::vector<TwoPointResult>& two_point,
                          const UncertaintyOptions& options, BootstrapResult& result);
+
+/// All of it in one call: `options.replicates` replicates, and the two-point iteration on them.
+BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
+                          const std::vector<CaptureEstimate>& capture,
+                          const std::vector<TwoPointResult>& two_point,
+                          const UncertaintyOptions& options);
 
 /// The estimates of all data sets from which one unit (a point, or a series in the cluster scheme)
 /// is left out [units][slots], for the acceleration of BCa. A set whose refit fails gives an empty
