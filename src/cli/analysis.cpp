@@ -3,8 +3,51 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "uncertainty/resample.hpp"
 
 namespace recoil {
+namespace {
+
+std::filesystem::path replicates_file(const std::filesystem::path& folder) {
+  return folder.empty() ? folder : folder / "replicates.json";
+}
+
+}  // namespace
+
+std::string program_stamp() {
+  std::error_code failed;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (failed) return "";
+  return fmt::format("{}|{}", std::filesystem::file_size(program, failed),
+                     std::filesystem::last_write_time(program, failed).time_since_epoch().count());
+}
+
+UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options) {
+  UncertaintyOptions assess;
+  assess.replicates = options.replicates.value_or(spec.uncertainty.replicates);
+  assess.replicates_auto =
+      options.replicates_auto || (spec.uncertainty.replicates_auto && !options.replicates);
+  assess.scheme = options.scheme.value_or(spec.uncertainty.scheme);
+  assess.level = spec.uncertainty.level;
+  assess.seed = options.seed.value_or(spec.uncertainty.seed);
+  assess.threads = options.threads;
+  assess.keep = replicates_file(options.folder);
+  assess.keep_key = fmt::format("{}|{}", version(), program_stamp());
+  return assess;
+}
+
+void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data) {
+  const std::string obstacle = scheme_obstacle(scheme, data);
+  if (obstacle.empty()) return;
+  throw InputError({spec.file.string()},
+                   fmt::format("the scheme \"{}\" cannot be used", to_string(scheme)), obstacle,
+                   "scheme = \"auto\" chooses one that can");
+}
+
+void forget_replicates(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!folder.empty()) std::filesystem::remove(replicates_file(folder), ignored);
+}
 
 std::vector<Dataset> load_datasets(const FitSpec& spec) {
   std::vector<Dataset> datasets;
@@ -16,11 +59,10 @@ std::vector<Dataset> load_datasets(const FitSpec& spec) {
 Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& options) {
   Analysis analysis;
   analysis.spec = load_fit(fit_file);
-  UncertaintySpec& uncertainty = analysis.spec.uncertainty;
-  uncertainty.replicates = options.replicates.value_or(uncertainty.replicates);
-  uncertainty.seed = options.seed.value_or(uncertainty.seed);
   analysis.datasets = load_datasets(analysis.spec);
   analysis.data = gather(analysis.datasets);
+  require_scheme(analysis.spec, options.scheme.value_or(analysis.spec.uncertainty.scheme),
+                 analysis.data);
   ImpactModel model = make_model(analysis.spec, analysis.datasets);
   model.solver = options.solver;
   analysis.fitted = fit(model, analysis.data);
@@ -28,11 +70,7 @@ Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& o
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", fit_file.string(),
                                        analysis.fitted.failure));
   }
-  UncertaintyOptions assess;
-  assess.replicates = uncertainty.replicates;
-  assess.level = uncertainty.level;
-  assess.seed = uncertainty.seed;
-  assess.threads = options.threads;
+  const UncertaintyOptions assess = uncertainty_options(analysis.spec, options);
   analysis.uncertainty =
       assess_uncertainty(analysis.fitted, analysis.data, analysis.datasets, assess);
   return analysis;

@@ -10,15 +10,32 @@ namespace recoil {
 /// What the command line may override in a fit file.
 struct AnalysisOptions {
   std::optional<int> replicates;
+  bool replicates_auto = false;
+  std::optional<Scheme> scheme;
   std::optional<std::uint64_t> seed;
   int threads = 0;
   Solver solver = Solver::fast;
+  /// Folder in which a run that is stopped keeps its finished replicates; empty: nowhere.
+  std::filesystem::path folder;
 };
+
+/// Changes whenever this program is built anew, and with it possibly the digits of its results.
+std::string program_stamp();
+
+/// The options of the uncertainty stage: the fit file's, unless the command line says otherwise.
+UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options);
+
+/// @throws InputError when the scheme that was asked for cannot draw from these data.
+void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data);
+
+/// Removes what a stopped run has left in `folder`, once the results are written.
+void forget_replicates(const std::filesystem::path& folder);
 
 /// Reads every dataset of a fit.
 std::vector<Dataset> load_datasets(const FitSpec& spec);
 
 /// The whole pipeline for one fit: data, fit, uncertainty.
+/// @throws Interrupted when the user stops it and `options.folder` keeps what was finished.
 /// @throws ComputationError when the fit has no usable answer.
 Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& options);
 

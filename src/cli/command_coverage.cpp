@@ -51,10 +51,8 @@ void add_coverage(CLI::App& program) {
     const AnalysisOptions flags = options->analysis.resolved();
     CoverageOptions coverage;
     coverage.datasets = options->datasets;
-    coverage.uncertainty.level = spec.uncertainty.level;
-    coverage.uncertainty.replicates = flags.replicates.value_or(spec.uncertainty.replicates);
-    coverage.uncertainty.seed = flags.seed.value_or(spec.uncertainty.seed);
-    coverage.uncertainty.threads = flags.threads;
+    coverage.uncertainty = uncertainty_options(spec, flags);
+    require_scheme(spec, coverage.uncertainty.scheme, gather(datasets));
     std::string table;
     if (options->grid) {
       std::vector<GridDesign> designs = coverage_grid();

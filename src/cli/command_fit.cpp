@@ -15,7 +15,8 @@ void add_fit(CLI::App& program) {
   command->footer(
       "Prints the report and writes DIR/fit.json. Every digit depends on the fit file, the data "
       "and\n"
-      "the seed only, at any number of threads.\n\n"
+      "the seed only, at any number of threads. Ctrl-C keeps finished replicates in DIR, and the\n"
+      "same command goes on from there.\n\n"
       "  recoil fit fits/dahneke1975-quartz.toml --out results");
   const auto options = std::make_shared<AnalysisFlags>();
   const auto out = std::make_shared<std::string>();
@@ -25,9 +26,12 @@ void add_fit(CLI::App& program) {
   add_analysis_flags(*command, *options);
   command->callback([=] {
     if (!out->empty()) require_writable_folder(*out);
-    const Analysis analysis = analyse(*fit_file, options->resolved());
+    AnalysisOptions resolved = options->resolved();
+    resolved.folder = *out;
+    const Analysis analysis = analyse(*fit_file, resolved);
     if (!out->empty()) {
       write_whole_file(std::filesystem::path(*out) / "fit.json", json_report(analysis));
+      forget_replicates(*out);
     }
     fmt::print("{}", text_report(analysis));
   });

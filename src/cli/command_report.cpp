@@ -41,13 +41,8 @@ std::string fingerprint(const fs::path& fit_file, const AnalysisFlags& flags) {
   const FitSpec spec = load_fit(fit_file);
   std::string text = spec.sha256;
   for (const Dataset& dataset : load_datasets(spec)) text += dataset.sha256;
-  text += fmt::format("|{}|{}|{}|", flags.replicates, flags.seed, flags.solver);
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  if (!failed) {
-    text += fmt::format("{}|{}", fs::file_size(program, failed),
-                        fs::last_write_time(program, failed).time_since_epoch().count());
-  }
+  text += fmt::format("|{}|{}|{}|{}|{}", flags.replicates, flags.scheme, flags.seed, flags.solver,
+                      program_stamp());
   return sha256_hex(text) + "\n";
 }
 
@@ -73,12 +68,15 @@ void report(const ReportOptions& options) {
     if (!options.force && is_current(stamp, expected, {page, json, text, picture})) {
       fmt::print("{}: current\n", page.string());
     } else {
-      const Analysis analysis = analyse(fit_file, options.analysis.resolved());
+      AnalysisOptions resolved = options.analysis.resolved();
+      resolved.folder = out / id;
+      const Analysis analysis = analyse(fit_file, resolved);
       write_whole_file(page, html_report(analysis));
       write_whole_file(text, text_report(analysis));
       write_whole_file(picture, thumbnail(analysis));
       write_whole_file(json, json_report(analysis));
       write_whole_file(stamp, expected);
+      forget_replicates(resolved.folder);
       fmt::print("{}: written\n", page.string());
     }
     std::fflush(stdout);

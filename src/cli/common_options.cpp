@@ -6,7 +6,9 @@ namespace recoil {
 
 AnalysisOptions AnalysisFlags::resolved() const {
   AnalysisOptions options;
-  if (replicates >= 0) options.replicates = replicates;
+  options.replicates_auto = replicates == "auto";
+  if (!replicates.empty() && !options.replicates_auto) options.replicates = std::stoi(replicates);
+  if (!scheme.empty()) options.scheme = scheme_named(scheme);
   if (seed >= 0) options.seed = static_cast<std::uint64_t>(seed);
   options.threads = threads;
   options.solver = solver == "reference" ? Solver::reference : Solver::fast;
@@ -15,9 +17,16 @@ AnalysisOptions AnalysisFlags::resolved() const {
 
 void add_analysis_flags(CLI::App& command, AnalysisFlags& flags) {
   command
-      .add_option("--replicates", flags.replicates,
-                  "bootstrap replicates, 0 for none (default: the fit file's)")
-      ->check(CLI::Range(0, 1000000));
+      .add_option(
+          "--replicates", flags.replicates,
+          "bootstrap replicates, 0 for none, or auto: as many as it takes (default: the fit "
+          "file's)")
+      ->check(CLI::IsMember({"auto"}) | CLI::Range(0, 1000000));
+  command
+      .add_option("--scheme", flags.scheme,
+                  "how new data sets are drawn: auto, parametric, residual, wild, case, cluster "
+                  "(default: the fit file's)")
+      ->check(CLI::IsMember(scheme_names()));
   command.add_option("--seed", flags.seed, "fixes every digit (default: the fit file's)")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   command.add_option("--threads", flags.threads, "threads to use (default: all cores)")

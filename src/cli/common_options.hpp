@@ -8,7 +8,8 @@ namespace recoil {
 
 /// The options that every analysing command shares, as given.
 struct AnalysisFlags {
-  int replicates = -1;
+  std::string replicates;  ///< a number or "auto"; empty: the fit file's
+  std::string scheme;      ///< empty: the fit file's
   std::int64_t seed = -1;
   int threads = 0;
   std::string solver = "fast";

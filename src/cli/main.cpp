@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/gsl_errors.hpp"
+#include "core/interrupt.hpp"
 
 namespace {
 
@@ -92,6 +94,13 @@ int main(int argc, char** argv) {
   } catch (const recoil::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return wrong_input;
+  } catch (const recoil::Interrupted& stopped) {
+    fmt::print(stderr, "{}\n", stopped.what());
+    const int signal = recoil::stop_signal();
+    std::fflush(nullptr);
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);  // so that the shell sees what stopped it
+    return 128 + signal;
   } catch (const recoil::ComputationError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return no_answer;

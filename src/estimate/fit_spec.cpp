@@ -255,9 +255,24 @@ class FitReader {
   }
 
   void read_uncertainty(const toml::table& table) {
-    allow_only(table, "[uncertainty]", {"replicates", "level", "seed"});
+    allow_only(table, "[uncertainty]", {"replicates", "scheme", "level", "seed"});
     UncertaintySpec& spec = fit_.spec.uncertainty;
-    if (const toml::node* node = table.get("replicates")) {
+    if (const toml::node* node = table.get("scheme")) {
+      const std::string word = string(*node, "scheme", "scheme = \"auto\"");
+      const std::optional<Scheme> scheme = scheme_named(word);
+      if (!scheme) {
+        fail(*node, fmt::format("unknown scheme {}", quote(word)),
+             "the bootstrap would not know how to draw", did_you_mean(word, scheme_names()));
+      }
+      spec.scheme = *scheme;
+    }
+    if (const toml::node* node = table.get("replicates"); node != nullptr && node->is_string()) {
+      spec.replicates_auto = node->as_string()->get() == "auto";
+      if (!spec.replicates_auto) {
+        fail(*node, fmt::format("replicates = {}", quote(node->as_string()->get())),
+             "it has to be a whole number or \"auto\"", "1999 is usual");
+      }
+    } else if (node != nullptr) {
       const std::int64_t count = integer(*node, "replicates");
       if (count != 0 && (count < fewest_replicates || count > most_replicates)) {
         fail(*node, fmt::format("replicates = {}", count),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "estimate/scheme.hpp"
 #include "impact/impact.hpp"
 
 namespace recoil {
@@ -23,7 +24,10 @@ struct ParameterSpec {
 /// The `[uncertainty]` table.
 struct UncertaintySpec {
   int replicates = 1999;  ///< 0 (no bootstrap) or at least 19: fewer have no 5 % tails
-  double level = 0.95;    ///< of every interval, in (0, 1)
+  /// `replicates = "auto"`: as many as it takes, see UncertaintyOptions; `replicates` is not used.
+  bool replicates_auto = false;
+  Scheme scheme = Scheme::automatic;
+  double level = 0.95;  ///< of every interval, in (0, 1)
   std::uint64_t seed = 20260101;
 };
 

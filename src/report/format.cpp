@@ -176,6 +176,22 @@ std::vector<std::string> recommendations(const Analysis& analysis) {
   return sentences;
 }
 
+std::vector<std::string> disagreements(const Analysis& analysis) {
+  std::vector<std::string> sentences;
+  for (const IntervalSet& set : analysis.uncertainty.intervals) {
+    if (!set.disagreement.empty()) add_new(sentences, {as_sentence(set.disagreement)});
+  }
+  return sentences;
+}
+
+std::string chance_text(const BootstrapResult& bootstrap) {
+  if (!bootstrap.relative_error) return "";
+  return fmt::format(
+      "with other random numbers an interval's end would move by at most {:.1f} % of its width "
+      "(one standard deviation)",
+      100.0 * *bootstrap.relative_error);
+}
+
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b) {
   const FitResult& fitted = analysis.fitted;
   const std::size_t slots = fitted.model.slots.size();

@@ -53,6 +53,12 @@ std::string reason_without(const IntervalSet& set);
 /// Which interval is recommended and why, one sentence per kind.
 std::vector<std::string> recommendations(const Analysis& analysis);
 
+/// Why the intervals of a parameter differ, one sentence per parameter of which they do.
+std::vector<std::string> disagreements(const Analysis& analysis);
+
+/// How far chance alone moves the ends of the intervals; empty without any.
+std::string chance_text(const BootstrapResult& bootstrap);
+
 /// Correlation of two slots from the covariance; 0 when either has no variance.
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b);
 

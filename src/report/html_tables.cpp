@@ -77,6 +77,7 @@ std::string parameters_table(const Analysis& a) {
           fmt::format("Rests on a bound of [{}, {}]. ", number(slot.lower), number(slot.upper));
     }
     if (!interval.available()) remark += as_sentence("no interval: " + reason_without(set));
+    if (!interval.note.empty()) remark += as_sentence(interval.note);
     table.rows.push_back({parameter_html(slot.label()), value, error > 0.0 ? spread : none,
                           prose_html(slot.unit), interval_cell(interval),
                           interval.available() ? escape_html(set.recommended) : none,
@@ -118,6 +119,9 @@ std::string intervals_table(const Analysis& a) {
   if (table.rows.empty()) return "";
   drop_empty_columns(table);
   std::string out = table_html(table);
+  for (const std::string& sentence : disagreements(a)) {
+    out += fmt::format("<p>{}</p>\n", prose_html(sentence));
+  }
   if (!reasons.empty()) {
     out += "<details><summary>Why some intervals are missing</summary><ul>\n" + reasons +
            "</ul></details>\n";
@@ -210,7 +214,9 @@ std::string two_point_tables(const Analysis& a) {
                           optional_number(comparison.held_out_rmse),
                           optional_number(comparison.full_held_out_rmse)});
     table.rows.push_back(
-        {"replicates without an answer", fmt::format("{}", comparison.failed), ""});
+        {"replicates without an answer",
+         fmt::format("{} of {}", comparison.failed, a.uncertainty.bootstrap.two_point_replicates),
+         ""});
     out += table_html(table);
     std::string words = fmt::format("Two-point iteration: {}. {}", words_of(to_string(two.status)),
                                     as_sentence(two.text));
@@ -234,8 +240,9 @@ std::string bootstrap_table(const Analysis& a) {
                 {"failed refits", fmt::format("{}", bootstrap.failed)},
                 {"seed", fmt::format("{}", bootstrap.seed)}};
   std::string out = table_html(table);
-  if (!bootstrap.scheme_why.empty()) {
-    out += fmt::format("<p>{}</p>\n", prose_html(as_sentence(bootstrap.scheme_why)));
+  for (const std::string& words :
+       {bootstrap.scheme_why, chance_text(bootstrap), bootstrap.failures.text}) {
+    if (!words.empty()) out += fmt::format("<p>{}</p>\n", prose_html(as_sentence(words)));
   }
   return out;
 }

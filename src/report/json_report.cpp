@@ -64,7 +64,8 @@ Json options_json(const Analysis& a) {
   // The number of threads is left out on purpose: no digit of a result depends on it.
   return {{"adhesion_damping_phase", to_string(a.fitted.model.phase)},
           {"mechanisms", a.spec.mechanisms},
-          {"replicates", options.replicates},
+          {"replicates", options.replicates_auto ? Json("auto") : Json(options.replicates)},
+          {"scheme", to_string(options.scheme)},
           {"level", number_or_null(options.level)},
           {"seed", options.seed},
           {"parameters", parameters}};
@@ -106,6 +107,7 @@ Json parameter_json(const Analysis& a, std::size_t s) {
   out["intervals"] = intervals;
   out["recommended"] = recommended;
   out["profile_shape"] = set.profile.shape.empty() ? Json(nullptr) : Json(set.profile.shape);
+  put_resampling(out, set);
   return out;
 }
 
@@ -181,6 +183,7 @@ Json capture_json(const Analysis& a) {
     put(entry, "value", capture.found ? capture.value : NAN,
         "no velocity at which capture turns into rebound was found");
     entry["interval"] = interval_json(capture.interval);
+    entry["interval_mc_error"] = mc_error_json(capture.interval);
     if (entry["interval"].is_null()) entry["why"] = why_none(capture.interval);
     list.push_back(entry);
   }
@@ -197,8 +200,12 @@ Json bootstrap_json(const Analysis& a) {
           {"scheme_why", bootstrap.scheme_why},
           {"replicates", bootstrap.replicates},
           {"failed", bootstrap.failed},
+          {"failures", failures_json(bootstrap.failures, a.data)},
+          {"mc_error_of_width",
+           bootstrap.relative_error ? number_or_null(*bootstrap.relative_error) : Json(nullptr)},
           {"seed", bootstrap.seed},
           {"usable", bootstrap.theta.size()},
+          {"two_point_replicates", bootstrap.two_point_replicates},
           {"two_point_failed", two_point_failed}};
 }
 

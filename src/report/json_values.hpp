@@ -25,6 +25,15 @@ Json interval_json(const Interval& interval);
 /// Why `interval_json` gave null.
 std::string why_none(const Interval& interval);
 
+/// The Monte-Carlo errors of both ends, or null where nothing is random.
+Json mc_error_json(const Interval& interval);
+
+/// `intervals_mc_error`, `intervals_note`, `intervals_differ` and the numbers behind them.
+void put_resampling(Json& parameter, const IntervalSet& set);
+
+/// Which replicates failed, with which data, and the minimiser's words; null when none did.
+Json failures_json(const FailedReplicates& failures, const Observations& data);
+
 Json numbers_json(const std::vector<double>& values);
 
 /// `two_point` and `full` of the contract (those of the first dataset), and the same for every

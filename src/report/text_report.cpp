@@ -122,8 +122,10 @@ void write_variables(Blocks& out, const Analysis& a) {
                           interval_text(interval), set.recommended)
             : "no interval: " + reason_without(set);
     out.say(words, Blocks::margin + lead.size());
+    if (!interval.note.empty()) out.say(interval.note, Blocks::margin + lead.size());
   }
   for (const std::string& sentence : recommendations(a)) out.say(sentence);
+  for (const std::string& sentence : disagreements(a)) out.say(sentence);
 }
 
 void write_correlations(Blocks& out, const Analysis& a) {
@@ -211,8 +213,8 @@ void write_two_point(Blocks& out, const Analysis& a) {
         comparison.full_held_out_rmse ? number(*comparison.full_held_out_rmse) : "none");
     if (!comparison.held_out_why.empty()) out.say(comparison.held_out_why);
     if (comparison.failed > 0) {
-      out.say(fmt::format("In {} replicates the two-point iteration found no answer.",
-                          comparison.failed));
+      out.say(fmt::format("In {} of {} replicates the two-point iteration found no answer.",
+                          comparison.failed, a.uncertainty.bootstrap.two_point_replicates));
     }
   }
 }
@@ -228,7 +230,11 @@ void write_bootstrap(Blocks& out, const Analysis& a) {
                          ? bootstrap.scheme
                          : fmt::format("{} ({})", bootstrap.scheme, bootstrap.scheme_why));
   out.item("replicates", fmt::format("{}, {} failed", bootstrap.replicates, bootstrap.failed));
+  if (const std::string chance = chance_text(bootstrap); !chance.empty()) {
+    out.item("Monte-Carlo error", chance);
+  }
   out.item("seed", fmt::format("{}", bootstrap.seed));
+  if (bootstrap.failed > 0) out.say(as_sentence(bootstrap.failures.text));
 }
 
 void write_starts(Blocks& out, const Analysis& a) {

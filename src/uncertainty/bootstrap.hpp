@@ -1,24 +1,75 @@
 #pragma once
 
+#include "uncertainty/replicate_table.hpp"
+#include "uncertainty/resample.hpp"
 #include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 
-/// Refits `options.replicates` resampled data sets from the full fit's parameters.
-///
-/// Parametric where the noise is stated, e*_i = e_model,i + s sigma_i z with s the fit's
-/// noise_scale; otherwise residual with leverage, e*_i = e_model,i + sigma_i rho with rho drawn
-/// from the centred r_j / sqrt(1 - h_j) (Davison & Hinkley 1997, Bootstrap Methods and their
-/// Application, section 6.2.3). A replicate is a pure function of (seed, replicate index). The
-/// paper's two-point iteration runs on the same replicates.
+/// How replicates are refitted: they start at the estimate and need no more digits than their own
+/// scatter has.
+LeastSquaresOptions refit_options();
+
+/// Did a refit give an answer? It has to converge, and its data have to determine the parameters
+/// (J'J regular) where those of the fit do: where they do not, it merely stays where it started.
+bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted);
+
+/// One bootstrap of a fit, which can be extended. A replicate is a pure function of (seed, index):
+/// how many batches or threads make it, and whether the run was stopped in between, changes
+/// nothing.
+class Bootstrap {
+ public:
+  /// Prepares the scheme and takes over what an earlier run of the same bootstrap has left in
+  /// `options.keep`. Fit, data and options have to outlive the object.
+  Bootstrap(const FitResult& fitted, const Observations& data,
+            const std::vector<CaptureEstimate>& capture, const UncertaintyOptions& options);
+
+  /// Runs what is missing of the first `count` replicates.
+  /// @throws Interrupted when the user stops it and `options.keep` says where to keep the finished
+  ///   ones; they are there then.
+  void extend(int count);
+
+  /// The first replicates, as many as the last `extend` asked for, in order.
+  BootstrapResult result() const;
+
+  const ResamplingPlan& plan() const { return plan_; }
+
+  /// Of everything that decides a replicate's digits; empty without `options.keep`.
+  const std::string& key() const { return key_; }
+
+ private:
+  void keep() const;
+
+  const FitResult& fitted_;
+  std::vector<CaptureEstimate> capture_;
+  const UncertaintyOptions& options_;
+  ResamplingPlan plan_;
+  std::vector<double> reference_error_;
+  std::string key_;
+  ReplicateTable table_;
+  std::size_t count_ = 0;
+  std::vector<std::vector<double>> capture_velocity_;  // [count][diameters]
+};
+
+/// Runs the paper's two-point iteration on the same resampled data as the replicates of `result`
+/// (the first 999 of them), and adds what came out of it.
+void bootstrap_two_point(const ResamplingPlan& plan, const std::vector<TwoPointResult>& two_point,
+                         const UncertaintyOptions& options, BootstrapResult& result);
+
+/// All of it in one call: `options.replicates` replicates, and the two-point iteration on them.
 BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
                           const std::vector<CaptureEstimate>& capture,
                           const std::vector<TwoPointResult>& two_point,
                           const UncertaintyOptions& options);
 
-/// The estimates of all delete-one data sets [points][slots], for the acceleration of BCa. A set
-/// whose refit fails gives an empty entry.
-std::vector<std::vector<double>> jackknife(const FitResult& fitted, const Observations& data,
-                                           int threads);
+/// The estimates of all data sets from which one unit (a point, or a series in the cluster scheme)
+/// is left out [units][slots], for the acceleration of BCa. A set whose refit fails gives an empty
+/// entry.
+std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threads);
+
+/// Finds out which data made the replicates of `index` fail: the points whose mean disturbance in
+/// them is furthest, in its standard errors, from that in the other replicates below `replicates`.
+FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed, int replicates,
+                                 std::vector<std::uint64_t> index);
 
 }  // namespace recoil

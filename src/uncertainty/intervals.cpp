@@ -1,6 +1,7 @@
 #include "uncertainty/intervals.hpp"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t fewest_replicates = 39;  // (B + 1) 0.025 >= 1
+constexpr double most_leverage = 0.99;
 
 Interval missing(std::string why) {
   Interval interval;
@@ -16,16 +18,42 @@ Interval missing(std::string why) {
   return interval;
 }
 
+/// Normal (dof 0) or Student.
+double distribution(double x, int dof) {
+  return dof > 0 ? gsl_cdf_tdist_P(x, dof) : gsl_cdf_ugaussian_P(x);
+}
+double distribution_inverse(double p, int dof) {
+  return dof > 0 ? gsl_cdf_tdist_Pinv(p, dof) : gsl_cdf_ugaussian_Pinv(p);
+}
+
+/// The rank of the p-quantile among `count` ascending values, from 0, clamped.
+double clamped_rank(double rank, std::size_t count) {
+  return std::clamp(rank, 0.0, static_cast<double>(count) - 1.0);
+}
+
+double at_rank(std::span<const double> ascending, double rank) {
+  const std::size_t below = static_cast<std::size_t>(rank);
+  const std::size_t above = std::min(below + 1, ascending.size() - 1);
+  const double part = rank - static_cast<double>(below);
+  return ascending[below] + part * (ascending[above] - ascending[below]);
+}
+
 }  // namespace
 
 double sorted_quantile(std::span<const double> ascending, double p) {
-  const double position = p * (static_cast<double>(ascending.size()) + 1.0) - 1.0;
-  const double last = static_cast<double>(ascending.size()) - 1.0;
-  const double clamped = std::clamp(position, 0.0, last);
-  const std::size_t below = static_cast<std::size_t>(clamped);
-  const std::size_t above = std::min(below + 1, ascending.size() - 1);
-  const double part = clamped - static_cast<double>(below);
-  return ascending[below] + part * (ascending[above] - ascending[below]);
+  const double rank = p * (static_cast<double>(ascending.size()) + 1.0) - 1.0;
+  return at_rank(ascending, clamped_rank(rank, ascending.size()));
+}
+
+double quantile_error(std::span<const double> ascending, double p, double rank_sd) {
+  const double count = static_cast<double>(ascending.size());
+  const double sd = rank_sd < 0.0 ? std::sqrt(count * p * (1.0 - p)) : rank_sd;
+  const double rank = p * (count + 1.0) - 1.0;
+  const double low = clamped_rank(rank - sd, ascending.size());
+  const double high = clamped_rank(rank + sd, ascending.size());
+  if (!(high > low)) return 0.0;
+  // Where the sample ends before one standard deviation, what is left of it stands for the whole.
+  return (at_rank(ascending, high) - at_rank(ascending, low)) * sd / (high - low);
 }
 
 Interval percentile_interval(std::vector<double> replicates, double level) {
@@ -35,6 +63,8 @@ Interval percentile_interval(std::vector<double> replicates, double level) {
   Interval interval;
   interval.lower = sorted_quantile(replicates, tail);
   interval.upper = sorted_quantile(replicates, 1.0 - tail);
+  interval.lower_error = quantile_error(replicates, tail);
+  interval.upper_error = quantile_error(replicates, 1.0 - tail);
   return interval;
 }
 
@@ -58,23 +88,56 @@ std::optional<BcaConstants> bca_constants(std::span<const double> replicates, do
   return constants;
 }
 
+std::optional<double> bca_level(const BcaConstants& constants, double p) {
+  const double w = constants.bias + gsl_cdf_ugaussian_Pinv(p);
+  const double room = 1.0 - constants.acceleration * w;
+  if (!(room > 0.0)) return std::nullopt;
+  return gsl_cdf_ugaussian_P(constants.bias + w / room);
+}
+
+namespace {
+
+/// Standard deviation of the rank at which BCa reads its end. With F the empirical distribution,
+/// the end solves F(x) = q(z0), z0 = Phi^-1(F(estimate)); to first order the rank moves by
+/// B [g (F(estimate) - below) - (F(x) - q)], g = (dq/dz0) / phi(z0), and the covariance of F at two
+/// places is (min - product) / B.
+double bca_rank_sd(const BcaConstants& constants, double p, double q, double count) {
+  const double below = gsl_cdf_ugaussian_P(constants.bias);
+  const double w = constants.bias + gsl_cdf_ugaussian_Pinv(p);
+  const double room = 1.0 - constants.acceleration * w;
+  const double z = constants.bias + w / room;
+  const double per_bias = gsl_ran_ugaussian_pdf(z) * (1.0 + 1.0 / (room * room));
+  const double g = per_bias / gsl_ran_ugaussian_pdf(constants.bias);
+  const double variance =
+      q * (1.0 - q) + g * g * below * (1.0 - below) - 2.0 * g * (std::min(q, below) - q * below);
+  return std::sqrt(std::max(variance, 0.0) * count);
+}
+
+}  // namespace
+
 Interval bca_interval(std::vector<double> replicates, double estimate,
                       std::span<const double> delete_one, double level) {
   if (replicates.size() < fewest_replicates) return missing("fewer than 39 usable replicates");
   if (delete_one.size() < 3) return missing("fewer than three delete-one refits succeeded");
   const auto constants = bca_constants(replicates, estimate, delete_one);
   if (!constants) return missing("all replicates lie on one side of the estimate, as at a bound");
-  std::sort(replicates.begin(), replicates.end());
-  const auto end = [&](double p) {
-    const double z = constants->bias + gsl_cdf_ugaussian_Pinv(p);
-    const double adjusted =
-        gsl_cdf_ugaussian_P(constants->bias + z / (1.0 - constants->acceleration * z));
-    return sorted_quantile(replicates, adjusted);
-  };
   const double tail = (1.0 - level) / 2.0;
+  const auto low = bca_level(*constants, tail);
+  const auto high = bca_level(*constants, 1.0 - tail);
+  if (!low || !high) {
+    return missing(
+        "the acceleration is too large for this level: the delete-one fits differ too "
+        "much");
+  }
+  std::sort(replicates.begin(), replicates.end());
+  const double count = static_cast<double>(replicates.size());
   Interval interval;
-  interval.lower = end(tail);
-  interval.upper = end(1.0 - tail);
+  interval.lower = sorted_quantile(replicates, *low);
+  interval.upper = sorted_quantile(replicates, *high);
+  interval.lower_error =
+      quantile_error(replicates, *low, bca_rank_sd(*constants, tail, *low, count));
+  interval.upper_error =
+      quantile_error(replicates, *high, bca_rank_sd(*constants, 1.0 - tail, *high, count));
   return interval;
 }
 
@@ -99,6 +162,8 @@ Interval studentized_interval(std::span<const double> replicates,
   Interval interval;
   interval.lower = std::max(lower, estimate - std_error * sorted_quantile(pivots, 1.0 - tail));
   interval.upper = std::min(upper, estimate - std_error * sorted_quantile(pivots, tail));
+  interval.lower_error = std_error * quantile_error(pivots, 1.0 - tail);
+  interval.upper_error = std_error * quantile_error(pivots, tail);
   return interval;
 }
 
@@ -106,11 +171,63 @@ Interval wald_interval(double estimate, double std_error, double level, int dof,
                        double upper) {
   if (!(std_error > 0.0)) return missing("no standard error (at a bound, or not determined)");
   const double tail = 0.5 + level / 2.0;
-  const double quantile = dof > 0 ? gsl_cdf_tdist_Pinv(tail, dof) : gsl_cdf_ugaussian_Pinv(tail);
+  const double quantile = distribution_inverse(tail, dof);
   Interval interval;
   interval.lower = std::max(lower, estimate - quantile * std_error);
   interval.upper = std::min(upper, estimate + quantile * std_error);
   return interval;
+}
+
+double profile_quantile(double level, int dof, double distance) {
+  const double far = std::pow(distribution_inverse(0.5 + level / 2.0, dof), 2);
+  if (distance * distance >= far) return far;
+  const double on_bound = level > 0.5 ? std::pow(distribution_inverse(level, dof), 2) : 0.0;
+  if (!(distance > 0.0)) return on_bound;
+  // The probability rises with c: bisection between the two ends.
+  double low = on_bound;
+  double high = far;
+  constexpr int halvings = 50;
+  for (int i = 0; i < halvings; ++i) {
+    const double c = 0.5 * (low + high);
+    const double held = distribution(std::sqrt(c), dof) -
+                        distribution(-(c + distance * distance) / (2.0 * distance), dof);
+    (held < level ? low : high) = c;
+  }
+  return 0.5 * (low + high);
+}
+
+std::vector<double> leverages(std::span<const double> jacobian,
+                              std::span<const double> covariance) {
+  const std::size_t p = static_cast<std::size_t>(std::lround(std::sqrt(covariance.size())));
+  const std::size_t n = p == 0 ? 0 : jacobian.size() / p;
+  std::vector<double> h(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::span<const double> row = jacobian.subspan(i * p, p);
+    for (std::size_t a = 0; a < p; ++a) {
+      for (std::size_t b = 0; b < p; ++b) h[i] += row[a] * covariance[a * p + b] * row[b];
+    }
+    h[i] = std::min(h[i], most_leverage);
+  }
+  return h;
+}
+
+std::vector<double> sandwich_errors(std::span<const double> residuals,
+                                    std::span<const double> jacobian,
+                                    std::span<const double> covariance) {
+  const std::vector<double> h = leverages(jacobian, covariance);
+  const std::size_t n = residuals.size();
+  const std::size_t p = n == 0 ? 0 : jacobian.size() / n;
+  std::vector<double> variance(p, 0.0);
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    const double scaled = residuals[i] / (1.0 - h[i]);
+    for (std::size_t a = 0; a < p; ++a) {
+      double step = 0.0;  // how far point i moves parameter a
+      for (std::size_t b = 0; b < p; ++b) step += covariance[a * p + b] * jacobian[i * p + b];
+      variance[a] += step * step * scaled * scaled;
+    }
+  }
+  for (double& v : variance) v = std::sqrt(v);
+  return variance;
 }
 
 }  // namespace recoil

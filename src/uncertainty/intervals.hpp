@@ -2,15 +2,34 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "uncertainty/uncertainty.hpp"
-
 namespace recoil {
+
+/// [lower, upper] in the parameter's unit, or the reason why there is none.
+struct Interval {
+  std::optional<double> lower;
+  std::optional<double> upper;
+  std::string why;    ///< set when there is no interval
+  std::string shape;  ///< of a profile: "bounded", "one-sided", "flat"
+  std::string note;   ///< what a reader has to know beside the numbers, such as an end at a bound
+  /// Monte-Carlo error of each end: its standard deviation over repetitions of the resampling with
+  /// other seeds. None where nothing is random.
+  std::optional<double> lower_error, upper_error;
+
+  bool available() const { return lower.has_value() && upper.has_value(); }
+};
 
 /// The p-quantile of an ascending sample by the (B + 1) p rule with linear interpolation (Davison &
 /// Hinkley 1997, section 5.2.1), clamped to the sample.
 double sorted_quantile(std::span<const double> ascending, double p);
+
+/// Monte-Carlo error of `sorted_quantile(ascending, p)`: half the distance between the order
+/// statistics one standard deviation of rank on either side (Woodruff 1952, J. Am. Stat. Assoc. 47,
+/// 635-646), the rank being binomial, sd = sqrt(B p (1 - p)).
+/// @param rank_sd overrides the binomial standard deviation when it is not negative [ranks]
+double quantile_error(std::span<const double> ascending, double p, double rank_sd = -1.0);
 
 /// Percentile interval of bootstrap replicates (Efron 1979).
 Interval percentile_interval(std::vector<double> replicates, double level);
@@ -25,7 +44,13 @@ struct BcaConstants {
 std::optional<BcaConstants> bca_constants(std::span<const double> replicates, double estimate,
                                           std::span<const double> delete_one);
 
-/// Bias-corrected and accelerated interval.
+/// Where BCa reads off the replicates' distribution instead of at p:
+///   Phi( z0 + w / (1 - a w) ),  w = z0 + Phi^-1(p).
+/// Nothing when a w >= 1: the acceleration is too large for this level.
+std::optional<double> bca_level(const BcaConstants& constants, double p);
+
+/// Bias-corrected and accelerated interval. Its Monte-Carlo error counts that z0 comes from the
+/// same replicates.
 Interval bca_interval(std::vector<double> replicates, double estimate,
                       std::span<const double> delete_one, double level);
 
@@ -41,5 +66,34 @@ Interval studentized_interval(std::span<const double> replicates,
 /// @param dof degrees of freedom of the estimated noise; 0: the noise is known (normal quantile)
 Interval wald_interval(double estimate, double std_error, double level, int dof, double lower,
                        double upper);
+
+/// The rise of chi2 / s^2 that a profile interval allows at a value which lies `distance` standard
+/// errors inside the parameter's bound.
+///
+/// Far from the bound it is the quantile of chi-squared with one degree of freedom, or of
+/// F(1, dof) where the noise is estimated. Near it, the estimate cannot move past the bound: the
+/// likelihood ratio is a mixture of chi-squared distributions, and the usual quantile would hold
+/// the truth too often (up to (1 + level) / 2 on the bound). For a Gaussian estimate with the bound
+/// at zero, chi2 rises by more than c when x - theta > sqrt(c), or theta - x > (c + d^2) / (2 d),
+/// and
+///   P(sqrt(c)) - P(-(c + d^2) / (2 d)) = level
+/// gives every theta its level exactly (P: distribution function, normal or Student; d: distance).
+/// On the bound c is the chi-bar-squared quantile, P^-1(level)^2. Feldman & Cousins (1998), Phys.
+/// Rev. D 57, 3873, section IV.B; Self & Liang (1987), J. Am. Stat. Assoc. 82, 605-610.
+/// @param dof 0: the noise is known
+double profile_quantile(double level, int dof, double distance);
+
+/// Standard errors that hold where the points scatter unequally, without any noise model: the roots
+/// of the diagonal of C J' diag(r^2 / (1 - h)^2) J C with C = (J'J)^-1, "HC3" (MacKinnon & White
+/// 1985, J. Econometrics 29, 305-325).
+/// @param jacobian [n x p, row major]
+/// @param covariance C [p x p]; zero rows for parameters that do not move, which get 0
+std::vector<double> sandwich_errors(std::span<const double> residuals,
+                                    std::span<const double> jacobian,
+                                    std::span<const double> covariance);
+
+/// The leverage of each point: the diagonal of J (J'J)^-1 J', at most 0.99 (a point that the fit
+/// passes through says nothing of its own noise).
+std::vector<double> leverages(std::span<const double> jacobian, std::span<const double> covariance);
 
 }  // namespace recoil

@@ -1,7 +1,6 @@
 #include "uncertainty/profile.hpp"
 
-#include <gsl/gsl_cdf.h>
-
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -41,44 +40,97 @@ class Profile {
   LeastSquaresOptions options_;
 };
 
-/// One end of the interval, walking from the estimate in `direction` until the rise exceeds
-/// `allowed`, then closing in by regula falsi (Illinois). Nothing when a refit fails.
+/// How far the profile may rise at a value of the slot: less near a bound, see `profile_quantile`.
+class Allowance {
+ public:
+  Allowance(const ParameterSlot& slot, double level, int dof, double scale, double error)
+      : slot_(slot), level_(level), dof_(dof), scale_(scale), error_(error) {}
+
+  double operator()(double value) const {
+    const double room = std::min(value - slot_.lower, slot_.upper - value);
+    const double distance = error_ > 0.0 ? room / error_ : INFINITY;
+    return scale_ * profile_quantile(level_, dof_, distance);
+  }
+
+ private:
+  const ParameterSlot& slot_;
+  double level_;
+  int dof_;
+  double scale_;
+  double error_;
+};
+
+/// The standard error that the slot would have if it were not held by its bound: from J'J over it
+/// and the other parameters that move. 0 when that is singular.
+double free_standard_error(const FitResult& fitted, const Observations& data, std::size_t slot) {
+  if (fitted.std_error[slot] > 0.0) return fitted.std_error[slot];
+  const LeastSquaresProblem problem = impact_problem(fitted.model, data);
+  const std::size_t n = problem.residual_count;
+  const std::size_t p = fitted.theta.size();
+  std::vector<double> residuals(n);
+  std::vector<double> jacobian(n * p);
+  if (!problem.evaluate(fitted.theta, residuals, jacobian)) return 0.0;
+  std::vector<std::size_t> moving = {slot};
+  for (std::size_t j = 0; j < p; ++j) {
+    if (j != slot && fitted.std_error[j] > 0.0) moving.push_back(j);
+  }
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(moving.size()));
+  for (std::size_t k = 0; k < moving.size(); ++k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      columns(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          jacobian[i * p + moving[k]];
+    }
+  }
+  // What the slot's column has beyond the others is 1 / error.
+  const Eigen::VectorXd own = columns.col(0);
+  const Eigen::MatrixXd others = columns.rightCols(columns.cols() - 1);
+  Eigen::VectorXd beyond = own;
+  if (others.cols() > 0) beyond -= others * others.colPivHouseholderQr().solve(own);
+  const double information = beyond.norm();
+  constexpr double singular = 1e-7;
+  return information > singular * own.norm() ? fitted.noise_scale / information : 0.0;
+}
+
+/// One end of the interval, walking from the estimate in `direction` until the rise exceeds what is
+/// allowed, then closing in by regula falsi (Illinois). Nothing when a refit fails.
 struct End {
   double value;
   bool at_bound;
 };
 std::optional<End> find_end(const Profile& profile, const FitResult& fitted, std::size_t slot,
-                            double direction, double allowed, double stride) {
+                            double direction, const Allowance& allowed, double stride) {
   const ParameterSlot& parameter = fitted.model.slots[slot];
   const double bound = direction < 0.0 ? parameter.lower : parameter.upper;
   std::vector<double> others = fitted.theta;
   double inside = fitted.theta[slot];
-  double rise_inside = 0.0;
   double outside = inside;
-  double rise_outside = 0.0;
   if (inside == bound) return End{bound, true};
+  // sqrt(rise) is nearly linear in the parameter, so the false position converges at once.
+  const auto excess = [&](double rise, double value) {
+    return std::sqrt(std::max(rise, 0.0)) - std::sqrt(allowed(value));
+  };
+  double f_in = excess(0.0, inside);
+  double f_out = f_in;
   for (int i = 0;; ++i) {
     if (i == most_strides) return std::nullopt;
     outside = inside + direction * stride;
     if (direction * (outside - bound) >= 0.0) outside = bound;
     const auto rise = profile.rise(outside, others);
     if (!rise) return std::nullopt;
-    rise_outside = *rise;
-    if (rise_outside > allowed) break;
+    f_out = excess(*rise, outside);
+    if (f_out > 0.0) break;
     if (outside == bound) return End{bound, true};
     inside = outside;
-    rise_inside = rise_outside;
+    f_in = f_out;
     stride *= 1.6;
   }
-  // sqrt(rise) is nearly linear in the parameter, so the false position converges at once.
-  double f_in = std::sqrt(std::max(rise_inside, 0.0)) - std::sqrt(allowed);
-  double f_out = std::sqrt(rise_outside) - std::sqrt(allowed);
   for (int i = 0; i < most_bisections; ++i) {
     const double guess = outside - f_out * (outside - inside) / (f_out - f_in);
     const auto rise = profile.rise(guess, others);
     if (!rise) return std::nullopt;
-    if (std::abs(*rise - allowed) <= end_tolerance * allowed) return End{guess, false};
-    const double f = std::sqrt(std::max(*rise, 0.0)) - std::sqrt(allowed);
+    const double wanted = allowed(guess);
+    if (std::abs(*rise - wanted) <= end_tolerance * wanted) return End{guess, false};
+    const double f = excess(*rise, guess);
     if (f > 0.0) {
       outside = guess;
       f_out = f;
@@ -97,15 +149,13 @@ std::optional<End> find_end(const Profile& profile, const FitResult& fitted, std
 Interval profile_interval(const FitResult& fitted, const Observations& data, std::size_t slot,
                           double level) {
   Interval interval;
-  const double scale = fitted.noise_scale * fitted.noise_scale;
-  // The quantile of F(1, dof) is the square of Student's.
-  const double student = fitted.dof > 0 ? gsl_cdf_tdist_Pinv(0.5 + level / 2.0, fitted.dof) : 0.0;
-  const double quantile =
-      data.sd_stated || fitted.dof <= 0 ? gsl_cdf_chisq_Pinv(level, 1.0) : student * student;
-  const double allowed = quantile * scale;
+  const double error = free_standard_error(fitted, data, slot);
+  const int dof = data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
+  const Allowance allowed(fitted.model.slots[slot], level, dof,
+                          fitted.noise_scale * fitted.noise_scale, error);
   const Profile profile(fitted, data, slot);
   const double value = fitted.theta[slot];
-  double stride = fitted.std_error[slot] > 0.0 ? fitted.std_error[slot] : 0.1 * std::abs(value);
+  double stride = error > 0.0 ? error : 0.1 * std::abs(value);
   if (!(stride > 0.0)) {
     const double start = std::abs(fitted.model.slots[slot].initial);
     stride = start > 0.0 ? 0.1 * start : 1e-3 * fitted.model.slots[slot].upper;

@@ -8,7 +8,9 @@ namespace recoil {
 ///   chi2(theta_j, others refitted) - chi2_min <= q s^2,
 /// q the `level` quantile of chi-squared with one degree of freedom, s the fit's noise_scale; where
 /// the noise is estimated from the residuals, q is the quantile of F(1, dof) (Bates & Watts 1988,
-/// Nonlinear Regression Analysis and its Applications, section 6.1.2).
+/// Nonlinear Regression Analysis and its Applications, section 6.1.2). Within two standard errors
+/// of the parameter's bound q is smaller, see `profile_quantile`. That treats the other parameters
+/// as if they were away from their bounds.
 ///
 /// An end that reaches the parameter's bound stays there: shape "one-sided" for one such end,
 /// "flat" for both, "bounded" for none. @pre the slot is free

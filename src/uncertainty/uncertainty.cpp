@@ -5,18 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/intervals.hpp"
 #include "uncertainty/profile.hpp"
+#include "uncertainty/recommend.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr double failures_to_warn = 0.01;
 constexpr double failures_to_withhold = 0.10;
+// `replicates = "auto"` begins with the first and ends with the last.
+constexpr int fewest_automatic = 999;
+constexpr int most_automatic = 19999;
 
 std::vector<double> column(const std::vector<std::vector<double>>& rows, std::size_t j) {
   std::vector<double> values;
@@ -59,27 +64,19 @@ void withhold(Interval& interval, const std::string& why) {
   interval.why = why;
 }
 
-/// Fills the intervals of every free slot; fixed ones say so.
-std::vector<IntervalSet> all_intervals(const FitResult& fitted, const Observations& data,
-                                       const UncertaintyResult& so_far,
-                                       const std::vector<std::vector<double>>& delete_one) {
-  const UncertaintyOptions& options = so_far.options;
-  const BootstrapResult& boot = so_far.bootstrap;
-  const bool too_many_failed = boot.failed > failures_to_withhold * boot.replicates;
+/// The intervals that need no replicates: profile and Wald.
+std::vector<IntervalSet> likelihood_intervals(const FitResult& fitted, const Observations& data,
+                                              const UncertaintyOptions& options) {
   std::vector<IntervalSet> sets(fitted.theta.size());
-  for (std::size_t j = 0; j < sets.size(); ++j) {
+  parallel_over(sets.size(), options.threads, [&](std::size_t j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     IntervalSet& set = sets[j];
-    set.recommended = "profile";
-    set.recommended_why =
-        "it follows the likelihood where that is not a parabola and stops at the bounds; in the "
-        "coverage study it did no worse than the others";
     if (!slot.free) {
       for (Interval* interval :
            {&set.wald, &set.profile, &set.percentile, &set.bca, &set.studentized}) {
         withhold(*interval, "fixed in this fit");
       }
-      continue;
+      return;
     }
     set.wald = wald_interval(fitted.theta[j], fitted.std_error[j], options.level,
                              data.sd_stated ? 0 : fitted.dof, slot.lower, slot.upper);
@@ -88,25 +85,98 @@ std::vector<IntervalSet> all_intervals(const FitResult& fitted, const Observatio
     } else {
       set.profile.why = "not asked for";
     }
-    if (too_many_failed) {
-      const std::string why = fmt::format("{} of {} refits failed", boot.failed, boot.replicates);
-      withhold(set.percentile, why);
-      withhold(set.bca, why);
-      withhold(set.studentized, why);
-    } else {
-      const std::vector<double> replicates = column(boot.theta, j);
-      set.percentile = percentile_interval(replicates, options.level);
-      set.bca = bca_interval(replicates, fitted.theta[j], column(delete_one, j), options.level);
-      set.studentized =
-          studentized_interval(replicates, column(boot.std_error, j), fitted.theta[j],
-                               fitted.std_error[j], options.level, slot.lower, slot.upper);
+  });
+  return sets;
+}
+
+/// Percentile, BCa and studentized intervals of slot j; none when too many refits failed.
+void add_resampled(const FitResult& fitted, const BootstrapResult& boot, std::size_t j,
+                   const std::vector<std::vector<double>>& delete_one, double level,
+                   IntervalSet& set) {
+  if (boot.failed > failures_to_withhold * boot.replicates) {
+    const std::string why = fmt::format(
+        "withheld: {} of {} refits failed, more than a tenth, and those that did not "
+        "are no fair sample",
+        boot.failed, boot.replicates);
+    withhold(set.percentile, why);
+    withhold(set.bca, why);
+    withhold(set.studentized, why);
+    return;
+  }
+  const ParameterSlot& slot = fitted.model.slots[j];
+  const std::vector<double> replicates = column(boot.theta, j);
+  const std::vector<double> without_one = column(delete_one, j);
+  set.percentile = percentile_interval(replicates, level);
+  set.bca = bca_interval(replicates, fitted.theta[j], without_one, level);
+  if (!replicates.empty() && !without_one.empty()) {
+    set.bca_constants = bca_constants(replicates, fitted.theta[j], without_one);
+  }
+  set.studentized = studentized_interval(replicates, column(boot.std_error, j), fitted.theta[j],
+                                         boot.reference_error[j], level, slot.lower, slot.upper);
+  set.bound_share = bound_share(boot, slot, j);
+}
+
+/// The larger Monte-Carlo error of an interval's ends over its width; 0 where nothing is random.
+double relative_error(const Interval& interval) {
+  if (!interval.available()) return 0.0;
+  const double width = *interval.upper - *interval.lower;
+  const double error =
+      std::max(interval.lower_error.value_or(0.0), interval.upper_error.value_or(0.0));
+  return width > 0.0 ? error / width : 0.0;
+}
+
+/// What the replicates made so far say about the intervals.
+void read_off(const FitResult& fitted, const Observations& data,
+              const std::vector<std::vector<double>>& delete_one, UncertaintyResult& result) {
+  const UncertaintyOptions& options = result.options;
+  BootstrapResult& boot = result.bootstrap;
+  double worst = 0.0;
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    const ParameterSlot& slot = fitted.model.slots[j];
+    IntervalSet& set = result.intervals[j];
+    if (slot.free) add_resampled(fitted, boot, j, delete_one, options.level, set);
+    for (Interval* interval :
+         {&set.wald, &set.profile, &set.percentile, &set.bca, &set.studentized}) {
+      note_bounds(*interval, slot);
     }
-    if (!set.profile.available()) {
-      set.recommended = set.percentile.available() ? "percentile" : "wald";
-      set.recommended_why = "the profile is not available: " + set.profile.why;
+    recommend(set);
+    if (!slot.free) continue;
+    worst = std::max(
+        {worst, relative_error(set.percentile), relative_error(recommended_interval(set))});
+  }
+  const auto& slots = fitted.model.slots;
+  for (std::size_t j = 0; j < slots.size(); ++j) {
+    if (!slots[j].free) continue;
+    result.intervals[j].disagreement =
+        explain_disagreement(fitted, j, result.intervals, data.sd_stated, options.level);
+  }
+  const bool nothing_free =
+      std::none_of(slots.begin(), slots.end(), [](const ParameterSlot& slot) { return slot.free; });
+  for (std::size_t k = 0; k < result.capture.size(); ++k) {
+    CaptureEstimate& capture = result.capture[k];
+    if (!capture.found) continue;
+    if (nothing_free) {
+      capture.interval.why = "nothing was free in this fit";
+    } else if (!options.capture) {
+      capture.interval.why = "not asked for";
+    } else if (boot.failed > failures_to_withhold * boot.replicates) {
+      withhold(capture.interval,
+               fmt::format("withheld: {} of {} refits failed", boot.failed, boot.replicates));
+    } else {
+      capture.interval = percentile_interval(column(boot.capture_velocity, k), options.level);
+      worst = std::max(worst, relative_error(capture.interval));
     }
   }
-  return sets;
+  if (worst > 0.0) boot.relative_error = worst;
+}
+
+/// How many replicates bring a relative error down to what is wanted, the error falling like
+/// 1 / sqrt(B); one less than a multiple of 1000, so that the quantiles fall on replicates.
+int more_replicates(int so_far, double error, double wanted) {
+  const double needed = so_far * std::pow(error / wanted, 2);
+  const double rounded = 1000.0 * std::ceil((needed + 1.0) / 1000.0) - 1.0;
+  return static_cast<int>(
+      std::clamp(rounded, static_cast<double>(so_far) + 1000.0, 1.0 * most_automatic));
 }
 
 /// Points of `data` that belong to `dataset`, split by whether their diameter is `diameter`.
@@ -177,10 +247,18 @@ void add_spread(UncertaintyResult& result, std::size_t slots) {
 void add_warnings(UncertaintyResult& result, const std::vector<Dataset>& datasets) {
   const BootstrapResult& boot = result.bootstrap;
   if (boot.failed > failures_to_warn * boot.replicates) {
+    result.warnings.push_back(
+        boot.failures.text +
+        (boot.failed > failures_to_withhold * boot.replicates
+             ? "; more than a tenth: the intervals from replicates are withheld"
+             : ""));
+  }
+  if (result.options.replicates_auto &&
+      boot.relative_error.value_or(0.0) > result.options.wanted_error) {
     result.warnings.push_back(fmt::format(
-        "{} of {} bootstrap refits failed{}", boot.failed, boot.replicates,
-        boot.failed > failures_to_withhold * boot.replicates ? ": their intervals are withheld"
-                                                             : ""));
+        "after {} replicates an interval's end is still uncertain by {:.1f} % of its width, more "
+        "than the {:.1f} % wanted",
+        boot.replicates, 100.0 * *boot.relative_error, 100.0 * result.options.wanted_error));
   }
   for (const TwoPointComparison& comparison : result.two_point) {
     if (comparison.result.status == TwoPointStatus::converged) continue;
@@ -207,22 +285,18 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations
     result.two_point.push_back(compare_two_point(fitted, data, d));
     two_points.push_back(result.two_point.back().result);
   }
-  result.bootstrap = bootstrap(fitted, data, result.capture, two_points, options);
-  const auto delete_one = jackknife(fitted, data, options.threads);
-  result.intervals = all_intervals(fitted, data, result, delete_one);
-  const auto& slots = fitted.model.slots;
-  const bool nothing_free =
-      std::none_of(slots.begin(), slots.end(), [](const ParameterSlot& slot) { return slot.free; });
-  for (std::size_t k = 0; k < result.capture.size(); ++k) {
-    CaptureEstimate& capture = result.capture[k];
-    if (!capture.found) continue;
-    if (nothing_free) {
-      capture.interval.why = "nothing was free in this fit";
-      continue;
-    }
-    capture.interval =
-        percentile_interval(column(result.bootstrap.capture_velocity, k), options.level);
+  result.intervals = likelihood_intervals(fitted, data, options);
+  Bootstrap boot(fitted, data, result.capture, options);
+  const auto delete_one = jackknife(boot.plan(), options.threads);
+  for (int count = options.replicates_auto ? fewest_automatic : options.replicates;;) {
+    boot.extend(count);
+    result.bootstrap = boot.result();
+    read_off(fitted, data, delete_one, result);
+    const double error = result.bootstrap.relative_error.value_or(0.0);
+    if (!options.replicates_auto || error <= options.wanted_error || count >= most_automatic) break;
+    count = more_replicates(count, error, options.wanted_error);
   }
+  bootstrap_two_point(boot.plan(), two_points, options, result.bootstrap);
   add_spread(result, fitted.theta.size());
   result.identifiability = judge_identifiability(fitted, data, result.intervals, result.capture);
   if (options.curves) result.curves = restitution_curves(fitted, data, datasets, result);

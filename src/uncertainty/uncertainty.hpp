@@ -1,44 +1,63 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "estimate/fit.hpp"
+#include "estimate/scheme.hpp"
 #include "estimate/two_point.hpp"
 #include "uncertainty/information.hpp"
+#include "uncertainty/intervals.hpp"
 
 namespace recoil {
-
-/// [lower, upper] in the parameter's unit, or the reason why there is none.
-struct Interval {
-  std::optional<double> lower;
-  std::optional<double> upper;
-  std::string why;    ///< set when there is no interval
-  std::string shape;  ///< of a profile: "bounded", "one-sided", "flat"
-
-  bool available() const { return lower.has_value() && upper.has_value(); }
-};
 
 /// Every interval of one parameter, at one level.
 struct IntervalSet {
   Interval wald, profile, percentile, bca, studentized;
   std::string recommended;      ///< which one: "profile", "bca", ...
   std::string recommended_why;  ///< by which rule
+  std::string disagreement;     ///< why the kinds differ, one sentence; empty when they agree
+  /// Numbers that the sentence rests on.
+  std::optional<BcaConstants> bca_constants;
+  std::optional<double> bound_share;  ///< of the usable replicates that rest on a bound [1]
+};
+
+/// Which data made refits fail.
+struct FailedReplicates {
+  struct Suspect {
+    std::size_t point = 0;  ///< index into the observations
+    double failed = 0.0;    ///< mean disturbance of the point in the replicates that failed
+    double usual = 0.0;     ///< and in the others
+  };
+  std::vector<std::uint64_t> index;  ///< of every failed replicate, ascending
+  std::string message;               ///< the minimiser's words in the first of them
+  std::vector<Suspect> suspects;     ///< the points most unlike the others, the worst first
+  std::string text;                  ///< all of it in a sentence; empty when none failed
 };
 
 /// The replicates of one bootstrap, in replicate order whatever the thread count.
 struct BootstrapResult {
-  std::string scheme;  ///< "parametric" or "residual", and why
-  std::string scheme_why;
+  std::string scheme;      ///< "parametric", "residual", "wild", "case" or "cluster"
+  std::string scheme_why;  ///< asked for, or by which rule, and what it does
   int replicates = 0;
   int failed = 0;
+  FailedReplicates failures;
   std::uint64_t seed = 0;
+  /// Standard errors of the fit made as those of the replicates: from the covariance, or (wild,
+  /// case, cluster) by the sandwich that holds for unequal scatter [slots].
+  std::vector<double> reference_error;
+  /// The largest Monte-Carlo error of a percentile, recommended or capture end over the width of
+  /// its interval [1]; none without intervals.
+  std::optional<double> relative_error;
   std::vector<std::vector<double>> theta;             ///< usable replicates [count][slots]
   std::vector<std::vector<double>> std_error;         ///< of each replicate [count][slots], 0: none
   std::vector<std::vector<double>> capture_velocity;  ///< [count][diameters], per CaptureEstimate
-  std::vector<int> two_point_failed;  ///< [datasets] replicates in which it did not converge
+  int two_point_replicates = 0;  ///< the first of them also ran the two-point iteration
+  std::vector<int>
+      two_point_failed;  ///< [datasets] of those, replicates in which it did not converge
   /// [datasets][converged replicates][slots]
   std::vector<std::vector<std::vector<double>>> two_point_theta;
 };
@@ -87,12 +106,23 @@ struct Identifiability {
 
 struct UncertaintyOptions {
   int replicates = 1999;
+  /// Add batches until every percentile and recommended end has a Monte-Carlo error below
+  /// `wanted_error` of its interval's width, from 999 on and up to 19999. `replicates` is not used.
+  bool replicates_auto = false;
+  double wanted_error = 0.02;
+  Scheme scheme = Scheme::automatic;
   double level = 0.95;
   std::uint64_t seed = 20260101;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
   bool profile = true;
   bool curves = true;
+  bool capture = true;    ///< intervals of the capture velocities
   bool two_point = true;  ///< compare with the paper's calibration; without it the list is empty
+  /// Where finished replicates are kept when the user stops the run, and looked for by the next run
+  /// of the same fit; empty: nowhere. The file is left behind; whoever has written the results
+  /// removes it.
+  std::filesystem::path keep;
+  std::string keep_key;  ///< what else the replicates depend on: the program that makes them
 };
 
 struct UncertaintyResult {

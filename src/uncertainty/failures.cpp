@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "estimate/impact_problem.hpp"
+#include "uncertainty/bootstrap.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_suspects = 3;
+constexpr int most_compared = 999;      // replicates that say what is usual
+constexpr double clearly_unlike = 3.0;  // standard errors of a mean
+
+/// Sums of a point's disturbance over some replicates.
+struct Moments {
+  double count = 0.0, sum = 0.0, square = 0.0;
+
+  void add(double value) {
+    count += 1.0;
+    sum += value;
+    square += value * value;
+  }
+  double mean() const { return count > 0.0 ? sum / count : 0.0; }
+  double sd() const {
+    return count > 1.0 ? std::sqrt(std::max(0.0, (square - sum * sum / count) / (count - 1.0)))
+                       : 0.0;
+  }
+};
+
+std::string describe(const ResamplingPlan& plan, const FailedReplicates::Suspect& suspect) {
+  const Observation& point = plan.data->points[suspect.point];
+  const bool counted = plan.scheme == Scheme::cases || plan.scheme == Scheme::cluster;
+  const std::string place =
+      fmt::format("point {} (d = {:.4g} um, V = {:.4g} m/s)", suspect.point + 1,
+                  point.diameter / units::um, point.velocity);
+  return counted ? fmt::format("{} is drawn {:.2g} times instead of {:.2g}", place,
+                               suspect.failed + 1.0, suspect.usual + 1.0)
+                 : fmt::format("{} is moved by {:+.2g} standard deviations instead of {:+.2g}",
+                               place, suspect.failed, suspect.usual);
+}
+
+}  // namespace
+
+FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed, int replicates,
+                                 std::vector<std::uint64_t> index) {
+  FailedReplicates result;
+  result.index = std::move(index);
+  if (result.index.empty()) return result;
+  const std::size_t n = plan.data->points.size();
+  std::vector<Moments> failed(n);
+  std::vector<Moments> usual(n);
+  const auto add = [&](std::uint64_t replicate, std::vector<Moments>& to) {
+    const std::vector<double> values = disturbance(plan, seed, replicate);
+    for (std::size_t i = 0; i < n; ++i) to[i].add(values[i]);
+  };
+  for (std::size_t k = 0; k < result.index.size() && k < most_compared; ++k) {
+    add(result.index[k], failed);
+  }
+  for (int r = 0; r < std::min(replicates, most_compared); ++r) {
+    const auto own = static_cast<std::uint64_t>(r);
+    if (!std::binary_search(result.index.begin(), result.index.end(), own)) add(own, usual);
+  }
+  std::vector<std::pair<double, FailedReplicates::Suspect>> ranked;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double sd = usual[i].sd();
+    if (!(sd > 0.0)) continue;
+    const double distance =
+        std::abs(failed[i].mean() - usual[i].mean()) * std::sqrt(failed[i].count) / sd;
+    ranked.push_back({distance, {i, failed[i].mean(), usual[i].mean()}});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string most_unlike;
+  for (std::size_t k = 0; k < std::min(ranked.size(), most_suspects); ++k) {
+    result.suspects.push_back(ranked[k].second);
+    if (ranked[k].first < clearly_unlike && k > 0) continue;
+    most_unlike += (most_unlike.empty() ? "" : "; ") + describe(plan, ranked[k].second);
+  }
+  // The first failure once more, for what the minimiser has to say.
+  Observations sample = *plan.data;
+  resample(plan, seed, result.index.front(), sample);
+  const LeastSquaresResult again =
+      minimise(impact_problem(plan.fitted->model, sample), plan.fitted->theta, refit_options());
+  result.message =
+      again.converged ? "its points do not determine all free parameters" : again.message;
+  result.text = fmt::format(
+      "{} of {} refits failed; in them {}. The first is replicate {} (seed {}): {}",
+      result.index.size(), replicates, most_unlike.empty() ? "no point stands out" : most_unlike,
+      result.index.front(), seed, result.message);
+  return result;
+}
+
+}  // namespace recoil

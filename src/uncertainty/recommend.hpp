@@ -1,0 +1,35 @@
+#pragma once
+
+#include "uncertainty/uncertainty.hpp"
+
+namespace recoil {
+
+/// Names the interval to quote, and why: the one place where the rule stands.
+///
+/// The profile where there is one: it follows the likelihood where that is not a parabola, stops at
+/// the bounds, and knows that an estimated noise is uncertain. Else the percentile interval, else
+/// Wald's.
+void recommend(IntervalSet& set);
+
+/// Why the intervals of one free parameter differ, in a sentence: which of them differ by how much
+/// from the recommended one, and which of these the numbers show:
+///   - bound: the estimate, or more than a twentieth of the replicates, rest on a bound, of this
+///     parameter or of one that it is correlated with beyond 0.5;
+///   - ridge: a correlation beyond 0.97 with another free parameter;
+///   - skew: |acceleration| > 0.05, |z0| > 0.15, or arms of the profile that differ by a quarter;
+///   - few points: Student's quantile is a tenth larger than the normal one.
+/// Empty when no end differs by more than 15 % of the recommended width beyond its Monte-Carlo
+/// error.
+/// @param sets of all slots, complete but for this sentence
+std::string explain_disagreement(const FitResult& fitted, std::size_t slot,
+                                 const std::vector<IntervalSet>& sets, bool sd_stated,
+                                 double level);
+
+/// The share of the usable replicates in which `slot` rests on one of its bounds.
+std::optional<double> bound_share(const BootstrapResult& boot, const ParameterSlot& slot,
+                                  std::size_t index);
+
+/// Says so in `interval.note` when an end is the parameter's bound.
+void note_bounds(Interval& interval, const ParameterSlot& slot);
+
+}  // namespace recoil

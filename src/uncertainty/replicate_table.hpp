@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace recoil {
+
+/// Replicates by index, some of them not run yet. Rows are written from different threads.
+struct ReplicateTable {
+  enum class State : std::uint8_t { not_run, usable, failed };
+
+  std::size_t slots = 0;
+  std::vector<State> state;       ///< [count]
+  std::vector<double> theta;      ///< [count x slots]
+  std::vector<double> std_error;  ///< [count x slots]
+
+  /// Makes room for `count` replicates; those that exist stay.
+  void grow(std::size_t count);
+  std::size_t finished() const;
+};
+
+/// Writes the finished replicates under `key`, every digit of them, as JSON: whole or not at all.
+void save_replicates(const std::filesystem::path& file, const std::string& key,
+                     const ReplicateTable& table);
+
+/// Takes over what `file` holds, if it was written under `key`; a file that is missing, damaged or
+/// of another key leaves the table empty. Replicates are cheap, wrong ones are not.
+ReplicateTable load_replicates(const std::filesystem::path& file, const std::string& key,
+                               std::size_t slots);
+
+}  // namespace recoil

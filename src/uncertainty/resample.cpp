@@ -1,0 +1,208 @@
+#include "uncertainty/resample.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+
+namespace recoil {
+namespace {
+
+constexpr double most_leverage = 0.99;  // a point that the fit passes through says nothing
+
+/// r_i / (1 - h_i)^power of every point; captured ones get 0.
+std::vector<double> scaled_residuals(const FitResult& fitted, const Observations& data,
+                                     double power) {
+  std::vector<double> scaled(data.points.size(), 0.0);
+  for (std::size_t i = 0; i < scaled.size(); ++i) {
+    if (data.points[i].censored) continue;
+    const double h = std::min(fitted.leverage[i], most_leverage);
+    scaled[i] = fitted.residuals[i] / std::pow(1.0 - h, power);
+  }
+  return scaled;
+}
+
+/// The scaled residuals of the points that rebounded, less their mean.
+std::vector<double> residual_pool(const FitResult& fitted, const Observations& data) {
+  const std::vector<double> scaled = scaled_residuals(fitted, data, 0.5);
+  std::vector<double> pool;
+  for (std::size_t i = 0; i < scaled.size(); ++i) {
+    if (!data.points[i].censored) pool.push_back(scaled[i]);
+  }
+  double mean = 0.0;
+  for (const double r : pool) mean += r / static_cast<double>(pool.size());
+  for (double& r : pool) r -= mean;
+  return pool;
+}
+
+std::vector<std::vector<std::size_t>> series_of(const Observations& data) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> found;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    found[{data.points[i].dataset, data.points[i].series}].push_back(i);
+  }
+  std::vector<std::vector<std::size_t>> clusters;
+  for (auto& [key, points] : found) clusters.push_back(std::move(points));
+  return clusters;
+}
+
+/// Moves point i of the sample to its predicted value and `noise` standard deviations beyond.
+void disturb(const ResamplingPlan& plan, std::size_t i, double noise, Observations& sample) {
+  Observation& point = sample.points[i];
+  if (point.censored) return;
+  point.restitution = std::max(0.0, plan.fitted->prediction[i] + point.sd * noise);
+}
+
+std::string reason(Scheme scheme) {
+  switch (scheme) {
+    case Scheme::parametric:
+      return "new noise of the fit's size is drawn about the fitted curve";
+    case Scheme::residual:
+      return "the fit's own residuals, scaled for leverage and centred, are exchanged among the "
+             "points";
+    case Scheme::wild:
+      return "each point keeps its own residual, scaled for leverage (HC3), with a random sign";
+    case Scheme::cases:
+      return "whole points are drawn with replacement, captured ones with the others";
+    case Scheme::cluster:
+      return "whole series are drawn with replacement, with all their points";
+    case Scheme::automatic:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::size_t ResamplingPlan::units() const {
+  return scheme == Scheme::cluster ? clusters.size() : data->points.size();
+}
+
+std::string scheme_obstacle(Scheme scheme, const Observations& data) {
+  const bool all_captured = std::all_of(data.points.begin(), data.points.end(),
+                                        [](const Observation& point) { return point.censored; });
+  if ((scheme == Scheme::residual || scheme == Scheme::wild) && all_captured) {
+    return "no point rebounded: there are no residuals to draw from";
+  }
+  if (scheme == Scheme::cluster && series_of(data).size() < 2) {
+    return "all points belong to one series: there is nothing to exchange";
+  }
+  return "";
+}
+
+ResamplingPlan plan_resampling(const FitResult& fitted, const Observations& data, Scheme asked) {
+  ResamplingPlan plan;
+  plan.fitted = &fitted;
+  plan.data = &data;
+  plan.scheme = asked;
+  std::string chosen = "asked for";
+  if (asked == Scheme::automatic) {
+    const bool residuals = scheme_obstacle(Scheme::wild, data).empty();
+    plan.scheme = data.sd_stated || !residuals ? Scheme::parametric : Scheme::wild;
+    chosen = data.sd_stated ? "every point states its standard deviation"
+             : residuals
+                 ? "no standard deviations are stated, so the scatter need not be equal everywhere"
+                 : "no point rebounded, so there are no residuals";
+  }
+  plan.why = fmt::format("{}: {}", chosen, reason(plan.scheme));
+  if (plan.scheme == Scheme::residual) plan.residuals = residual_pool(fitted, data);
+  if (plan.scheme == Scheme::wild) plan.residuals = scaled_residuals(fitted, data, 1.0);
+  if (plan.scheme == Scheme::cluster) {
+    plan.clusters = series_of(data);
+    constexpr std::size_t few_clusters = 10;
+    if (plan.clusters.size() < few_clusters) {
+      plan.why += fmt::format("; {} series are few for that: intervals come out too narrow",
+                              plan.clusters.size());
+    }
+  }
+  return plan;
+}
+
+void resample_parametric(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
+  sample.points = plan.data->points;
+  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+    disturb(plan, i, plan.fitted->noise_scale * random.normal(), sample);
+  }
+}
+
+void resample_residual(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
+  sample.points = plan.data->points;
+  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+    disturb(plan, i, plan.residuals[random.below(plan.residuals.size())], sample);
+  }
+}
+
+void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
+  sample.points = plan.data->points;
+  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+    const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
+    disturb(plan, i, sign * plan.residuals[i], sample);
+  }
+}
+
+void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
+  const std::vector<Observation>& points = plan.data->points;
+  sample.points.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sample.points.push_back(points[random.below(points.size())]);
+  }
+}
+
+void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
+  sample.points.clear();
+  for (std::size_t k = 0; k < plan.clusters.size(); ++k) {
+    for (const std::size_t i : plan.clusters[random.below(plan.clusters.size())]) {
+      sample.points.push_back(plan.data->points[i]);
+    }
+  }
+}
+
+void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t index,
+              Observations& sample) {
+  RandomStream random(seed, RandomPurpose::bootstrap, index);
+  switch (plan.scheme) {
+    case Scheme::parametric:
+      return resample_parametric(plan, random, sample);
+    case Scheme::residual:
+      return resample_residual(plan, random, sample);
+    case Scheme::wild:
+      return resample_wild(plan, random, sample);
+    case Scheme::cases:
+      return resample_cases(plan, random, sample);
+    case Scheme::cluster:
+      return resample_clusters(plan, random, sample);
+    case Scheme::automatic:
+      break;
+  }
+  assert(false && "a plan names its scheme");
+}
+
+std::vector<double> disturbance(const ResamplingPlan& plan, std::uint64_t seed,
+                                std::uint64_t index) {
+  const std::size_t n = plan.data->points.size();
+  std::vector<double> values(n, 0.0);
+  if (plan.scheme == Scheme::cases || plan.scheme == Scheme::cluster) {
+    // The same draws as in `resample_cases` and `resample_clusters`, counted.
+    RandomStream random(seed, RandomPurpose::bootstrap, index);
+    for (double& v : values) v = -1.0;
+    for (std::size_t k = 0; k < plan.units(); ++k) {
+      const std::size_t drawn = random.below(plan.units());
+      if (plan.scheme == Scheme::cases) {
+        values[drawn] += 1.0;
+      } else {
+        for (const std::size_t i : plan.clusters[drawn]) values[i] += 1.0;
+      }
+    }
+    return values;
+  }
+  Observations sample;
+  resample(plan, seed, index, sample);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (sample.points[i].censored) continue;
+    values[i] = (sample.points[i].restitution - plan.fitted->prediction[i]) / sample.points[i].sd;
+  }
+  return values;
+}
+
+}  // namespace recoil

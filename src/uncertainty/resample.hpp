@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/random.hpp"
+#include "uncertainty/uncertainty.hpp"
+
+namespace recoil {
+
+/// What a scheme draws from, prepared once for all replicates. Refers to the fit and its data,
+/// which have to outlive it.
+struct ResamplingPlan {
+  Scheme scheme = Scheme::parametric;  ///< never automatic
+  std::string why;                     ///< in a sentence, with what was asked for or the rule
+  const FitResult* fitted = nullptr;
+  const Observations* data = nullptr;
+  std::vector<double> residuals;  ///< residual: the pool; wild: one for each point [weighted]
+  std::vector<std::vector<std::size_t>> clusters;  ///< the points of each series that has any
+
+  /// How many things are drawn that are independent of each other: points, or series.
+  std::size_t units() const;
+};
+
+/// Why `scheme` cannot be used on `data`; empty when it can.
+std::string scheme_obstacle(Scheme scheme, const Observations& data);
+
+/// Prepares `asked`. `automatic` becomes parametric where every point states its standard
+/// deviation, and wild otherwise: without stated deviations nobody has said that the scatter is the
+/// same everywhere, and wild is the scheme that does not need it.
+/// @pre scheme_obstacle(asked, data) is empty
+ResamplingPlan plan_resampling(const FitResult& fitted, const Observations& data, Scheme asked);
+
+// The schemes. Each fills `sample.points` from the plan and one stream of random numbers; whatever
+// else `sample` holds is left alone. In the first three a captured point stays a captured point and
+// its place in the stream is kept; in the last two it travels with its case or series.
+
+/// e*_i = e_model,i + s sd_i z_i, z standard normal, s the fit's noise_scale.
+void resample_parametric(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
+
+/// e*_i = e_model,i + sd_i rho_i, rho drawn from the centred r_j / sqrt(1 - h_j) of all points that
+/// rebounded (Davison & Hinkley 1997, Bootstrap Methods and their Application, section 6.2.3).
+void resample_residual(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
+
+/// e*_i = e_model,i + sd_i r_i / (1 - h_i) v_i with v_i = -1 or +1, equally likely: the wild
+/// bootstrap (Wu 1986, Ann. Statist. 14, 1261-1295) with the HC3 scaling and Rademacher signs,
+/// which Davidson & Flachaire (2008), J. Econometrics 146, 162-169, found to do better in small
+/// samples than the two-point distribution of Mammen (1993).
+void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
+
+/// n whole points with replacement: nothing but the points themselves is assumed.
+void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
+
+/// As many whole series as there are, with replacement: points of a series may depend on each
+/// other.
+void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
+
+/// The sample of replicate `index`: a pure function of (plan, seed, index). `sample` has been
+/// copied from the plan's data once; its memory is used again.
+void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t index,
+              Observations& sample);
+
+/// By how much each point of the data was disturbed in replicate `index`, in units of what is usual
+/// for the scheme: (e* - e_model) / sd, or how often the point was drawn less one.
+std::vector<double> disturbance(const ResamplingPlan& plan, std::uint64_t seed,
+                                std::uint64_t index);
+
+}  // namespace recoil

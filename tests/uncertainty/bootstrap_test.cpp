@@ -1,0 +1,198 @@
+// The bootstrap as a run: extended, stopped and continued, counting and locating what fails.
+#include "uncertainty/bootstrap.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "noisy_case.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+using synthetic::Case;
+using synthetic::noisy_case;
+using synthetic::small;
+
+/// A folder of its own, removed at the end.
+class Folder {
+ public:
+  Folder() {
+    std::string place = (fs::temp_directory_path() / "recoil-boot-XXXXXX").string();
+    if (mkdtemp(place.data()) == nullptr) throw std::runtime_error("no folder to work in");
+    path_ = place;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  fs::path file() const { return path_ / "replicates.json"; }
+
+ private:
+  fs::path path_;
+};
+
+TEST(Bootstrap, ExtendingIsTheSameAsOneRun) {
+  const Case c = noisy_case();
+  for (const Scheme scheme : {Scheme::parametric, Scheme::residual, Scheme::wild, Scheme::cases}) {
+    UncertaintyOptions options = small(1);
+    options.scheme = scheme;
+    Bootstrap whole(c.fitted, c.data, {}, options);
+    whole.extend(30);
+    UncertaintyOptions threads = options;
+    threads.threads = 3;
+    Bootstrap parts(c.fitted, c.data, {}, threads);
+    parts.extend(7);
+    parts.extend(30);
+    EXPECT_EQ(whole.result().theta, parts.result().theta) << to_string(scheme);
+    EXPECT_EQ(whole.result().std_error, parts.result().std_error) << to_string(scheme);
+    EXPECT_EQ(whole.result().scheme, to_string(scheme));
+  }
+}
+
+TEST(ReplicateTable, EveryDigitComesBackUnderItsKeyOnly) {
+  const Folder folder;
+  ReplicateTable table;
+  table.slots = 2;
+  table.grow(4);
+  table.state = {ReplicateTable::State::usable, ReplicateTable::State::not_run,
+                 ReplicateTable::State::failed, ReplicateTable::State::usable};
+  table.theta = {1.0 / 3.0, 1e-300, 0, 0, 0, 0, M_PI, 0.1};
+  table.std_error = {0.1 + 0.2, 0, 0, 0, 0, 0, 1e17 + 1, 5e-324};
+  save_replicates(folder.file(), "key", table);
+  const ReplicateTable back = load_replicates(folder.file(), "key", 2);
+  EXPECT_EQ(back.state, table.state);
+  EXPECT_EQ(back.theta, table.theta);
+  EXPECT_EQ(back.std_error, table.std_error);
+  EXPECT_EQ(back.finished(), 3U);
+  EXPECT_EQ(load_replicates(folder.file(), "other", 2).finished(), 0U);
+  EXPECT_EQ(load_replicates(folder.file(), "key", 3).finished(), 0U);
+}
+
+TEST(ReplicateTable, DamagedFilesAreNotTrusted) {
+  const Folder folder;
+  for (const char* text :
+       {"", "{", "[1]", R"({"key": "key"})", R"({"key": "key", "replicates": [[0, [1], []]]})",
+        R"({"key": "key", "replicates": [[-1]]})", R"({"key": "key", "replicates": [7]})",
+        R"({"key": "key", "replicates": [[99999999999]]})",
+        R"({"key": "key", "replicates": [[0, ["a"], [1]]]})"}) {
+    std::ofstream(folder.file()) << text;
+    EXPECT_EQ(load_replicates(folder.file(), "key", 1).finished(), 0U) << text;
+  }
+}
+
+TEST(Bootstrap, GoesOnFromFinishedReplicates) {
+  const Case c = noisy_case();
+  const Folder folder;
+  UncertaintyOptions options = small(0);
+  options.keep = folder.file();
+  Bootstrap first(c.fitted, c.data, {}, options);
+  first.extend(12);
+  const BootstrapResult whole = first.result();
+  // A quick run writes nothing by itself. Put a mark into a file of finished replicates: it shows
+  // whether they are taken over or made anew.
+  EXPECT_FALSE(fs::exists(folder.file()));
+  ReplicateTable table;
+  table.slots = 3;
+  table.grow(5);
+  for (std::size_t i = 0; i < 5; ++i) table.state[i] = ReplicateTable::State::usable;
+  table.theta.assign(15, 0.125);
+  save_replicates(folder.file(), first.key(), table);
+  Bootstrap second(c.fitted, c.data, {}, options);
+  second.extend(12);
+  EXPECT_EQ(second.result().theta[4], std::vector<double>(3, 0.125));
+  EXPECT_EQ(second.result().theta[5], whole.theta[5]);
+  // Another seed, scheme, point or program is another bootstrap.
+  UncertaintyOptions other = options;
+  other.seed = 2;
+  EXPECT_NE(Bootstrap(c.fitted, c.data, {}, other).key(), first.key());
+  other = options;
+  other.scheme = Scheme::wild;
+  EXPECT_NE(Bootstrap(c.fitted, c.data, {}, other).key(), first.key());
+  other = options;
+  other.keep_key = "a later version";
+  EXPECT_NE(Bootstrap(c.fitted, c.data, {}, other).key(), first.key());
+  Case moved = c;
+  moved.data.points[0].restitution += 1e-15;
+  EXPECT_NE(Bootstrap(c.fitted, moved.data, {}, options).key(), first.key());
+}
+
+TEST(Failures, TheDisturbedPointIsFound) {
+  // Claim that the replicates in which point 5 was drawn far up failed: it has to stand out.
+  const Case c = noisy_case();
+  const ResamplingPlan plan = plan_resampling(c.fitted, c.data, Scheme::parametric);
+  std::vector<std::uint64_t> claimed;
+  for (std::uint64_t r = 0; r < 999; ++r) {
+    if (disturbance(plan, 3, r)[5] > 1.8) claimed.push_back(r);
+  }
+  ASSERT_GT(claimed.size(), 10U);
+  const FailedReplicates found = locate_failures(plan, 3, 999, claimed);
+  ASSERT_FALSE(found.suspects.empty());
+  EXPECT_EQ(found.suspects.front().point, 5U);
+  EXPECT_GT(found.suspects.front().failed, 1.8);
+  EXPECT_NEAR(found.suspects.front().usual, 0.0, 0.2);
+  EXPECT_NE(found.text.find("point 6 "), std::string::npos) << found.text;
+  EXPECT_NE(found.text.find("replicate " + std::to_string(claimed.front())), std::string::npos);
+  EXPECT_TRUE(locate_failures(plan, 3, 999, {}).text.empty());
+}
+
+TEST(Failures, TenPercentWithholdOnePercentWarns) {
+  // Two points, two parameters: half of the samples of cases hold one of the points twice, and
+  // cannot determine both.
+  Case c = noisy_case();
+  synthetic::Design design;
+  design.diameters = {4.9e-6};
+  design.velocities = {2.5, 25.0};
+  c.datasets = {synthetic::dataset(design)};
+  c.data = gather(c.datasets);
+  c.fitted = fit(make_model(synthetic::spec(), c.datasets), c.data);
+  UncertaintyOptions options = small(0);
+  options.scheme = Scheme::cases;
+  options.replicates = 99;
+  options.curves = false;
+  options.two_point = false;
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, options);
+  EXPECT_NEAR(result.bootstrap.failed, 49.5, 20.0);  // four standard errors of a fair coin
+  EXPECT_NE(result.bootstrap.failures.text.find("do not determine"), std::string::npos)
+      << result.bootstrap.failures.text;
+  EXPECT_FALSE(result.intervals[0].percentile.available());
+  EXPECT_NE(result.intervals[0].percentile.why.find("withheld"), std::string::npos);
+  EXPECT_FALSE(result.capture[0].interval.available());
+  bool warned = false;
+  for (const std::string& warning : result.warnings) {
+    warned = warned || warning.find("withheld") != std::string::npos;
+  }
+  EXPECT_TRUE(warned);
+}
+
+TEST(Automatic, AddsBatchesUntilTheErrorIsSmall) {
+  const Case c = noisy_case();
+  UncertaintyOptions options = small(0);
+  options.replicates_auto = true;
+  options.wanted_error = 0.03;
+  options.profile = false;
+  options.capture = false;
+  options.curves = false;
+  options.two_point = false;
+  const UncertaintyResult loose = assess_uncertainty(c.fitted, c.data, c.datasets, options);
+  ASSERT_TRUE(loose.bootstrap.relative_error);
+  EXPECT_LE(*loose.bootstrap.relative_error, 0.03);
+  EXPECT_EQ(loose.bootstrap.replicates, 999);  // 2.7 / sqrt(999) / 3.9 = 2.2 % for a normal one
+  options.wanted_error = 0.02;
+  const UncertaintyResult tight = assess_uncertainty(c.fitted, c.data, c.datasets, options);
+  EXPECT_LE(*tight.bootstrap.relative_error, 0.02);
+  EXPECT_GT(tight.bootstrap.replicates, 999);
+  EXPECT_EQ((tight.bootstrap.replicates + 1) % 1000, 0);
+  // What was there stays: the first replicates are those of the smaller run.
+  EXPECT_TRUE(std::equal(loose.bootstrap.theta.begin(), loose.bootstrap.theta.end(),
+                         tight.bootstrap.theta.begin()));
+}
+
+}  // namespace
+}  // namespace recoil
