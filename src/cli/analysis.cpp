@@ -20,14 +20,14 @@ Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& o
   uncertainty.replicates = options.replicates.value_or(uncertainty.replicates);
   uncertainty.seed = options.seed.value_or(uncertainty.seed);
   analysis.datasets = load_datasets(analysis.spec);
-  analysis.data = gather(analysis.datasets);
   ImpactModel model = make_model(analysis.spec, analysis.datasets);
   model.solver = options.solver;
-  analysis.fitted = fit(model, analysis.data);
+  analysis.fitted = fit(model, gather(analysis.datasets, analysis.spec.noise));
   if (!analysis.fitted.usable) {
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", fit_file.string(),
                                        analysis.fitted.failure));
   }
+  analysis.data = analysis.fitted.data;
   UncertaintyOptions assess;
   assess.replicates = uncertainty.replicates;
   assess.level = uncertainty.level;
