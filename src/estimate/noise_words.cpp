@@ -16,22 +16,24 @@ constexpr double outlier_share = 0.1;
 constexpr double outlier_factor = 3.0;
 // Curvature over the errors of V and d that is worth a warning, in sd of the point's e^2.
 constexpr double strained = 0.5;
+// A likelihood ratio of e^(4/2), about 7 to 1, is worth the word "clear".
+constexpr double clear = 4.0;
 
 std::string variance_words(const Observations& data) {
   const NoiseModel& noise = data.noise;
   std::string text = "the noise is estimated from the residuals: " +
                      scale_in_words(noise.variance, noise.scale);
   if (data.spec.variance) return text + fmt::format(" ({}, as asked for)", to_string(noise.variance));
+  if (noise.candidates.empty()) return text;
   std::string others;
   for (const VarianceCandidate& candidate : noise.candidates) {
     if (candidate.function == noise.variance) continue;
-    others += fmt::format("{}{}", others.empty() ? "" : ", ", to_string(candidate.function));
+    others += fmt::format("{}{}", others.empty() ? "" : " and ", to_string(candidate.function));
   }
   const double margin = choice_margin(noise);
-  return text + fmt::format(" ({}, chosen before {}; -2 ln restricted likelihood {} by {:.1f})",
-                            to_string(noise.variance), others,
-                            margin < 0.0 ? "is worse than the best, within the margin," : "is ahead",
-                            std::abs(margin));
+  return text + fmt::format(" ({}, chosen before {} by {:.1f} on -2 ln restricted likelihood{})",
+                            to_string(noise.variance), others, margin,
+                            margin < clear ? ", which is no clear decision" : "");
 }
 
 std::string input_words(const std::vector<Observation>& points) {
@@ -82,9 +84,9 @@ double choice_margin(const NoiseModel& noise) {
   double other = INFINITY;
   for (const VarianceCandidate& candidate : noise.candidates) {
     if (candidate.function == noise.variance) {
-      own = candidate.criterion;
+      own = candidate.criterion + handicap(candidate.function);
     } else {
-      other = std::min(other, candidate.criterion);
+      other = std::min(other, candidate.criterion + handicap(candidate.function));
     }
   }
   return std::isfinite(other) ? other - own : 0.0;

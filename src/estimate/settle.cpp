@@ -287,10 +287,26 @@ double restricted_criterion(const ImpactModel& model, const Settled& settled) {
 
 }  // namespace
 
-double decisive_margin() { return 2.0; }
+double handicap(VarianceFunction function) {
+  switch (function) {
+    case VarianceFunction::constant:
+      return 1.0;
+    case VarianceFunction::proportional:
+      return 3.0;
+    case VarianceFunction::capture:
+    case VarianceFunction::stated:
+      break;
+  }
+  return 0.0;
+}
 
 Settled settle(const ImpactModel& model, Observations data, std::span<const double> start,
                const LeastSquaresOptions& options) {
+  if (!data.weights_depend_on_fit()) {
+    Settled settled{{}, std::move(data)};
+    settled.run = minimise(impact_problem(model, settled.data), start, options);
+    return settled;
+  }
   if (data.sd_stated || data.spec.variance) {
     return settle_with(model, std::move(data), start, options);
   }
@@ -308,9 +324,8 @@ Settled settle(const ImpactModel& model, Observations data, std::span<const doub
     }
     const double criterion = restricted_criterion(model, settled);
     candidates.push_back({function, settled.data.noise.scale, criterion});
-    const double handicap = function == VarianceFunction::constant ? 0.0 : decisive_margin();
-    if (criterion + handicap < best_criterion) {
-      best_criterion = criterion + handicap;
+    if (criterion + handicap(function) < best_criterion) {
+      best_criterion = criterion + handicap(function);
       best = std::move(settled);
     }
   }
