@@ -257,7 +257,7 @@ double root_mean_square(const ImpactModel& model, std::span<const double> theta,
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Observation& point = data.points[points[k]];
     const double measured = point.censored ? 0.0 : point.restitution;
-    sum += std::pow(measured - predictions[k].restitution(), 2);
+    sum += std::pow(measured - expected_restitution(point, predictions[k].restitution_squared), 2);
   }
   return std::sqrt(sum / static_cast<double>(points.size()));
 }

@@ -19,8 +19,8 @@ int binomial_quantile(double uniform, double p, int n) {
   int reached = n;
   while (reached - below > 1) {
     const int middle = below + (reached - below) / 2;
-    const bool enough = gsl_cdf_binomial_P(static_cast<unsigned>(middle), p,
-                                           static_cast<unsigned>(n)) >= uniform;
+    const bool enough =
+        gsl_cdf_binomial_P(static_cast<unsigned>(middle), p, static_cast<unsigned>(n)) >= uniform;
     (enough ? reached : below) = middle;
   }
   return reached;
@@ -72,10 +72,10 @@ Observation simulate_observation(const Observation& point, double restitution_sq
   const double uniform = random.uniform();
   const double normal = random.normal();
   const double noise =
-      noise_scale * (point.student ? point.student->core *
-                                         gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(normal),
-                                                            point.student->dof)
-                                   : normal);
+      noise_scale * (point.student
+                         ? point.student->core *
+                               gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(normal), point.student->dof)
+                         : normal);
   const double m = restitution_squared + common;
   Observation drawn = point;
   if (!(point.scatter > 0.0)) {
@@ -92,8 +92,7 @@ Observation simulate_observation(const Observation& point, double restitution_sq
   drawn.sd = point.event_sd() /
              std::sqrt(static_cast<double>(drawn.censored ? drawn.events : drawn.rebounds()));
   drawn.restitution =
-      drawn.censored ? 0.0
-                     : std::max(0.0, expected_restitution(drawn, m) + drawn.sd * noise);
+      drawn.censored ? 0.0 : std::max(0.0, expected_restitution(drawn, m) + drawn.sd * noise);
   return drawn;
 }
 

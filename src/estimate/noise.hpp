@@ -35,14 +35,15 @@ struct Settled {
 /// the data that a replicate was drawn from) and settles everything that depends on them, in turns
 /// until neither moves:
 /// - the variance function at the predicted e, its scale s from square / dof = 1 (restricted
-///   maximum likelihood; Carroll & Ruppert 1988, section 2.2 and 3.2) and, unless the fit file names
-///   one, the function itself (see below);
+///   maximum likelihood; Carroll & Ruppert 1988, section 2.2 and 3.2) and, unless the fit file
+///   names one, the function itself (see below);
 /// - effective variances: the errors of V and d reach e^2 by its slope,
 ///     var(e^2) += (d e^2 / d ln V)^2 (sd_V / V)^2 + (d e^2 / d ln d)^2 (sd_d / d)^2,
 ///   with slopes taken as differences over one such deviation, and 2 e^2 added to the slope in V
 ///   where e was computed from V. First order: curvature is left out, which moves e^2 by about
-///   input_bias = (sd_V / V)^2 / 2 d^2 e^2 / d ln V^2 and the like; the fit warns where that exceeds
-///   half the standard deviation of a point. Errors are taken as independent from point to point;
+///   input_bias = (sd_V / V)^2 / 2 d^2 e^2 / d ln V^2 and the like; the fit warns where that
+///   exceeds half the standard deviation of a point. Errors are taken as independent from point to
+///   point;
 /// - event_spread, the relative scatter omega of the capture velocity from impact to impact, by
 ///   maximum likelihood of the counts and the survivors' means, wherever a point has both:
 ///   an impact at V fares like the mean one at V exp(omega z), so its e^2 has the mean and variance
@@ -54,8 +55,8 @@ struct Settled {
 /// -2 ln restricted likelihood (all three have one number s, so no count of parameters tells them
 /// apart) and a handicap for what a wrong choice costs. With 10 to 20 points the likelihood can
 /// hardly tell them apart, and the mistakes are not alike (simulated: one size, 12 points from 1.15
-/// to 57 V*, 300 data sets, errors of C_A): `capture` where the scatter is equal makes the error 12 %
-/// larger and its interval too wide; `constant` where the scatter is four times larger at capture
+/// to 57 V*, 300 data sets, errors of C_A): `capture` where the scatter is equal makes the error 12
+/// % larger and its interval too wide; `constant` where the scatter is four times larger at capture
 /// makes it 10 % larger and the interval hold in 82 % instead of 92 %; `proportional` there lets it
 /// hold in 70 %. So `capture` has no handicap, `constant` 1 and `proportional` 3: few points are
 /// fitted with `capture`, and at 60 the data decide.

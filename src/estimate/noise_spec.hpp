@@ -31,9 +31,9 @@ struct NoiseSpec {
   bool student = false;      ///< `residuals = "student"`: Student's t instead of the normal
   double student_dof = 4.0;  ///< its degrees of freedom, at least 1
 
-  bool velocity_errors = true;       ///< use the velocity_sd of the points
+  bool velocity_errors = true;        ///< use the velocity_sd of the points
   double velocity_relative_sd = 0.0;  ///< for points without one; 0: none
-  bool diameter_errors = true;       ///< use the diameter_sd of the points
+  bool diameter_errors = true;        ///< use the diameter_sd of the points
   double diameter_relative_sd = 0.0;  ///< for points without one; 0: none
 };
 

@@ -21,9 +21,10 @@ constexpr double clear = 4.0;
 
 std::string variance_words(const Observations& data) {
   const NoiseModel& noise = data.noise;
-  std::string text = "the noise is estimated from the residuals: " +
-                     scale_in_words(noise.variance, noise.scale);
-  if (data.spec.variance) return text + fmt::format(" ({}, as asked for)", to_string(noise.variance));
+  std::string text =
+      "the noise is estimated from the residuals: " + scale_in_words(noise.variance, noise.scale);
+  if (data.spec.variance)
+    return text + fmt::format(" ({}, as asked for)", to_string(noise.variance));
   if (noise.candidates.empty()) return text;
   std::string others;
   for (const VarianceCandidate& candidate : noise.candidates) {
@@ -69,8 +70,8 @@ std::string scale_in_words(VarianceFunction function, double scale) {
     case VarianceFunction::proportional:
       return fmt::format("sd(e) = {:.3g} e for every impact", scale);
     case VarianceFunction::capture:
-      return fmt::format("sd(e^2) = {:.3g} for every impact, so that e scatters more close to capture",
-                         scale);
+      return fmt::format(
+          "sd(e^2) = {:.3g} for every impact, so that e scatters more close to capture", scale);
     case VarianceFunction::constant:
       return fmt::format("sd(e) = {:.3g} for every impact", scale);
     case VarianceFunction::stated:

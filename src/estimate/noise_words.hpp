@@ -11,8 +11,8 @@ void describe_noise(FitResult& result);
 /// The scale of an estimated variance function in words: "sd(e) = 0.021 for every impact".
 std::string scale_in_words(VarianceFunction function, double scale);
 
-/// How far the next best candidate lies behind the chosen one, handicaps included, on -2 ln restricted
-/// likelihood; 0 without a choice.
+/// How far the next best candidate lies behind the chosen one, handicaps included, on -2 ln
+/// restricted likelihood; 0 without a choice.
 double choice_margin(const NoiseModel& noise);
 
 }  // namespace recoil

@@ -58,7 +58,8 @@ void complete_captured(std::vector<Observation>& points) {
 
 void weigh_equally(std::vector<Observation>& points) {
   for (Observation& point : points) {
-    point.sd = nominal_sd / std::sqrt(std::max(1, point.censored ? point.events : point.rebounds()));
+    point.sd =
+        nominal_sd / std::sqrt(std::max(1, point.censored ? point.events : point.rebounds()));
   }
 }
 
@@ -94,10 +95,10 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec)
     }
   }
   if (spec.variance == VarianceFunction::stated && missing > 0) {
-    throw InputError(spec.variance_place, "variance = \"stated\"",
-                     fmt::format("{} of {} points state no restitution_sd", missing,
-                                 data.points.size()),
-                     "write \"auto\", or state them all");
+    throw InputError(
+        spec.variance_place, "variance = \"stated\"",
+        fmt::format("{} of {} points state no restitution_sd", missing, data.points.size()),
+        "write \"auto\", or state them all");
   }
   data.sd_stated = spec.variance ? spec.variance == VarianceFunction::stated : missing == 0;
   if (data.sd_stated) {

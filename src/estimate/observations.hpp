@@ -62,8 +62,8 @@ struct NoiseModel {
   VarianceFunction variance = VarianceFunction::stated;
   double scale = 0.0;  ///< s of the function, for a single impact [1]; 0 when stated
   std::vector<VarianceCandidate> candidates;  ///< all that were tried, when it was chosen
-  double event_spread = 0.0;  ///< relative sd of the capture velocity from impact to impact; 0 where
-                              ///< no point has both rebounds and captures
+  double event_spread = 0.0;  ///< relative sd of the capture velocity from impact to impact; 0
+                              ///< where no point has both rebounds and captures
 };
 
 /// All points of all datasets of a fit, ready to be fitted.
@@ -87,8 +87,8 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec 
 /// signed root of its deviance, r = sign(m_best - m) sqrt(D(m) - D(m_best)), so that the sum of r^2
 /// is -2 ln likelihood but for a constant.
 ///
-/// A mean of rebounds. With y = e^2 - sigma^2 (unbiased for the square of the mean), m the predicted
-/// e^2, continued below zero for a capture, and tau = input_sd,
+/// A mean of rebounds. With y = e^2 - sigma^2 (unbiased for the square of the mean), m the
+/// predicted e^2, continued below zero for a capture, and tau = input_sd,
 ///   r = (y - m) / sqrt(sigma^2 ((e + psi(m))^2 + 2 sigma^2) + tau^2),
 ///   psi(m) = sqrt((m + sqrt(m^2 + sigma^4)) / 2).
 /// Away from capture psi = sqrt(m) and r is (e - e_model) / sigma: the Gaussian residual, without

@@ -145,8 +145,7 @@ void locate_peak(Observation& point) {
 
 double expected_restitution(const Observation& point, double m) {
   if (point.censored || !(point.scatter > 0.0)) return std::sqrt(std::max(m, 0.0));
-  return std::sqrt(point.scatter) *
-         root_of_positive_normal((m + point.shift) / point.scatter).mean;
+  return std::sqrt(point.scatter) * root_of_positive_normal((m + point.shift) / point.scatter).mean;
 }
 
 }  // namespace recoil

@@ -16,12 +16,12 @@ struct WeightedResidual {
 /// the estimate has variance E psi^2 / (E psi')^2, that is 1 / efficiency times that of least
 /// squares, and c^2 D with c^2 = E psi' / E psi^2 rises like a chi-squared.
 struct StudentNoise {
-  double dof = 4.0;           ///< nu
-  double mean_slope = 1.0;    ///< E psi' for normal r
-  double mean_square = 1.0;   ///< E psi^2
-  double square_spread = 2.0; ///< Var(psi^2) / (E psi^2)^2; 2 for normal residuals
-  double gauss_newton = 1.0;  ///< E psi^2 / D, what J'J holds instead of E psi'
-  double core = 1.0;          ///< scale of a t whose psi(r)^2 has the same mean: for simulations
+  double dof = 4.0;            ///< nu
+  double mean_slope = 1.0;     ///< E psi' for normal r
+  double mean_square = 1.0;    ///< E psi^2
+  double square_spread = 2.0;  ///< Var(psi^2) / (E psi^2)^2; 2 for normal residuals
+  double gauss_newton = 1.0;   ///< E psi^2 / D, what J'J holds instead of E psi'
+  double core = 1.0;           ///< scale of a t whose psi(r)^2 has the same mean: for simulations
 
   double psi(double r) const;
   /// sign(r) c sqrt(D(r)): what least squares has to be given to minimise c^2 D.

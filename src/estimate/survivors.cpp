@@ -19,8 +19,7 @@ RootMoments far_above_capture(double u) {
   constexpr double c = 315.0 / 1024.0;
   constexpr double d = 45045.0 / 32768.0;
   const double mean = root * (1.0 - q * (a + q * (b + q * (c + q * d))));
-  const double slope =
-      (0.5 + q * (1.5 * a + q * (3.5 * b + q * (5.5 * c + q * 7.5 * d)))) / root;
+  const double slope = (0.5 + q * (1.5 * a + q * (3.5 * b + q * (5.5 * c + q * 7.5 * d)))) / root;
   // u - mean^2 without cancellation: u (1 - (1 - s)^2) with s the sum in mean.
   const double s = q * (a + q * (b + q * (c + q * d)));
   return {mean, slope, u * s * (2.0 - s)};
@@ -42,8 +41,8 @@ RootMoments root_of_positive_normal(double u) {
   constexpr int nodes = 64;
   const double reach = std::sqrt(u < 0.0 ? std::min(9.0, 40.0 / -u) : u + 9.0);
   const double step = reach / nodes;
-  double half = 0.0;    // E y^(1/2)
-  double three = 0.0;   // E y^(3/2)
+  double half = 0.0;   // E y^(1/2)
+  double three = 0.0;  // E y^(3/2)
   for (int i = 1; i <= nodes; ++i) {
     const double t = i * step;
     const double weight = 2.0 * t * density(t * t) * step;
