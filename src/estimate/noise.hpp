@@ -42,8 +42,8 @@ struct Settled {
 ///   with slopes taken as differences over one such deviation, and 2 e^2 added to the slope in V
 ///   where e was computed from V. First order: curvature is left out, which moves e^2 by about
 ///   input_bias = (sd_V / V)^2 / 2 d^2 e^2 / d ln V^2 and the like; the fit warns where that
-///   exceeds half the standard deviation of a point. Errors are taken as independent from point to
-///   point;
+///   exceeds a tenth of the standard deviation of a point. Errors are taken as independent from
+///   point to point;
 /// - event_spread, the relative scatter omega of the capture velocity from impact to impact, by
 ///   maximum likelihood of the counts and the survivors' means, wherever a point has both:
 ///   an impact at V fares like the mean one at V exp(omega z), so its e^2 has the mean and variance

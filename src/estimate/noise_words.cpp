@@ -15,7 +15,7 @@ namespace {
 constexpr double outlier_share = 0.1;
 constexpr double outlier_factor = 3.0;
 // Curvature over the errors of V and d that is worth a warning, in sd of the point's e^2.
-constexpr double strained = 0.5;
+constexpr double strained = 0.1;
 // A likelihood ratio of e^(4/2), about 7 to 1, is worth the word "clear".
 constexpr double clear = 4.0;
 

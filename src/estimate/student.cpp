@@ -3,6 +3,8 @@
 #include <gsl/gsl_randist.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace recoil {
 namespace {
@@ -23,28 +25,25 @@ double psi_slope(double dof, double r) {
   return (dof + 1.0) * (dof - r * r) / (q * q);
 }
 
-/// E psi(scale t)^2 for t of Student's distribution, which is psi of a t; the trapezoid rule in
-/// t = sinh(x), whose tails fall exponentially.
-double square_under_t(const StudentNoise& student, double scale) {
-  constexpr double reach = 40.0;
-  constexpr int halves = 2000;
-  constexpr double step = reach / halves;
-  double sum = 0.0;
+/// The scale at which t noise looks as large to psi as standard normal noise: E psi(scale t)^2 =
+/// E psi(z)^2, by the trapezoid rule in t = sinh(x), whose tails fall exponentially.
+double core_scale(const StudentNoise& student) {
+  constexpr double step = 0.05;
+  const int halves = static_cast<int>(std::ceil(40.0 / student.dof / step)) + 100;
+  std::vector<std::pair<double, double>> nodes;  // t and its weight
   for (int i = -halves; i <= halves; ++i) {
     const double t = std::sinh(i * step);
-    const double value = student.psi(scale * t);
-    sum += value * value * gsl_ran_tdist_pdf(t, student.dof) * std::cosh(i * step);
+    nodes.emplace_back(t, gsl_ran_tdist_pdf(t, student.dof) * std::cosh(i * step) * step);
   }
-  return sum * step;
-}
-
-/// The scale at which t noise looks as large to psi as standard normal noise.
-double core_scale(const StudentNoise& student) {
   double low = 0.05;
   double high = 2.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    (square_under_t(student, middle) < student.mean_square ? low : high) = middle;
+    double square = 0.0;
+    for (const auto& [t, weight] : nodes) {
+      square += weight * student.psi(middle * t) * student.psi(middle * t);
+    }
+    (square < student.mean_square ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
