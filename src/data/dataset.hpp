@@ -31,6 +31,7 @@ struct ImpactPoint {
   std::optional<double> diameter_sd;     ///< one standard deviation of `diameter` [m]
   int events = 1;                        ///< impacts averaged in this point, captured ones included
   int captured = 0;                      ///< how many of them did not rebound
+  bool counted = false;                  ///< `captured` is stated: 0 is a count, not a gap
   int line = 0;                          ///< line in points.csv, for messages
 
   bool all_captured() const { return captured >= events; }

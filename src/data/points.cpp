@@ -254,6 +254,7 @@ class PointReader {
         Quantity::captured,
         {0.0, static_cast<double>(point.events), ", the events of this point", captured_hint, ""},
         0);
+    point.counted = cell(Quantity::captured) != nullptr;
     point.restitution = checked_restitution(point);
     point.restitution_sd = value(
         Quantity::restitution_sd,

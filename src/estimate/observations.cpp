@@ -20,7 +20,7 @@ bool has_column(const Dataset& dataset, const std::string& name) {
 }
 
 Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint& p,
-                    const NoiseSpec& spec, bool counted) {
+                    const NoiseSpec& spec) {
   Observation point;
   point.dataset = index;
   point.series = p.series;
@@ -31,7 +31,7 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
   point.censored = p.all_captured();
   point.events = p.events;
   point.captured = p.captured;
-  point.counted = counted;
+  point.counted = p.counted || p.captured > 0;
   point.rebound_measured = has_column(dataset, "rebound_velocity");
   if (spec.velocity_errors) {
     point.velocity_sd = p.velocity_sd.value_or(spec.velocity_relative_sd * p.incident_velocity);
@@ -80,12 +80,8 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec)
   const std::optional<StudentNoise> student =
       spec.student ? std::optional(student_noise(spec.student_dof)) : std::nullopt;
   for (std::size_t d = 0; d < datasets.size(); ++d) {
-    const auto& points = datasets[d].points;
-    const bool counted =
-        has_column(datasets[d], "captured") ||
-        std::any_of(points.begin(), points.end(), [](const auto& p) { return p.captured > 0; });
-    for (const ImpactPoint& p : points) {
-      data.points.push_back(observe(datasets[d], d, p, spec, counted));
+    for (const ImpactPoint& p : datasets[d].points) {
+      data.points.push_back(observe(datasets[d], d, p, spec));
       data.points.back().student = student;
       if (p.restitution_sd) {
         ++stated;

@@ -6,7 +6,7 @@
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "core/random.hpp"
-#include "estimate/impact_problem.hpp"
+#include "estimate/noise.hpp"
 
 namespace recoil {
 namespace {
@@ -38,16 +38,17 @@ std::vector<double> resampling_pool(const FitResult& fitted, const Observations&
 
 /// Standard errors of a refit: with the noise of the original fit where that is known, with its own
 /// where it is estimated. Zero where there is none.
-std::vector<double> standard_errors(const LeastSquaresResult& refit, const FitResult& fitted,
+std::vector<double> standard_errors(const Settled& settled, const FitResult& fitted,
                                     bool noise_known) {
+  const LeastSquaresResult& refit = settled.run;
   const std::size_t p = refit.theta.size();
   std::vector<double> errors(p, 0.0);
   if (refit.covariance.empty()) return errors;
-  const double scale = noise_known      ? fitted.noise_scale
-                       : fitted.dof > 0 ? std::sqrt(refit.sum_of_squares / fitted.dof)
-                                        : 0.0;
+  // Where the noise is estimated it was so again, together with the parameters of the refit.
+  const double scale = noise_known ? fitted.noise_scale : 1.0;
+  const std::vector<double> covariance = scaled_covariance(settled.data, refit.covariance, scale);
   for (std::size_t j = 0; j < p; ++j) {
-    errors[j] = scale * std::sqrt(refit.covariance[j * p + j]);
+    errors[j] = std::sqrt(covariance[j * p + j]);
   }
   return errors;
 }
@@ -75,10 +76,15 @@ struct Plan {
     Observations sample = data;
     for (std::size_t i = 0; i < sample.points.size(); ++i) {
       Observation& point = sample.points[i];
-      const double noise =
-          parametric ? fitted.noise_scale * random.normal() : pool[random.below(pool.size())];
+      if (parametric) {
+        point =
+            simulate_observation(point, fitted.prediction_squared[i], fitted.noise_scale, random);
+        continue;
+      }
+      const double noise = pool[random.below(pool.size())];
       if (point.censored) continue;  // a capture stays one; its stream position is kept
-      point.restitution = std::max(0.0, fitted.prediction[i] + point.sd * noise);
+      const double expected = expected_restitution(point, fitted.prediction_squared[i]);
+      point.restitution = std::max(0.0, expected + point.sd * noise);
     }
     return sample;
   }
@@ -86,12 +92,12 @@ struct Plan {
   Replicate run(std::uint64_t index) const {
     Replicate replicate;
     const Observations sample = resample(index);
-    const LeastSquaresResult refit =
-        minimise(impact_problem(fitted.model, sample), fitted.theta, refit_options());
+    const Settled settled = settle(fitted.model, sample, fitted.theta, refit_options());
+    const LeastSquaresResult& refit = settled.run;
     replicate.usable = refit.converged;
     if (replicate.usable) {
       replicate.theta = refit.theta;
-      replicate.std_error = standard_errors(refit, fitted, parametric);
+      replicate.std_error = standard_errors(settled, fitted, parametric);
       std::vector<CaptureQuery> queries;
       for (const CaptureEstimate& at : capture) {
         queries.push_back({at.dataset, at.diameter, at.value});
@@ -168,7 +174,7 @@ std::vector<std::vector<double>> jackknife(const FitResult& fitted, const Observ
     Observations rest = data;
     rest.points.erase(rest.points.begin() + static_cast<std::ptrdiff_t>(i));
     const LeastSquaresResult refit =
-        minimise(impact_problem(fitted.model, rest), fitted.theta, refit_options());
+        settle(fitted.model, std::move(rest), fitted.theta, refit_options()).run;
     if (refit.converged) estimates[i] = refit.theta;
   });
   return estimates;

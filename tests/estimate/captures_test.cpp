@@ -108,6 +108,7 @@ class ImpactsOfManySpheres {
       ImpactPoint& point = data.points[i];
       point.events = events;
       point.captured = 0;
+      point.counted = true;
       double sum = 0.0;
       for (int event = 0; event < events; ++event) {
         const double e = at(i, random.normal());
@@ -183,6 +184,7 @@ Bias bias(const ImpactsOfManySpheres& impacts, bool as_survivors_mean) {
   for (std::uint64_t s = 0; s < sets; ++s) {
     Dataset data = impacts.draw(s);
     for (ImpactPoint& point : data.points) {
+      point.counted = point.counted && !as_survivors_mean;
       if (as_survivors_mean && !point.all_captured()) point.captured = 0;
     }
     const ImpactModel model = make_model(synthetic::spec(), {data});

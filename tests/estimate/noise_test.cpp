@@ -1,5 +1,5 @@
-// What is taken as noise: estimated variance functions, effective variances, Student's t, on data
-// whose noise is known. The truth comes from the simulator of the reconstructions.
+// What is taken as noise: estimated variance functions and Student's t on data whose noise is
+// known. The truth comes from the simulator of the reconstructions.
 #include "estimate/noise.hpp"
 
 #include <gtest/gtest.h>
@@ -9,44 +9,13 @@
 #include "core/random.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/noise_words.hpp"
-#include "synthetic.hpp"
+#include "one_size.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr double diameter = 4.9e-6;
-
-RingAdhesionTruth truth() {
-  RingAdhesionTruth truth;
-  truth.density = 1350.0;
-  truth.stiffness = 1.789e9;
-  truth.adhesion_force = 8.9;
-  truth.reference_diameter = diameter;
-  truth.C_H = 3e-3;
-  truth.C_A = 0.03;
-  return truth;
-}
-
-/// `count` velocities from 1.15 to 57 times the capture velocity, without noise or stated sd.
-Dataset design(int count) {
-  const double capture = true_capture_velocity(truth(), diameter);
-  synthetic::Design design;
-  design.diameters = {diameter};
-  design.velocities.clear();
-  for (int i = 0; i < count; ++i) {
-    design.velocities.push_back(1.15 * capture * std::pow(50.0, i / (count - 1.0)));
-  }
-  Dataset data = synthetic::dataset(design);
-  for (ImpactPoint& point : data.points) point.restitution_sd.reset();
-  return data;
-}
-
-FitResult fit_to(const Dataset& data, const NoiseSpec& spec = {}) {
-  FitOptions options;
-  options.several_starts = false;
-  const std::vector<Dataset> datasets = {data};
-  return fit(make_model(synthetic::spec(), datasets), gather(datasets, spec), options);
-}
+using one_size::design;
+using one_size::fit_to;
 
 /// sd of a single impact at e, written down a second time.
 double event_sd(VarianceFunction function, double s, double e) {
@@ -156,103 +125,6 @@ TEST(Noise, StatedDeviationsAreUsedOnlyWhenAllStateThem) {
   NoiseSpec stated;
   stated.variance = VarianceFunction::stated;
   EXPECT_THROW(gather({data}, stated), InputError);
-}
-
-/// Mean relative errors of C_H and C_A and of chi2 / dof over data sets with errors in velocity.
-struct Summary {
-  double theta[2] = {0.0, 0.0};
-  double scatter[2] = {0.0, 0.0};
-  double reduced = 0.0;
-};
-
-Summary with_velocity_errors(bool accounted_for, bool rebound_measured) {
-  constexpr int sets = 80;
-  constexpr double relative = 0.03;
-  const Dataset clean = design(20);
-  Summary summary;
-  for (std::uint64_t k = 0; k < sets; ++k) {
-    Dataset data = clean;
-    if (rebound_measured) data.columns.push_back({"rebound_velocity", "m/s"});
-    RandomStream random(24, RandomPurpose::coverage, k);
-    for (ImpactPoint& point : data.points) {
-      const double actual = point.incident_velocity;
-      point.velocity_sd = relative * actual;
-      point.incident_velocity += *point.velocity_sd * random.normal();
-      if (rebound_measured) point.restitution *= actual / point.incident_velocity;
-      point.restitution += 0.01 * random.normal();
-      point.restitution_sd = 0.01;
-    }
-    NoiseSpec spec;
-    spec.velocity_errors = accounted_for;
-    const FitResult result = fit_to(data, spec);
-    if (!result.usable) {
-      ADD_FAILURE() << result.failure;
-      continue;
-    }
-    const double expected[2] = {3e-3, 0.03};
-    for (std::size_t j = 0; j < 2; ++j) {
-      const double error = result.theta[j] / expected[j] - 1.0;
-      summary.theta[j] += error / sets;
-      summary.scatter[j] += error * error / sets;
-    }
-    summary.reduced += result.chi2 / result.dof / sets;
-  }
-  for (std::size_t j = 0; j < 2; ++j) {
-    summary.scatter[j] = std::sqrt(summary.scatter[j] - std::pow(summary.theta[j], 2));
-  }
-  return summary;
-}
-
-TEST(Noise, EffectiveVarianceExplainsErrorsOfVelocity) {
-  for (const bool rebound_measured : {false, true}) {
-    const Summary with = with_velocity_errors(true, rebound_measured);
-    const Summary without = with_velocity_errors(false, rebound_measured);
-    EXPECT_NEAR(with.reduced, 1.0, 0.12) << rebound_measured;  // 3 sqrt(2 / 18 / 80)
-    EXPECT_GT(without.reduced, 1.35) << rebound_measured;
-    // First order: what is left over is below a third of the scatter of one data set.
-    for (std::size_t j = 0; j < 2; ++j) {
-      EXPECT_LT(std::abs(with.theta[j]), 0.33 * with.scatter[j]) << rebound_measured << j;
-      EXPECT_LT(with.scatter[j], 1.02 * without.scatter[j]) << rebound_measured << j;
-    }
-  }
-}
-
-TEST(Noise, EffectiveVarianceIsTheSlopeTimesTheError) {
-  // Far from capture sd(e) = |de/dV| sd_V, from the reconstruction's simulator.
-  Dataset data = design(8);
-  for (ImpactPoint& point : data.points) {
-    point.restitution_sd = 0.01;
-    point.velocity_sd = 0.02 * point.incident_velocity;
-    point.diameter_sd = 0.04 * point.diameter;
-  }
-  const FitResult result = fit_to(data);
-  ASSERT_TRUE(result.usable);
-  for (const std::size_t i : {std::size_t{1}, std::size_t{4}, std::size_t{7}}) {
-    const Observation& point = result.data.points[i];
-    const auto square = [&](double v, double d) {
-      const double e = true_restitution(truth(), d * point.diameter, v * point.velocity);
-      return e * e;
-    };
-    const double in_velocity = 0.5 * (square(1.02, 1.0) - square(0.98, 1.0));
-    const double in_diameter = 0.5 * (square(1.0, 1.04) - square(1.0, 0.96));
-    EXPECT_NEAR(point.input_sd / std::hypot(in_velocity, in_diameter), 1.0, 2e-2) << i;
-  }
-}
-
-TEST(Noise, ErrorsTooLargeForAFirstOrderAreWarnedOf) {
-  Dataset data = design(10);
-  for (ImpactPoint& point : data.points) {
-    point.restitution_sd = 1e-4;
-    point.velocity_sd = 0.12 * point.incident_velocity;
-  }
-  const FitResult result = fit_to(data);
-  ASSERT_TRUE(result.usable);
-  bool warned = false;
-  for (const std::string& line : result.warnings) {
-    warned = warned || line.find("effective variance") != std::string::npos;
-  }
-  EXPECT_TRUE(warned);
-  EXPECT_FALSE(std::isnan(result.chi2));
 }
 
 TEST(Noise, StudentHoldsAgainstOutliers) {
