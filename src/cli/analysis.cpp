@@ -60,16 +60,17 @@ Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& o
   Analysis analysis;
   analysis.spec = load_fit(fit_file);
   analysis.datasets = load_datasets(analysis.spec);
-  analysis.data = gather(analysis.datasets);
+  const Observations gathered = gather(analysis.datasets, analysis.spec.noise);
   require_scheme(analysis.spec, options.scheme.value_or(analysis.spec.uncertainty.scheme),
-                 analysis.data);
+                 gathered);
   ImpactModel model = make_model(analysis.spec, analysis.datasets);
   model.solver = options.solver;
-  analysis.fitted = fit(model, analysis.data);
+  analysis.fitted = fit(model, gathered);
   if (!analysis.fitted.usable) {
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", fit_file.string(),
                                        analysis.fitted.failure));
   }
+  analysis.data = analysis.fitted.data;
   const UncertaintyOptions assess = uncertainty_options(analysis.spec, options);
   analysis.uncertainty =
       assess_uncertainty(analysis.fitted, analysis.data, analysis.datasets, assess);

@@ -21,7 +21,7 @@ struct KnownField {
   Dimension dimension;
 };
 
-constexpr std::array<KnownField, 9> known_fields = {{
+constexpr std::array<KnownField, 10> known_fields = {{
     {"series", Quantity::series, Dimension::count},
     {"diameter", Quantity::diameter, Dimension::length},
     {"incident_velocity", Quantity::incident_velocity, Dimension::velocity},
@@ -29,6 +29,7 @@ constexpr std::array<KnownField, 9> known_fields = {{
     {"rebound_velocity", Quantity::rebound_velocity, Dimension::velocity},
     {"restitution_sd", Quantity::restitution_sd, Dimension::ratio},
     {"velocity_sd", Quantity::velocity_sd, Dimension::velocity},
+    {"diameter_sd", Quantity::diameter_sd, Dimension::length},
     {"events", Quantity::events, Dimension::count},
     {"captured", Quantity::captured, Dimension::count},
 }};

@@ -17,6 +17,7 @@ enum class Quantity {
   rebound_velocity,
   restitution_sd,
   velocity_sd,
+  diameter_sd,
   events,
   captured,
 };

@@ -28,8 +28,10 @@ struct ImpactPoint {
   double restitution = 0.0;        ///< e = V_rebound / V [1], 0 <= e <= 1.2; 0 when all captured
   std::optional<double> restitution_sd;  ///< one standard deviation of `restitution` [1]
   std::optional<double> velocity_sd;     ///< one standard deviation of `incident_velocity` [m/s]
+  std::optional<double> diameter_sd;     ///< one standard deviation of `diameter` [m]
   int events = 1;                        ///< impacts averaged in this point, captured ones included
   int captured = 0;                      ///< how many of them did not rebound
+  bool counted = false;                  ///< `captured` is stated: 0 is a count, not a gap
   int line = 0;                          ///< line in points.csv, for messages
 
   bool all_captured() const { return captured >= events; }

@@ -17,6 +17,8 @@ inline constexpr double slowest_velocity = 1e-7;
 inline constexpr double fastest_velocity = 1e4;
 /// One standard deviation of a velocity [m/s]: a thousandth of the slowest velocity.
 inline constexpr double slowest_velocity_sd = 1e-10;
+/// One standard deviation of a diameter [m]: a thousandth of the smallest diameter.
+inline constexpr double smallest_diameter_sd = 1e-12;
 
 /// Above 1 a restitution can only be noise; beyond this it is a mistake [1].
 inline constexpr double largest_restitution = 1.2;

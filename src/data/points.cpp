@@ -168,8 +168,8 @@ class PointReader {
     const std::string problem = fmt::format(
         "{} = {:g}{}", col.name, given, col.unit.empty() || col.unit == "1" ? "" : " " + col.unit);
     if (given < 0.0 || (given == 0.0 && range.lower > 0.0)) {
-      const bool optional =
-          quantity == Quantity::restitution_sd || quantity == Quantity::velocity_sd;
+      const bool optional = quantity == Quantity::restitution_sd ||
+                            quantity == Quantity::velocity_sd || quantity == Quantity::diameter_sd;
       fail(*field, problem, range.lower > 0.0 ? "it has to be positive" : "it cannot be negative",
            optional ? "leave the cell empty when it is not known" : "correct it or remove the row");
     }
@@ -254,6 +254,7 @@ class PointReader {
         Quantity::captured,
         {0.0, static_cast<double>(point.events), ", the events of this point", captured_hint, ""},
         0);
+    point.counted = cell(Quantity::captured) != nullptr;
     point.restitution = checked_restitution(point);
     point.restitution_sd = value(
         Quantity::restitution_sd,
@@ -262,6 +263,10 @@ class PointReader {
     point.velocity_sd = value(Quantity::velocity_sd,
                               {limits::slowest_velocity_sd, limits::fastest_velocity, " m/s",
                                "check the unit", "leave the cell empty when it is not known"});
+    point.diameter_sd =
+        value(Quantity::diameter_sd,
+              {limits::smallest_diameter_sd, limits::largest_diameter, " m",
+               "the unit is probably um", "leave the cell empty when it is not known"});
     remark(point);
     dataset_.points.push_back(point);
   }

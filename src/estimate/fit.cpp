@@ -1,7 +1,6 @@
 #include "estimate/fit.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,8 @@
 
 #include "core/units.hpp"
 #include "estimate/impact_problem.hpp"
+#include "estimate/noise.hpp"
+#include "estimate/noise_words.hpp"
 
 namespace recoil {
 namespace {
@@ -72,8 +73,8 @@ std::string unanswered_point(const ImpactModel& model, const Observations& data,
   return "";
 }
 
-void record_predictions(FitResult& result, const Observations& data) {
-  for (const Prediction& at : predict_observations(result.model, result.theta, data)) {
+void record_predictions(FitResult& result) {
+  for (const Prediction& at : predict_observations(result.model, result.theta, result.data)) {
     result.prediction_squared.push_back(at.restitution_squared);
     result.prediction.push_back(at.restitution());
   }
@@ -99,34 +100,21 @@ std::string in_words(double p_value) {
   return p_value < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p_value);
 }
 
-/// A captured point that the model captures has no residual to speak of, whatever the parameters:
-/// it fixes a side, not a value, and is no degree of freedom of the noise.
-int degrees_of_freedom(const FitResult& result, const Observations& data, int free_count) {
-  int informative = 0;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    if (!data.points[i].censored || result.prediction_squared[i] > 0.0) ++informative;
-  }
-  return informative - free_count;
-}
-
-/// Decides what the stated standard deviations are worth.
-void judge_noise(FitResult& result, bool sd_stated) {
-  if (result.dof <= 0) {
-    result.p_value = 1.0;
+/// Decides what the standard deviations are worth.
+void judge_noise(FitResult& result, const Misfit& misfit) {
+  result.dof = misfit.dof;
+  result.p_value = misfit.p_value;
+  if (misfit.dof <= 0) {
     result.noise_text = "as many parameters as points: the noise cannot be checked";
     return;
   }
-  const double reduced = result.chi2 / result.dof;
-  result.p_value = gsl_cdf_chisq_Q(result.chi2, result.dof);
-  if (!sd_stated) {
-    result.noise_scale = std::sqrt(reduced);
-    result.noise_text = "no standard deviations stated: the noise is estimated from the residuals";
+  if (!result.data.sd_stated) {
+    result.noise_scale = misfit.scale();
   } else if (result.p_value < misfit_level) {
-    result.noise_scale = std::sqrt(reduced);
+    result.noise_scale = misfit.scale();
     result.noise_text = fmt::format(
         "the residuals are {:.3g} times larger than the stated noise explains ({}): every error "
-        "and "
-        "interval is widened by that factor, and still describes this model, not the truth",
+        "and interval is widened by that factor, and still describes this model, not the truth",
         result.noise_scale, in_words(result.p_value));
     result.warnings.push_back(result.noise_text);
   } else if (result.p_value < doubtful_level) {
@@ -149,10 +137,10 @@ void report_starts(FitResult& result, const StartSummary& best) {
     } else if (start.chi2 <= best.chi2 * (1.0 + tie_tolerance)) {
       for (std::size_t j = 0; j < start.end.size(); ++j) {
         if (result.std_error[j] > 0.0 &&
-            std::abs(start.end[j] - result.theta[j]) > 0.1 * result.std_error[j]) {
+            std::abs(start.end[j] - best.end[j]) > 0.1 * result.std_error[j]) {
           result.warnings.push_back(fmt::format(
               "tie: another start ends with the same chi2 at {} = {:.4g} instead of {:.4g}",
-              result.model.slots[j].label(), start.end[j], result.theta[j]));
+              result.model.slots[j].label(), start.end[j], best.end[j]));
         }
       }
     }
@@ -184,6 +172,7 @@ void report_bounds(FitResult& result) {
 FitResult fit(const ImpactModel& model, const Observations& data, const FitOptions& options) {
   FitResult result;
   result.model = model;
+  result.data = data;
   result.warnings = data.warnings;
   const LeastSquaresProblem problem = impact_problem(model, data, &result.handovers);
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
@@ -215,17 +204,26 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
     return result;
   }
 
+  if (data.weights_depend_on_fit()) {
+    Settled settled = settle(model, data, best.theta, options.minimiser);
+    if (!settled.run.converged) {
+      result.failure = "the weights do not settle: " + settled.run.message;
+      return result;
+    }
+    best = std::move(settled.run);
+    result.data = std::move(settled.data);
+  }
   result.usable = true;
   result.theta = best.theta;
   result.at_bound = best.at_bound;
   result.residuals = best.residuals;
   result.chi2 = best.sum_of_squares;
-  record_predictions(result, data);
+  record_predictions(result);
   record_leverage(result, best.jacobian, best.covariance);
-  result.dof = degrees_of_freedom(result, data, static_cast<int>(free_count));
-  judge_noise(result, data.sd_stated);
-  result.covariance = best.covariance;
-  for (double& entry : result.covariance) entry *= result.noise_scale * result.noise_scale;
+  judge_noise(result, misfit(result.data, result.residuals, result.prediction_squared,
+                             static_cast<int>(free_count)));
+  describe_noise(result);
+  result.covariance = scaled_covariance(result.data, best.covariance, result.noise_scale);
   result.std_error.assign(result.theta.size(), 0.0);
   if (result.covariance.empty()) {
     result.warnings.push_back(
@@ -235,7 +233,7 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
       result.std_error[j] = std::sqrt(result.covariance[j * result.theta.size() + j]);
     }
   }
-  result.rmse = root_mean_square(model, result.theta, data);
+  result.rmse = root_mean_square(model, result.theta, result.data);
   report_starts(result, result.starts[best_start]);
   report_bounds(result);
   return result;
@@ -259,7 +257,7 @@ double root_mean_square(const ImpactModel& model, std::span<const double> theta,
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Observation& point = data.points[points[k]];
     const double measured = point.censored ? 0.0 : point.restitution;
-    sum += std::pow(measured - predictions[k].restitution(), 2);
+    sum += std::pow(measured - expected_restitution(point, predictions[k].restitution_squared), 2);
   }
   return std::sqrt(sum / static_cast<double>(points.size()));
 }

@@ -5,46 +5,9 @@
 
 #include "estimate/least_squares.hpp"
 #include "estimate/model.hpp"
+#include "estimate/observations.hpp"
 
 namespace recoil {
-
-/// One point as the estimator sees it.
-struct Observation {
-  std::size_t dataset = 0;
-  std::size_t series = 0;
-  double diameter = 0.0;     ///< [m]
-  double velocity = 0.0;     ///< [m/s]
-  double restitution = 0.0;  ///< e [1]
-  double sd = 0.0;           ///< standard deviation of e [1] that weights this point
-  bool censored = false;     ///< all spheres of this point were captured
-};
-
-/// All points of all datasets of a fit, ready to be fitted.
-struct Observations {
-  std::vector<Observation> points;
-  bool sd_stated = true;  ///< false: the weights are relative, the noise is estimated from the fit
-  std::vector<std::string> warnings;
-};
-
-/// Flattens the datasets. Where any point of the fit lacks a standard deviation, all points are
-/// weighted equally and the noise level is estimated from the residuals (and this is said).
-Observations gather(const std::vector<Dataset>& datasets);
-
-/// The weighted residual of one point and its derivative with respect to the predicted e^2.
-///
-/// With y = e^2 - sigma^2 (unbiased for the square of the mean) and m the predicted e^2, continued
-/// below zero for a capture,
-///   r = (y - m) / (sigma sqrt((e + psi(m))^2 + 2 sigma^2)),
-///   psi(m) = sqrt((m + sqrt(m^2 + sigma^4)) / 2).
-/// Away from capture psi = sqrt(m) and r is (e - e_model) / sigma: the Gaussian residual, without
-/// the bias of weights taken from noisy points. Through capture it stays smooth, and its variance
-/// is that of e^2, 4 e^2 sigma^2 + 2 sigma^4 (the floor). A censored point contributes the Tobit
-/// residual sqrt(-2 ln Phi(-m / (sqrt(2) sigma^2))), which vanishes where the model captures.
-struct WeightedResidual {
-  double value = 0.0;
-  double slope = 0.0;  ///< d value / d m
-};
-WeightedResidual weighted_residual(const Observation& point, double restitution_squared);
 
 /// Where one of several starts ended.
 struct StartSummary {
@@ -66,6 +29,8 @@ struct FitResult {
   bool usable = false;
   std::string failure;  ///< why not, with the parameter or point that stood in the way
   ImpactModel model;
+  Observations data;  ///< the points with the weights that belong to this fit: what every refit,
+                      ///< profile and simulation starts from
   std::vector<double> theta;               ///< [slots]
   std::vector<bool> at_bound;              ///< [slots]
   std::vector<double> covariance;          ///< [slots x slots]; scaled by noise_scale^2
@@ -75,22 +40,23 @@ struct FitResult {
   std::vector<double> prediction_squared;  ///< e^2, continued below zero
   std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
   double chi2 = 0.0;
-  int dof = 0;               ///< points less free parameters; captured points that the model also
-                             ///< captures do not count, as they cannot scatter
-  double p_value = 0.0;      ///< of chi2; NaN-free: 0 or 1 at the ends; meaningless if !sd_stated
-  double rmse = 0.0;         ///< of e over all points that rebounded [1]
-  double noise_scale = 1.0;  ///< what the stated (or unit) sd is multiplied by in every interval
-  std::string noise_text;    ///< why, in a sentence
+  int dof = 0;           ///< see Misfit
+  double p_value = 0.0;  ///< of the misfit; NaN-free: 0 or 1 at the ends; meaningless if !sd_stated
+  double rmse = 0.0;     ///< of e over all points that rebounded [1]
+  double noise_scale = 1.0;  ///< what the standard deviations of `data` are multiplied by in every
+                             ///< interval: 1 where they hold, or were estimated by this fit
+  std::string noise_text;    ///< what was taken as noise and why, in sentences with semicolons
   long handovers = 0;        ///< impacts that the fast solver left to the reference
   std::vector<StartSummary> starts;
   std::vector<std::string> warnings;
 };
 
-/// Fits the free parameters of `model` to all points at once from several starts.
+/// Fits the free parameters of `model` to all points at once from several starts, then settles the
+/// weights that depend on the fit (`settle`).
 FitResult fit(const ImpactModel& model, const Observations& data, const FitOptions& options = {});
 
 /// Root mean square of e - e_model over the points whose index is in `subset` (all when empty);
-/// captured points count with e = 0.
+/// captured points count with e = 0, means of survivors beside `expected_restitution`.
 double root_mean_square(const ImpactModel& model, std::span<const double> theta,
                         const Observations& data, const std::vector<std::size_t>& subset = {});
 

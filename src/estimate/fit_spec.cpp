@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/text.hpp"
+#include "estimate/noise_reader.hpp"
 
 namespace recoil {
 namespace {
@@ -25,91 +26,37 @@ struct LocatedFit {
   std::vector<Location> dataset_places;
 };
 
-class FitReader {
+class FitReader : private TomlReader {
  public:
   FitReader(const std::string& text, const std::filesystem::path& file)
-      : text_(text), file_(file.string()), folder_(file.parent_path()) {
+      : TomlReader(file.string()), text_(text), folder_(file.parent_path()) {
     fit_.spec.id = file.stem().string();
     fit_.spec.file = file;
     fit_.spec.sha256 = sha256_hex(text);
   }
 
   LocatedFit read() {
-    require_text(text_, file_);
+    require_text(text_, file());
     const toml::table root = parse();
-    allow_only(root, "the fit", {"dataset", "model", "parameters", "uncertainty"});
+    allow_only(root, "the fit", {"dataset", "model", "parameters", "noise", "uncertainty"});
     read_datasets(root);
     if (const toml::table* model = table(root, "model")) read_model(*model);
     read_parameters(table(root, "parameters"));
+    if (const toml::table* noise = table(root, "noise")) {
+      fit_.spec.noise = read_noise_spec(*this, *noise);
+    }
     if (const toml::table* uncertainty = table(root, "uncertainty")) read_uncertainty(*uncertainty);
     return std::move(fit_);
   }
 
  private:
-  Location at(const toml::source_region& region) const {
-    return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
-  }
-
-  [[noreturn]] void fail(const toml::node& node, const std::string& problem, const std::string& why,
-                         const std::string& suggestion) const {
-    throw InputError(at(node.source()), problem, why, suggestion);
-  }
-
   toml::table parse() const {
     try {
-      return toml::parse(text_, file_);
+      return toml::parse(text_, file());
     } catch (const toml::parse_error& error) {
       throw InputError(at(error.source()), shortened(printable(error.description()), 120),
                        "the file is not valid TOML", "correct this line");
     }
-  }
-
-  void allow_only(const toml::table& table, const std::string& name,
-                  const std::vector<std::string>& known) const {
-    for (const auto& [key, value] : table) {
-      const std::string word(key.str());
-      if (std::find(known.begin(), known.end(), word) != known.end()) continue;
-      throw InputError(at(key.source()), fmt::format("unknown key {}", quote(word)),
-                       fmt::format("{} would ignore it silently", name), did_you_mean(word, known));
-    }
-  }
-
-  [[noreturn]] void wrong_type(const toml::node& node, const std::string& name,
-                               const std::string& wanted, const std::string& example) const {
-    std::ostringstream found;
-    found << node.type();
-    fail(node, fmt::format("'{}' is of the type {}", name, found.str()),
-         fmt::format("it has to be {}", wanted), fmt::format("for example {}", example));
-  }
-
-  const toml::table* table(const toml::table& parent, const std::string& name) const {
-    const toml::node* const node = parent.get(name);
-    if (node == nullptr) return nullptr;
-    if (!node->is_table()) wrong_type(*node, name, "a table", fmt::format("[{}]", name));
-    return node->as_table();
-  }
-
-  std::string string(const toml::node& node, const std::string& name,
-                     const std::string& example) const {
-    if (!node.is_string()) wrong_type(node, name, "a string", example);
-    return node.as_string()->get();
-  }
-
-  double number(const toml::node& node, const std::string& name) const {
-    if (!node.is_number()) wrong_type(node, name, "a number", fmt::format("{} = 0.5", name));
-    const double value = *node.value<double>();
-    if (!std::isfinite(value)) {
-      fail(node, fmt::format("'{}' is {}", name, value), "it has to be a finite number",
-           "write a number");
-    }
-    return value;
-  }
-
-  std::int64_t integer(const toml::node& node, const std::string& name) const {
-    if (!node.is_integer()) {
-      wrong_type(node, name, "a whole number", fmt::format("{} = 1999", name));
-    }
-    return node.as_integer()->get();
   }
 
   void add_dataset(const toml::node& node) {
@@ -133,7 +80,7 @@ class FitReader {
   void read_datasets(const toml::table& root) {
     const toml::node* const node = root.get("dataset");
     if (node == nullptr) {
-      throw InputError({file_, 1, 1}, "the key 'dataset' is missing",
+      throw InputError({file(), 1, 1}, "the key 'dataset' is missing",
                        "it names the folder with the points",
                        "add dataset = \"../datasets/...\" above all tables");
     }
@@ -191,8 +138,7 @@ class FitReader {
     const toml::table& table = *node.as_table();
     allow_only(table, fmt::format("'{}'", entry.name), {"initial", "bounds", "free", "per"});
     if (const toml::node* free = table.get("free")) {
-      if (!free->is_boolean()) wrong_type(*free, "free", "true or false", "free = false");
-      spec.free = free->as_boolean()->get();
+      spec.free = boolean(*free, "free");
     }
     if (const toml::node* per = table.get("per")) {
       const std::string word = string(*per, "per", "per = \"dataset\"");
@@ -300,7 +246,6 @@ class FitReader {
   }
 
   const std::string& text_;
-  std::string file_;
   std::filesystem::path folder_;
   LocatedFit fit_;
 };

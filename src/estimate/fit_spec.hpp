@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "estimate/scheme.hpp"
+#include "estimate/noise_spec.hpp"
 #include "impact/impact.hpp"
 
 namespace recoil {
@@ -39,6 +40,7 @@ struct FitSpec {
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   std::vector<std::string> mechanisms;    ///< ids from the catalogue, none known to this version
   std::vector<ParameterSpec> parameters;  ///< all of the catalogue, in its order
+  NoiseSpec noise;
   UncertaintySpec uncertainty;
   std::string sha256;  ///< of the file's text
 };

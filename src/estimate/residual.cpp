@@ -6,34 +6,87 @@
 #include <numbers>
 
 #include "core/gsl_errors.hpp"
-#include "estimate/fit.hpp"
+#include "estimate/observations.hpp"
+#include "estimate/survivors.hpp"
 
 namespace recoil {
 namespace {
 
-/// Where no standard deviation is stated, every point gets this one; only ratios matter, and the
-/// noise is estimated from the residuals afterwards.
-constexpr double nominal_sd = 0.02;
+/// ln Phi(-z), without cancellation on either side.
+double log_captured(double z) {
+  gsl_errors_are_values();
+  return z < 0.0 ? std::log1p(-gsl_cdf_ugaussian_P(z))
+                 : gsl_sf_log_erfc(z / std::numbers::sqrt2) - std::numbers::ln2;
+}
+
+/// How the captures among the impacts of a point are spread: independent from impact to impact, and
+/// by the errors of V and d, which all impacts of the point share.
+struct CaptureSpread {
+  double scale;   ///< sd of e^2, both together
+  double weight;  ///< share of the impacts that count as independent
+};
+CaptureSpread capture_spread(const Observation& point) {
+  const double sd = point.event_sd();
+  const double own = point.scatter > 0.0 ? point.scatter : std::numbers::sqrt2 * sd * sd;
+  const double square = own * own + point.input_sd * point.input_sd;
+  const double n = point.events;
+  return {std::sqrt(square), (1.0 + (n - 1.0) * own * own / square) / n};
+}
 
 WeightedResidual tobit_residual(const Observation& point, double m) {
-  // P(captured) = Phi(-z). The scale is the floor of var(e^2), sqrt(2) sigma^2.
   gsl_errors_are_values();
-  const double scale = std::numbers::sqrt2 * point.sd * point.sd;
-  const double z = m / scale;
-  // ln Phi(-z), without cancellation on either side.
-  const double log_q = z < 0.0 ? std::log1p(-gsl_cdf_ugaussian_P(z))
-                               : gsl_sf_log_erfc(z / std::numbers::sqrt2) - std::numbers::ln2;
-  const double deviance = -2.0 * log_q;
+  const CaptureSpread spread = capture_spread(point);
+  const double n = spread.weight * point.events;
+  const double z = (m + point.shift) / spread.scale;
+  const double deviance = -2.0 * n * log_captured(z);
   if (deviance < 1e-280) return {0.0, 0.0};
   const double value = std::sqrt(deviance);
   const double hazard = gsl_sf_hazard(z);  // phi(z) / Phi(-z)
-  return {value, hazard / (value * scale)};
+  return {value, n * hazard / (value * spread.scale)};
 }
 
-}  // namespace
+struct Deviance {
+  double value;
+  double slope;
+};
 
-WeightedResidual weighted_residual(const Observation& point, double m) {
-  if (point.censored) return tobit_residual(point, m);
+/// D of a point whose impacts differ, and dD/dm.
+Deviance event_deviance_and_slope(const Observation& point, double m) {
+  gsl_errors_are_values();
+  const double x = m + point.shift;
+  Deviance d{0.0, 0.0};
+  if (!point.censored) {
+    const RootMoments root = root_of_positive_normal(x / point.scatter);
+    const double unit = std::sqrt(point.scatter);
+    const double r = (point.restitution - unit * root.mean) / point.mean_sd;
+    d = {r * r, -2.0 * r * root.slope / (unit * point.mean_sd)};
+  }
+  if (!point.counted) return d;
+  const CaptureSpread spread = capture_spread(point);
+  const double z = x / spread.scale;
+  d.value += -2.0 * spread.weight *
+             (point.captured * log_captured(z) + point.rebounds() * log_captured(-z));
+  d.slope += 2.0 * spread.weight / spread.scale *
+             (point.captured * gsl_sf_hazard(z) - point.rebounds() * gsl_sf_hazard(-z));
+  return d;
+}
+
+WeightedResidual event_residual(const Observation& point, double m) {
+  const DeviancePeak& peak = point.peak;
+  const double away = m - peak.at;
+  const double unit = std::sqrt(0.5 * peak.curvature);
+  constexpr double close = 1e-3;
+  if (std::abs(away) * unit < close) {
+    // D - D(at) cancels here: two terms of the series, with an error of about close^4.
+    const double skew = peak.third / (3.0 * peak.curvature);
+    return {-unit * away * (1.0 + 0.5 * skew * away), -unit * (1.0 + skew * away)};
+  }
+  const Deviance d = event_deviance_and_slope(point, m);
+  const double value = std::copysign(std::sqrt(std::max(0.0, d.value - peak.deviance)), -away);
+  return {value, d.slope / (2.0 * value)};
+}
+
+WeightedResidual mean_residual(const Observation& point, double m) {
   const double variance = point.sd * point.sd;
   const double y = point.restitution * point.restitution - variance;
   const double hypotenuse = std::hypot(m, variance);
@@ -43,37 +96,56 @@ WeightedResidual weighted_residual(const Observation& point, double m) {
   const double psi = std::sqrt(psi_squared);
   const double psi_slope = psi / (2.0 * hypotenuse);  // d psi / d m
   const double sum = point.restitution + psi;
-  const double width_squared = variance * (sum * sum + 2.0 * variance);
-  const double width = std::sqrt(width_squared);
+  const double width =
+      std::sqrt(variance * (sum * sum + 2.0 * variance) + point.input_sd * point.input_sd);
   const double width_slope = variance * sum * psi_slope / width;
   return {(y - m) / width, (-1.0 - (y - m) / width * width_slope) / width};
 }
 
-Observations gather(const std::vector<Dataset>& datasets) {
-  Observations data;
-  int partly_captured = 0;
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    for (const ImpactPoint& p : datasets[d].points) {
-      const bool censored = p.all_captured();
-      if (p.captured > 0 && !censored) ++partly_captured;
-      if (!p.restitution_sd && !censored) data.sd_stated = false;
-      data.points.push_back({d, p.series, p.diameter, p.incident_velocity, p.restitution,
-                             p.restitution_sd.value_or(nominal_sd), censored});
-    }
+WeightedResidual normal_residual(const Observation& point, double m) {
+  if (point.censored) return tobit_residual(point, m);
+  return point.scatter > 0.0 ? event_residual(point, m) : mean_residual(point, m);
+}
+
+}  // namespace
+
+double Observation::event_sd() const {
+  return sd * std::sqrt(static_cast<double>(rebounds() > 0 ? rebounds() : events));
+}
+
+WeightedResidual weighted_residual(const Observation& point, double m) {
+  const WeightedResidual r = normal_residual(point, m);
+  return point.student ? point.student->transformed(r) : r;
+}
+
+double event_deviance(const Observation& point, double m) {
+  return event_deviance_and_slope(point, m).value;
+}
+
+void locate_peak(Observation& point) {
+  // D falls where everything would be captured and rises far above the measured mean.
+  const double reach = 10.0 * (point.scatter + point.input_sd + point.mean_sd);
+  double low = -point.shift - reach;
+  double high = point.restitution * point.restitution - point.shift + reach;
+  const auto slope = [&](double m) { return event_deviance_and_slope(point, m).slope; };
+  constexpr int most_halvings = 200;
+  for (int i = 0; i < most_halvings && high - low > 1e-14 * reach; ++i) {
+    const double middle = 0.5 * (low + high);
+    (slope(middle) < 0.0 ? low : high) = middle;
   }
-  if (!data.sd_stated) {
-    for (Observation& point : data.points) point.sd = nominal_sd;
-    data.warnings.push_back(
-        "not every point states a standard deviation (restitution_sd): all points weigh the same, "
-        "the noise is estimated from the residuals, and the fit cannot be tested against it");
-  }
-  if (partly_captured > 0) {
-    data.warnings.push_back(
-        std::to_string(partly_captured) +
-        " points average the survivors of impacts of which some were captured: the mean of the "
-        "survivors is fitted as it stands, which is biased upwards close to the capture velocity");
-  }
-  return data;
+  DeviancePeak& peak = point.peak;
+  peak.at = 0.5 * (low + high);
+  peak.deviance = event_deviance(point, peak.at);
+  const double h = 1e-3 * std::min(point.scatter, std::max(point.mean_sd, 1e-3 * point.scatter));
+  const double more = slope(peak.at + h);
+  const double less = slope(peak.at - h);
+  peak.curvature = (more - less) / (2.0 * h);
+  peak.third = (more - 2.0 * slope(peak.at) + less) / (h * h);
+}
+
+double expected_restitution(const Observation& point, double m) {
+  if (point.censored || !(point.scatter > 0.0)) return std::sqrt(std::max(m, 0.0));
+  return std::sqrt(point.scatter) * root_of_positive_normal((m + point.shift) / point.scatter).mean;
 }
 
 }  // namespace recoil

@@ -279,6 +279,7 @@ std::string json_report(const Analysis& analysis) {
   out["solver"] = {{"name", analysis.fitted.model.solver == Solver::fast ? "fast" : "reference"},
                    {"handovers", analysis.fitted.handovers}};
   out["goodness"] = goodness_json(analysis);
+  out["noise"] = noise_json(analysis);
   out["identifiability"] = identifiability_json(analysis);
   out["bootstrap"] = bootstrap_json(analysis);
   put_two_point(out, analysis);

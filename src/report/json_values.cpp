@@ -156,7 +156,11 @@ Json residuals_json(const Analysis& a) {
          {"incident_velocity", number_or_null(point.velocity)},
          {"restitution", number_or_null(point.restitution)},
          {"restitution_sd", a.data.sd_stated ? number_or_null(point.sd) : Json(nullptr)},
+         {"sd_used", number_or_null(point.sd)},
+         {"sd_of_e2_from_inputs", number_or_null(point.input_sd)},
          {"captured", point.censored},
+         {"captured_count", point.captured},
+         {"events", point.events},
          {"predicted", at(f.prediction, i)},
          {"weighted_residual", at(f.residuals, i)},
          {"leverage", at(f.leverage, i)}});

@@ -46,6 +46,10 @@ Json curve_json(const Analysis& analysis);
 /// `residuals`: one row per data point.
 Json residuals_json(const Analysis& analysis);
 
+/// `noise`: the variance function and how it was chosen, errors of the inputs, captures,
+/// distribution.
+Json noise_json(const Analysis& analysis);
+
 /// `starts`: where the minimisation began and ended.
 Json starts_json(const Analysis& analysis);
 

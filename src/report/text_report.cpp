@@ -70,7 +70,9 @@ void write_statistics(Blocks& out, const Analysis& a) {
   const auto free = std::count_if(f.model.slots.begin(), f.model.slots.end(),
                                   [](const ParameterSlot& slot) { return slot.free; });
   out.open("Fit Statistics");
-  out.item("method", "weighted least squares in e^2, trust region within bounds (Ceres)");
+  out.item("method",
+           fmt::format("{} in e^2, trust region within bounds (Ceres)",
+                       a.data.spec.student ? "Student's t likelihood" : "weighted least squares"));
   out.item("solver", solver_text(f));
   out.item("data points", fmt::format("{}", a.data.points.size()));
   out.item("variables", fmt::format("{}", free));

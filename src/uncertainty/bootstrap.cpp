@@ -13,6 +13,7 @@
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "estimate/impact_problem.hpp"
+#include "estimate/noise.hpp"
 
 namespace recoil {
 namespace {
@@ -40,18 +41,18 @@ bool uses_sandwich(Scheme scheme) {
 
 /// Standard errors of a fit to data like `data`, made in the same way for the fit and for its
 /// replicates. Zero where there is none.
-std::vector<double> standard_errors(const LeastSquaresResult& run, const FitResult& fitted,
-                                    const ResamplingPlan& plan) {
+std::vector<double> standard_errors(const LeastSquaresResult& run, const Observations& data,
+                                    const FitResult& fitted, const ResamplingPlan& plan) {
   const std::size_t p = run.theta.size();
   if (run.covariance.empty()) return std::vector<double>(p, 0.0);
   if (uses_sandwich(plan.scheme)) {
     return sandwich_errors(run.residuals, run.jacobian, run.covariance);
   }
-  const double scale = plan.data->sd_stated ? fitted.noise_scale
-                       : fitted.dof > 0     ? std::sqrt(run.sum_of_squares / fitted.dof)
-                                            : 0.0;
+  // Where the noise is estimated, it was so again with the parameters of this run.
+  const double scale = data.sd_stated ? fitted.noise_scale : 1.0;
+  const std::vector<double> covariance = scaled_covariance(data, run.covariance, scale);
   std::vector<double> errors(p, 0.0);
-  for (std::size_t j = 0; j < p; ++j) errors[j] = scale * std::sqrt(run.covariance[j * p + j]);
+  for (std::size_t j = 0; j < p; ++j) errors[j] = std::sqrt(covariance[j * p + j]);
   return errors;
 }
 
@@ -67,7 +68,7 @@ std::vector<double> reference_errors(const FitResult& fitted, const ResamplingPl
   if (!problem.evaluate(at_fit.theta, at_fit.residuals, at_fit.jacobian)) return fitted.std_error;
   at_fit.covariance = fitted.covariance;
   for (double& entry : at_fit.covariance) entry /= fitted.noise_scale * fitted.noise_scale;
-  return standard_errors(at_fit, fitted, plan);
+  return standard_errors(at_fit, *plan.data, fitted, plan);
 }
 
 /// What one thread needs to refit samples one after the other without building anything anew: the
@@ -76,24 +77,35 @@ std::vector<double> reference_errors(const FitResult& fitted, const ResamplingPl
 class Workspace {
  public:
   explicit Workspace(const ResamplingPlan& plan) : plan_(plan), model_(plan.fitted->model) {
-    sample_.sd_stated = plan.data->sd_stated;
+    sample_ = *plan.data;
+    sample_.warnings.clear();
     model_.loosened *= refit_loosened;
   }
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
+  /// The refit of replicate `index`, with the weights that belong to it where they depend on it.
   LeastSquaresResult refit(std::uint64_t seed, std::uint64_t index) {
     resample(plan_, seed, index, sample_);
+    if (sample_.weights_depend_on_fit()) {
+      Settled settled = settle(model_, sample_, plan_.fitted->theta, minimiser_);
+      weighted_ = std::move(settled.data);
+      return std::move(settled.run);
+    }
     const bool same_design = plan_.scheme != Scheme::cases && plan_.scheme != Scheme::cluster;
     if (!problem_ || !same_design) problem_ = impact_problem(model_, sample_);
     return minimise(*problem_, plan_.fitted->theta, minimiser_);
   }
+
+  /// What the last refit worked on.
+  const Observations& data() const { return sample_.weights_depend_on_fit() ? weighted_ : sample_; }
 
  private:
   const ResamplingPlan& plan_;
   ImpactModel model_;
   const LeastSquaresOptions minimiser_ = refit_options();
   Observations sample_;
+  Observations weighted_;
   std::optional<LeastSquaresProblem> problem_;
 };
 
@@ -128,6 +140,12 @@ LeastSquaresOptions refit_options() {
   return options;
 }
 
+LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
+                         std::span<const double> start) {
+  if (sample.weights_depend_on_fit()) return settle(model, sample, start, refit_options()).run;
+  return minimise(impact_problem(model, sample), start, refit_options());
+}
+
 bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted) {
   return refit.converged && (!refit.covariance.empty() || fitted.covariance.empty());
 }
@@ -157,11 +175,12 @@ void Bootstrap::extend(int count) {
       [&] { return std::make_unique<Workspace>(plan_); });
   const auto run = [&](std::size_t i) {
     if (table_.state[i] != State::not_run || (guard && stop_requested())) return;
-    const LeastSquaresResult found = workspaces.local()->refit(options_.seed, i);
+    Workspace& workspace = *workspaces.local();
+    const LeastSquaresResult found = workspace.refit(options_.seed, i);
     const bool usable = has_answer(found, fitted_);
     if (usable) {
       const auto at = static_cast<std::ptrdiff_t>(i * table_.slots);
-      const std::vector<double> errors = standard_errors(found, fitted_, plan_);
+      const std::vector<double> errors = standard_errors(found, workspace.data(), fitted_, plan_);
       std::copy(found.theta.begin(), found.theta.end(), table_.theta.begin() + at);
       std::copy(errors.begin(), errors.end(), table_.std_error.begin() + at);
     }
@@ -282,9 +301,7 @@ BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
 std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threads) {
   std::vector<std::vector<double>> estimates(plan.units());
   parallel_over(estimates.size(), threads, [&](std::size_t unit) {
-    Observations rest;
-    rest.sd_stated = plan.data->sd_stated;
-    rest.points = plan.data->points;
+    Observations rest = *plan.data;
     if (plan.scheme == Scheme::cluster) {
       const std::vector<std::size_t>& out = plan.clusters[unit];
       for (auto i = out.rbegin(); i != out.rend(); ++i) {
@@ -293,8 +310,7 @@ std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threa
     } else {
       rest.points.erase(rest.points.begin() + static_cast<std::ptrdiff_t>(unit));
     }
-    const LeastSquaresResult found =
-        minimise(impact_problem(plan.fitted->model, rest), plan.fitted->theta, refit_options());
+    const LeastSquaresResult found = refit(plan.fitted->model, rest, plan.fitted->theta);
     if (has_answer(found, *plan.fitted)) estimates[unit] = found.theta;
   });
   return estimates;

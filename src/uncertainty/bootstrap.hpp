@@ -10,6 +10,10 @@ namespace recoil {
 /// scatter has.
 LeastSquaresOptions refit_options();
 
+/// The refit of a sample from `start`, together with the weights that depend on it (`settle`).
+LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
+                         std::span<const double> start);
+
 /// Did a refit give an answer? It has to converge, and its data have to determine the parameters
 /// (J'J regular) where those of the fit do: where they do not, it merely stays where it started.
 bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted);

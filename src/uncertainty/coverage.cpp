@@ -45,15 +45,14 @@ Trial run_trial(const FitSpec& spec, const CoverageTruth& truth, const Uncertain
                 std::uint64_t index) {
   Trial trial;
   const std::vector<Dataset> datasets = truth.simulate(index);
-  const Observations data = gather(datasets);
-  const FitResult fitted = fit(make_model(spec, datasets), data);
+  const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
   if (!fitted.usable) return trial;
   UncertaintyOptions own = options;
   own.seed = options.seed + index;
   own.threads = 1;  // the data sets themselves run in parallel
   own.curves = false;
   own.two_point = false;
-  const UncertaintyResult result = assess_uncertainty(fitted, data, datasets, own);
+  const UncertaintyResult result = assess_uncertainty(fitted, fitted.data, datasets, own);
   trial.usable = true;
   trial.refits_failed = result.bootstrap.failed;
   trial.intervals = result.intervals;

@@ -143,7 +143,7 @@ FitSpec grid_spec(const FitSpec& spec, const GridDesign& design) {
 
 CoverageTruth grid_truth(const FitSpec& spec, const Dataset& base, const GridDesign& design,
                          std::uint64_t seed) {
-  const EstimatedTruth found = truth_at_estimate(spec, {base}, gather({base}));
+  const EstimatedTruth found = truth_at_estimate(spec, {base}, gather({base}, spec.noise));
   const Truth& truth = found.truths.front();
   CoverageTruth study;
   study.source =

@@ -79,8 +79,7 @@ Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::siz
 
 CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        std::uint64_t seed) {
-  const Observations data = gather(datasets);
-  const auto [fitted, truths] = truth_at_estimate(spec, datasets, data);
+  const auto [fitted, truths] = truth_at_estimate(spec, datasets, gather(datasets, spec.noise));
   CoverageTruth truth;
   truth.source = "the fit's own estimate as truth, simulated independently of the fitter";
   truth.theta = fitted.theta;
@@ -92,15 +91,17 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
       clean[d].push_back(true_restitution(truths[d], point.diameter, point.incident_velocity));
     }
   }
-  // Without stated standard deviations the scatter is what the fit found.
-  const double scatter = data.sd_stated ? 0.0 : fitted.noise_scale * data.points.front().sd;
+  // Without stated standard deviations the scatter is what the fit found for each point.
+  std::vector<double> scatter;
+  for (const Observation& point : fitted.data.points) scatter.push_back(point.sd);
   truth.simulate = [datasets, clean, seed, scatter](std::uint64_t index) {
+    std::size_t row = 0;
     RandomStream random(seed, RandomPurpose::coverage, index);
     std::vector<Dataset> made = datasets;
     for (std::size_t d = 0; d < made.size(); ++d) {
       for (std::size_t i = 0; i < made[d].points.size(); ++i) {
         ImpactPoint& point = made[d].points[i];
-        const double sd = scatter > 0.0 ? scatter : point.restitution_sd.value_or(0.0);
+        const double sd = scatter[row++];
         const double noise = random.normal();
         if (!point.all_captured()) point.restitution = std::max(0.0, clean[d][i] + sd * noise);
       }

@@ -82,8 +82,7 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
   // The first failure once more, for what the minimiser has to say.
   Observations sample = *plan.data;
   resample(plan, seed, result.index.front(), sample);
-  const LeastSquaresResult again =
-      minimise(impact_problem(plan.fitted->model, sample), plan.fitted->theta, refit_options());
+  const LeastSquaresResult again = refit(plan.fitted->model, sample, plan.fitted->theta);
   result.message =
       again.converged ? "its points do not determine all free parameters" : again.message;
   result.text = fmt::format(

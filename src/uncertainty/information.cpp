@@ -155,6 +155,8 @@ Observation planned(const Observations& data, const CapturePlace& place, double 
   moved.diameter = place.diameter;
   moved.velocity = velocity;
   moved.censored = false;
+  moved.captured = 0;
+  moved.scatter = 0.0;
   return moved;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "estimate/noise.hpp"
+
 namespace recoil {
 namespace {
 
@@ -51,7 +53,8 @@ std::vector<std::vector<std::size_t>> series_of(const Observations& data) {
 void disturb(const ResamplingPlan& plan, std::size_t i, double noise, Observations& sample) {
   Observation& point = sample.points[i];
   if (point.censored) return;
-  point.restitution = std::max(0.0, plan.fitted->prediction[i] + point.sd * noise);
+  const double expected = expected_restitution(point, plan.fitted->prediction_squared[i]);
+  point.restitution = std::max(0.0, expected + point.sd * noise);
 }
 
 std::string reason(Scheme scheme) {
@@ -122,7 +125,8 @@ ResamplingPlan plan_resampling(const FitResult& fitted, const Observations& data
 void resample_parametric(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points = plan.data->points;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    disturb(plan, i, plan.fitted->noise_scale * random.normal(), sample);
+    sample.points[i] = simulate_observation(
+        plan.data->points[i], plan.fitted->prediction_squared[i], plan.fitted->noise_scale, random);
   }
 }
 

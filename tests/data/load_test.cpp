@@ -86,6 +86,19 @@ TEST(LoadDataset, DividesReboundByIncidentVelocity) {
   EXPECT_TRUE(dataset.points[2].all_captured());
 }
 
+TEST(LoadDataset, ReadsErrorsOfTheDiameter) {
+  const DatasetFolder folder(
+      changed(example::package, R"("name": "velocity_sd", "type": "number", "unit": "cm/s")",
+              R"("name": "diameter_sd", "type": "number", "unit": "um")"),
+      "series,diameter,incident_velocity,restitution,restitution_sd,diameter_sd,events,captured\n"
+      "a,4.9,2.5,0.8,,0.1,40,\na,4.9,2.5,0.7,,,40,0\n");
+  const Dataset dataset = load_dataset(folder.path());
+  EXPECT_DOUBLE_EQ(dataset.points[0].diameter_sd.value(), 1e-7);
+  EXPECT_FALSE(dataset.points[1].diameter_sd.has_value());
+  EXPECT_FALSE(dataset.points[0].counted) << "an empty cell is no count";
+  EXPECT_TRUE(dataset.points[1].counted);
+}
+
 TEST(LoadDataset, TheOrderOfColumnsAndLineEndingsDoNotMatter) {
   const DatasetFolder folder(
       example::package,

@@ -28,6 +28,12 @@ f0 = { free = true, initial = 6, bounds = [1, 20] }
 replicates = 499
 level = 0.9
 seed = 7
+[noise]
+variance = "capture"
+residuals = "student"
+student_dof = 5
+velocity_relative_sd = 0.02
+diameter_errors = false
 )";
 
 std::string changed(std::string text, const std::string& old_text, const std::string& new_text) {
@@ -72,6 +78,14 @@ TEST(ParseFit, ReadsEveryKey) {
   EXPECT_EQ(spec.uncertainty.replicates, 499);
   EXPECT_EQ(spec.uncertainty.level, 0.9);
   EXPECT_EQ(spec.uncertainty.seed, 7U);
+  EXPECT_EQ(spec.noise.variance, VarianceFunction::capture);
+  EXPECT_EQ(spec.noise.variance_place.line, 14);
+  EXPECT_TRUE(spec.noise.student);
+  EXPECT_EQ(spec.noise.student_dof, 5.0);
+  EXPECT_TRUE(spec.noise.velocity_errors);
+  EXPECT_EQ(spec.noise.velocity_relative_sd, 0.02);
+  EXPECT_FALSE(spec.noise.diameter_errors);
+  EXPECT_EQ(spec.noise.diameter_relative_sd, 0.0);
   EXPECT_EQ(spec.sha256, sha256_hex(full));
 }
 
@@ -93,6 +107,14 @@ TEST(ParseFit, EveryKeyButDatasetHasADefault) {
   EXPECT_EQ(spec.uncertainty.replicates, 1999);
   EXPECT_EQ(spec.uncertainty.level, 0.95);
   EXPECT_EQ(spec.uncertainty.seed, 20260101U);
+  EXPECT_FALSE(spec.noise.variance.has_value());  // "auto"
+  EXPECT_FALSE(spec.noise.student);
+  EXPECT_TRUE(spec.noise.velocity_errors && spec.noise.diameter_errors);
+  EXPECT_EQ(spec.noise.velocity_relative_sd, 0.0);
+}
+
+TEST(ParseFit, AutomaticVarianceMayBeWrittenDown) {
+  EXPECT_FALSE(parse_fit(changed(full, "\"capture\"", "\"auto\""), "f.toml").noise.variance);
 }
 
 TEST(ParseFit, TakesSeveralDatasets) {
@@ -247,6 +269,27 @@ const Mistake mistakes[] = {
     {"level_one", "0.9", "1", "fit.toml:11:9: ", "level = 1", "0.95 is usual"},
     {"level_nan", "0.9", "nan", "fit.toml:11:9: ", "'level' is nan", "write a number"},
     {"seed_negative", "seed = 7", "seed = -7", "fit.toml:12:8: ", "seed = -7", "minus"},
+    // The noise.
+    {"unknown_noise_key", "velocity_relative_sd", "velocity_relativ_sd", "fit.toml:17:1: ",
+     "unknown key 'velocity_relativ_sd'", "did you mean 'velocity_relative_sd'?"},
+    {"variance_unknown", "\"capture\"", "\"captured\"",
+     "fit.toml:14:12: ", "unknown variance function 'captured'", "did you mean 'capture'?"},
+    {"variance_number", "\"capture\"", "2", "fit.toml:14:12: ", "is of the type integer", "auto"},
+    {"residuals_unknown", "\"student\"", "\"studnt\"",
+     "fit.toml:15:13: ", "unknown distribution 'studnt'", "did you mean 'student'?"},
+    {"student_dof_alone", "residuals = \"student\"\n", "",
+     "fit.toml:15:15: ", "'student_dof' without Student's t", "residuals = \"student\""},
+    {"student_dof_low", "student_dof = 5", "student_dof = 0.5",
+     "fit.toml:16:15: ", "student_dof = 0.5", "4 is usual"},
+    {"velocity_sd_per_cent", "= 0.02", "= 2", "fit.toml:17:24: ", "velocity_relative_sd = 2",
+     "0.02"},
+    {"velocity_sd_negative", "= 0.02", "= -0.02",
+     "fit.toml:17:24: ", "velocity_relative_sd = -0.02", "0.02"},
+    {"diameter_errors_number", "errors = false", "errors = 0",
+     "fit.toml:18:19: ", "is of the type integer", "diameter_errors = false"},
+    {"error_size_of_an_ignored_error", "errors = false",
+     "errors = false\ndiameter_relative_sd = 0.1",
+     "fit.toml:19:24: ", "'diameter_relative_sd' though diameter_errors = false", "remove one"},
     {"seed_fraction", "seed = 7", "seed = 7.5", "fit.toml:12:8: ", "is of the type floating-point",
      "for example"},
 };

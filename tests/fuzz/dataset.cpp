@@ -23,6 +23,7 @@ void require_sound(const recoil::Dataset& dataset) {
     fuzz::require(!point.all_captured() || point.restitution == 0.0, "captured without rebound");
     fuzz::require(point.restitution_sd.value_or(1.0) > 0.0, "restitution_sd");
     fuzz::require(point.velocity_sd.value_or(1.0) > 0.0, "velocity_sd");
+    fuzz::require(point.diameter_sd.value_or(1.0) > 0.0, "diameter_sd");
   }
   for (const recoil::Material* body : {&dataset.system.particle, &dataset.system.surface}) {
     fuzz::require(body->youngs_modulus > 0.0 && std::isfinite(body->youngs_modulus), "modulus");

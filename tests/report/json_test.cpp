@@ -71,6 +71,14 @@ const char* const promised[] = {"/dataset/id",
                                 "/starts/0/chi2",
                                 "/covariance/C_H/C_A",
                                 "/correlation/C_H/C_A",
+                                "/noise/variance",
+                                "/noise/candidates",
+                                "/noise/margin",
+                                "/noise/event_spread",
+                                "/noise/efficiency",
+                                "/noise/text",
+                                "/residuals/0/sd_used",
+                                "/residuals/0/captured_count",
                                 "/residuals/0/weighted_residual"};
 
 TEST(JsonReport, HoldsEveryPromisedKey) {

@@ -1,0 +1,19 @@
+#include "estimate/noise_spec.hpp"
+
+namespace recoil {
+
+std::string to_string(VarianceFunction function) {
+  switch (function) {
+    case VarianceFunction::stated:
+      return "stated";
+    case VarianceFunction::constant:
+      return "constant";
+    case VarianceFunction::proportional:
+      return "proportional";
+    case VarianceFunction::capture:
+      return "capture";
+  }
+  return "";
+}
+
+}  // namespace recoil

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace recoil {
+
+/// How the standard deviation of a measured e depends on the predicted one. Except for `stated`,
+/// with one number s for all points, and n the rebounds that a point averages:
+///   constant       sd = s / sqrt(n)
+///   proportional   sd = s sqrt(e^2 + 0.1^2) / sqrt(n): relative noise, with a floor so that no
+///                  point close to capture weighs without limit
+///   capture        sd(e^2) = s / sqrt(n), that is sd = s / (2 e) far from capture and larger close
+///                  to it: what comes of impacts that differ in the energy they lose
+/// Constant, proportional and capture are the powers 0, 1 and -1 of the power-of-the-mean family
+/// (Carroll & Ruppert 1988, Transformation and Weighting in Regression).
+enum class VarianceFunction { stated, constant, proportional, capture };
+
+/// The word used in files and on the screen.
+std::string to_string(VarianceFunction function);
+
+/// The `[noise]` table of a fit file.
+struct NoiseSpec {
+  /// Empty for "auto": the stated standard deviations when every point has one, else whichever
+  /// function the points ask for.
+  std::optional<VarianceFunction> variance;
+  Location variance_place;  ///< where the file says so, for messages
+
+  bool student = false;      ///< `residuals = "student"`: Student's t instead of the normal
+  double student_dof = 4.0;  ///< its degrees of freedom, at least 1
+
+  bool velocity_errors = true;        ///< use the velocity_sd of the points
+  double velocity_relative_sd = 0.0;  ///< for points without one; 0: none
+  bool diameter_errors = true;        ///< use the diameter_sd of the points
+  double diameter_relative_sd = 0.0;  ///< for points without one; 0: none
+};
+
+}  // namespace recoil

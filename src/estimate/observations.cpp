@@ -1,0 +1,120 @@
+#include "estimate/observations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace recoil {
+namespace {
+
+/// Where no standard deviation is stated, every impact gets this one at first; only ratios matter
+/// until the scale is estimated from the residuals.
+constexpr double nominal_sd = 0.02;
+
+bool has_column(const Dataset& dataset, const std::string& name) {
+  return std::any_of(dataset.columns.begin(), dataset.columns.end(),
+                     [&](const DataColumn& column) { return column.name == name; });
+}
+
+Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint& p,
+                    const NoiseSpec& spec) {
+  Observation point;
+  point.dataset = index;
+  point.series = p.series;
+  point.diameter = p.diameter;
+  point.velocity = p.incident_velocity;
+  point.restitution = p.restitution;
+  point.sd = p.restitution_sd.value_or(0.0);
+  point.censored = p.all_captured();
+  point.events = p.events;
+  point.captured = p.captured;
+  point.counted = p.counted || p.captured > 0;
+  point.rebound_measured = has_column(dataset, "rebound_velocity");
+  if (spec.velocity_errors) {
+    point.velocity_sd = p.velocity_sd.value_or(spec.velocity_relative_sd * p.incident_velocity);
+  }
+  if (spec.diameter_errors) {
+    point.diameter_sd = p.diameter_sd.value_or(spec.diameter_relative_sd * p.diameter);
+  }
+  return point;
+}
+
+/// A captured point says nothing of the scatter of e: where it states none, its impacts are taken
+/// to scatter like the middle one of the points with rebounds.
+void complete_captured(std::vector<Observation>& points) {
+  std::vector<double> known;
+  for (const Observation& point : points) {
+    if (point.sd > 0.0) known.push_back(point.event_sd());
+  }
+  std::sort(known.begin(), known.end());
+  const double middle = known.empty() ? nominal_sd : known[known.size() / 2];
+  for (Observation& point : points) {
+    if (point.censored && !(point.sd > 0.0)) point.sd = middle / std::sqrt(point.events);
+  }
+}
+
+void weigh_equally(std::vector<Observation>& points) {
+  for (Observation& point : points) {
+    point.sd =
+        nominal_sd / std::sqrt(std::max(1, point.censored ? point.events : point.rebounds()));
+  }
+}
+
+}  // namespace
+
+bool Observations::weights_depend_on_fit() const {
+  return !sd_stated || std::any_of(points.begin(), points.end(), [](const Observation& point) {
+    return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 ||
+           (point.captured > 0 && !point.censored);
+  });
+}
+
+Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec) {
+  Observations data;
+  data.spec = spec;
+  std::size_t missing = 0;
+  std::size_t stated = 0;
+  const std::optional<StudentNoise> student =
+      spec.student ? std::optional(student_noise(spec.student_dof)) : std::nullopt;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    for (const ImpactPoint& p : datasets[d].points) {
+      data.points.push_back(observe(datasets[d], d, p, spec));
+      data.points.back().student = student;
+      if (p.restitution_sd) {
+        ++stated;
+      } else if (!p.all_captured()) {
+        ++missing;
+      }
+    }
+  }
+  if (spec.variance == VarianceFunction::stated && missing > 0) {
+    throw InputError(
+        spec.variance_place, "variance = \"stated\"",
+        fmt::format("{} of {} points state no restitution_sd", missing, data.points.size()),
+        "write \"auto\", or state them all");
+  }
+  data.sd_stated = spec.variance ? spec.variance == VarianceFunction::stated : missing == 0;
+  if (data.sd_stated) {
+    complete_captured(data.points);
+    return data;
+  }
+  weigh_equally(data.points);
+  data.noise.variance = spec.variance.value_or(VarianceFunction::constant);
+  data.noise.scale = nominal_sd;
+  if (stated > 0) {
+    data.warnings.push_back(fmt::format(
+        "the standard deviations that {} points state (restitution_sd) are set aside: {}", stated,
+        spec.variance ? "the fit asks for an estimated variance function"
+                      : fmt::format("{} others state none, and two kinds of weights would not be "
+                                    "comparable",
+                                    missing)));
+  }
+  data.warnings.emplace_back(
+      "the noise is estimated from the residuals: the fit cannot be tested against it");
+  return data;
+}
+
+}  // namespace recoil

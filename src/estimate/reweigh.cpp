@@ -1,0 +1,209 @@
+#include "estimate/reweigh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimate/survivors.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double proportional_floor = 0.1;  // e below which relative noise stays as it is
+constexpr double first_spread = 0.05;       // omega of the first round
+constexpr double least_spread = 2e-3;
+constexpr double largest_spread = 0.6;
+// Where e^2 exceeds its scatter so many times, survivors are all there are: sqrt(e^2) is their mean
+// to a relative 1 / (8 * 30^2) = 1.4e-4.
+constexpr double far_from_capture = 30.0;
+
+/// e^2 at one point and its first two derivatives in the logarithm of V or d.
+struct Local {
+  double value = 0.0;
+  double slope = 0.0;
+  double bend = 0.0;
+};
+
+/// sd of a mean of `rebounds` impacts at predicted e^2 = m.
+double function_sd(VarianceFunction function, double scale, double m, int rebounds) {
+  const double s = scale / std::sqrt(static_cast<double>(std::max(1, rebounds)));
+  const double square = std::max(m, 0.0);
+  if (function == VarianceFunction::proportional) {
+    return s * std::sqrt(square + proportional_floor * proportional_floor);
+  }
+  if (function == VarianceFunction::capture) {
+    // 4 e^2 sd^2 + 2 sd^4 = s^2, the variance of e^2 for a normal e.
+    return s * std::sqrt(0.5 / (square + std::sqrt(square * square + 0.5 * s * s)));
+  }
+  return s;
+}
+
+/// Over what step in ln V or ln d an error of this relative size is felt.
+double error_step(double relative) {
+  constexpr double shortest = 1e-3;
+  constexpr double longest = 0.3;
+  return std::clamp(relative, shortest, longest);
+}
+
+/// Everything is asked of the model at once, in the order in which it is needed.
+class Reweighing {
+ public:
+  explicit Reweighing(Observations& data) : data_(data) {
+    for (const Observation& point : data.points) {
+      mixed_ = mixed_ || (point.captured > 0 && !point.censored);
+    }
+    if (mixed_ && !(data.noise.event_spread > 0.0)) data.noise.event_spread = first_spread;
+  }
+
+  /// Where the answers of the model are needed.
+  std::vector<PointConditions> questions() const {
+    std::vector<PointConditions> all;
+    const auto beside = [&](const Observation& p, double h, bool in_velocity) {
+      for (const double factor : {std::exp(h), std::exp(-h)}) {
+        all.push_back({p.dataset, p.diameter * (in_velocity ? 1.0 : factor),
+                       p.velocity * (in_velocity ? factor : 1.0)});
+      }
+    };
+    for (const Observation& p : data_.points) {
+      all.push_back({p.dataset, p.diameter, p.velocity});
+      if (p.velocity_sd > 0.0) beside(p, error_step(p.velocity_sd / p.velocity), true);
+      if (p.diameter_sd > 0.0) beside(p, error_step(p.diameter_sd / p.diameter), false);
+      if (mixed_) beside(p, std::sqrt(3.0) * data_.noise.event_spread, true);
+    }
+    return all;
+  }
+
+  /// @returns the predicted e^2 of the points
+  std::vector<double> learn(const std::vector<Prediction>& answers) {
+    auto next = answers.begin();
+    const auto value = [&] { return (next++)->restitution_squared; };
+    const auto local = [&](double middle, double h) {
+      const double more = value();
+      const double less = value();
+      return Local{middle, (more - less) / (2.0 * h), (more - 2.0 * middle + less) / (h * h)};
+    };
+    std::vector<double> predicted;
+    std::vector<Local> locals;
+    for (Observation& point : data_.points) {
+      const double m = value();
+      predicted.push_back(m);
+      if (!data_.sd_stated) {
+        point.sd = function_sd(data_.noise.variance, data_.noise.scale, m,
+                               point.censored ? point.events : point.rebounds());
+      }
+      double variance = 0.0;
+      point.input_bias = 0.0;
+      for (const bool in_velocity : {true, false}) {
+        const double relative =
+            in_velocity ? point.velocity_sd / point.velocity : point.diameter_sd / point.diameter;
+        if (!(relative > 0.0)) continue;
+        const Local at = local(m, error_step(relative));
+        const double shared = in_velocity && point.rebound_measured ? 2.0 * std::max(m, 0.0) : 0.0;
+        variance += std::pow((at.slope + shared) * relative, 2);
+        point.input_bias += 0.5 * at.bend * relative * relative;
+      }
+      point.input_sd = std::sqrt(variance);
+      if (mixed_) locals.push_back(local(m, std::sqrt(3.0) * data_.noise.event_spread));
+    }
+    if (mixed_) settle_scatter(locals);
+    return predicted;
+  }
+
+ private:
+  void set_scatter(Observation& point, const Local& at, double spread) const {
+    const double square = spread * spread;
+    point.shift = 0.5 * square * at.bend;
+    point.scatter =
+        std::sqrt(square * at.slope * at.slope + 0.5 * square * square * at.bend * at.bend);
+    const double u = (at.value + point.shift) / point.scatter;
+    if (!(u < far_from_capture) && point.captured == 0) {
+      point.scatter = 0.0;
+      point.shift = 0.0;
+      return;
+    }
+    const double slope = root_of_positive_normal(u).slope / std::sqrt(point.scatter);
+    point.mean_sd = std::hypot(point.sd, slope * point.input_sd);
+  }
+
+  double deviance(const std::vector<Local>& locals, double log_spread) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < locals.size(); ++i) {
+      Observation point = data_.points[i];
+      set_scatter(point, locals[i], std::exp(log_spread));
+      if (point.scatter > 0.0) {
+        sum += event_deviance(point, locals[i].value);
+      } else {
+        sum += std::pow(
+            (point.restitution - expected_restitution(point, locals[i].value)) / point.sd, 2);
+      }
+    }
+    return sum;
+  }
+
+  /// omega by maximum likelihood at these parameters, and what follows for every point.
+  void settle_scatter(const std::vector<Local>& locals) {
+    double& spread = data_.noise.event_spread;
+    spread = std::exp(lowest(locals));
+    for (std::size_t i = 0; i < locals.size(); ++i) {
+      Observation& point = data_.points[i];
+      set_scatter(point, locals[i], spread);
+      if (point.scatter > 0.0 && !point.censored) locate_peak(point);
+    }
+  }
+
+  /// The minimum of the deviance in ln omega: a grid, then the golden section about its best.
+  double lowest(const std::vector<Local>& locals) const {
+    constexpr int grid = 12;
+    const double from = std::log(least_spread);
+    const double stride = (std::log(largest_spread) - from) / grid;
+    int best = 0;
+    double best_value = INFINITY;
+    for (int i = 0; i <= grid; ++i) {
+      const double value = deviance(locals, from + i * stride);
+      if (value < best_value) {
+        best = i;
+        best_value = value;
+      }
+    }
+    double low = from + std::max(best - 1, 0) * stride;
+    double high = from + std::min(best + 1, grid) * stride;
+    constexpr double golden = 0.6180339887498949;
+    double x1 = high - golden * (high - low);
+    double x2 = low + golden * (high - low);
+    double f1 = deviance(locals, x1);
+    double f2 = deviance(locals, x2);
+    constexpr double tolerance = 1e-4;  // of omega, relative
+    while (high - low > tolerance) {
+      if (f1 < f2) {
+        high = x2;
+        x2 = x1;
+        f2 = f1;
+        x1 = high - golden * (high - low);
+        f1 = deviance(locals, x1);
+      } else {
+        low = x1;
+        x1 = x2;
+        f1 = f2;
+        x2 = low + golden * (high - low);
+        f2 = deviance(locals, x2);
+      }
+    }
+    return 0.5 * (low + high);
+  }
+
+  Observations& data_;
+  bool mixed_ = false;  ///< some point has both rebounds and captures
+};
+
+}  // namespace
+
+std::optional<std::vector<double>> reweigh(const ImpactModel& model, std::span<const double> theta,
+                                           Observations& data) {
+  Reweighing reweighing(data);
+  const std::vector<Prediction> answers = predict(model, theta, reweighing.questions(), false);
+  for (const Prediction& answer : answers) {
+    if (!answer.usable()) return std::nullopt;
+  }
+  return reweighing.learn(answers);
+}
+
+}  // namespace recoil

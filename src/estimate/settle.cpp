@@ -1,0 +1,144 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "estimate/impact_problem.hpp"
+#include "estimate/noise.hpp"
+#include "estimate/reweigh.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int most_rounds = 25;
+constexpr double settled_parameters = 1e-3;  // of their standard errors
+constexpr double settled_scale = 1e-4;       // relative
+constexpr double least_scale = 1e-6;         // of e: no measurement is better
+
+int free_count(const ImpactModel& model) {
+  return static_cast<int>(std::count_if(model.slots.begin(), model.slots.end(),
+                                        [](const ParameterSlot& slot) { return slot.free; }));
+}
+
+/// The largest step of a free parameter in units of its standard error (of its value, without one).
+double largest_step(const LeastSquaresResult& run, const std::vector<double>& before) {
+  double largest = 0.0;
+  const std::size_t p = before.size();
+  for (std::size_t j = 0; j < p; ++j) {
+    const double error = run.covariance.empty() ? 0.0 : std::sqrt(run.covariance[j * p + j]);
+    const double unit = error > 0.0 ? error : std::abs(run.theta[j]);
+    const double step = std::abs(run.theta[j] - before[j]);
+    if (step > 0.0) largest = std::max(largest, step / unit);
+  }
+  return largest;
+}
+
+Settled settle_with(const ImpactModel& model, Observations data, std::span<const double> start,
+                    const LeastSquaresOptions& options) {
+  Settled settled;
+  settled.data = std::move(data);
+  std::vector<double> theta(start.begin(), start.end());
+  for (int round = 0; round < most_rounds; ++round) {
+    const auto predicted = reweigh(model, theta, settled.data);
+    if (!predicted) {
+      settled.run.converged = false;
+      settled.run.message = "the model has no answer beside a point, where the weights need one";
+      return settled;
+    }
+    settled.run = minimise(impact_problem(model, settled.data), theta, options);
+    if (!settled.run.converged) return settled;
+    double scale = 1.0;
+    if (!settled.data.sd_stated) {
+      scale = misfit(settled.data, settled.run.residuals, *predicted, free_count(model)).scale();
+    }
+    const bool still = largest_step(settled.run, theta) < settled_parameters &&
+                       std::abs(scale - 1.0) < settled_scale;
+    theta = settled.run.theta;
+    if (still) break;
+    if (settled.data.sd_stated) continue;
+    // Data without noise would let the scale shrink for ever.
+    if (settled.data.noise.scale * scale < least_scale) break;
+    settled.data.noise.scale *= scale;
+  }
+  return settled;
+}
+
+/// -2 ln restricted likelihood but for a constant that the variance functions share.
+double restricted_criterion(const ImpactModel& model, const Settled& settled) {
+  const LeastSquaresResult& run = settled.run;
+  const auto& points = settled.data.points;
+  const double unit =
+      !points.empty() && points.front().student ? points.front().student->calibration() : 1.0;
+  double criterion = run.sum_of_squares / unit;
+  for (const Observation& point : points) {
+    if (!point.censored) criterion += 2.0 * std::log(point.sd);
+  }
+  const std::size_t p = run.theta.size();
+  std::vector<std::size_t> free;
+  for (std::size_t j = 0; j < p; ++j) {
+    if (model.slots[j].free) free.push_back(j);
+  }
+  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(points.size()),
+                           static_cast<Eigen::Index>(free.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          run.jacobian[i * p + free[k]];
+    }
+  }
+  if (free.empty()) return criterion;
+  const Eigen::VectorXd diagonal =
+      jacobian.householderQr().matrixQR().diagonal().cwiseAbs().array().log();
+  const double log_determinant = 2.0 * diagonal.sum();
+  return std::isfinite(log_determinant) ? criterion + log_determinant : criterion;
+}
+
+}  // namespace
+
+double handicap(VarianceFunction function) {
+  switch (function) {
+    case VarianceFunction::constant:
+      return 1.0;
+    case VarianceFunction::proportional:
+      return 3.0;
+    case VarianceFunction::capture:
+    case VarianceFunction::stated:
+      break;
+  }
+  return 0.0;
+}
+
+Settled settle(const ImpactModel& model, Observations data, std::span<const double> start,
+               const LeastSquaresOptions& options) {
+  if (!data.weights_depend_on_fit()) {
+    Settled settled{{}, std::move(data)};
+    settled.run = minimise(impact_problem(model, settled.data), start, options);
+    return settled;
+  }
+  if (data.sd_stated || data.spec.variance) {
+    return settle_with(model, std::move(data), start, options);
+  }
+  std::optional<Settled> best;
+  double best_criterion = INFINITY;
+  std::vector<VarianceCandidate> candidates;
+  for (const VarianceFunction function :
+       {VarianceFunction::constant, VarianceFunction::proportional, VarianceFunction::capture}) {
+    Observations own = data;
+    own.noise.variance = function;
+    Settled settled = settle_with(model, std::move(own), start, options);
+    if (!settled.run.converged) {
+      if (!best) best = std::move(settled);
+      continue;
+    }
+    const double criterion = restricted_criterion(model, settled);
+    candidates.push_back({function, settled.data.noise.scale, criterion});
+    if (criterion + handicap(function) < best_criterion) {
+      best_criterion = criterion + handicap(function);
+      best = std::move(settled);
+    }
+  }
+  best->data.noise.candidates = std::move(candidates);
+  return std::move(*best);
+}
+
+}  // namespace recoil

@@ -1,0 +1,95 @@
+#include "estimate/student.hpp"
+
+#include <gsl/gsl_randist.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace recoil {
+namespace {
+
+/// E f(z) for standard normal z: the trapezoid rule converges faster than any power for smooth f.
+template <class Function>
+double normal_mean(const Function& f) {
+  constexpr double reach = 12.0;
+  constexpr int halves = 600;
+  constexpr double step = reach / halves;
+  double sum = 0.0;
+  for (int i = -halves; i <= halves; ++i) sum += f(i * step) * gsl_ran_ugaussian_pdf(i * step);
+  return sum * step;
+}
+
+double psi_slope(double dof, double r) {
+  const double q = dof + r * r;
+  return (dof + 1.0) * (dof - r * r) / (q * q);
+}
+
+/// The scale at which t noise looks as large to psi as standard normal noise: E psi(scale t)^2 =
+/// E psi(z)^2, by the trapezoid rule in t = sinh(x), whose tails fall exponentially.
+double core_scale(const StudentNoise& student) {
+  constexpr double step = 0.05;
+  const int halves = static_cast<int>(std::ceil(40.0 / student.dof / step)) + 100;
+  std::vector<std::pair<double, double>> nodes;  // t and its weight
+  for (int i = -halves; i <= halves; ++i) {
+    const double t = std::sinh(i * step);
+    nodes.emplace_back(t, gsl_ran_tdist_pdf(t, student.dof) * std::cosh(i * step) * step);
+  }
+  double low = 0.05;
+  double high = 2.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    double square = 0.0;
+    for (const auto& [t, weight] : nodes) {
+      square += weight * student.psi(middle * t) * student.psi(middle * t);
+    }
+    (square < student.mean_square ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+double StudentNoise::psi(double r) const { return (dof + 1.0) * r / (dof + r * r); }
+
+WeightedResidual StudentNoise::transformed(const WeightedResidual& normal) const {
+  const double c = std::sqrt(calibration());
+  const double r = normal.value;
+  const double root = std::sqrt((dof + 1.0) * std::log1p(r * r / dof));
+  const double slope = root > 0.0 ? psi(std::abs(r)) / root : std::sqrt((dof + 1.0) / dof);
+  return {std::copysign(c * root, r), c * slope * normal.slope};
+}
+
+double StudentNoise::original(double value) const {
+  const double deviance = value * value / calibration();
+  return std::copysign(std::sqrt(dof * std::expm1(deviance / (dof + 1.0))), value);
+}
+
+StudentNoise student_noise(double dof) {
+  StudentNoise student;
+  student.dof = dof;
+  const auto square = [&](double z) { return student.psi(z) * student.psi(z); };
+  student.mean_slope = normal_mean([&](double z) { return psi_slope(dof, z); });
+  student.mean_square = normal_mean(square);
+  const double fourth = normal_mean([&](double z) { return square(z) * square(z); });
+  student.square_spread = fourth / (student.mean_square * student.mean_square) - 1.0;
+  student.gauss_newton = normal_mean([&](double z) {
+    const double d = (dof + 1.0) * std::log1p(z * z / dof);
+    return d > 0.0 ? square(z) / d : (dof + 1.0) / dof;
+  });
+  student.core = core_scale(student);
+  return student;
+}
+
+double gain_under_outliers(const StudentNoise& student, double share, double factor) {
+  const auto mixed = [&](const auto& f) {
+    return (1.0 - share) * normal_mean(f) +
+           share * normal_mean([&](double z) { return f(factor * z); });
+  };
+  const double least_squares = 1.0 - share + share * factor * factor;
+  const double slope = mixed([&](double z) { return psi_slope(student.dof, z); });
+  const double square = mixed([&](double z) { return student.psi(z) * student.psi(z); });
+  return least_squares * slope * slope / square;
+}
+
+}  // namespace recoil

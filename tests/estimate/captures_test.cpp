@@ -1,0 +1,248 @@
+// Points of which some impacts were captured: the likelihood of one point, and what becomes of the
+// bias of survivors' means, on impacts simulated one by one by code that the fitter does not use.
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.hpp"
+#include "estimate/fit.hpp"
+#include "estimate/noise.hpp"
+#include "synthetic.hpp"
+
+namespace recoil {
+namespace {
+
+/// 14 of 20 impacts rebounded, and differ.
+Observation mixed_point() {
+  Observation point;
+  point.restitution = 0.36;
+  point.sd = 0.03;
+  point.mean_sd = 0.03;
+  point.events = 20;
+  point.captured = 6;
+  point.counted = true;
+  point.scatter = 0.15;
+  point.shift = -0.01;
+  return point;
+}
+
+TEST(Captures, CountsAloneGiveTheBinomialEstimate) {
+  Observation point = mixed_point();
+  point.mean_sd = 1e4;  // the mean says nothing
+  locate_peak(point);
+  const double u = gsl_cdf_ugaussian_Pinv(14.0 / 20.0);
+  EXPECT_NEAR(point.peak.at, u * point.scatter - point.shift, 1e-7);
+  // r^2 is the deviance of 6 in 20 under p = 1/2: 2 (6 ln 0.6 + 14 ln 1.4), at u = 0.
+  const double r = weighted_residual(point, -point.shift).value;
+  EXPECT_NEAR(r * r, 2.0 * (6.0 * std::log(0.6) + 14.0 * std::log(1.4)), 1e-6);
+  EXPECT_GT(r, 0.0);  // the point lies above
+}
+
+TEST(Captures, AllCapturedIsTobitToThePowerOfTheCount) {
+  Observation point;
+  point.sd = 0.01;
+  point.censored = true;
+  point.events = point.captured = 7;
+  // At m = 0 each impact is captured with probability 1/2.
+  EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(14.0 * std::log(2.0)), 1e-12);
+  // What all impacts of the point share leaves a single one: n_eff -> 1.
+  point.input_sd = 100.0;
+  EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(2.0 * std::log(2.0)), 1e-5);
+}
+
+TEST(Captures, ResidualIsTheSignedRootOfTheDevianceAndSmooth) {
+  for (const bool counted : {true, false}) {
+    Observation point = mixed_point();
+    point.counted = counted;
+    locate_peak(point);
+    const double unit = 1.0 / std::sqrt(0.5 * point.peak.curvature);
+    for (const double away : {-3.0, -0.5, -2e-3, -0.9e-3, 0.0, 0.5e-3, 1.1e-3, 0.2, 4.0}) {
+      const double m = point.peak.at + away * unit;
+      const WeightedResidual at = weighted_residual(point, m);
+      EXPECT_NEAR(at.value * at.value, event_deviance(point, m) - point.peak.deviance, 1e-9);
+      EXPECT_EQ(at.value > 0.0, away < 0.0);
+      const double h = 0.02 * unit;
+      const double difference =
+          (weighted_residual(point, m + h).value - weighted_residual(point, m - h).value) /
+          (2.0 * h);
+      EXPECT_NEAR(at.slope / difference, 1.0, 1e-3) << away;
+    }
+  }
+}
+
+/// Impacts that differ: each has its own adhesion. e of every impact comes from the simulator of
+/// the reconstructions.
+class ImpactsOfManySpheres {
+ public:
+  static constexpr double diameter = 4.9e-6;
+  static constexpr double measuring_sd = 0.04;  // of one e
+  static constexpr int events = 20;
+
+  /// @param spread relative sd of the capture velocity from sphere to sphere
+  explicit ImpactsOfManySpheres(double spread) {
+    truth_.density = 1350.0;
+    truth_.stiffness = 1.789e9;
+    truth_.adhesion_force = 8.9;
+    truth_.reference_diameter = diameter;
+    truth_.C_H = 3e-3;
+    truth_.C_A = 0.03;
+    capture_velocity_ = true_capture_velocity(truth_, diameter);
+    synthetic::Design design;
+    design.diameters = {diameter};
+    design.velocities.clear();
+    for (const double relative : {0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 40.0}) {
+      design.velocities.push_back(relative * capture_velocity_);
+    }
+    design_ = synthetic::dataset(design);
+    for (const ImpactPoint& point : design_.points) tabulate(point, spread);
+  }
+
+  double capture_velocity() const { return capture_velocity_; }
+
+  Dataset draw(std::uint64_t index) const {
+    RandomStream random(5, RandomPurpose::coverage, index);
+    Dataset data = design_;
+    for (std::size_t i = 0; i < data.points.size(); ++i) {
+      ImpactPoint& point = data.points[i];
+      point.events = events;
+      point.captured = 0;
+      point.counted = true;
+      double sum = 0.0;
+      for (int event = 0; event < events; ++event) {
+        const double e = at(i, random.normal());
+        const double noise = measuring_sd * random.normal();
+        if (e > 0.0) {
+          sum += std::max(0.0, e + noise);
+        } else {
+          ++point.captured;
+        }
+      }
+      const int rebounds = events - point.captured;
+      point.restitution = rebounds > 0 ? sum / rebounds : 0.0;
+      point.restitution_sd = event_sd_[i] / std::sqrt(rebounds > 0 ? rebounds : events);
+    }
+    return data;
+  }
+
+ private:
+  static constexpr int cells = 200;  // of z in [-4.5, 4.5]
+  static constexpr double reach = 4.5;
+
+  void tabulate(const ImpactPoint& point, double spread) {
+    std::vector<double> row;
+    double weight = 0.0;
+    double first = 0.0;
+    double second = 0.0;
+    for (int k = 0; k <= cells; ++k) {
+      const double z = reach * (2.0 * k / cells - 1.0);
+      RingAdhesionTruth own = truth_;
+      own.adhesion_force *= std::exp(-spread / 1.875 * z);  // V* ~ f0^(15/8)
+      row.push_back(true_restitution(own, diameter, point.incident_velocity));
+      if (row.back() == 0.0) continue;
+      const double density = std::exp(-0.5 * z * z);
+      weight += density;
+      first += density * row.back();
+      second += density * row.back() * row.back();
+    }
+    e_.push_back(row);
+    const double variance =
+        weight > 0.0 ? second / weight - first * first / (weight * weight) : 0.0;
+    event_sd_.push_back(std::hypot(std::sqrt(std::max(0.0, variance)), measuring_sd));
+  }
+
+  double at(std::size_t point, double z) const {
+    const double x = std::clamp((z / reach + 1.0) * 0.5 * cells, 0.0, cells - 1e-9);
+    const auto k = static_cast<std::size_t>(x);
+    const double part = x - static_cast<double>(k);
+    const double a = e_[point][k];
+    const double b = e_[point][k + 1];
+    if (a == 0.0 || b == 0.0) return part < 0.5 ? a : b;
+    return std::sqrt((1.0 - part) * a * a + part * b * b);
+  }
+
+  RingAdhesionTruth truth_;
+  double capture_velocity_ = 0.0;
+  Dataset design_;
+  std::vector<std::vector<double>> e_;
+  std::vector<double> event_sd_;
+};
+
+/// Means over data sets, relative to the truth.
+struct Bias {
+  double C_A = 0.0;
+  double capture = 0.0;
+  double spread = 0.0;  // mean event_spread
+  double C_A_scatter = 0.0;
+};
+
+Bias bias(const ImpactsOfManySpheres& impacts, bool as_survivors_mean) {
+  constexpr int sets = 60;
+  Bias bias;
+  double squares = 0.0;
+  for (std::uint64_t s = 0; s < sets; ++s) {
+    Dataset data = impacts.draw(s);
+    for (ImpactPoint& point : data.points) {
+      point.counted = point.counted && !as_survivors_mean;
+      if (as_survivors_mean && !point.all_captured()) point.captured = 0;
+    }
+    const ImpactModel model = make_model(synthetic::spec(), {data});
+    FitOptions options;
+    options.several_starts = false;
+    const FitResult fitted = fit(model, gather({data}), options);
+    if (!fitted.usable) {
+      ADD_FAILURE() << fitted.failure;
+      continue;
+    }
+    const double error = fitted.theta[1] / 0.03 - 1.0;
+    bias.C_A += error / sets;
+    squares += error * error / sets;
+    const double found =
+        capture_velocity(model, fitted.theta, 0, ImpactsOfManySpheres::diameter).value;
+    bias.capture += (found / impacts.capture_velocity() - 1.0) / sets;
+    bias.spread += fitted.data.noise.event_spread / sets;
+  }
+  bias.C_A_scatter = std::sqrt(squares - bias.C_A * bias.C_A);
+  return bias;
+}
+
+TEST(Captures, SurvivorsMeansAreUnbiasedWhereTheyWereNot) {
+  const ImpactsOfManySpheres impacts(0.1);
+  const Bias before = bias(impacts, true);
+  EXPECT_LT(before.C_A, -0.15);  // fitted as plain means: -22 %, of the capture velocity -8 %
+  EXPECT_LT(before.capture, -0.05);
+  const Bias after = bias(impacts, false);
+  EXPECT_NEAR(after.C_A, 0.0, 3.0 * after.C_A_scatter / std::sqrt(60.0) + 0.005);
+  EXPECT_NEAR(after.capture, 0.0, 0.005);
+  EXPECT_NEAR(after.spread, 0.1, 0.01);
+  EXPECT_LT(after.C_A_scatter, 0.5 * before.C_A_scatter + 0.02);
+}
+
+TEST(Captures, AreDrawnAsTheyAreFitted) {
+  // Simulated points have the binomial count and the survivors' mean that the likelihood expects.
+  Observation point = mixed_point();
+  const double m = 0.06;
+  const double p = gsl_cdf_ugaussian_Q((m + point.shift) / point.scatter);
+  const double expected = expected_restitution(point, m);
+  constexpr int draws = 4000;
+  double captured = 0.0;
+  double mean = 0.0;
+  int means = 0;
+  for (int i = 0; i < draws; ++i) {
+    RandomStream random(3, RandomPurpose::bootstrap, static_cast<std::uint64_t>(i));
+    const Observation drawn = simulate_observation(point, m, 1.0, random);
+    captured += static_cast<double>(drawn.captured) / draws;
+    EXPECT_EQ(drawn.censored, drawn.captured == 20);
+    if (drawn.censored) continue;
+    mean += drawn.restitution;
+    ++means;
+    // As many as scatter now: sd_1 / sqrt(n - k).
+    EXPECT_NEAR(drawn.sd, 0.03 * std::sqrt(14.0 / drawn.rebounds()), 1e-12);
+  }
+  EXPECT_NEAR(captured, 20.0 * p, 4.0 * std::sqrt(20.0 * p * (1.0 - p) / draws));
+  EXPECT_NEAR(mean / means, expected, 4.0 * 0.035 / std::sqrt(draws));
+}
+
+}  // namespace
+}  // namespace recoil

@@ -1,0 +1,223 @@
+// What is taken as noise: estimated variance functions and Student's t on data whose noise is
+// known. The truth comes from the simulator of the reconstructions.
+#include "estimate/noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.hpp"
+#include "estimate/fit.hpp"
+#include "estimate/noise_words.hpp"
+#include "one_size.hpp"
+
+namespace recoil {
+namespace {
+
+using one_size::design;
+using one_size::fit_to;
+
+/// sd of a single impact at e, written down a second time.
+double event_sd(VarianceFunction function, double s, double e) {
+  if (function == VarianceFunction::proportional) return s * std::hypot(e, 0.1);
+  if (function == VarianceFunction::capture) return s / (2.0 * e);
+  return s;
+}
+
+class EstimatedVariance : public testing::TestWithParam<VarianceFunction> {};
+
+TEST_P(EstimatedVariance, ScaleAndParametersAreUnbiased) {
+  constexpr int sets = 120;
+  constexpr double s = 0.04;
+  const Dataset clean = design(16);
+  NoiseSpec spec;
+  spec.variance = GetParam();
+  double scale_squared = 0.0;
+  double theta[2] = {0.0, 0.0};
+  double squares[2] = {0.0, 0.0};
+  double claimed[2] = {0.0, 0.0};
+  for (std::uint64_t k = 0; k < sets; ++k) {
+    Dataset data = clean;
+    RandomStream random(21, RandomPurpose::coverage, k);
+    for (std::size_t i = 0; i < data.points.size(); ++i) {
+      ImpactPoint& point = data.points[i];
+      point.events = i % 3 == 0 ? 16 : 4;  // means of n weigh as such
+      const double sd = event_sd(GetParam(), s, point.restitution) / std::sqrt(point.events);
+      point.restitution += sd * random.normal();
+    }
+    const FitResult result = fit_to(data, spec);
+    ASSERT_TRUE(result.usable) << result.failure;
+    EXPECT_EQ(result.data.noise.variance, GetParam());
+    EXPECT_NEAR(result.noise_scale, 1.0, 1e-3);
+    EXPECT_NEAR(result.chi2, result.dof, 1e-2 * result.dof);
+    scale_squared += std::pow(result.data.noise.scale / s, 2) / sets;
+    const double expected[2] = {3e-3, 0.03};
+    for (std::size_t j = 0; j < 2; ++j) {
+      const double error = result.theta[j] / expected[j] - 1.0;
+      theta[j] += error / sets;
+      squares[j] += error * error / sets;
+      claimed[j] += std::pow(result.std_error[j] / expected[j], 2) / sets;
+    }
+  }
+  // s^2 of 14 degrees of freedom scatters by 38 %, its mean over 120 sets by 3.5 %.
+  EXPECT_NEAR(scale_squared, 1.0, 0.1);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_NEAR(theta[j], 0.0, 3.5 * std::sqrt(squares[j] / sets)) << j;
+    EXPECT_NEAR(squares[j] / claimed[j], 1.0, 0.45) << j;  // 3.5 times sqrt(2 / 120)
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Noise, EstimatedVariance,
+                         testing::Values(VarianceFunction::constant, VarianceFunction::proportional,
+                                         VarianceFunction::capture),
+                         [](const auto& at) { return to_string(at.param); });
+
+TEST(Noise, SixtyPointsTellTheVarianceFunction) {
+  const Dataset clean = design(60);
+  for (const VarianceFunction function :
+       {VarianceFunction::proportional, VarianceFunction::capture}) {
+    int right = 0;
+    for (std::uint64_t k = 0; k < 10; ++k) {
+      Dataset data = clean;
+      RandomStream random(22, RandomPurpose::coverage, k);
+      for (ImpactPoint& point : data.points) {
+        // Relative noise counts for the choice where e varies most.
+        point.restitution += event_sd(function, 0.05, point.restitution) * random.normal();
+      }
+      const FitResult result = fit_to(data);
+      ASSERT_TRUE(result.usable);
+      ASSERT_EQ(result.data.noise.candidates.size(), 3U);
+      right += result.data.noise.variance == function ? 1 : 0;
+      const bool opposite = function == VarianceFunction::proportional
+                                ? result.data.noise.variance == VarianceFunction::capture
+                                : result.data.noise.variance == VarianceFunction::proportional;
+      EXPECT_FALSE(opposite && choice_margin(result.data.noise) > 4.0);
+      EXPECT_GE(choice_margin(result.data.noise), 0.0);
+    }
+    EXPECT_GE(right, function == VarianceFunction::capture ? 7 : 2) << to_string(function);
+  }
+}
+
+TEST(Noise, TheChoiceIsReportedWithItsMargin) {
+  Dataset data = design(12);
+  RandomStream random(23, RandomPurpose::coverage, 0);
+  for (ImpactPoint& point : data.points) point.restitution += 0.02 * random.normal();
+  const FitResult result = fit_to(data);
+  ASSERT_TRUE(result.usable);
+  EXPECT_NE(result.noise_text.find("chosen before"), std::string::npos) << result.noise_text;
+  EXPECT_NE(result.noise_text.find("for every impact"), std::string::npos);
+  NoiseSpec asked;
+  asked.variance = VarianceFunction::constant;
+  EXPECT_NE(fit_to(data, asked).noise_text.find("(constant, as asked for)"), std::string::npos);
+}
+
+TEST(Noise, StatedDeviationsAreUsedOnlyWhenAllStateThem) {
+  Dataset data = design(6);
+  for (ImpactPoint& point : data.points) point.restitution_sd = 0.01;
+  EXPECT_TRUE(gather({data}).sd_stated);
+  NoiseSpec constant;
+  constant.variance = VarianceFunction::constant;
+  EXPECT_FALSE(gather({data}, constant).sd_stated);
+  data.points[2].restitution_sd.reset();
+  const Observations mixed = gather({data});
+  EXPECT_FALSE(mixed.sd_stated);
+  EXPECT_NE(mixed.warnings.front().find("5 points state"), std::string::npos);
+  NoiseSpec stated;
+  stated.variance = VarianceFunction::stated;
+  EXPECT_THROW(gather({data}, stated), InputError);
+}
+
+TEST(Noise, StudentHoldsAgainstOutliers) {
+  constexpr int sets = 100;
+  const Dataset clean = design(16);
+  double square_normal = 0.0;
+  double square_student = 0.0;
+  for (std::uint64_t k = 0; k < sets; ++k) {
+    Dataset data = clean;
+    RandomStream random(25, RandomPurpose::coverage, k);
+    for (ImpactPoint& point : data.points) {
+      const double factor = random.uniform() < 0.1 ? 6.0 : 1.0;
+      point.restitution_sd = 0.01;
+      point.restitution += factor * 0.01 * random.normal();
+    }
+    NoiseSpec student;
+    student.student = true;
+    const FitResult a = fit_to(data);
+    const FitResult b = fit_to(data, student);
+    ASSERT_TRUE(a.usable && b.usable);
+    square_normal += std::pow(a.theta[1] / 0.03 - 1.0, 2);
+    square_student += std::pow(b.theta[1] / 0.03 - 1.0, 2);
+    EXPECT_NE(b.noise_text.find("Student's t with 4"), std::string::npos);
+  }
+  EXPECT_GT(square_normal / square_student, 1.5);
+}
+
+TEST(Noise, StudentScaleMeansTheNormalCore) {
+  // With normal noise the estimated scale and the misfit are those of least squares, on average;
+  // with 14 degrees of freedom the scale comes out a little large.
+  constexpr int sets = 80;
+  const Dataset clean = design(16);
+  double log_scale = 0.0;
+  double ratio = 0.0;
+  int small = 0;
+  for (std::uint64_t k = 0; k < sets; ++k) {
+    Dataset data = clean;
+    RandomStream random(26, RandomPurpose::coverage, k);
+    for (ImpactPoint& point : data.points) point.restitution += 0.02 * random.normal();
+    NoiseSpec spec;
+    spec.student = true;
+    spec.variance = VarianceFunction::constant;
+    const FitResult estimated = fit_to(data, spec);
+    ASSERT_TRUE(estimated.usable);
+    log_scale += std::log(estimated.data.noise.scale / 0.02) / sets;
+    ratio += std::pow((estimated.theta[1] - 0.03) / estimated.std_error[1], 2) / sets;
+    for (ImpactPoint& point : data.points) point.restitution_sd = 0.02;
+    spec.variance.reset();
+    small += fit_to(data, spec).p_value < 0.05 ? 1 : 0;
+  }
+  EXPECT_NEAR(log_scale, 0.05, 0.1);
+  EXPECT_NEAR(ratio, 1.1, 0.5);
+  EXPECT_LE(small, 10);  // 4 expected
+}
+
+TEST(Noise, SimulatedPointsHaveTheNoiseThatWeightsThem) {
+  Observation point;
+  point.restitution = 0.7;
+  point.sd = 0.02;
+  point.input_sd = 0.03;
+  double mean = 0.0;
+  double square = 0.0;
+  constexpr int draws = 4000;
+  for (int i = 0; i < draws; ++i) {
+    RandomStream random(27, RandomPurpose::bootstrap, static_cast<std::uint64_t>(i));
+    const double e = simulate_observation(point, 0.64, 1.0, random).restitution;
+    mean += (e - 0.8) / draws;
+    square += (e - 0.8) * (e - 0.8) / draws;
+  }
+  const double sd = std::hypot(0.02, 0.03 / 1.6);  // sd(e) = sd(e^2) / 2 e
+  EXPECT_NEAR(mean, 0.0, 4.0 * sd / std::sqrt(draws) + 0.03 * 0.03 / (8.0 * 0.512));
+  EXPECT_NEAR(std::sqrt(square) / sd, 1.0, 0.05);
+  point.censored = true;
+  RandomStream random(27, RandomPurpose::bootstrap, 0);
+  EXPECT_TRUE(simulate_observation(point, -0.1, 1.0, random).censored);
+}
+
+TEST(Noise, SettlingASecondTimeChangesNothing) {
+  Dataset data = design(14);
+  RandomStream random(28, RandomPurpose::coverage, 0);
+  for (ImpactPoint& point : data.points) {
+    point.restitution += 0.03 * random.normal();
+    point.velocity_sd = 0.02 * point.incident_velocity;
+  }
+  const FitResult first = fit_to(data);
+  ASSERT_TRUE(first.usable);
+  const Settled again = settle(first.model, first.data, first.theta, {});
+  ASSERT_TRUE(again.run.converged);
+  EXPECT_EQ(again.data.noise.variance, first.data.noise.variance);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_NEAR(again.run.theta[j], first.theta[j], 5e-3 * first.std_error[j]);
+  }
+}
+
+}  // namespace
+}  // namespace recoil
