@@ -167,6 +167,18 @@ void report_bounds(FitResult& result) {
   }
 }
 
+/// The points for the search from several starts. A mean of survivors lies far above the curve
+/// until the scatter of the impacts is known, so points with rebounds and captures wait for
+/// `settle`, if the others suffice.
+Observations without_mixed_points(const Observations& data, std::ptrdiff_t free_count) {
+  Observations rest = data;
+  std::erase_if(rest.points,
+                [](const Observation& point) { return point.captured > 0 && !point.censored; });
+  const auto rebounds = std::count_if(rest.points.begin(), rest.points.end(),
+                                      [](const Observation& point) { return !point.censored; });
+  return rebounds > free_count ? rest : data;
+}
+
 }  // namespace
 
 FitResult fit(const ImpactModel& model, const Observations& data, const FitOptions& options) {
@@ -174,7 +186,6 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
   result.model = model;
   result.data = data;
   result.warnings = data.warnings;
-  const LeastSquaresProblem problem = impact_problem(model, data, &result.handovers);
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
   const auto free_count = std::count_if(model.slots.begin(), model.slots.end(),
                                         [](const ParameterSlot& slot) { return slot.free; });
@@ -185,6 +196,8 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
     return result;
   }
 
+  const Observations searched = without_mixed_points(data, free_count);
+  const LeastSquaresProblem problem = impact_problem(model, searched, &result.handovers);
   LeastSquaresResult best;
   std::size_t best_start = 0;
   for (const std::vector<double>& start : starting_points(model, first, options.several_starts)) {

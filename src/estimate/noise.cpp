@@ -37,11 +37,16 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
   int informative = 0;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
+    student = point.student ? &*point.student : nullptr;
+    if (!data.sd_stated && point.censored) continue;
     // A captured point that the model captures has no residual to speak of, whatever the
     // parameters: it fixes a side, not a value, and is no degree of freedom of the noise.
     if (!point.censored || predicted[i] > 0.0) ++informative;
-    student = point.student ? &*point.student : nullptr;
-    const double r = student ? student->psi(student->original(residuals[i])) : residuals[i];
+    double r = student ? student->original(residuals[i]) : residuals[i];
+    if (!data.sd_stated && point.scatter > 0.0) {
+      r = (point.restitution - expected_restitution(point, predicted[i])) / point.mean_sd;
+    }
+    if (student) r = student->psi(r);
     result.square += r * r;
   }
   if (student) result.square /= student->mean_square;
@@ -92,7 +97,9 @@ Observation simulate_observation(const Observation& point, double restitution_sq
   drawn.sd = point.event_sd() /
              std::sqrt(static_cast<double>(drawn.censored ? drawn.events : drawn.rebounds()));
   drawn.restitution =
-      drawn.censored ? 0.0 : std::max(0.0, expected_restitution(drawn, m) + drawn.sd * noise);
+      drawn.censored
+          ? 0.0
+          : std::max(0.0, expected_restitution(drawn, m) + survivors_sd(drawn, m) * noise);
   return drawn;
 }
 

@@ -11,6 +11,9 @@
 namespace recoil {
 
 /// How far the points lie from a fit, in the measure that fits their distribution.
+///
+/// Where the noise is estimated, only means of rebounds count: counts of captures do not scatter
+/// less when the standard deviations are larger.
 struct Misfit {
   double square = 0.0;   ///< sum of r^2; for Student's t sum of psi(r)^2 / E psi^2: both expect dof
   int dof = 0;           ///< points less free parameters; captured points that the model also
@@ -48,7 +51,8 @@ struct Settled {
 ///   maximum likelihood of the counts and the survivors' means, wherever a point has both:
 ///   an impact at V fares like the mean one at V exp(omega z), so its e^2 has the mean and variance
 ///     e^2 + omega^2 / 2 b,  omega^2 a^2 + omega^4 / 2 b^2
-///   with a, b the first two derivatives of e^2 in ln V (differences over sqrt(3) omega).
+///   with a, b the first two derivatives of e^2 in ln V (differences over sqrt(3) omega). The sd of
+///   a survivors' mean is its own, or `survivors_sd` where that is larger.
 ///
 /// The choice of a variance function: the smallest
 ///   sum 2 ln sd_i + chi2 + ln |J'J| + handicap,

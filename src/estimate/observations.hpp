@@ -115,6 +115,11 @@ void locate_peak(Observation& point);
 /// The deviance of a point with scatter (see above), constants left out.
 double event_deviance(const Observation& point, double restitution_squared);
 
+/// Standard deviation of the mean e of the survivors of a point with scatter [1]: its own, but no
+/// less than what the scatter alone makes of so few (with two or three survivors a deviation stated
+/// from their differences may be anything).
+double survivors_sd(const Observation& point, double restitution_squared);
+
 /// What the mean e of the rebounds of this point should be where the model predicts
 /// `restitution_squared`: sqrt(e^2), or the mean of the survivors [1].
 double expected_restitution(const Observation& point, double restitution_squared);

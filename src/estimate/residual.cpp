@@ -143,6 +143,12 @@ void locate_peak(Observation& point) {
   peak.third = (more - 2.0 * slope(peak.at) + less) / (h * h);
 }
 
+double survivors_sd(const Observation& point, double m) {
+  if (point.censored) return point.sd;
+  const double variance = root_of_positive_normal((m + point.shift) / point.scatter).variance;
+  return std::max(point.sd, std::sqrt(point.scatter * variance / point.rebounds()));
+}
+
 double expected_restitution(const Observation& point, double m) {
   if (point.censored || !(point.scatter > 0.0)) return std::sqrt(std::max(m, 0.0));
   return std::sqrt(point.scatter) * root_of_positive_normal((m + point.shift) / point.scatter).mean;

@@ -121,7 +121,7 @@ class Reweighing {
       return;
     }
     const double slope = root_of_positive_normal(u).slope / std::sqrt(point.scatter);
-    point.mean_sd = std::hypot(point.sd, slope * point.input_sd);
+    point.mean_sd = std::hypot(survivors_sd(point, at.value), slope * point.input_sd);
   }
 
   double deviance(const std::vector<Local>& locals, double log_spread) const {
@@ -131,6 +131,7 @@ class Reweighing {
       set_scatter(point, locals[i], std::exp(log_spread));
       if (point.scatter > 0.0) {
         sum += event_deviance(point, locals[i].value);
+        if (!point.censored) sum += 2.0 * std::log(point.mean_sd / point.sd);
       } else {
         sum += std::pow(
             (point.restitution - expected_restitution(point, locals[i].value)) / point.sd, 2);

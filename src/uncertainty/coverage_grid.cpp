@@ -73,6 +73,7 @@ ImpactPoint measured_point(const TrueCurve& curve, const GridDesign& design, dou
   double variance_of_mean = 0.0;
   if (design.captures) {
     point.events = events;
+    point.counted = true;
     double sum = 0.0;
     double squares = 0.0;
     for (int k = 0; k < events; ++k) {
