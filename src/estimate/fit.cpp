@@ -218,10 +218,16 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
   }
 
   if (data.weights_depend_on_fit()) {
-    Settled settled = settle(model, data, best.theta, options.minimiser);
+    Settled settled = settle(model, data, best.theta, {.minimiser = options.minimiser});
     if (!settled.run.converged) {
       result.failure = "the weights do not settle: " + settled.run.message;
       return result;
+    }
+    if (!settled.at_rest) {
+      result.warnings.emplace_back(
+          "the weights of the points still moved when their rounds ran out: the estimate depends "
+          "on "
+          "where they stopped");
     }
     best = std::move(settled.run);
     result.data = std::move(settled.data);

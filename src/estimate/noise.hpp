@@ -32,6 +32,13 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
 struct Settled {
   LeastSquaresResult run;  ///< the last descent; not converged when a round failed
   Observations data;       ///< with the weights that `run` worked on
+  bool at_rest = true;     ///< false: still moving when the rounds ran out
+};
+
+struct SettleOptions {
+  LeastSquaresOptions minimiser;
+  double parameters = 1e-3;  ///< rounds end when no parameter moves by more, in standard errors,
+  double scale = 1e-4;       ///< and the estimated scale by no more, relative
 };
 
 /// Fits the parameters from `start` (near the answer: a fit with rough weights, or the estimate of
@@ -67,7 +74,7 @@ struct Settled {
 ///
 /// A replicate calls this too: what was estimated from the data is estimated again.
 Settled settle(const ImpactModel& model, Observations data, std::span<const double> start,
-               const LeastSquaresOptions& options);
+               const SettleOptions& options = {});
 
 /// What is added to -2 ln restricted likelihood before variance functions are compared.
 double handicap(VarianceFunction function);

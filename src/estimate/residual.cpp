@@ -128,13 +128,32 @@ void locate_peak(Observation& point) {
   double low = -point.shift - reach;
   double high = point.restitution * point.restitution - point.shift + reach;
   const auto slope = [&](double m) { return event_deviance_and_slope(point, m).slope; };
-  constexpr int most_halvings = 200;
-  for (int i = 0; i < most_halvings && high - low > 1e-14 * reach; ++i) {
-    const double middle = 0.5 * (low + high);
-    (slope(middle) < 0.0 ? low : high) = middle;
+  // Regula falsi with the Illinois rule, and halving where that is slow.
+  double slope_low = slope(low);
+  double slope_high = slope(high);
+  constexpr int most_steps = 200;
+  const double close_enough = 1e-13 * reach;
+  double middle = 0.5 * (low + high);
+  for (int i = 0; i < most_steps && high - low > close_enough; ++i) {
+    const double guess = high - slope_high * (high - low) / (slope_high - slope_low);
+    const bool halve = i % 8 == 7 || !(guess > low && guess < high);
+    middle = halve ? 0.5 * (low + high) : guess;
+    const double at = slope(middle);
+    if (at == 0.0) break;
+    if (at < 0.0) {
+      if (middle - low < close_enough) break;
+      low = middle;
+      slope_low = at;
+      slope_high *= 0.5;
+    } else {
+      if (high - middle < close_enough) break;
+      high = middle;
+      slope_high = at;
+      slope_low *= 0.5;
+    }
   }
   DeviancePeak& peak = point.peak;
-  peak.at = 0.5 * (low + high);
+  peak.at = middle;
   peak.deviance = event_deviance(point, peak.at);
   const double h = 1e-3 * std::min(point.scatter, std::max(point.mean_sd, 1e-3 * point.scatter));
   const double more = slope(peak.at + h);

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double proportional_floor = 0.1;  // e below which relative noise stays as it is
 constexpr double first_spread = 0.05;       // omega of the first round
+constexpr double near_reach = 0.7;          // in ln omega: a factor of two
 constexpr double least_spread = 2e-3;
 constexpr double largest_spread = 0.6;
 // Where e^2 exceeds its scatter so many times, survivors are all there are: sqrt(e^2) is their mean
@@ -151,8 +152,14 @@ class Reweighing {
     }
   }
 
-  /// The minimum of the deviance in ln omega: a grid, then the golden section about its best.
+  /// The minimum of the deviance in ln omega: near the omega of the round before or, where that
+  /// lies on a slope, anywhere; by the golden section.
   double lowest(const std::vector<Local>& locals) const {
+    const double before = std::log(data_.noise.event_spread);
+    const double near =
+        golden_section(locals, std::max(before - near_reach, std::log(least_spread)),
+                       std::min(before + near_reach, std::log(largest_spread)));
+    if (std::abs(near - before) < 0.95 * near_reach) return near;
     constexpr int grid = 12;
     const double from = std::log(least_spread);
     const double stride = (std::log(largest_spread) - from) / grid;
@@ -165,14 +172,17 @@ class Reweighing {
         best_value = value;
       }
     }
-    double low = from + std::max(best - 1, 0) * stride;
-    double high = from + std::min(best + 1, grid) * stride;
+    return golden_section(locals, from + std::max(best - 1, 0) * stride,
+                          from + std::min(best + 1, grid) * stride);
+  }
+
+  double golden_section(const std::vector<Local>& locals, double low, double high) const {
     constexpr double golden = 0.6180339887498949;
     double x1 = high - golden * (high - low);
     double x2 = low + golden * (high - low);
     double f1 = deviance(locals, x1);
     double f2 = deviance(locals, x2);
-    constexpr double tolerance = 1e-4;  // of omega, relative
+    constexpr double tolerance = 1e-3;  // of omega, relative
     while (high - low > tolerance) {
       if (f1 < f2) {
         high = x2;

@@ -11,9 +11,7 @@ namespace recoil {
 namespace {
 
 constexpr int most_rounds = 25;
-constexpr double settled_parameters = 1e-3;  // of their standard errors
-constexpr double settled_scale = 1e-4;       // relative
-constexpr double least_scale = 1e-6;         // of e: no measurement is better
+constexpr double least_scale = 1e-6;  // of e: no measurement is better
 
 int free_count(const ImpactModel& model) {
   return static_cast<int>(std::count_if(model.slots.begin(), model.slots.end(),
@@ -34,10 +32,11 @@ double largest_step(const LeastSquaresResult& run, const std::vector<double>& be
 }
 
 Settled settle_with(const ImpactModel& model, Observations data, std::span<const double> start,
-                    const LeastSquaresOptions& options) {
+                    const SettleOptions& options) {
   Settled settled;
   settled.data = std::move(data);
   std::vector<double> theta(start.begin(), start.end());
+  double& noise_scale = settled.data.noise.scale;
   for (int round = 0; round < most_rounds; ++round) {
     const auto predicted = reweigh(model, theta, settled.data);
     if (!predicted) {
@@ -45,20 +44,20 @@ Settled settle_with(const ImpactModel& model, Observations data, std::span<const
       settled.run.message = "the model has no answer beside a point, where the weights need one";
       return settled;
     }
-    settled.run = minimise(impact_problem(model, settled.data), theta, options);
+    settled.run = minimise(impact_problem(model, settled.data), theta, options.minimiser);
     if (!settled.run.converged) return settled;
     double scale = 1.0;
     if (!settled.data.sd_stated) {
       scale = misfit(settled.data, settled.run.residuals, *predicted, free_count(model)).scale();
+      // Data without noise would let the scale shrink for ever.
+      settled.at_rest = noise_scale * scale < least_scale;
+      if (settled.at_rest) break;
     }
-    const bool still = largest_step(settled.run, theta) < settled_parameters &&
-                       std::abs(scale - 1.0) < settled_scale;
+    settled.at_rest = largest_step(settled.run, theta) < options.parameters &&
+                      std::abs(scale - 1.0) < options.scale;
+    if (settled.at_rest) break;
     theta = settled.run.theta;
-    if (still) break;
-    if (settled.data.sd_stated) continue;
-    // Data without noise would let the scale shrink for ever.
-    if (settled.data.noise.scale * scale < least_scale) break;
-    settled.data.noise.scale *= scale;
+    noise_scale *= scale;
   }
   return settled;
 }
@@ -109,10 +108,10 @@ double handicap(VarianceFunction function) {
 }
 
 Settled settle(const ImpactModel& model, Observations data, std::span<const double> start,
-               const LeastSquaresOptions& options) {
+               const SettleOptions& options) {
   if (!data.weights_depend_on_fit()) {
     Settled settled{{}, std::move(data)};
-    settled.run = minimise(impact_problem(model, settled.data), start, options);
+    settled.run = minimise(impact_problem(model, settled.data), start, options.minimiser);
     return settled;
   }
   if (data.sd_stated || data.spec.variance) {

@@ -34,6 +34,15 @@ constexpr int most_two_point = 999;
 // A bootstrap quicker than this is not worth a file.
 constexpr auto worth_keeping = std::chrono::seconds(1);
 
+/// Weights of a replicate need no more digits than its own scatter has.
+SettleOptions settle_options() {
+  SettleOptions options;
+  options.minimiser = refit_options();
+  options.parameters = 0.02;
+  options.scale = 0.01;
+  return options;
+}
+
 /// Do the points scatter unequally in a way that the covariance does not know of?
 bool uses_sandwich(Scheme scheme) {
   return scheme == Scheme::wild || scheme == Scheme::cases || scheme == Scheme::cluster;
@@ -46,7 +55,8 @@ std::vector<double> standard_errors(const LeastSquaresResult& run, const Observa
   const std::size_t p = run.theta.size();
   if (run.covariance.empty()) return std::vector<double>(p, 0.0);
   if (uses_sandwich(plan.scheme)) {
-    return sandwich_errors(run.residuals, run.jacobian, run.covariance);
+    return sandwich_errors(run.residuals, run.jacobian,
+                           scaled_covariance(data, run.covariance, 1.0));
   }
   // Where the noise is estimated, it was so again with the parameters of this run.
   const double scale = data.sd_stated ? fitted.noise_scale : 1.0;
@@ -67,7 +77,8 @@ std::vector<double> reference_errors(const FitResult& fitted, const ResamplingPl
   at_fit.jacobian.resize(problem.residual_count * p);
   if (!problem.evaluate(at_fit.theta, at_fit.residuals, at_fit.jacobian)) return fitted.std_error;
   at_fit.covariance = fitted.covariance;
-  for (double& entry : at_fit.covariance) entry /= fitted.noise_scale * fitted.noise_scale;
+  const double scaled = scaled_covariance(*plan.data, {1.0}, fitted.noise_scale).front();
+  for (double& entry : at_fit.covariance) entry /= scaled;
   return standard_errors(at_fit, *plan.data, fitted, plan);
 }
 
@@ -88,7 +99,7 @@ class Workspace {
   LeastSquaresResult refit(std::uint64_t seed, std::uint64_t index) {
     resample(plan_, seed, index, sample_);
     if (sample_.weights_depend_on_fit()) {
-      Settled settled = settle(model_, sample_, plan_.fitted->theta, minimiser_);
+      Settled settled = settle(model_, sample_, plan_.fitted->theta, settle_options());
       weighted_ = std::move(settled.data);
       return std::move(settled.run);
     }
@@ -142,7 +153,7 @@ LeastSquaresOptions refit_options() {
 
 LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
                          std::span<const double> start) {
-  if (sample.weights_depend_on_fit()) return settle(model, sample, start, refit_options()).run;
+  if (sample.weights_depend_on_fit()) return settle(model, sample, start, settle_options()).run;
   return minimise(impact_problem(model, sample), start, refit_options());
 }
 
