@@ -70,7 +70,8 @@ double restricted_criterion(const ImpactModel& model, const Settled& settled) {
       !points.empty() && points.front().student ? points.front().student->calibration() : 1.0;
   double criterion = run.sum_of_squares / unit;
   for (const Observation& point : points) {
-    if (!point.censored) criterion += 2.0 * std::log(point.sd);
+    if (point.censored) continue;
+    criterion += 2.0 * std::log(point.scatter > 0.0 ? point.mean_sd : point.sd);
   }
   const std::size_t p = run.theta.size();
   std::vector<std::size_t> free;
