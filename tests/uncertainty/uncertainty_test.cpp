@@ -71,6 +71,35 @@ TEST(Profile, StopsAtABoundAndSaysSo) {
   EXPECT_GT(*interval.upper, 0.0);
 }
 
+/// A fit to points without noise, whose estimate is C_H = `errors` of its standard errors above 0.
+Case above_the_bound(double errors) {
+  Case c;
+  Design design;
+  design.C_H = 1e-3;
+  for (int i = 0; i < 3; ++i) {  // the error hardly depends on C_H
+    c.datasets = {synthetic::dataset(design)};
+    c.data = gather(c.datasets);
+    c.fitted = fit(make_model(synthetic::spec(), c.datasets), c.data);
+    design.C_H = errors * c.fitted.std_error[0];
+  }
+  return c;
+}
+
+TEST(Profile, ExcludesTheBoundAsAOneSidedTestWould) {
+  // Two-sided everywhere else, a truth on the bound can only be missed from above: the limit is
+  // 1.645 errors, not 1.960 (see profile_quantile).
+  const Case clear = above_the_bound(1.75);
+  const Interval apart = profile_interval(clear.fitted, clear.data, 0, 0.95);
+  ASSERT_TRUE(apart.available());
+  EXPECT_GT(*apart.lower, 0.0);
+  EXPECT_EQ(apart.shape, "bounded");
+  const Case close = above_the_bound(1.55);
+  const Interval reaching = profile_interval(close.fitted, close.data, 0, 0.95);
+  ASSERT_TRUE(reaching.available());
+  EXPECT_EQ(*reaching.lower, 0.0);
+  EXPECT_EQ(reaching.shape, "one-sided");
+}
+
 TEST(Assessment, HoldsOutDiametersAndExplainsMissingIntervals) {
   const Case c = noisy_case();
   const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
