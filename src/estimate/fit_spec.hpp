@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "estimate/scheme.hpp"
 #include "estimate/noise_spec.hpp"
+#include "estimate/scheme.hpp"
 #include "impact/impact.hpp"
 
 namespace recoil {
