@@ -184,6 +184,9 @@ Json capture_json(const Analysis& a) {
         "no velocity at which capture turns into rebound was found");
     entry["interval"] = interval_json(capture.interval);
     entry["interval_mc_error"] = mc_error_json(capture.interval);
+    entry["intervals"] = {{"delta", interval_json(capture.delta)},
+                          {"percentile", interval_json(capture.percentile)}};
+    entry["recommended"] = {{"interval", capture.recommended}, {"why", capture.recommended_why}};
     if (entry["interval"].is_null()) entry["why"] = why_none(capture.interval);
     list.push_back(entry);
   }

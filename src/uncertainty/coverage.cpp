@@ -20,7 +20,7 @@ struct Trial {
   int refits_failed = 0;
   std::vector<IntervalSet> intervals;
   std::vector<bool> identifiable;
-  std::vector<Interval> capture;
+  std::vector<CaptureEstimate> capture;
 };
 
 struct Kind {
@@ -57,7 +57,7 @@ Trial run_trial(const FitSpec& spec, const CoverageTruth& truth, const Uncertain
   trial.refits_failed = result.bootstrap.failed;
   trial.intervals = result.intervals;
   trial.identifiable = result.identifiability.parameter;
-  for (const CaptureEstimate& at : result.capture) trial.capture.push_back(at.interval);
+  for (const CaptureEstimate& at : result.capture) trial.capture.push_back(at);
   return trial;
 }
 
@@ -145,11 +145,16 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
     row.parameter = fmt::format("V*({:.4g} um)", truth.capture[k].diameter / units::um);
     row.unit = "m/s";
     row.truth = truth.capture[k].velocity;
-    row.cells.push_back(count(
-        trials, "percentile", row.truth,
-        [&](const Trial& t) -> const Interval& { return t.capture[k]; },
-        [](const Trial&) { return true; }));
-    row.identifiable = row.cells.back().offered;
+    const auto add = [&](const char* name, Interval CaptureEstimate::*kind) {
+      row.cells.push_back(count(
+          trials, name, row.truth,
+          [&](const Trial& t) -> const Interval& { return t.capture[k].*kind; },
+          [](const Trial&) { return true; }));
+    };
+    add("recommended", &CaptureEstimate::interval);
+    add("percentile", &CaptureEstimate::percentile);
+    add("delta", &CaptureEstimate::delta);
+    row.identifiable = row.cells.front().offered;
     result.rows.push_back(std::move(row));
   }
   return result;

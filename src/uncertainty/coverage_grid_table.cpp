@@ -105,8 +105,8 @@ std::string grid_markdown(const std::vector<GridResult>& results, const FitSpec&
   int rows = 0, held = 0, warned = 0;
   std::string table =
       "| design | parameter | identifiable, % | recommended, % | where identifiable, % | profile | "
-      "studentized | bca | percentile | wald | width / truth | |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "studentized | bca | percentile | wald | delta | width / truth | |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const GridResult& result : results) {
     const int usable = result.coverage.datasets - result.coverage.failed;
     for (const CoverageRow& row : result.coverage.rows) {
@@ -118,7 +118,7 @@ std::string grid_markdown(const std::vector<GridResult>& results, const FitSpec&
       table += fmt::format("| {} | {} | {} | {} | {} |", result.design.name(), row.parameter,
                            percent(row.identifiable, usable), percent(best.held, best.offered),
                            percent(best.held_identifiable, best.offered_identifiable));
-      for (const char* kind : {"profile", "studentized", "bca", "percentile", "wald"}) {
+      for (const char* kind : {"profile", "studentized", "bca", "percentile", "wald", "delta"}) {
         const auto found = std::find_if(row.cells.begin(), row.cells.end(),
                                         [&](const CoverageCell& c) { return c.interval == kind; });
         table += found == row.cells.end()

@@ -68,7 +68,12 @@ struct CaptureEstimate {
   double diameter = 0.0;  ///< [m]
   double value = 0.0;     ///< [m/s]
   bool found = false;
-  Interval interval;  ///< percentile of the bootstrap
+  Interval delta;       ///< V* exp(+- q sd(ln V*)), sd by the covariance and d V* / d theta; q of
+                        ///< Student where the noise is estimated
+  Interval percentile;  ///< of the bootstrap
+  Interval interval;    ///< the recommended one of the two
+  std::string recommended;      ///< "delta" or "percentile"
+  std::string recommended_why;  ///< by which rule
 };
 
 /// One curve e(V) of a diameter with its pointwise band.
