@@ -211,23 +211,37 @@ std::vector<double> leverages(std::span<const double> jacobian,
   return h;
 }
 
-std::vector<double> sandwich_errors(std::span<const double> residuals,
-                                    std::span<const double> jacobian,
-                                    std::span<const double> covariance) {
+std::vector<double> sandwich_covariance(std::span<const double> residuals,
+                                        std::span<const double> jacobian,
+                                        std::span<const double> covariance) {
   const std::vector<double> h = leverages(jacobian, covariance);
   const std::size_t n = residuals.size();
   const std::size_t p = n == 0 ? 0 : jacobian.size() / n;
-  std::vector<double> variance(p, 0.0);
+  std::vector<double> sandwich(p * p, 0.0);
+  std::vector<double> step(p);  // how far point i moves every parameter
   for (std::size_t i = 0; i < h.size(); ++i) {
     const double scaled = residuals[i] / (1.0 - h[i]);
     for (std::size_t a = 0; a < p; ++a) {
-      double step = 0.0;  // how far point i moves parameter a
-      for (std::size_t b = 0; b < p; ++b) step += covariance[a * p + b] * jacobian[i * p + b];
-      variance[a] += step * step * scaled * scaled;
+      step[a] = 0.0;
+      for (std::size_t b = 0; b < p; ++b) step[a] += covariance[a * p + b] * jacobian[i * p + b];
+    }
+    for (std::size_t a = 0; a < p; ++a) {
+      for (std::size_t b = 0; b < p; ++b) {
+        sandwich[a * p + b] += step[a] * step[b] * scaled * scaled;
+      }
     }
   }
-  for (double& v : variance) v = std::sqrt(v);
-  return variance;
+  return sandwich;
+}
+
+std::vector<double> sandwich_errors(std::span<const double> residuals,
+                                    std::span<const double> jacobian,
+                                    std::span<const double> covariance) {
+  const std::size_t p = residuals.empty() ? 0 : jacobian.size() / residuals.size();
+  const std::vector<double> sandwich = sandwich_covariance(residuals, jacobian, covariance);
+  std::vector<double> errors(p);
+  for (std::size_t j = 0; j < p; ++j) errors[j] = std::sqrt(sandwich[j * p + j]);
+  return errors;
 }
 
 }  // namespace recoil

@@ -83,9 +83,14 @@ Interval wald_interval(double estimate, double std_error, double level, int dof,
 /// @param dof 0: the noise is known
 double profile_quantile(double level, int dof, double distance);
 
-/// Standard errors that hold where the points scatter unequally, without any noise model: the roots
-/// of the diagonal of C J' diag(r^2 / (1 - h)^2) J C with C = (J'J)^-1, "HC3" (MacKinnon & White
-/// 1985, J. Econometrics 29, 305-325).
+/// A covariance that holds where the points scatter unequally, without any noise model:
+/// C J' diag(r^2 / (1 - h)^2) J C with C = (J'J)^-1, "HC3" (MacKinnon & White 1985, J. Econometrics
+/// 29, 305-325) [p x p]. Arguments as below.
+std::vector<double> sandwich_covariance(std::span<const double> residuals,
+                                        std::span<const double> jacobian,
+                                        std::span<const double> covariance);
+
+/// The roots of its diagonal [p].
 /// @param jacobian [n x p, row major]
 /// @param covariance C [p x p]; zero rows for parameters that do not move, which get 0
 std::vector<double> sandwich_errors(std::span<const double> residuals,

@@ -4,12 +4,14 @@
 
 namespace recoil {
 
-/// Names the interval to quote, and why: the one place where the rule stands.
+/// Names the interval to quote, and why: the one place where the rule stands. It follows the
+/// coverage study (reports/coverage-grid.md).
 ///
-/// The profile where there is one: it follows the likelihood where that is not a parabola, stops at
-/// the bounds, and knows that an estimated noise is uncertain. Else the percentile interval, else
-/// Wald's.
-void recommend(IntervalSet& set);
+/// Where the standard deviations are stated: the profile, which follows the likelihood where that
+/// is not a parabola and stops at the bounds. Where the noise is estimated: the studentized
+/// interval of the wild bootstrap, which assumes nothing about where the points scatter more,
+/// unless replicates rest on a bound. Without replicates the profile, else percentile, else Wald.
+void recommend(IntervalSet& set, bool sd_stated);
 
 /// Why the intervals of one free parameter differ, in a sentence: which of them differ by how much
 /// from the recommended one, and which of these the numbers show:

@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "estimate/impact_problem.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
@@ -41,16 +42,29 @@ double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
+/// The covariance that the delta method works on: the fit's, where the noise is stated; else one
+/// that needs no noise model (HC3).
+std::vector<double> trusted_covariance(const FitResult& fitted, const Observations& data) {
+  if (data.sd_stated || fitted.covariance.empty()) return fitted.covariance;
+  const LeastSquaresProblem problem = impact_problem(fitted.model, data);
+  std::vector<double> residuals(problem.residual_count);
+  std::vector<double> jacobian(problem.residual_count * fitted.theta.size());
+  if (!problem.evaluate(fitted.theta, residuals, jacobian)) return fitted.covariance;
+  std::vector<double> inverse = fitted.covariance;
+  for (double& entry : inverse) entry /= fitted.noise_scale * fitted.noise_scale;
+  return sandwich_covariance(residuals, jacobian, inverse);
+}
+
 /// The interval of V* by the delta method on its logarithm.
 /// @param dof of an estimated noise; 0: the noise is known
-Interval delta_interval(const FitResult& fitted, const CaptureVelocity& capture, int dof,
-                        double level) {
+Interval delta_interval(const std::vector<double>& covariance, const CaptureVelocity& capture,
+                        int dof, double level) {
   Interval interval;
-  const std::size_t p = fitted.theta.size();
+  const std::size_t p = capture.gradient.size();
   double variance = 0.0;
-  for (std::size_t a = 0; a < p && !fitted.covariance.empty(); ++a) {
+  for (std::size_t a = 0; a < p && !covariance.empty(); ++a) {
     for (std::size_t b = 0; b < p; ++b) {
-      variance += capture.gradient[a] * fitted.covariance[a * p + b] * capture.gradient[b];
+      variance += capture.gradient[a] * covariance[a * p + b] * capture.gradient[b];
     }
   }
   if (!capture.found || !(capture.value > 0.0) || !(variance > 0.0)) {
@@ -69,6 +83,7 @@ Interval delta_interval(const FitResult& fitted, const CaptureVelocity& capture,
 
 std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Observations& data,
                                                double level, const std::vector<Dataset>& datasets) {
+  const std::vector<double> covariance = trusted_covariance(fitted, data);
   std::vector<CaptureEstimate> estimates;
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     for (const double diameter : distinct_diameters(datasets[d])) {
@@ -78,7 +93,7 @@ std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Ob
       estimate.diameter = diameter;
       estimate.value = v.value;
       estimate.found = v.found;
-      estimate.delta = delta_interval(fitted, v, data.sd_stated ? 0 : fitted.dof, level);
+      estimate.delta = delta_interval(covariance, v, data.sd_stated ? 0 : fitted.dof, level);
       if (!v.found) estimate.interval.why = "spheres of this size never rebound under the fit";
       estimates.push_back(std::move(estimate));
     }
@@ -189,7 +204,7 @@ void read_off(const FitResult& fitted, const Observations& data,
          {&set.wald, &set.profile, &set.percentile, &set.bca, &set.studentized}) {
       note_bounds(*interval, slot);
     }
-    recommend(set);
+    recommend(set, data.sd_stated);
     if (!slot.free) continue;
     worst = std::max(
         {worst, relative_error(set.percentile), relative_error(recommended_interval(set))});

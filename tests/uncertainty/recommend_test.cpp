@@ -39,7 +39,7 @@ Example agreeing() {
         between(at - 0.2, at + 0.2);
     set.bca_constants = BcaConstants{};
     set.bound_share = 0.0;
-    recommend(set);
+    recommend(set, true);
     made.sets.push_back(set);
   }
   return made;
@@ -58,11 +58,11 @@ TEST(Recommend, ProfileThenPercentileThenWald) {
   EXPECT_EQ(set.recommended, "profile");
   set.profile = Interval{};
   set.profile.why = "a refit failed";
-  recommend(set);
+  recommend(set, true);
   EXPECT_EQ(set.recommended, "percentile");
   EXPECT_TRUE(says(set.recommended_why, "a refit failed"));
   set.percentile = Interval{};
-  recommend(set);
+  recommend(set, true);
   EXPECT_EQ(set.recommended, "wald");
 }
 
