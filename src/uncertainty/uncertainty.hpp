@@ -11,6 +11,7 @@
 #include "estimate/two_point.hpp"
 #include "uncertainty/information.hpp"
 #include "uncertainty/intervals.hpp"
+#include "uncertainty/two_point_pairs.hpp"
 
 namespace recoil {
 
@@ -118,6 +119,9 @@ struct UncertaintyOptions {
   bool curves = true;
   bool capture = true;    ///< intervals of the capture velocities
   bool two_point = true;  ///< compare with the paper's calibration; without it the list is empty
+  /// Simulated data sets on which every pair of points is tried (`study_two_point_pairs`), at most
+  /// as many as replicates; none without `two_point`.
+  int pair_simulations = 199;
   /// Where finished replicates are kept when the user stops the run, and looked for by the next run
   /// of the same fit; empty: nowhere. The file is left behind; whoever has written the results
   /// removes it.
@@ -132,6 +136,7 @@ struct UncertaintyResult {
   std::vector<CaptureEstimate> capture;
   std::vector<RestitutionCurve> curves;
   std::vector<TwoPointComparison> two_point;  ///< one per dataset, unless it was not asked for
+  std::vector<PairStudy> pairs;  ///< one per dataset with a pair of points, unless not asked for
   Identifiability identifiability;
   std::vector<std::string> warnings;
 };
