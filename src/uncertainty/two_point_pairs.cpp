@@ -12,7 +12,10 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_points = 16;    // 120 pairs
+constexpr std::size_t most_points = 16;  // 120 pairs
+// Of the two velocities: closer points differ by little but noise, hardly ever have an answer, and
+// the iteration takes longest to find that out.
+constexpr double least_ratio = 1.5;
 constexpr std::size_t most_judged = 60;    // of a kind
 constexpr std::size_t fewest_answers = 9;  // for a median and quartiles that deserve the name
 // The solver's tolerance over its own: moves e^2 by 1e-8 where the noise moves it by 1e-2.
@@ -67,9 +70,9 @@ Series make_series(const FitResult& fitted, const Observations& data, const Pair
   series.points = evenly(candidates, most_points);
   for (std::size_t low = 0; low < series.points.size(); ++low) {
     for (std::size_t high = low + 1; high < series.points.size(); ++high) {
-      const bool distinct =
-          data.points[series.points[low]].velocity < data.points[series.points[high]].velocity;
-      if (distinct) series.pairs.emplace_back(low, high);
+      const bool apart = data.points[series.points[high]].velocity >=
+                         least_ratio * data.points[series.points[low]].velocity;
+      if (apart) series.pairs.emplace_back(low, high);
     }
   }
   series.judged = evenly(same, most_judged);

@@ -68,9 +68,9 @@ struct PairStudyOptions {
 };
 
 /// Simulates data sets from the full fit, e* = e_model + s sd z with s the fit's noise_scale, and
-/// calibrates on every pair of points of the same diameter that rebounded, at different velocities
-/// and where the fit does not capture (of a series with more than 16 such points, 16 evenly spaced
-/// ones with both ends are taken); beside it all points are fitted again.
+/// calibrates on every pair of points of the same diameter that rebounded, where the fit does not
+/// capture, and with velocities that differ by a factor of 1.5 (of a series with more than 16 such
+/// points, 16 evenly spaced ones with both ends are taken); beside it all points are fitted again.
 ///
 /// The held-out error is that of predicting a new measurement of the points that a pair did not
 /// use, sqrt(mean((e_calibrated - e_model)^2 + s^2 sd^2)): the new noise enters by its variance,
