@@ -82,6 +82,9 @@ std::vector<IntervalSet> likelihood_intervals(const FitResult& fitted, const Obs
                              data.sd_stated ? 0 : fitted.dof, slot.lower, slot.upper);
     if (options.profile) {
       set.profile = profile_interval(fitted, data, j, options.level);
+      if (options.curves) {
+        set.profile_curve = profile_curve(fitted, data, j, options.level, set.profile);
+      }
     } else {
       set.profile.why = "not asked for";
     }
