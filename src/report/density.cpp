@@ -1,7 +1,11 @@
 #include "report/density.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
@@ -111,6 +115,23 @@ double density_level(const DensityGrid& grid, const std::vector<double>& x,
   std::vector<double> at_points;
   for (std::size_t i = 0; i < x.size(); ++i) at_points.push_back(grid.at(x[i], y[i]));
   return style::quantile_range(std::move(at_points), 1.0 - inside, 1.0).lower;
+}
+
+std::string contour_commands(const std::string& name, const DensityGrid& grid,
+                             const std::vector<double>& x, const std::vector<double>& y,
+                             double inside) {
+  if (grid.rows.empty()) return "";
+  const double level = density_level(grid, x, y, inside);
+  if (!(level > 0.0)) return "";
+  const double last = static_cast<double>(DensityGrid::cells - 1);
+  return data_block("grid_" + name, grid.rows) +
+         fmt::format(
+             "set contour base\nunset surface\nset cntrparam levels discrete {0:.6g}\n"
+             "set table ${1}\nsplot $grid_{1} matrix using "
+             "({2:.8g}+{3:.8g}*$1):({4:.8g}+{5:.8g}*$2):3 with lines\n"
+             "unset table\nunset contour\nset surface\n",
+             level, name, grid.x.lower, (grid.x.upper - grid.x.lower) / last, grid.y.lower,
+             (grid.y.upper - grid.y.lower) / last);
 }
 
 }  // namespace recoil

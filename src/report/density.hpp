@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "report/figure_style.hpp"
@@ -37,5 +38,11 @@ DensityGrid density(const std::vector<double>& x, const std::vector<double>& y,
 /// The density above which a share `inside` of the points lies.
 double density_level(const DensityGrid& grid, const std::vector<double>& x,
                      const std::vector<double>& y, double inside);
+
+/// gnuplot commands that make `$name` the line around the densest places that hold a share
+/// `inside` of the points; empty when there is no such line.
+std::string contour_commands(const std::string& name, const DensityGrid& grid,
+                             const std::vector<double>& x, const std::vector<double>& y,
+                             double inside);
 
 }  // namespace recoil

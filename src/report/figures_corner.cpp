@@ -99,7 +99,7 @@ std::string diagonal_panel(const Analysis& analysis, const Axis& axis, bool left
                     std::exp(-0.5 * point.allowed)});
   }
   std::string c = "set yrange [0:1.08]\n";
-  c += left ? "set ytics 0.5\nset format y '%g'\nset ylabel 'relative to the peak' offset 1.6,0\n"
+  c += left ? "set ytics 0.5\nset format y '%g'\nset ylabel 'relative to the peak' offset 0.6,0\n"
             : "set ytics 0.5\nset format y ''\nunset ylabel\n";
   c += data_block(fmt::format("h{}", axis.slot), h.bars) +
        data_block(fmt::format("p{}", axis.slot), rows);
@@ -126,28 +126,19 @@ std::string lower_panel(const Axis& x, const Axis& y, bool left, std::size_t str
   std::string c =
       fmt::format("set yrange [{:.6g}:{:.6g}]\n", y.range.lower, y.range.upper) +
       style::few_ticks('y', y.range, 3) +
-      (left ? fmt::format("set format y '%g'\nset ylabel \"{}\" offset 1.6,0\n", y.label)
+      (left ? fmt::format("set format y '%g'\nset ylabel \"{}\" offset 0.6,0\n", y.label)
             : std::string("set format y ''\nunset ylabel\n"));
   c += data_block("s" + id, points);
   std::string contours;
   const DensityGrid grid = density(x.values, y.values, x.range, y.range);
-  if (!grid.rows.empty()) {
-    const double last = static_cast<double>(DensityGrid::cells - 1);
-    c += data_block("g" + id, grid.rows);
-    int number = 0;
-    for (const double share : {outer_share, inner_share}) {
-      const double level = density_level(grid, x.values, y.values, share);
-      if (!(level > 0.0)) continue;
-      c += fmt::format(
-          "set contour base\nunset surface\nset cntrparam levels discrete {0:.6g}\n"
-          "set table $c{1}n{2}\nsplot $g{1} matrix using ({3:.8g}+{4:.8g}*$1):({5:.8g}+{6:.8g}*$2):"
-          "3 with lines\nunset table\nunset contour\nset surface\n",
-          level, id, number, x.range.lower, (x.range.upper - x.range.lower) / last, y.range.lower,
-          (y.range.upper - y.range.lower) / last);
-      contours += fmt::format(", \\\n  $c{}n{} using 1:2 with lines lc rgb '{}' lw {} notitle", id,
-                              number, style::blue, share == inner_share ? 2.2 : 1.3);
-      ++number;
-    }
+  int number = 0;
+  for (const double share : {outer_share, inner_share}) {
+    const std::string name = fmt::format("c{}n{}", id, ++number);
+    const std::string commands = contour_commands(name, grid, x.values, y.values, share);
+    if (commands.empty()) continue;
+    c += commands;
+    contours += fmt::format(", \\\n  ${} using 1:2 with lines lc rgb '{}' lw {} notitle", name,
+                            style::blue, share == inner_share ? 2.2 : 1.3);
   }
   c += fmt::format(
       "plot $s{0} using 1:2 with points lc rgb '{1}' pt 7 ps 0.2 notitle{2}, \\\n"

@@ -89,7 +89,7 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
       fmt::format("set lmargin 13\nset bmargin 3.6\nset xrange [{:.6g}:{:.6g}]\n", range.lower,
                   range.upper) +
       fmt::format("set yrange [-4.6:0.6]\nset ytics ({}) scale 0\nset grid noytics\n", ticks) +
-      style::few_ticks('x', range, 5) + "set format x '%g'\n" +
+      style::few_ticks('x', range, 7) + "set format x '%g'\n" +
       fmt::format("set xlabel '{}{}  [{}]' offset 0,0.4\n", style::symbol(parameter.name),
                   parameter.dataset.empty() ? "" : ", " + parameter.dataset, scale.unit) +
       style::key_above() + bound_commands(lower, true, range, 1) +

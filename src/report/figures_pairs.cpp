@@ -15,7 +15,10 @@ namespace recoil {
 namespace {
 
 constexpr double picture_width = 860.0;
-constexpr double picture_height = 800.0;
+constexpr double row_height = 205.0;
+constexpr double key_height = 58.0;
+constexpr double foot_height = 44.0;
+constexpr std::size_t most_pictures = 4;  // per page, so that it stays under 1 MB
 constexpr std::size_t columns = 2;
 
 // From dark to light, after viridis, without the yellow that fades on white.
@@ -48,18 +51,20 @@ std::vector<Quantity> quantities(const PairStudy& study) {
   std::vector<Quantity> all;
   all.push_back({"bias of C_{H}  [%]", percent_of(figure(&PairFigures::bias_C_H)), 0.0});
   all.push_back({"bias of C_{A}  [%]", percent_of(figure(&PairFigures::bias_C_A)), 0.0});
-  all.push_back({"spread of C_{H} / full fit's", figure(&PairFigures::spread_C_H), 1.0, true});
-  all.push_back({"spread of C_{A} / full fit's", figure(&PairFigures::spread_C_A), 1.0, true});
-  all.push_back({"without an answer  [%]",
+  all.push_back(
+      {"spread of C_{H} over that of the full fit", figure(&PairFigures::spread_C_H), 1.0, true});
+  all.push_back(
+      {"spread of C_{A} over that of the full fit", figure(&PairFigures::spread_C_A), 1.0, true});
+  all.push_back({"data sets without an answer  [%]",
                  [](const PairQuality& pair) -> std::optional<double> {
                    return 100.0 * pair.without_answer();
                  },
                  0.0, false, true});
-  all.push_back({"error of e, same diameter",
+  all.push_back({"held-out error of e, same diameter",
                  [](const PairQuality& pair) { return pair.held_out.series; },
                  study.held_out.series, false, true});
   if (study.held_out.diameters) {
-    all.push_back({"error of e, other diameters",
+    all.push_back({"held-out error of e, other diameters",
                    [](const PairQuality& pair) { return pair.held_out.diameters; },
                    study.held_out.diameters, false, true});
   }
@@ -81,6 +86,21 @@ std::vector<double> drawn_upper(const Analysis& a, const PairStudy& study) {
   return drawn;
 }
 
+/// Tick commands without their texts.
+std::string bare(std::string ticks) {
+  std::string out;
+  bool inside = false;
+  for (const char c : ticks) {
+    if (c == '\'') {
+      inside = !inside;
+      out += c;
+    } else if (!inside) {
+      out += c;
+    }
+  }
+  return out;
+}
+
 struct Picture {
   const Analysis& analysis;
   const PairStudy& study;
@@ -98,17 +118,20 @@ struct Picture {
 
   std::size_t rows() const { return (all.size() + columns - 1) / columns; }
 
+  double height() const {
+    return key_height + row_height * static_cast<double>(rows()) + foot_height;
+  }
+
   std::string margins(std::size_t panel) const {
-    const double left = 76.0 / picture_width;
-    const double bottom = 56.0 / picture_height;
+    const double left = 56.0 / picture_width;
     const double step_x = (1.0 - 8.0 / picture_width) / columns;
-    const double step_y = (1.0 - bottom - 64.0 / picture_height) / static_cast<double>(rows());
     const double x0 = left + step_x * static_cast<double>(panel % columns);
-    const double y0 = bottom + step_y * static_cast<double>(rows() - 1 - panel / columns);
+    const double y0 =
+        (foot_height + row_height * static_cast<double>(rows() - 1 - panel / columns)) / height();
     return fmt::format(
         "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
         "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n",
-        x0, x0 + step_x - 96.0 / picture_width, y0, y0 + step_y - 22.0 / picture_height);
+        x0, x0 + step_x - 84.0 / picture_width, y0, y0 + (row_height - 44.0) / height());
   }
 
   std::string x_label() const {
@@ -129,10 +152,13 @@ struct Picture {
     const bool last_row = index + columns >= all.size();
     std::string c = margins(index) +
                     fmt::format("set logscale x\nset xrange [{:.6g}:{:.6g}]\n", x.lower, x.upper) +
-                    log_ticks('x', x.lower, x.upper);
+                    (index + columns >= all.size() ? log_ticks('x', x.lower, x.upper)
+                                                   : bare(log_ticks('x', x.lower, x.upper)));
     c += last_row ? fmt::format("set xlabel '{}' offset 0,0.4\n", x_label())
                   : std::string("unset xlabel\n");
-    c += fmt::format("set ylabel '{}' offset 1,0\n", quantity.label) + y_axis(quantity, values);
+    c += fmt::format("set label 1 '{}' at graph 0, graph 1 left offset 0,0.75 textcolor rgb '{}'\n",
+                     quantity.label, style::ink) +
+         y_axis(quantity, values);
     c += data_block(fmt::format("cloud{}", index), cloud);
     std::vector<std::string> layers;
     if (quantity.full) {
@@ -191,7 +217,8 @@ struct Picture {
   /// The key in a strip above all panels.
   std::string key() const {
     std::string c = fmt::format(
-        "unset tics\nunset border\nunset xlabel\nunset ylabel\nunset grid\nunset logscale\n"
+        "unset label 1\nunset tics\nunset border\nunset xlabel\nunset ylabel\nunset grid\nunset "
+        "logscale\n"
         "set lmargin at screen 0\nset rmargin at screen 1\nset bmargin at screen 0\n"
         "set tmargin at screen 1\nset xrange [0:1]\nset yrange [0:1]\n"
         "set key at screen 0.5, screen 0.995 center top horizontal Left reverse samplen 1.6 "
@@ -228,7 +255,7 @@ Figure pair_figure(const Analysis& analysis, const PairStudy& study) {
   script.title = fmt::format("What two points cost, by which two are taken, {}",
                              analysis.datasets[study.dataset].id);
   script.width = static_cast<int>(picture_width);
-  script.height = static_cast<int>(picture_height);
+  script.height = static_cast<int>(picture.height());
   std::string& c = script.commands;
   c = style::preamble() + "unset key\nset multiplot\n";
   for (std::size_t i = 0; i < picture.all.size(); ++i) c += picture.panel(i);
@@ -255,6 +282,7 @@ Figure pair_figure(const Analysis& analysis, const PairStudy& study) {
 std::vector<Figure> pair_figures(const Analysis& analysis) {
   std::vector<Figure> figures;
   for (const PairStudy& study : analysis.uncertainty.pairs) {
+    if (figures.size() == most_pictures) break;
     if (!study.pairs.empty()) figures.push_back(pair_figure(analysis, study));
   }
   return figures;

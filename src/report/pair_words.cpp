@@ -29,8 +29,11 @@ std::string velocities(const Analysis& a, const PairQuality& pair) {
 
 std::string estimate_words(const char* name, const std::optional<double>& bias,
                            const std::optional<double>& spread) {
-  const std::string off = bias ? fmt::format("off by {:+.0f} %", 100.0 * *bias + 0.0)
-                               : std::string("off by an unknown bias");
+  constexpr double hardly = 0.01;
+  const std::string off = !bias ? std::string("off by an unknown bias")
+                          : std::abs(*bias) < hardly
+                              ? std::string("off by less than 1 %")
+                              : fmt::format("off by {:+.0f} %", 100.0 * *bias);
   const std::string wide =
       spread ? fmt::format("{} times the spread of the full fit", number(*spread, 2))
              : std::string("a spread that cannot be compared");
