@@ -68,9 +68,11 @@ std::string few_ticks(char axis, Range range, int count) {
   const double wanted = (range.upper - range.lower) / count;
   if (!(wanted > 0.0) || !std::isfinite(wanted)) return "";
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
-  double step = 10.0 * power;
-  for (const double part : {5.0, 2.0, 1.0}) {
-    if (wanted <= part * power) step = part * power;
+  double step = power;
+  for (const double part : {2.0, 5.0, 10.0}) {
+    if (std::abs(std::log(part * power / wanted)) < std::abs(std::log(step / wanted))) {
+      step = part * power;
+    }
   }
   return fmt::format("set {}tics {:.6g}\n", axis, step);
 }

@@ -22,6 +22,7 @@ struct Axis {
   std::size_t slot = 0;
   style::Scale scale;
   std::string label;
+  int lines = 1;               // of the label
   std::vector<double> values;  // of the replicates
   double estimate = 0.0;
   style::Range range;
@@ -33,7 +34,10 @@ Axis make_axis(const Analysis& analysis, std::size_t slot) {
   axis.slot = slot;
   axis.scale = style::scale_for(std::abs(analysis.fitted.theta[slot]), parameter.unit);
   axis.label = fmt::format("{}  [{}]", style::symbol(parameter.name), axis.scale.unit);
-  if (!parameter.dataset.empty()) axis.label = parameter.dataset + "\\n" + axis.label;
+  if (!parameter.dataset.empty()) {
+    axis.label = fmt::format("{}\\n{}", parameter.dataset, axis.label);
+    axis.lines = 2;
+  }
   axis.values = column(analysis.uncertainty.bootstrap.theta, slot, axis.scale.factor);
   axis.estimate = analysis.fitted.theta[slot] * axis.scale.factor;
   const style::Range bulk = style::quantile_range(axis.values, 0.003, 0.997);
@@ -52,12 +56,12 @@ Axis make_axis(const Analysis& analysis, std::size_t slot) {
 struct Layout {
   double width, height, left, bottom, step_x, step_y, panel_x, panel_y;
 
-  explicit Layout(std::size_t count) {
+  Layout(std::size_t count, int label_lines) {
     const double n = static_cast<double>(count);
     width = count == 1 ? 480.0 : count == 2 ? 620.0 : 220.0 * n + 110.0;
     height = count == 1 ? 340.0 : 0.86 * width;
-    left = 84.0 / width;
-    bottom = 62.0 / height;
+    left = (64.0 + 20.0 * label_lines) / width;
+    bottom = (44.0 + 18.0 * label_lines) / height;
     step_x = (1.0 - left - 14.0 / width) / n;
     step_y = (1.0 - bottom - (count == 1 ? 44.0 : 14.0) / height) / n;
     panel_x = step_x - 12.0 / width;
@@ -84,7 +88,7 @@ std::string panel_axes(const Axis& x, bool bottom) {
 
 /// Replicates as bars and the relative profile likelihood exp(-rise / 2) as a line, both 1 at
 /// their peak; dashed the height at which the profile interval ends.
-std::string diagonal_panel(const Analysis& analysis, const Axis& axis, bool left) {
+std::string diagonal_panel(const Analysis& analysis, const Axis& axis, bool left, bool bottom) {
   Histogram h = histogram(axis.values, axis.range);
   double peak = 0.0;
   for (const auto& bar : h.bars) peak = std::max(peak, bar[1]);
@@ -98,7 +102,7 @@ std::string diagonal_panel(const Analysis& analysis, const Axis& axis, bool left
     rows.push_back({point.value * axis.scale.factor, std::exp(-0.5 * point.rise),
                     std::exp(-0.5 * point.allowed)});
   }
-  std::string c = "set yrange [0:1.08]\n";
+  std::string c = panel_axes(axis, bottom) + "set yrange [0:1.08]\n";
   c += left ? "set ytics 0.5\nset format y '%g'\nset ylabel 'relative to the peak' offset 0.6,0\n"
             : "set ytics 0.5\nset format y ''\nunset ylabel\n";
   c += data_block(fmt::format("h{}", axis.slot), h.bars) +
@@ -115,7 +119,7 @@ std::string diagonal_panel(const Analysis& analysis, const Axis& axis, bool left
 }
 
 /// Replicates as points, with the lines within which half and 95 % of them lie.
-std::string lower_panel(const Axis& x, const Axis& y, bool left, std::size_t stride) {
+std::string lower_panel(const Axis& x, const Axis& y, bool left, bool bottom, std::size_t stride) {
   const std::string id = fmt::format("{}x{}", x.slot, y.slot);
   std::vector<std::vector<double>> points;
   for (std::size_t i = 0; i < x.values.size(); i += stride) {
@@ -123,23 +127,24 @@ std::string lower_panel(const Axis& x, const Axis& y, bool left, std::size_t str
                         y.values[i] >= y.range.lower && y.values[i] <= y.range.upper;
     if (inside) points.push_back({x.values[i], y.values[i]});
   }
-  std::string c =
-      fmt::format("set yrange [{:.6g}:{:.6g}]\n", y.range.lower, y.range.upper) +
-      style::few_ticks('y', y.range, 3) +
-      (left ? fmt::format("set format y '%g'\nset ylabel \"{}\" offset 0.6,0\n", y.label)
-            : std::string("set format y ''\nunset ylabel\n"));
-  c += data_block("s" + id, points);
-  std::string contours;
   const DensityGrid grid = density(x.values, y.values, x.range, y.range);
-  int number = 0;
+  std::string c;
+  std::string contours;
   for (const double share : {outer_share, inner_share}) {
-    const std::string name = fmt::format("c{}n{}", id, ++number);
+    const std::string name = fmt::format("c{}n{}", id, share == inner_share ? 1 : 2);
     const std::string commands = contour_commands(name, grid, x.values, y.values, share);
     if (commands.empty()) continue;
     c += commands;
     contours += fmt::format(", \\\n  ${} using 1:2 with lines lc rgb '{}' lw {} notitle", name,
                             style::blue, share == inner_share ? 2.2 : 1.3);
   }
+  c += panel_axes(x, bottom) +
+       fmt::format("set yrange [{:.6g}:{:.6g}]\n", y.range.lower, y.range.upper) +
+       style::few_ticks('y', y.range, 3) +
+       (left ? fmt::format("set format y '%g'\nset ylabel \"{}\" offset {},0\n", y.label,
+                           y.lines > 1 ? 0.0 : 0.6)
+             : std::string("set format y ''\nunset ylabel\n")) +
+       data_block("s" + id, points);
   c += fmt::format(
       "plot $s{0} using 1:2 with points lc rgb '{1}' pt 7 ps 0.2 notitle{2}, \\\n"
       "  '+' every ::0::0 using ({3:.7g}):({4:.7g}) with points lc rgb '{5}' pt 7 ps 0.9 notitle\n",
@@ -183,7 +188,9 @@ std::vector<Figure> corner_figures(const Analysis& analysis) {
   }
   if (axes.empty()) return {};
   const std::size_t count = axes.size();
-  const Layout layout(count);
+  int label_lines = 1;
+  for (const Axis& axis : axes) label_lines = std::max(label_lines, axis.lines);
+  const Layout layout(count, label_lines);
   const std::size_t panels = count * (count - 1) / 2;
   const std::size_t replicates = axes.front().values.size();
   const std::size_t stride = replicates * std::max<std::size_t>(panels, 1) / most_points + 1;
@@ -197,9 +204,10 @@ std::vector<Figure> corner_figures(const Analysis& analysis) {
   c = style::preamble() + "unset key\nset multiplot\n";
   for (std::size_t row = 0; row < count; ++row) {
     for (std::size_t column = 0; column <= row; ++column) {
-      c += layout.margins(row, column, count) + panel_axes(axes[column], row + 1 == count);
-      c += row == column ? diagonal_panel(analysis, axes[row], column == 0)
-                         : lower_panel(axes[column], axes[row], column == 0, stride);
+      c += layout.margins(row, column, count) +
+           (row == column
+                ? diagonal_panel(analysis, axes[row], column == 0, row + 1 == count)
+                : lower_panel(axes[column], axes[row], column == 0, row + 1 == count, stride));
     }
   }
   c += key(count) + "unset multiplot\n";

@@ -248,6 +248,31 @@ void pack_dots(std::string& text) {
   text = std::move(out);
 }
 
+/// Coordinate pairs "76.00,198.18" with one decimal, which is a tenth of a pixel.
+void shorten_coordinates(std::string& text) {
+  const auto digit = [&](std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+  };
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool before = text[i] == ',' && i >= 4 && digit(i - 1) && digit(i - 2) &&
+                        text[i - 3] == '.' && digit(i - 4);
+    std::size_t end = i + 1;
+    while (before && digit(end)) ++end;
+    const bool after = before && end > i + 1 && end < text.size() && text[end] == '.' &&
+                       digit(end + 1) && digit(end + 2) && !digit(end + 3);
+    if (!after) {
+      out += text[i];
+      continue;
+    }
+    out.pop_back();
+    out += text.substr(i, end + 2 - i);
+    i = end + 2;
+  }
+  text = std::move(out);
+}
+
 }  // namespace
 
 std::string draw_svg(const PlotScript& script, const std::string& program) {
@@ -268,6 +293,7 @@ std::string draw_svg(const PlotScript& script, const std::string& program) {
   remove_empty_groups(svg);
   shorten_colours(svg);
   pack_dots(svg);
+  shorten_coordinates(svg);
   remove_unused_definitions(svg);
   replace_all(svg, " font-family=\"DejaVu Sans\" ", " ");
   replace_all(svg, "<tspan >", "<tspan>");

@@ -5,7 +5,6 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "estimate/impact_problem.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/intervals.hpp"
 
@@ -49,6 +48,13 @@ struct Series {
   std::vector<double> new_noise;  // variance of e at the judged points
 };
 
+/// Variance of a new measurement of e [1]: that of the point and that of its velocity and diameter.
+double new_noise(const FitResult& fitted, const Observation& point, double restitution_squared) {
+  const double e = std::max(std::sqrt(std::max(restitution_squared, 0.0)), point.sd);
+  const double of_input = e > 0.0 ? point.input_sd / (2.0 * e) : 0.0;
+  return std::pow(fitted.noise_scale * point.sd, 2) + std::pow(of_input, 2);
+}
+
 Series make_series(const FitResult& fitted, const Observations& data, const PairSeries& at) {
   Series series;
   series.at = at;
@@ -59,7 +65,8 @@ Series make_series(const FitResult& fitted, const Observations& data, const Pair
     const Observation& point = data.points[i];
     if (point.dataset != at.dataset || point.censored) continue;
     (point.diameter == at.diameter ? same : others).push_back(i);
-    if (point.diameter == at.diameter && fitted.prediction[i] > 0.0 && point.restitution > 0.0) {
+    if (point.diameter == at.diameter && fitted.prediction_squared[i] > 0.0 &&
+        point.restitution > 0.0) {
       candidates.push_back(i);
     }
   }
@@ -79,7 +86,7 @@ Series make_series(const FitResult& fitted, const Observations& data, const Pair
   series.judged_of_series = series.judged.size();
   for (const std::size_t i : evenly(others, most_judged)) series.judged.push_back(i);
   for (const std::size_t i : series.judged) {
-    series.new_noise.push_back(std::pow(fitted.noise_scale * data.points[i].sd, 2));
+    series.new_noise.push_back(new_noise(fitted, data.points[i], fitted.prediction_squared[i]));
   }
   return series;
 }
@@ -100,14 +107,16 @@ struct Yardstick {
 };
 
 /// The error of what `predictor` last evaluated, without the points in `used`.
-HeldOut error_beside(const Series& series, const PointPredictor& predictor,
-                     const Yardstick& yardstick, const std::vector<std::size_t>& used) {
+HeldOut error_beside(const Observations& data, const Series& series,
+                     const PointPredictor& predictor, const Yardstick& yardstick,
+                     const std::vector<std::size_t>& used) {
   std::array<double, 2> sum = {};
   std::array<int, 2> count = {};
   for (std::size_t k = 0; k < series.judged.size(); ++k) {
     if (std::find(used.begin(), used.end(), series.judged[k]) != used.end()) continue;
     if (!predictor.at(k).usable()) return {};
-    const double e = std::sqrt(std::max(predictor.at(k).restitution_squared, 0.0));
+    const double e =
+        expected_restitution(data.points[series.judged[k]], predictor.at(k).restitution_squared);
     const std::size_t kind = k < series.judged_of_series ? 0 : 1;
     sum[kind] += std::pow(e - yardstick.e[k], 2) +
                  (yardstick.noise == nullptr ? 0.0 : (*yardstick.noise)[k]);
@@ -131,7 +140,7 @@ HeldOut median_of(const std::vector<HeldOut>& errors) {
 
 /// The simulated data: e of the points that pairs are made of, and the full fit of all points.
 struct Simulation {
-  std::vector<std::vector<double>> restitution;  // [series][points]
+  std::vector<std::vector<double>> restitution;  // [series][points], 0: captured
   std::vector<double> theta;                     // empty: the fit failed
 };
 
@@ -144,12 +153,12 @@ Simulation simulate(const ResamplingPlan& plan, const ImpactModel& model,
   for (const Series& series : all) {
     made.restitution.emplace_back();
     for (const std::size_t i : series.points) {
-      made.restitution.back().push_back(sample.points[i].restitution);
+      const Observation& point = sample.points[i];
+      made.restitution.back().push_back(point.censored ? 0.0 : point.restitution);
     }
   }
-  const LeastSquaresResult refit =
-      minimise(impact_problem(model, sample), plan.fitted->theta, refit_options());
-  if (has_answer(refit, *plan.fitted)) made.theta = refit.theta;
+  LeastSquaresResult full = refit(model, sample, plan.fitted->theta);
+  if (has_answer(full, *plan.fitted)) made.theta = std::move(full.theta);
   return made;
 }
 
@@ -159,7 +168,7 @@ class Study {
         const Series& series)
       : data_(data), model_(model), series_(series) {
     for (const std::size_t i : series.judged) {
-      fitted_e_.push_back(fitted.prediction[i]);
+      fitted_e_.push_back(expected_restitution(data.points[i], fitted.prediction_squared[i]));
       measured_e_.push_back(data.points[i].restitution);
     }
   }
@@ -187,7 +196,8 @@ class Study {
     quality.measured = runs.front();
     if (quality.measured.status == TwoPointStatus::converged) {
       predictor.evaluate(two_point_theta(model_, series_.at.dataset, quality.measured), false);
-      quality.measured_held_out = error_beside(series_, predictor, {measured_e_, nullptr}, used);
+      quality.measured_held_out =
+          error_beside(data_, series_, predictor, {measured_e_, nullptr}, used);
     }
     std::vector<double> C_H;
     std::vector<double> C_A;
@@ -198,7 +208,8 @@ class Study {
       C_H.push_back(runs[k].C_H);
       C_A.push_back(runs[k].C_A);
       predictor.evaluate(two_point_theta(model_, series_.at.dataset, runs[k]), false);
-      errors.push_back(error_beside(series_, predictor, {fitted_e_, &series_.new_noise}, used));
+      errors.push_back(
+          error_beside(data_, series_, predictor, {fitted_e_, &series_.new_noise}, used));
     }
     quality.C_H = scatter(std::move(C_H));
     quality.C_A = scatter(std::move(C_A));
@@ -230,13 +241,14 @@ class Study {
       C_H.push_back(simulation.theta[slot_H]);
       C_A.push_back(simulation.theta[slot_A]);
       predictor.evaluate(simulation.theta, false);
-      errors.push_back(error_beside(series_, predictor, {fitted_e_, &series_.new_noise}, {}));
+      errors.push_back(
+          error_beside(data_, series_, predictor, {fitted_e_, &series_.new_noise}, {}));
     }
     study.C_H = scatter(std::move(C_H));
     study.C_A = scatter(std::move(C_A));
     study.held_out = median_of(errors);
     predictor.evaluate(fitted.theta, false);
-    study.measured_held_out = error_beside(series_, predictor, {measured_e_, nullptr}, {});
+    study.measured_held_out = error_beside(data_, series_, predictor, {measured_e_, nullptr}, {});
     return study;
   }
 
