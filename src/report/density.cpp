@@ -126,7 +126,7 @@ std::string contour_commands(const std::string& name, const DensityGrid& grid,
   const double last = static_cast<double>(DensityGrid::cells - 1);
   return data_block("grid_" + name, grid.rows) +
          fmt::format(
-             "set format x '%g'\nset format y '%g'\n"  // a table is written in these
+             "set format x '%g'\nset format y '%g'\nset autoscale xy\n"  // tables obey these
              "set contour base\nunset surface\nset cntrparam levels discrete {0:.6g}\n"
              "set table ${1}\nsplot $grid_{1} matrix using "
              "({2:.8g}+{3:.8g}*$1):({4:.8g}+{5:.8g}*$2):3 with lines\n"

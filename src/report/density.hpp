@@ -40,7 +40,8 @@ double density_level(const DensityGrid& grid, const std::vector<double>& x,
                      const std::vector<double>& y, double inside);
 
 /// gnuplot commands that make `$name` the line around the densest places that hold a share
-/// `inside` of the points; empty when there is no such line.
+/// `inside` of the points; empty when there is no such line. They undo ranges and formats of the
+/// axes, so they stand before those.
 std::string contour_commands(const std::string& name, const DensityGrid& grid,
                              const std::vector<double>& x, const std::vector<double>& y,
                              double inside);

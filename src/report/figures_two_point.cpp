@@ -106,18 +106,18 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
                              analysis.datasets[comparison.dataset].id);
   script.height = 360;
   std::string& c = script.commands;
-  c = style::preamble() +
-      fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", x.lower, x.upper,
-                  y.lower, y.upper) +
-      fmt::format(
-          "set xlabel 'C_{{H}}  [{}]' offset 0,0.4\nset ylabel 'C_{{A}}  [{}]' offset 1,0\n",
-          scale_H.unit, scale_A.unit) +
-      "set bmargin 3.6\n" + style::key_above() +
-      data_block("two", thinned(two_pairs, x, y, outside)) +
-      data_block("full", thinned(full_pairs, x, y, outside)) +
-      data_block("estimates", {{full_H, full_A}, {two_H, two_A}});
+  c = style::preamble();
   const std::string two_line = outline(c, "around_two", two_pairs, x, y, style::vermillion);
   const std::string full_line = outline(c, "around_full", full_pairs, x, y, style::blue);
+  c += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", x.lower, x.upper,
+                   y.lower, y.upper) +
+       fmt::format(
+           "set xlabel 'C_{{H}}  [{}]' offset 0,0.4\nset ylabel 'C_{{A}}  [{}]' offset 1,0\n",
+           scale_H.unit, scale_A.unit) +
+       "set bmargin 3.6\n" + style::key_above() +
+       data_block("two", thinned(two_pairs, x, y, outside)) +
+       data_block("full", thinned(full_pairs, x, y, outside)) +
+       data_block("estimates", {{full_H, full_A}, {two_H, two_A}});
   c += fmt::format(
       "plot $two using 1:2 with points lc rgb '{0}' pt 7 ps 0.25 notitle, \\\n"
       "  $full using 1:2 with points lc rgb '{1}' pt 7 ps 0.25 notitle{2}{3}, \\\n"
