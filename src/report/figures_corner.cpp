@@ -60,7 +60,7 @@ struct Layout {
     const double n = static_cast<double>(count);
     width = count == 1 ? 480.0 : count == 2 ? 620.0 : 220.0 * n + 110.0;
     height = count == 1 ? 340.0 : 0.86 * width;
-    left = (64.0 + 20.0 * label_lines) / width;
+    left = (52.0 + 32.0 * label_lines) / width;
     bottom = (44.0 + 18.0 * label_lines) / height;
     step_x = (1.0 - left - 14.0 / width) / n;
     step_y = (1.0 - bottom - (count == 1 ? 44.0 : 14.0) / height) / n;
@@ -142,7 +142,7 @@ std::string lower_panel(const Axis& x, const Axis& y, bool left, bool bottom, st
        fmt::format("set yrange [{:.6g}:{:.6g}]\n", y.range.lower, y.range.upper) +
        style::few_ticks('y', y.range, 3) +
        (left ? fmt::format("set format y '%g'\nset ylabel \"{}\" offset {},0\n", y.label,
-                           y.lines > 1 ? 0.0 : 0.6)
+                           y.lines > 1 ? -0.7 : 0.6)
              : std::string("set format y ''\nunset ylabel\n")) +
        data_block("s" + id, points);
   c += fmt::format(

@@ -291,6 +291,11 @@ std::string draw_svg(const PlotScript& script, const std::string& program) {
 
   remove_between(svg, "<title>", "</title>");
   remove_empty_groups(svg);
+  // What every group repeats is said once, on the canvas.
+  constexpr std::string_view common = " fill=\"none\" color=\"black\" stroke=\"currentColor\"";
+  replace_all(svg, fmt::format("<g{} stroke-width", common), "<g stroke-width");
+  replace_all(svg, "<g id=\"gnuplot_canvas\"", fmt::format("<g id=\"gnuplot_canvas\"{}", common));
+  replace_all(svg, " class=\"gridline\" ", "");
   shorten_colours(svg);
   pack_dots(svg);
   shorten_coordinates(svg);
