@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "core/files.hpp"
+#include "report/coverage_picture.hpp"
 #include "uncertainty/coverage_grid.hpp"
 #include "uncertainty/coverage_truth.hpp"
 
@@ -25,6 +26,7 @@ void add_coverage(CLI::App& program) {
     bool grid = false;
     std::string designs;
     std::string keep;
+    std::string picture;
     AnalysisFlags analysis;
   };
   const auto options = std::make_shared<Options>();
@@ -32,19 +34,27 @@ void add_coverage(CLI::App& program) {
   command->add_option("--datasets", options->datasets, "simulated data sets")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
-  command->add_flag("--grid", options->grid,
-                    "instead of the fit's own design, many: 10, 20, 60 points, three kinds of "
-                    "scatter, stated or not, f0 fixed or free, with and without captures");
+  CLI::Option* grid =
+      command->add_flag("--grid", options->grid,
+                        "instead of the fit's own design, many: 10, 20, 60 points, three kinds of "
+                        "scatter, stated or not, f0 fixed or free, with and without captures");
   command->add_option("--designs", options->designs,
                       "of the grid, only the designs whose name contains this, e.g. \"n20 equal\"");
   command->add_option("--keep", options->keep,
                       "a folder for the finished designs of the grid, from which a stopped study "
                       "goes on");
+  command
+      ->add_option("--picture", options->picture,
+                   "write the coverage of the grid as a picture here (SVG)")
+      ->needs(grid);
   command->add_option("--out", options->out, "write the table here, too");
   add_analysis_flags(*command, options->analysis);
   command->callback([options] {
     if (!options->out.empty()) {
       require_writable_folder(std::filesystem::absolute(options->out).parent_path());
+    }
+    if (!options->picture.empty()) {
+      require_writable_folder(std::filesystem::absolute(options->picture).parent_path());
     }
     const FitSpec spec = load_fit(options->fit_file);
     const std::vector<Dataset> datasets = load_datasets(spec);
@@ -59,8 +69,16 @@ void add_coverage(CLI::App& program) {
       std::erase_if(designs, [&](const GridDesign& design) {
         return design.name().find(options->designs) == std::string::npos;
       });
-      table = grid_markdown(measure_grid(spec, datasets.front(), designs, coverage, options->keep),
-                            spec, coverage);
+      const std::vector<GridResult> results =
+          measure_grid(spec, datasets.front(), designs, coverage, options->keep);
+      table = grid_markdown(results, spec, coverage);
+      if (!options->picture.empty()) {
+        const Dataset& base = datasets.front();
+        write_whole_file(
+            options->picture,
+            coverage_picture(results, spec, coverage,
+                             fmt::format("{}: {}", base.id, provenance_sentence(base.provenance))));
+      }
     } else {
       const CoverageTruth truth = coverage_truth(spec, datasets, coverage.uncertainty.seed);
       table = to_markdown(measure_coverage(spec, truth, coverage), spec, coverage);

@@ -9,6 +9,7 @@ enum class RandomPurpose : std::uint32_t {
   bootstrap = 1,
   reconstruction = 2,
   coverage = 3,
+  two_point_pairs = 4,
 };
 
 /// A reproducible stream of random numbers that is a pure function of (seed, purpose, replicate):

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <numeric>
 #include <optional>
 
-#include "core/units.hpp"
+#include "impact/fast_solver.hpp"
 
 namespace recoil {
 namespace {
@@ -21,58 +21,165 @@ struct Excess {
   double slope;  // d value / d damping, negative
 };
 
-/// The damping in [0, upper] at which `excess` (which falls with damping) vanishes: Newton from
-/// `guess`, kept inside a bracket. Nothing when even no damping leaves it below zero, the largest
-/// leaves it above, or the model has no answer.
-std::optional<double> damping_for(const std::function<Excess(double)>& excess, double guess,
-                                  double upper) {
-  double low = 0.0;
-  double high = upper;
-  bool zero_allows_it = false;  // excess(0) >= 0: there is a root above zero
-  double damping = guess;
-  constexpr int most_steps = 200;
-  for (int i = 0; i < most_steps; ++i) {
-    const Excess at = excess(damping);
-    if (!std::isfinite(at.value)) return std::nullopt;
-    if (damping == 0.0) {
-      if (at.value < 0.0) return std::nullopt;
-      zero_allows_it = true;
+/// Searches the damping in [0, upper] at which `excess` (which falls with damping) vanishes: Newton
+/// from `guess`, kept inside a bracket. It asks for one value after the other, so that many
+/// searches can be answered together.
+class DampingSearch {
+ public:
+  DampingSearch(double guess, double upper) : damping_(guess), high_(upper), upper_(upper) {}
+
+  /// Where the excess is wanted next.
+  double damping() const { return damping_; }
+  bool done() const { return done_; }
+  /// Nothing when even no damping leaves the excess below zero, the largest leaves it above, or the
+  /// model has no answer.
+  std::optional<double> found() const { return found_; }
+
+  void answer(const Excess& at) {
+    if (!std::isfinite(at.value)) return end(std::nullopt);
+    if (damping_ == 0.0) {
+      if (at.value < 0.0) return end(std::nullopt);
+      zero_allows_it_ = true;
     }
-    if (at.value > 0.0 && damping >= upper) return std::nullopt;
-    (at.value > 0.0 ? low : high) = damping;
-    double next = damping - at.value / at.slope;
-    if (next <= 0.0 && !zero_allows_it) {
+    if (at.value > 0.0 && damping_ >= upper_) return end(std::nullopt);
+    (at.value > 0.0 ? low_ : high_) = damping_;
+    double next = damping_ - at.value / at.slope;
+    if (next <= 0.0 && !zero_allows_it_) {
       next = 0.0;
-    } else if (!(next > low) || !(next < high)) {
+    } else if (!(next > low_) || !(next < high_)) {
       // Newton left the bracket: from below a root it may overshoot into the flat or captured
       // range.
-      next = low > 0.0 ? std::min(4.0 * low, std::sqrt(low * high)) : 0.25 * high;
-      if (high == upper && next > 0.5 * upper) next = upper;
+      next = low_ > 0.0 ? std::min(4.0 * low_, std::sqrt(low_ * high_)) : 0.25 * high_;
+      if (high_ == upper_ && next > 0.5 * upper_) next = upper_;
     }
-    if (next > 0.0 && std::abs(next - damping) <= root_tolerance * next) return next;
-    damping = next;
+    if (next > 0.0 && std::abs(next - damping_) <= root_tolerance * next) return end(next);
+    damping_ = next;
+    constexpr int most_steps = 200;
+    if (++steps_ == most_steps) end(damping_);
   }
-  return damping;
-}
 
-/// The damping factor in `slot` that gives `point` its measured e, the others as in `theta`.
-std::optional<double> calibrate(const ImpactModel& model, std::vector<double> theta,
-                                std::size_t slot, const Observation& point) {
-  const double target = point.restitution * point.restitution;
-  const double guess = theta[slot];
-  return damping_for(
-      [&](double damping) {
-        theta[slot] = damping;
-        const Prediction at =
-            predict(model, theta, point.dataset, point.diameter, point.velocity, true);
-        if (!at.usable()) return Excess{std::nan(""), 0.0};
-        return Excess{at.restitution_squared - target, at.gradient[slot]};
-      },
-      guess, model.slots[slot].upper);
-}
+ private:
+  void end(std::optional<double> found) {
+    found_ = found;
+    done_ = true;
+  }
+
+  double damping_;
+  double low_ = 0.0;
+  double high_;
+  double upper_;
+  bool zero_allows_it_ = false;  // excess(0) >= 0: there is a root above zero
+  int steps_ = 0;
+  bool done_ = false;
+  std::optional<double> found_;
+};
+
+/// The iteration on one pair of points, advanced by one impact at a time.
+class Iteration {
+ public:
+  Iteration(const ImpactModel& model, const TwoPoints& points)
+      : points_(points),
+        upper_hertz_(model.slots[model.slot_C_H[points.dataset]].upper),
+        upper_adhesion_(model.slots[model.slot_C_A[points.dataset]].upper),
+        beta_low_(beta_at(model, points, points.low.velocity)),
+        beta_high_(beta_at(model, points, points.high.velocity)),
+        search_(0.0, upper_hertz_) {
+    run_.iterations = 1;
+  }
+
+  bool done() const { return done_; }
+  const TwoPointRun& run() const { return run_; }
+
+  /// The impact whose outcome is wanted next.
+  ImpactGroups query() const {
+    const double hertz = on_high_ ? search_.damping() : run_.C_H;
+    const double adhesion = on_high_ ? run_.C_A : search_.damping();
+    return {hertz * point().velocity, on_high_ ? beta_high_ : beta_low_,
+            adhesion * point().velocity};
+  }
+
+  void answer(const ImpactResult& result) {
+    const double target = point().restitution * point().restitution;
+    const double slope = point().velocity * result.gradient[on_high_ ? 0 : 2];
+    search_.answer(result.usable() ? Excess{result.restitution_squared - target, slope}
+                                   : Excess{std::nan(""), 0.0});
+    if (!search_.done()) return;
+    const std::optional<double> found = search_.found();
+    double& damping = on_high_ ? run_.C_H : run_.C_A;
+    const double change = std::abs(found.value_or(0.0) - damping);
+    damping = found.value_or(0.0);
+    const bool moves = change > settled * damping;
+    if (on_high_) {
+      hertz_found_ = found.has_value();
+      hertz_moves_ = moves;
+      on_high_ = false;
+      search_ = DampingSearch(run_.C_A, upper_adhesion_);
+      return;
+    }
+    if (!hertz_moves_ && !moves) {
+      run_.status = !hertz_found_        ? TwoPointStatus::no_hertz_damping
+                    : !found.has_value() ? TwoPointStatus::no_adhesion_damping
+                                         : TwoPointStatus::converged;
+      done_ = true;
+    } else if (run_.iterations == most_iterations) {
+      run_.status = TwoPointStatus::not_converging;
+      done_ = true;
+    } else {
+      ++run_.iterations;
+      on_high_ = true;
+      search_ = DampingSearch(run_.C_H, upper_hertz_);
+    }
+  }
+
+ private:
+  /// f0 stays at eq. 12 even when the full fit frees it: the iteration knows no third unknown.
+  static double beta_at(const ImpactModel& model, const TwoPoints& points, double velocity) {
+    std::vector<double> theta = model.initial();
+    theta[model.slot_f0[points.dataset]] = model.contacts[points.dataset].adhesion_force;
+    return impact_groups(conditions_at(model, theta, points.dataset, points.diameter, velocity))
+        .beta;
+  }
+
+  const Rebound& point() const { return on_high_ ? points_.high : points_.low; }
+
+  TwoPoints points_;
+  double upper_hertz_;
+  double upper_adhesion_;
+  double beta_low_;
+  double beta_high_;
+  bool on_high_ = true;  // which point is being calibrated
+  bool hertz_found_ = false;
+  bool hertz_moves_ = false;
+  bool done_ = false;
+  TwoPointRun run_;
+  DampingSearch search_;
+};
 
 std::string describe(const Observation& point) {
   return fmt::format("e = {:.4g} at V = {:.4g} m/s", point.restitution, point.velocity);
+}
+
+/// How the iteration ended, with numbers.
+std::string words(const ImpactModel& model, std::size_t dataset, const TwoPointRun& run,
+                  const Observation& low, const Observation& high) {
+  switch (run.status) {
+    case TwoPointStatus::no_hertz_damping:
+      return fmt::format(
+          "no C_H >= 0 gives {}: the adhesion that the lowest velocity asks for (C_A = {:.4g} s/m) "
+          "already costs more there",
+          describe(high), run.C_A);
+    case TwoPointStatus::no_adhesion_damping:
+      return fmt::format("no C_A in [0, {:.4g}] s/m gives {} beside C_H = {:.4g} s/m",
+                         model.slots[model.slot_C_A[dataset]].upper, describe(low), run.C_H);
+    case TwoPointStatus::converged:
+      return fmt::format("from {} and {}", describe(low), describe(high));
+    case TwoPointStatus::not_converging:
+      return fmt::format("C_H and C_A still change after {} iterations on {} and {}",
+                         most_iterations, describe(low), describe(high));
+    case TwoPointStatus::too_few_points:
+      break;
+  }
+  return "";
 }
 
 bool choose_points(const Observations& data, std::size_t dataset, double diameter,
@@ -117,6 +224,47 @@ std::string to_string(TwoPointStatus status) {
   return "";
 }
 
+std::vector<TwoPointRun> iterate_two_points(const ImpactModel& model,
+                                            std::span<const TwoPoints> pairs) {
+  std::vector<Iteration> iterations;
+  iterations.reserve(pairs.size());
+  for (const TwoPoints& points : pairs) iterations.emplace_back(model, points);
+  std::vector<std::size_t> running(pairs.size());
+  std::iota(running.begin(), running.end(), std::size_t{0});
+  ImpactOptions options;
+  options.phase = model.phase;
+  options.gradient = true;
+  options.tolerance *= model.loosened;
+  options.fast_tolerance *= model.loosened;
+  std::vector<ImpactGroups> groups;
+  std::vector<ImpactResult> results(pairs.size());
+  while (!running.empty()) {
+    groups.clear();
+    for (const std::size_t i : running) groups.push_back(iterations[i].query());
+    if (model.solver == Solver::fast) {
+      simulate_impacts_fast(groups, options, std::span(results).first(groups.size()));
+    } else {
+      for (std::size_t k = 0; k < groups.size(); ++k) {
+        results[k] = simulate_impact(groups[k], options);
+      }
+    }
+    for (std::size_t k = 0; k < running.size(); ++k) iterations[running[k]].answer(results[k]);
+    std::erase_if(running, [&](std::size_t i) { return iterations[i].done(); });
+  }
+  std::vector<TwoPointRun> runs;
+  for (const Iteration& iteration : iterations) runs.push_back(iteration.run());
+  return runs;
+}
+
+std::vector<double> two_point_theta(const ImpactModel& model, std::size_t dataset,
+                                    const TwoPointRun& run) {
+  std::vector<double> theta = model.initial();
+  theta[model.slot_f0[dataset]] = model.contacts[dataset].adhesion_force;
+  theta[model.slot_C_H[dataset]] = run.C_H;
+  theta[model.slot_C_A[dataset]] = run.C_A;
+  return theta;
+}
+
 TwoPointResult two_point(const ImpactModel& model, const Observations& data, std::size_t dataset,
                          double diameter) {
   TwoPointResult result;
@@ -127,44 +275,13 @@ TwoPointResult two_point(const ImpactModel& model, const Observations& data, std
   }
   const Observation& low = data.points[result.low_point];
   const Observation& high = data.points[result.high_point];
-  const std::size_t hertz = model.slot_C_H[dataset];
-  const std::size_t adhesion = model.slot_C_A[dataset];
-  // f0 stays at eq. 12 even when the full fit frees it: the iteration knows no third unknown.
-  result.theta[model.slot_f0[dataset]] = model.contacts[dataset].adhesion_force;
-  result.theta[hertz] = 0.0;
-  result.theta[adhesion] = 0.0;
-
-  for (result.iterations = 1; result.iterations <= most_iterations; ++result.iterations) {
-    const std::optional<double> new_hertz = calibrate(model, result.theta, hertz, high);
-    const double hertz_change = std::abs(new_hertz.value_or(0.0) - result.theta[hertz]);
-    result.theta[hertz] = new_hertz.value_or(0.0);
-    const std::optional<double> new_adhesion = calibrate(model, result.theta, adhesion, low);
-    const double adhesion_change = std::abs(new_adhesion.value_or(0.0) - result.theta[adhesion]);
-    result.theta[adhesion] = new_adhesion.value_or(0.0);
-    if (hertz_change > settled * result.theta[hertz] ||
-        adhesion_change > settled * result.theta[adhesion]) {
-      continue;
-    }
-    if (!new_hertz) {
-      result.status = TwoPointStatus::no_hertz_damping;
-      result.text = fmt::format(
-          "no C_H >= 0 gives {}: the adhesion that the lowest velocity asks for (C_A = {:.4g} s/m) "
-          "already costs more there",
-          describe(high), result.theta[adhesion]);
-    } else if (!new_adhesion) {
-      result.status = TwoPointStatus::no_adhesion_damping;
-      result.text = fmt::format("no C_A in [0, {:.4g}] s/m gives {} beside C_H = {:.4g} s/m",
-                                model.slots[adhesion].upper, describe(low), result.theta[hertz]);
-    } else {
-      result.status = TwoPointStatus::converged;
-      result.text = fmt::format("from {} and {}", describe(low), describe(high));
-    }
-    return result;
-  }
-  result.iterations = most_iterations;
-  result.status = TwoPointStatus::not_converging;
-  result.text = fmt::format("C_H and C_A still change after {} iterations on {} and {}",
-                            most_iterations, describe(low), describe(high));
+  const TwoPoints pair{
+      dataset, result.diameter, {low.velocity, low.restitution}, {high.velocity, high.restitution}};
+  const TwoPointRun run = iterate_two_points(model, std::span(&pair, 1)).front();
+  result.status = run.status;
+  result.iterations = run.iterations;
+  result.theta = two_point_theta(model, dataset, run);
+  result.text = words(model, dataset, run, low, high);
   return result;
 }
 

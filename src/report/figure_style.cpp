@@ -64,6 +64,19 @@ Range quantile_range(std::vector<double> values, double lower, double upper) {
   return {at(lower), at(upper)};
 }
 
+std::string few_ticks(char axis, Range range, int count) {
+  const double wanted = (range.upper - range.lower) / count;
+  if (!(wanted > 0.0) || !std::isfinite(wanted)) return "";
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  double step = power;
+  for (const double part : {2.0, 5.0, 10.0}) {
+    if (std::abs(std::log(part * power / wanted)) < std::abs(std::log(step / wanted))) {
+      step = part * power;
+    }
+  }
+  return fmt::format("set {}tics {:.6g}\n", axis, step);
+}
+
 Scale scale_for(double magnitude, const std::string& unit) {
   if (!(magnitude > 0.0) || !std::isfinite(magnitude)) return {1.0, unit};
   if (magnitude >= 0.1 && magnitude < 1000.0) return {1.0, unit};

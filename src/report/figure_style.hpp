@@ -45,6 +45,9 @@ Range range_of(const std::vector<double>& values, double margin);
 /// The range between two quantiles of `values`.
 Range quantile_range(std::vector<double> values, double lower, double upper);
 
+/// `set xtics step` (or y) with a round step that gives about `count` ticks over the range.
+std::string few_ticks(char axis, Range range, int count);
+
 /// A factor 10^3n that brings numbers of size `magnitude` between 1 and 1000, and its unit text.
 struct Scale {
   double factor = 1.0;

@@ -13,6 +13,7 @@ struct Figure {
   std::string title;
   std::string caption;  ///< what it shows, and what to look for
   std::string svg;      ///< ready to inline
+  bool large = false;   ///< takes the whole width of the page; scrolls in its box on a phone
 };
 
 /// e against V (log axis) of each diameter: points with error bars, full fit with its band, the
@@ -27,6 +28,16 @@ std::vector<Figure> residual_diameter_figures(const Analysis& analysis);
 
 /// Bootstrap distribution of each free parameter with estimate and recommended interval.
 std::vector<Figure> bootstrap_figures(const Analysis& analysis);
+
+/// The replicates of every pair of free parameters, with the profile likelihood of each on the
+/// diagonal: one picture, none without replicates. Of more than six, the first six.
+std::vector<Figure> corner_figures(const Analysis& analysis);
+
+/// All intervals of one free parameter side by side, with its estimate and its bounds.
+std::vector<Figure> interval_figures(const Analysis& analysis);
+
+/// What two points cost, as a function of which two are taken, one per dataset.
+std::vector<Figure> pair_figures(const Analysis& analysis);
 
 /// C_H against C_A of every replicate, calibrated by two points and by all, one per dataset.
 std::vector<Figure> two_point_figures(const Analysis& analysis);

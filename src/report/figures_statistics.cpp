@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/units.hpp"
+#include "report/density.hpp"
 #include "report/figure_style.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
@@ -162,45 +163,6 @@ std::vector<Figure> per_dataset(const Analysis& analysis, const std::string& id,
          draw_svg(script)});
   }
   return figures;
-}
-
-/// Bins of the Freedman-Diaconis width between two ends; values outside are counted.
-struct Histogram {
-  std::vector<std::vector<double>> bars;  // centre, count
-  double width = 1.0;
-  std::size_t outside = 0;
-};
-
-Histogram histogram(const std::vector<double>& values, style::Range range) {
-  Histogram h;
-  const style::Range quartiles = style::quantile_range(values, 0.25, 0.75);
-  const double n = static_cast<double>(std::max<std::size_t>(values.size(), 1));
-  const double ideal = 2.0 * (quartiles.upper - quartiles.lower) / std::cbrt(n);
-  const double span = range.upper - range.lower;
-  const double bins = std::clamp(ideal > 0.0 ? std::round(span / ideal) : 12.0, 8.0, 48.0);
-  h.width = span / bins;
-  std::vector<double> counts(static_cast<std::size_t>(bins), 0.0);
-  for (const double value : values) {
-    const double place = (value - range.lower) / h.width;
-    if (!(place >= 0.0) || place > bins) {
-      ++h.outside;
-    } else {
-      counts[std::min(static_cast<std::size_t>(place), counts.size() - 1)] += 1.0;
-    }
-  }
-  for (std::size_t b = 0; b < counts.size(); ++b) {
-    h.bars.push_back({range.lower + (static_cast<double>(b) + 0.5) * h.width, counts[b]});
-  }
-  return h;
-}
-
-std::vector<double> column(const std::vector<std::vector<double>>& rows, std::size_t slot,
-                           double factor) {
-  std::vector<double> values;
-  for (const auto& row : rows) {
-    if (slot < row.size()) values.push_back(row[slot] * factor);
-  }
-  return values;
 }
 
 Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/density.hpp"
 #include "report/figure_style.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
@@ -11,7 +12,8 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_replicates = 300;  // drawn per cloud
+constexpr std::size_t most_replicates = 600;  // drawn per cloud
+constexpr double share_inside = 0.95;         // of the replicates within the line
 
 using Rows = std::vector<std::vector<double>>;
 
@@ -55,6 +57,18 @@ style::Range common_range(const Rows& one, const Rows& other, std::size_t column
   return range;
 }
 
+/// Adds the line within which 95 % of the replicates lie, and returns its layer.
+std::string outline(std::string& commands, const std::string& name, const Rows& rows,
+                    style::Range x, style::Range y, const char* colour) {
+  const std::vector<double> across = column(rows, 0, 1.0);
+  const std::vector<double> up = column(rows, 1, 1.0);
+  const std::string made =
+      contour_commands(name, density(across, up, x, y), across, up, share_inside);
+  if (made.empty()) return "";
+  commands += made;
+  return fmt::format(", \\\n  ${} using 1:2 with lines lc rgb '{}' lw 1.8 notitle", name, colour);
+}
+
 std::string status_words(const TwoPointComparison& comparison) {
   return comparison.result.status == TwoPointStatus::converged
              ? std::string()
@@ -92,31 +106,36 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
                              analysis.datasets[comparison.dataset].id);
   script.height = 360;
   std::string& c = script.commands;
-  c = style::preamble() +
-      fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", x.lower, x.upper,
-                  y.lower, y.upper) +
-      fmt::format(
-          "set xlabel 'C_{{H}}  [{}]' offset 0,0.4\nset ylabel 'C_{{A}}  [{}]' offset 1,0\n",
-          scale_H.unit, scale_A.unit) +
-      "set bmargin 3.6\n" + style::key_above() +
-      data_block("two", thinned(two_pairs, x, y, outside)) +
-      data_block("full", thinned(full_pairs, x, y, outside)) +
-      data_block("estimates", {{full_H, full_A}, {two_H, two_A}});
+  c = style::preamble();
+  const std::string two_line = outline(c, "around_two", two_pairs, x, y, style::vermillion);
+  const std::string full_line = outline(c, "around_full", full_pairs, x, y, style::blue);
+  c += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", x.lower, x.upper,
+                   y.lower, y.upper) +
+       fmt::format(
+           "set xlabel 'C_{{H}}  [{}]' offset 0,0.4\nset ylabel 'C_{{A}}  [{}]' offset 1,0\n",
+           scale_H.unit, scale_A.unit) +
+       "set bmargin 3.6\n" + style::key_above() +
+       data_block("two", thinned(two_pairs, x, y, outside)) +
+       data_block("full", thinned(full_pairs, x, y, outside)) +
+       data_block("estimates", {{full_H, full_A}, {two_H, two_A}});
   c += fmt::format(
-      "plot $two using 1:2 with points lc rgb '{0}' pt 8 ps 0.45 title 'two points', \\\n"
-      "  $full using 1:2 with points lc rgb '{1}' pt 6 ps 0.4 title 'all points', \\\n"
-      "  $estimates every ::0::0 using 1:2 with points lc rgb '{2}' pt 7 ps 1.1 notitle, \\\n",
-      style::orange, style::sky, style::blue);
+      "plot $two using 1:2 with points lc rgb '{0}' pt 7 ps 0.25 notitle, \\\n"
+      "  $full using 1:2 with points lc rgb '{1}' pt 7 ps 0.25 notitle{2}{3}, \\\n"
+      "  $estimates every ::0::0 using 1:2 with points lc rgb '{4}' pt 7 ps 1.1 title 'all "
+      "points', \\\n",
+      style::orange, style::sky, two_line, full_line, style::blue);
   c += converged ? fmt::format(
                        "  $estimates every ::1::1 using 1:2 with points lc rgb '{}' pt 9 "
-                       "ps 1.3 notitle\n",
+                       "ps 1.3 title 'two points'\n",
                        style::vermillion)
-                 : std::string("  NaN notitle\n");
+                 : fmt::format("  NaN with lines lc rgb '{}' lw 1.8 title 'two points'\n",
+                               style::vermillion);
 
   const std::size_t count = full_pairs.size() + two_pairs.size();
-  std::string caption =
-      analysis.datasets[comparison.dataset].id +
-      ". Small marks: each calibration repeated on resampled data. Large marks: the estimates.";
+  std::string caption = analysis.datasets[comparison.dataset].id +
+                        ". Small dots: each calibration repeated on resampled data; 95 % of them "
+                        "lie within the line. "
+                        "Large marks: the estimates.";
   if (count > 2 * most_replicates) {
     caption += fmt::format(" About {} replicates of each are drawn.", most_replicates);
   }

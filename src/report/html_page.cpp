@@ -124,14 +124,15 @@ std::string table_html(const HtmlTable& table) {
 
 std::string figure_html(const Figure& figure) {
   return fmt::format(
-      "<figure id=\"figure-{}\"><div class=\"picture\">{}</div>\n<figcaption>{}</figcaption>"
+      "<figure id=\"figure-{}\"{}><div class=\"picture\"{}>{}</div>\n<figcaption>{}</figcaption>"
       "</figure>\n",
-      escape_html(figure.id), figure.svg, prose_html(figure.caption));
+      escape_html(figure.id), figure.large ? " class=\"large\"" : "",
+      figure.large ? " tabindex=\"0\"" : "", figure.svg, prose_html(figure.caption));
 }
 
 std::string figures_html(const std::vector<Figure>& figures) {
-  std::string out =
-      fmt::format("<div class=\"figures{}\">\n", figures.size() == 1 ? " single" : "");
+  std::string out = fmt::format("<div class=\"figures{}\">\n",
+                                figures.size() == 1 && !figures.front().large ? " single" : "");
   for (const Figure& figure : figures) out += figure_html(figure);
   return out + "</div>\n";
 }

@@ -9,6 +9,7 @@
 #include "report/format.hpp"
 #include "report/html_page.hpp"
 #include "report/html_tables.hpp"
+#include "report/pair_words.hpp"
 
 namespace recoil {
 namespace {
@@ -120,6 +121,15 @@ std::string list_html(const std::vector<std::string>& sentences, const std::stri
   return out + "</ul>\n";
 }
 
+std::string pair_paragraphs(const Analysis& a) {
+  std::string out;
+  for (const PairStudy& study : a.uncertainty.pairs) {
+    out += fmt::format("<p>{}</p>\n",
+                       prose_html(fmt::format("{}", fmt::join(pair_words(a, study), " "))));
+  }
+  return out;
+}
+
 struct Section {
   const char* id;
   const char* heading;
@@ -135,8 +145,10 @@ std::vector<Section> plot_sections(const Analysis& a) {
       {"restitution", "Restitution against velocity", figures_html(restitution_figures(a))},
       {"residuals", "Residuals",
        figures_html(joined(residual_velocity_figures(a), residual_diameter_figures(a)))},
-      {"distribution", "How sure the parameters are", figures_html(bootstrap_figures(a))},
-      {"two-points", "Two points against all", figures_html(two_point_figures(a))},
+      {"distribution", "How sure the parameters are",
+       figures_html(joined(joined(interval_figures(a), bootstrap_figures(a)), corner_figures(a)))},
+      {"two-points", "Two points against all",
+       figures_html(joined(two_point_figures(a), pair_figures(a))) + pair_paragraphs(a)},
       {"forces", "Adhesion and contact forces",
        figures_html(joined(adhesion_force_figures(a), force_history_figures(a)))},
   };

@@ -47,6 +47,9 @@ figure { margin: 0; background: var(--card); border: 1px solid var(--line); bord
   overflow: hidden; break-inside: avoid; }
 .picture { background: #ffffff; padding: .4rem; }
 .picture svg { display: block; width: 100%; height: auto; }
+.large { grid-column: 1 / -1; }
+.large .picture { overflow-x: auto; }
+.large .picture svg { min-width: 40rem; max-width: 54rem; margin: 0 auto; }
 figcaption { padding: .5rem .9rem .8rem; font-size: .88rem; line-height: 1.45;
   color: var(--quiet); border-top: 1px solid var(--line); }
 .wide { width: fit-content; max-width: 100%; overflow-x: auto; margin: .75rem 0 1.25rem; border: 1px solid var(--line);
@@ -98,6 +101,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .summary { font-size: 10.5pt; }
   .figures { grid-template-columns: 1fr 1fr; gap: .5rem; }
   .figures.single { max-width: none; }
+  .large .picture svg { min-width: 0; }
   .cards { grid-template-columns: 1fr 1fr; }
   figcaption { font-size: 8pt; }
   .wide { overflow: visible; }

@@ -76,6 +76,7 @@ Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
       comparison.held_out_why.empty() ? "no other diameter was predicted"
                                       : comparison.held_out_why);
   out["failed"] = comparison.failed;
+  put_pairs(out, a, comparison.dataset);
   return out;
 }
 

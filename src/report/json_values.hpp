@@ -40,6 +40,9 @@ Json numbers_json(const std::vector<double>& values);
 /// dataset under `two_point_by_dataset` and `full_by_dataset`.
 void put_two_point(Json& out, const Analysis& analysis);
 
+/// `out["pairs"]` and `out["pairs_study"]`: two points against all for every pair of `dataset`.
+void put_pairs(Json& out, const Analysis& analysis, std::size_t dataset);
+
 /// `curve`: one row per point of every curve.
 Json curve_json(const Analysis& analysis);
 

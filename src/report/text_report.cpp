@@ -5,6 +5,7 @@
 
 #include "core/units.hpp"
 #include "report/format.hpp"
+#include "report/pair_words.hpp"
 #include "report/text_blocks.hpp"
 
 namespace recoil {
@@ -217,6 +218,10 @@ void write_two_point(Blocks& out, const Analysis& a) {
     if (comparison.failed > 0) {
       out.say(fmt::format("In {} of {} replicates the two-point iteration found no answer.",
                           comparison.failed, a.uncertainty.bootstrap.two_point_replicates));
+    }
+    for (const PairStudy& study : a.uncertainty.pairs) {
+      if (study.dataset != comparison.dataset) continue;
+      for (const std::string& sentence : pair_words(a, study)) out.say(sentence);
     }
   }
 }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr int most_strides = 60;
 constexpr int most_bisections = 60;
+constexpr int curve_steps = 14;         // on either side of the estimate
+constexpr double curve_reach = 1.4;     // of the way from the estimate to the interval's end
 constexpr double end_tolerance = 1e-3;  // of the rise at an interval's end
 
 class Profile {
@@ -91,6 +93,12 @@ double free_standard_error(const FitResult& fitted, const Observations& data, st
   return information > singular * own.norm() ? fitted.noise_scale / information : 0.0;
 }
 
+Allowance allowance(const FitResult& fitted, const Observations& data, std::size_t slot,
+                    double level, double error) {
+  const int dof = data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
+  return {fitted.model.slots[slot], level, dof, fitted.noise_scale * fitted.noise_scale, error};
+}
+
 /// One end of the interval, walking from the estimate in `direction` until the rise exceeds what is
 /// allowed, then closing in by regula falsi (Illinois). Nothing when a refit fails.
 struct End {
@@ -150,9 +158,7 @@ Interval profile_interval(const FitResult& fitted, const Observations& data, std
                           double level) {
   Interval interval;
   const double error = free_standard_error(fitted, data, slot);
-  const int dof = data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
-  const Allowance allowed(fitted.model.slots[slot], level, dof,
-                          fitted.noise_scale * fitted.noise_scale, error);
+  const Allowance allowed = allowance(fitted, data, slot, level, error);
   const Profile profile(fitted, data, slot);
   const double value = fitted.theta[slot];
   double stride = error > 0.0 ? error : 0.1 * std::abs(value);
@@ -172,6 +178,38 @@ Interval profile_interval(const FitResult& fitted, const Observations& data, std
                    : low->at_bound || high->at_bound ? "one-sided"
                                                      : "bounded";
   return interval;
+}
+
+std::vector<ProfilePoint> profile_curve(const FitResult& fitted, const Observations& data,
+                                        std::size_t slot, double level, const Interval& interval) {
+  if (!interval.available() || !(fitted.noise_scale > 0.0)) return {};
+  const Profile profile(fitted, data, slot);
+  const Allowance allowed =
+      allowance(fitted, data, slot, level, free_standard_error(fitted, data, slot));
+  const ParameterSlot& parameter = fitted.model.slots[slot];
+  const double estimate = fitted.theta[slot];
+  const double scale = fitted.noise_scale * fitted.noise_scale;
+  const auto point = [&](double value, double rise) {
+    return ProfilePoint{value, std::max(rise, 0.0) / scale, allowed(value) / scale};
+  };
+  std::vector<ProfilePoint> curve;
+  for (const double direction : {-1.0, 1.0}) {
+    const double end = direction < 0.0 ? *interval.lower : *interval.upper;
+    const double last =
+        std::clamp(estimate + curve_reach * (end - estimate), parameter.lower, parameter.upper);
+    std::vector<double> others = fitted.theta;
+    for (int k = 1; k <= curve_steps && last != estimate; ++k) {
+      const double value = estimate + (last - estimate) * k / curve_steps;
+      const auto rise = profile.rise(value, others);
+      if (!rise) break;
+      curve.push_back(point(value, *rise));
+    }
+    if (direction < 0.0) {
+      std::reverse(curve.begin(), curve.end());
+      curve.push_back(point(estimate, 0.0));
+    }
+  }
+  return curve;
 }
 
 }  // namespace recoil

@@ -17,4 +17,10 @@ namespace recoil {
 Interval profile_interval(const FitResult& fitted, const Observations& data, std::size_t slot,
                           double level);
 
+/// The profile of one slot from below `interval` to above it, or to the parameter's bounds: 29
+/// points where there is room, ascending, the estimate among them. A side on which a refit fails
+/// ends there; empty without an interval. @pre the slot is free
+std::vector<ProfilePoint> profile_curve(const FitResult& fitted, const Observations& data,
+                                        std::size_t slot, double level, const Interval& interval);
+
 }  // namespace recoil

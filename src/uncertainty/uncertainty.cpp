@@ -124,6 +124,9 @@ std::vector<IntervalSet> likelihood_intervals(const FitResult& fitted, const Obs
                              data.sd_stated ? 0 : fitted.dof, slot.lower, slot.upper);
     if (options.profile) {
       set.profile = profile_interval(fitted, data, j, options.level);
+      if (options.curves) {
+        set.profile_curve = profile_curve(fitted, data, j, options.level, set.profile);
+      }
     } else {
       set.profile.why = "not asked for";
     }
@@ -364,6 +367,14 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations
   }
   bootstrap_two_point(boot.plan(), two_points, options, result.bootstrap);
   add_spread(result, fitted.theta.size());
+  std::vector<PairSeries> series;
+  for (const TwoPointComparison& comparison : result.two_point) {
+    series.push_back({comparison.dataset, comparison.result.diameter});
+  }
+  result.pairs =
+      study_two_point_pairs(fitted, data, series,
+                            {std::min(options.pair_simulations, result.bootstrap.replicates),
+                             options.seed, options.threads});
   result.identifiability = judge_identifiability(fitted, data, result.intervals, result.capture);
   if (options.curves) result.curves = restitution_curves(fitted, data, datasets, result);
   add_warnings(result, datasets);

@@ -11,15 +11,24 @@
 #include "estimate/two_point.hpp"
 #include "uncertainty/information.hpp"
 #include "uncertainty/intervals.hpp"
+#include "uncertainty/two_point_pairs.hpp"
 
 namespace recoil {
+
+/// One point of a profile likelihood.
+struct ProfilePoint {
+  double value = 0.0;    ///< of the parameter [its unit]
+  double rise = 0.0;     ///< of chi2 over its minimum, the others refitted, in units of s^2 [1]
+  double allowed = 0.0;  ///< the rise at which the interval would end here [1]
+};
 
 /// Every interval of one parameter, at one level.
 struct IntervalSet {
   Interval wald, profile, percentile, bca, studentized;
-  std::string recommended;      ///< which one: "profile", "bca", ...
-  std::string recommended_why;  ///< by which rule
-  std::string disagreement;     ///< why the kinds differ, one sentence; empty when they agree
+  std::string recommended;                  ///< which one: "profile", "bca", ...
+  std::string recommended_why;              ///< by which rule
+  std::vector<ProfilePoint> profile_curve;  ///< empty unless `curves` were asked for
+  std::string disagreement;  ///< why the kinds differ, one sentence; empty when they agree
   /// Numbers that the sentence rests on.
   std::optional<BcaConstants> bca_constants;
   std::optional<double> bound_share;  ///< of the usable replicates that rest on a bound [1]
@@ -120,9 +129,12 @@ struct UncertaintyOptions {
   std::uint64_t seed = 20260101;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
   bool profile = true;
-  bool curves = true;
+  bool curves = true;     ///< restitution curves with bands, and those of the profiles
   bool capture = true;    ///< intervals of the capture velocities
   bool two_point = true;  ///< compare with the paper's calibration; without it the list is empty
+  /// Simulated data sets on which every pair of points is tried (`study_two_point_pairs`), at most
+  /// as many as replicates; none without `two_point`.
+  int pair_simulations = 199;
   /// Where finished replicates are kept when the user stops the run, and looked for by the next run
   /// of the same fit; empty: nowhere. The file is left behind; whoever has written the results
   /// removes it.
@@ -137,6 +149,7 @@ struct UncertaintyResult {
   std::vector<CaptureEstimate> capture;
   std::vector<RestitutionCurve> curves;
   std::vector<TwoPointComparison> two_point;  ///< one per dataset, unless it was not asked for
+  std::vector<PairStudy> pairs;  ///< one per dataset with a pair of points, unless not asked for
   Identifiability identifiability;
   std::vector<std::string> warnings;
 };

@@ -59,11 +59,13 @@ void expect_self_contained(const std::string& html) {
 TEST(HtmlReport, HoldsEveryPlotOfOneDataset) {
   const std::string html = html_report(example::four_diameters());
   expect_self_contained(html);
-  // 4 diameters, 2 residual plots, 2 distributions, f0, force history, two points.
-  EXPECT_EQ(occurrences(html, "<svg "), 11U);
+  // 4 diameters, 2 residual plots, 2 x intervals, 2 distributions, corner, f0, force history, two
+  // points, pairs of points.
+  EXPECT_EQ(occurrences(html, "<svg "), 15U);
   for (const char* figure :
        {"restitution-1", "restitution-4", "residual-velocity-1", "residual-diameter-1",
-        "bootstrap-1", "bootstrap-2", "two-point-1", "adhesion-force-1", "force-history-1"}) {
+        "intervals-1", "intervals-2", "bootstrap-1", "bootstrap-2", "corner-1", "two-point-1",
+        "pairs-1", "adhesion-force-1", "force-history-1"}) {
     EXPECT_THAT(html, HasSubstr(std::string("id=\"figure-") + figure + "\""));
   }
   EXPECT_LT(html.find("<figure"), html.find("<table")) << "plots come first";
@@ -72,8 +74,9 @@ TEST(HtmlReport, HoldsEveryPlotOfOneDataset) {
 TEST(HtmlReport, HoldsEveryPlotOfAJointFit) {
   const std::string html = html_report(example::two_datasets());
   expect_self_contained(html);
-  // 8 panels, 2 x 2 residual plots, 4 distributions, 2 x two points, f0, 2 force histories.
-  EXPECT_EQ(occurrences(html, "<svg "), 21U);
+  // 8 panels, 2 x 2 residual plots, 4 x intervals, 4 distributions, corner, 2 x two points, 2 x
+  // pairs of points, f0, 2 force histories.
+  EXPECT_EQ(occurrences(html, "<svg "), 28U);
 }
 
 TEST(HtmlReport, SaysWhereThePointsComeFromBeforeAnythingElse) {
@@ -192,6 +195,41 @@ TEST(HtmlPage, ProseSetsSymbolsOnlyWhereTheyStandAlone) {
   EXPECT_EQ(prose_html("fits/f0-study.toml"), "fits/f0-study.toml");
   EXPECT_EQ(prose_html("maximum f0."), "maximum <i>f</i><sub>0</sub>.");
   EXPECT_EQ(parameter_html("C_A[a<b]"), "<i>C</i><sub>A</sub> <small>(a&lt;b)</small>");
+}
+
+/// Does some picture of the page called `id` hold `words`?
+std::string picture_of(const std::string& html, const std::string& id) {
+  const std::size_t begin = html.find("id=\"figure-" + id + "\"");
+  return begin == std::string::npos ? ""
+                                    : html.substr(begin, html.find("</figure>", begin) - begin);
+}
+
+TEST(HtmlReport, ComparesTheIntervalsAndMarksTheRecommendedOne) {
+  const std::string picture = picture_of(html_report(example::four_diameters()), "intervals-1");
+  EXPECT_THAT(picture, HasSubstr("BCa"));
+  EXPECT_THAT(picture, HasSubstr("none")) << "the studentized one is missing";
+  EXPECT_THAT(picture, HasSubstr("font-weight=\"bold\"")) << "profile";
+  EXPECT_THAT(picture, Not(HasSubstr(">bound<"))) << "zero is far away";
+  Analysis near = example::four_diameters();
+  near.uncertainty.intervals[0].wald.lower = 0.0;
+  EXPECT_THAT(picture_of(html_report(near), "intervals-1"), HasSubstr(">bound<"));
+}
+
+TEST(HtmlReport, ShowsReplicatesOfPairsOnlyWhereThereAreAny) {
+  Analysis analysis = example::four_diameters();
+  analysis.uncertainty.bootstrap.theta.clear();
+  EXPECT_EQ(picture_of(html_report(analysis), "corner-1"), "");
+  analysis = example::four_diameters();
+  for (auto& replicate : analysis.uncertainty.bootstrap.theta) replicate[0] = 0.0;  // at a bound
+  EXPECT_NE(picture_of(html_report(analysis), "corner-1"), "");
+}
+
+TEST(HtmlReport, LeavesPairsOutWhereTheyWereNotStudied) {
+  Analysis analysis = example::four_diameters();
+  analysis.uncertainty.pairs.clear();
+  const std::string html = html_report(analysis);
+  EXPECT_EQ(picture_of(html, "pairs-1"), "");
+  EXPECT_THAT(html, Not(HasSubstr("data sets simulated from the full fit")));
 }
 
 }  // namespace

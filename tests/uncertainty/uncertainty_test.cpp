@@ -57,6 +57,39 @@ TEST(Profile, RisesByTheQuantileAtItsEnds) {
   }
 }
 
+TEST(Profile, CurveIsTheRiseOfRefitsWithTheSlotHeld) {
+  const Case c = noisy_case();
+  const double scale = c.fitted.noise_scale * c.fitted.noise_scale;
+  for (std::size_t slot = 0; slot < 2; ++slot) {
+    const Interval interval = profile_interval(c.fitted, c.data, slot, 0.95);
+    const std::vector<ProfilePoint> curve = profile_curve(c.fitted, c.data, slot, 0.95, interval);
+    ASSERT_EQ(curve.size(), 29U);
+    EXPECT_EQ(curve[14].value, c.fitted.theta[slot]);
+    EXPECT_EQ(curve[14].rise, 0.0);
+    EXPECT_LT(curve.front().value, *interval.lower);
+    EXPECT_GT(curve.back().value, *interval.upper);
+    for (std::size_t k = 1; k < curve.size(); ++k) {
+      EXPECT_GT(curve[k].value, curve[k - 1].value);
+      EXPECT_EQ(curve[k].rise > curve[k - 1].rise, k > 14) << "falls to the estimate, then rises";
+      const bool at_end = k == 4 || k == 24;  // 10 of 14 steps reach 1.4 / 1.4 of the way
+      const bool inside = k > 4 && k < 24;
+      if (at_end) {
+        EXPECT_NEAR(curve[k].rise / curve[k].allowed, 1.0, 0.002);
+      } else {
+        EXPECT_EQ(curve[k].rise < curve[k].allowed, inside) << k;
+      }
+      EXPECT_NEAR(curve[k].allowed, 3.841458821, 1e-6);
+    }
+    for (const std::size_t k : {0U, 7U, 21U}) {
+      ImpactModel held = c.fitted.model;
+      held.slots[slot].free = false;
+      held.slots[slot].initial = curve[k].value;
+      const FitResult refit = fit(held, c.data);
+      EXPECT_NEAR(curve[k].rise, (refit.chi2 - c.fitted.chi2) / scale, 0.01);
+    }
+  }
+}
+
 TEST(Profile, StopsAtABoundAndSaysSo) {
   Case c;
   Design design;
@@ -69,6 +102,8 @@ TEST(Profile, StopsAtABoundAndSaysSo) {
   EXPECT_EQ(*interval.lower, 0.0);
   EXPECT_EQ(interval.shape, "one-sided");
   EXPECT_GT(*interval.upper, 0.0);
+  const std::vector<ProfilePoint> curve = profile_curve(c.fitted, c.data, 1, 0.95, interval);
+  for (const ProfilePoint& point : curve) EXPECT_GE(point.value, 0.0);
 }
 
 /// A fit to points without noise, whose estimate is C_H = `errors` of its standard errors above 0.

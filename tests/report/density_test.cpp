@@ -1,0 +1,97 @@
+// Densities of clouds against the normal law, and the words about pairs of points.
+#include "report/density.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.hpp"
+#include "report/svg_plot.hpp"
+
+namespace recoil {
+namespace {
+
+struct Cloud {
+  std::vector<double> x, y;
+};
+
+Cloud normal_cloud(std::size_t count) {
+  Cloud cloud;
+  RandomStream random(3, RandomPurpose::coverage, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    cloud.x.push_back(10.0 + 2.0 * random.normal());
+    cloud.y.push_back(-1.0 + 0.1 * random.normal());
+  }
+  return cloud;
+}
+
+TEST(Density, OfANormalCloudFallsLikeTheNormalLaw) {
+  const Cloud cloud = normal_cloud(20000);
+  const DensityGrid grid = density(cloud.x, cloud.y, {2.0, 18.0}, {-1.4, -0.6});
+  // The kernels add their variance: sd^2 (1 + n^(-1/3)).
+  const double wider = 1.0 + std::pow(20000.0, -1.0 / 3.0);
+  for (const double z : {0.5, 1.0, 1.5}) {
+    const double expected = std::exp(-0.5 * z * z / wider);
+    EXPECT_NEAR(grid.at(10.0 + 2.0 * z, -1.0), expected, 0.05) << z;
+    EXPECT_NEAR(grid.at(10.0, -1.0 - 0.1 * z), expected, 0.05) << z;
+  }
+  EXPECT_EQ(grid.at(1.9, -1.0), 0.0);
+}
+
+TEST(Density, LevelHoldsTheShareThatWasAskedFor) {
+  const Cloud cloud = normal_cloud(4000);
+  const DensityGrid grid = density(cloud.x, cloud.y, {0.0, 20.0}, {-1.5, -0.5});
+  for (const double share : {0.5, 0.95}) {
+    const double level = density_level(grid, cloud.x, cloud.y, share);
+    int inside = 0;
+    for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+      inside += grid.at(cloud.x[i], cloud.y[i]) >= level ? 1 : 0;
+    }
+    EXPECT_NEAR(inside / 4000.0, share, 0.002);
+    // A two-dimensional normal law holds a share p above 1 - p of its peak.
+    EXPECT_NEAR(level, 1.0 - share, 0.06);
+  }
+}
+
+TEST(Density, WithoutSpreadThereIsNone) {
+  const std::vector<double> same(50, 1.0);
+  const DensityGrid grid = density(same, same, {0.0, 2.0}, {0.0, 2.0});
+  EXPECT_TRUE(grid.rows.empty());
+  EXPECT_EQ(contour_commands("c", grid, same, same, 0.5), "");
+}
+
+TEST(Ticks, AreRoundAndAboutAsManyAsAsked) {
+  EXPECT_EQ(style::few_ticks('x', {0.0, 10.0}, 5), "set xtics 2\n");
+  EXPECT_EQ(style::few_ticks('y', {0.0, 0.0098}, 5), "set ytics 0.002\n");
+  EXPECT_EQ(style::few_ticks('x', {2.0, 5.0}, 3), "set xtics 1\n");
+  EXPECT_EQ(style::few_ticks('x', {1.0, 1.0}, 3), "");
+}
+
+TEST(Svg, PacksCloudsOfDotsAndKeepsTheirPlaces) {
+  PlotScript script;
+  script.name = "cloud";
+  script.title = "cloud";
+  script.width = 400;
+  script.height = 300;
+  script.commands =
+      "unset border\nunset tics\nunset key\nset lmargin at screen 0\nset rmargin at screen 1\n"
+      "set bmargin at screen 0\nset tmargin at screen 1\nset xrange [0:4]\nset yrange [0:3]\n" +
+      data_block("d", {{1, 1}, {2, 2}, {3, 1}, {1, 2}}) +
+      "plot $d using 1:2 with points pt 7 ps 1 lc rgb '#0072B2'\n";
+  const std::string svg = draw_svg(script);
+  EXPECT_THAT(svg, testing::HasSubstr("stroke-linecap='round'"));
+  double x[4] = {}, y[4] = {};
+  const std::size_t path = svg.find("d='M", svg.find("stroke-linecap='round'"));
+  ASSERT_NE(path, std::string::npos);
+  ASSERT_EQ(std::sscanf(svg.c_str() + path, "d='M%lf,%lfh0M%lf,%lfh0M%lf,%lfh0M%lf,%lfh0'", &x[0],
+                        &y[0], &x[1], &y[1], &x[2], &y[2], &x[3], &y[3]),
+            8);
+  EXPECT_NEAR(x[1] - x[0], 100.0, 1.0);
+  EXPECT_NEAR(y[0] - y[1], 100.0, 1.0) << "upwards";
+  EXPECT_NEAR(x[2] - x[0], 200.0, 1.0);
+  EXPECT_NEAR(x[3], x[0], 0.11);
+}
+
+}  // namespace
+}  // namespace recoil
