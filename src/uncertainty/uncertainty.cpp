@@ -7,8 +7,8 @@
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "estimate/impact_problem.hpp"
 #include "uncertainty/bootstrap.hpp"
+#include "uncertainty/capture_interval.hpp"
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/intervals.hpp"
@@ -40,65 +40,6 @@ double standard_deviation(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double v : values) sum += (v - mean) * (v - mean);
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
-/// The covariance that the delta method works on: the fit's, where the noise is stated; else one
-/// that needs no noise model (HC3).
-std::vector<double> trusted_covariance(const FitResult& fitted, const Observations& data) {
-  if (data.sd_stated || fitted.covariance.empty()) return fitted.covariance;
-  const LeastSquaresProblem problem = impact_problem(fitted.model, data);
-  std::vector<double> residuals(problem.residual_count);
-  std::vector<double> jacobian(problem.residual_count * fitted.theta.size());
-  if (!problem.evaluate(fitted.theta, residuals, jacobian)) return fitted.covariance;
-  std::vector<double> inverse = fitted.covariance;
-  for (double& entry : inverse) entry /= fitted.noise_scale * fitted.noise_scale;
-  return sandwich_covariance(residuals, jacobian, inverse);
-}
-
-/// The interval of V* by the delta method on its logarithm.
-/// @param dof of an estimated noise; 0: the noise is known
-Interval delta_interval(const std::vector<double>& covariance, const CaptureVelocity& capture,
-                        int dof, double level) {
-  Interval interval;
-  const std::size_t p = capture.gradient.size();
-  double variance = 0.0;
-  for (std::size_t a = 0; a < p && !covariance.empty(); ++a) {
-    for (std::size_t b = 0; b < p; ++b) {
-      variance += capture.gradient[a] * covariance[a * p + b] * capture.gradient[b];
-    }
-  }
-  if (!capture.found || !(capture.value > 0.0) || !(variance > 0.0)) {
-    interval.why = !capture.found           ? "spheres of this size never rebound under the fit"
-                   : !(capture.value > 0.0) ? "nothing is captured under the fit"
-                                            : "the fit has no standard errors";
-    return interval;
-  }
-  const Interval logarithm =
-      wald_interval(0.0, std::sqrt(variance) / capture.value, level, dof, -INFINITY, INFINITY);
-  if (!logarithm.available()) return logarithm;
-  interval.lower = capture.value * std::exp(*logarithm.lower);
-  interval.upper = capture.value * std::exp(*logarithm.upper);
-  return interval;
-}
-
-std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Observations& data,
-                                               double level, const std::vector<Dataset>& datasets) {
-  const std::vector<double> covariance = trusted_covariance(fitted, data);
-  std::vector<CaptureEstimate> estimates;
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    for (const double diameter : distinct_diameters(datasets[d])) {
-      const CaptureVelocity v = capture_velocity(fitted.model, fitted.theta, d, diameter);
-      CaptureEstimate estimate;
-      estimate.dataset = d;
-      estimate.diameter = diameter;
-      estimate.value = v.value;
-      estimate.found = v.found;
-      estimate.delta = delta_interval(covariance, v, data.sd_stated ? 0 : fitted.dof, level);
-      if (!v.found) estimate.interval.why = "spheres of this size never rebound under the fit";
-      estimates.push_back(std::move(estimate));
-    }
-  }
-  return estimates;
 }
 
 void withhold(Interval& interval, const std::string& why) {
@@ -168,29 +109,6 @@ double relative_error(const Interval& interval) {
   const double error =
       std::max(interval.lower_error.value_or(0.0), interval.upper_error.value_or(0.0));
   return width > 0.0 ? error / width : 0.0;
-}
-
-/// Follows the delta interval, which knows how few points estimated the noise; where a parameter
-/// rests on its bound the covariance says nothing about it, and the replicates are better.
-void recommend_capture(const FitResult& fitted, CaptureEstimate& capture) {
-  const bool at_bound =
-      std::find(fitted.at_bound.begin(), fitted.at_bound.end(), true) != fitted.at_bound.end();
-  if (capture.percentile.available() && (at_bound || !capture.delta.available())) {
-    capture.recommended = "percentile";
-    capture.recommended_why = at_bound ? "a parameter rests on its bound, which the standard error "
-                                         "of the delta method does not know"
-                                       : capture.delta.why;
-    capture.interval = capture.percentile;
-    return;
-  }
-  capture.recommended = "delta";
-  capture.recommended_why =
-      "in the coverage study it held the truth more often than the percentiles, which are too "
-      "narrow where few points estimate the noise";
-  capture.interval = capture.delta;
-  if (!capture.delta.available() && !capture.percentile.why.empty()) {
-    capture.interval = capture.percentile;
-  }
 }
 
 /// What the replicates made so far say about the intervals.

@@ -163,7 +163,7 @@ TEST(Failures, TenPercentWithholdOnePercentWarns) {
       << result.bootstrap.failures.text;
   EXPECT_FALSE(result.intervals[0].percentile.available());
   EXPECT_NE(result.intervals[0].percentile.why.find("withheld"), std::string::npos);
-  EXPECT_FALSE(result.capture[0].interval.available());
+  EXPECT_FALSE(result.capture[0].percentile.available());
   bool warned = false;
   for (const std::string& warning : result.warnings) {
     warned = warned || warning.find("withheld") != std::string::npos;
