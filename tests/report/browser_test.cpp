@@ -55,7 +55,7 @@ class Browser : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 11), 0); }
+TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 15), 0); }
 
 TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(html_report(example::two_datasets()), 28), 0); }
 
