@@ -60,6 +60,10 @@ std::string box(double x, double y, double width, const std::string& fill) {
       x, y, width, cell_height, fill);
 }
 
+/// White letters on the deep blue, dark ones on everything else (the orange included), whichever
+/// contrasts more.
+bool white_letters(double held, double level) { return held > level && depth(held, level) > 0.75; }
+
 /// What a parameter is called in every design: "V*" for "V*(4.90 um)".
 std::string family(const std::string& parameter) {
   return parameter.substr(0, parameter.find('('));
@@ -145,11 +149,10 @@ std::string cells_of(const Group& group, const CoverageRow& row, int usable, dou
                                    [&](const CoverageCell& c) { return c.interval == kind; });
     if (cell != row.cells.end() && cell->offered > 0) {
       const double held = static_cast<double>(cell->held) / cell->offered;
-      const bool dark = depth(held, level) > 0.62;
       out += fmt::format("<g{}>", warned ? " opacity=\"0.45\"" : "");
       out += box(x, y, cell_width, coverage_colour(held, level));
       out += text_at(x + cell_width / 2.0, baseline, fmt::format("{:.1f}", 100.0 * held),
-                     middle + (dark ? " fill=\"#ffffff\"" : "") +
+                     middle + (white_letters(held, level) ? " fill=\"#ffffff\"" : "") +
                          (kind == "recommended" ? " font-weight=\"bold\"" : ""));
       out += "</g>\n";
     }
@@ -197,7 +200,7 @@ std::string legend(double y, double level) {
     out += text_at(x + cell_width / 2.0 + 3.0, y,
                    fmt::format("{}{:.0f}", off == -0.15 ? "≤ " : "", 100.0 * held),
                    fmt::format(" text-anchor=\"middle\"{}",
-                               depth(held, level) > 0.62 ? " fill=\"#ffffff\"" : ""));
+                               white_letters(held, level) ? " fill=\"#ffffff\"" : ""));
     x += cell_width + 6.0;
   }
   return out + text_at(x + 10.0, y,

@@ -55,9 +55,9 @@ class Browser : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 11), 0); }
+TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 15), 0); }
 
-TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(html_report(example::two_datasets()), 21), 0); }
+TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(html_report(example::two_datasets()), 28), 0); }
 
 TEST_F(Browser, ShowsTheIndex) { EXPECT_EQ(open(index_, 1), 0); }
 
@@ -74,12 +74,12 @@ TEST_F(Browser, ComplainsOfAMissingPlot) {
   const auto begin = broken.find("<svg ");
   broken.erase(begin, broken.find("</svg>") + 6 - begin);
   EXPECT_EQ(open(broken, 1), 1);
-  EXPECT_EQ(open(page_, 12), 1) << "fewer figures than asked for";
+  EXPECT_EQ(open(page_, 16), 1) << "fewer figures than asked for";
 }
 
 TEST_F(Browser, ComplainsOfAnEmptyPlot) {
   std::string broken = page_;
-  const auto begin = broken.find("<g id=\"restitution-1-canvas\">");
+  const auto begin = broken.find("<g id=\"restitution-1-canvas\"");
   ASSERT_NE(begin, std::string::npos);
   broken.erase(begin, broken.find("</svg>", begin) - begin);
   EXPECT_EQ(open(broken, 1), 1);
