@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/analysis.hpp"
@@ -24,7 +25,7 @@ void add_coverage(CLI::App& program) {
     std::string out;
     int datasets = 100;
     bool grid = false;
-    std::string designs;
+    std::vector<std::string> designs;
     std::string keep;
     std::string picture;
     AnalysisFlags analysis;
@@ -38,8 +39,10 @@ void add_coverage(CLI::App& program) {
       command->add_flag("--grid", options->grid,
                         "instead of the fit's own design, many: 10, 20, 60 points, three kinds of "
                         "scatter, stated or not, f0 fixed or free, with and without captures");
-  command->add_option("--designs", options->designs,
-                      "of the grid, only the designs whose name contains this, e.g. \"n20 equal\"");
+  command
+      ->add_option("--designs", options->designs,
+                   "of the grid, only the designs whose name has all these words, e.g. n20,stated")
+      ->delimiter(',');
   command->add_option("--keep", options->keep,
                       "a folder for the finished designs of the grid, from which a stopped study "
                       "goes on");
@@ -67,7 +70,11 @@ void add_coverage(CLI::App& program) {
     if (options->grid) {
       std::vector<GridDesign> designs = coverage_grid();
       std::erase_if(designs, [&](const GridDesign& design) {
-        return design.name().find(options->designs) == std::string::npos;
+        const std::string name = fmt::format(" {} ", design.name());
+        return std::any_of(options->designs.begin(), options->designs.end(),
+                           [&](const std::string& word) {
+                             return name.find(fmt::format(" {} ", word)) == std::string::npos;
+                           });
       });
       const std::vector<GridResult> results =
           measure_grid(spec, datasets.front(), designs, coverage, options->keep);

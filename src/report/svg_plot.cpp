@@ -11,10 +11,10 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <optional>
 
 #include "core/error.hpp"
 #include "report/html_page.hpp"
+#include "report/svg_tidy.hpp"
 
 extern char** environ;
 
@@ -130,149 +130,6 @@ std::string run_gnuplot(const std::string& script, const std::string& program) {
   return contents(out.get());
 }
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
-}
-
-/// Removes every `open`...`close`, both included.
-void remove_between(std::string& text, std::string_view open, std::string_view close) {
-  for (std::size_t at = 0; (at = text.find(open, at)) != std::string::npos;) {
-    const std::size_t end = text.find(close, at);
-    if (end == std::string::npos) return;
-    text.erase(at, end + close.size() - at);
-  }
-}
-
-/// Removes the groups that gnuplot opens and closes without drawing.
-void remove_empty_groups(std::string& text) {
-  constexpr std::string_view close = "</g>\n";
-  for (std::size_t at = 0; (at = text.find("<g fill", at)) != std::string::npos;) {
-    const std::size_t end = text.find(">\n", at);
-    if (end != std::string::npos && text.compare(end + 2, close.size(), close) == 0) {
-      text.erase(at, end + 2 + close.size() - at);
-    } else {
-      ++at;
-    }
-  }
-}
-
-/// Markers and filters that are defined but not used.
-void remove_unused_definitions(std::string& text) {
-  remove_between(text, "\t<filter", "</filter>\n");
-  for (int marker = 14; marker >= 0; --marker) {  // downwards: a marker may use a lower one
-    if (text.find(fmt::format("href='#gpPt{}'", marker)) != std::string::npos) continue;
-    const std::size_t id = text.find(fmt::format("id='gpPt{}'", marker));
-    if (id == std::string::npos) continue;
-    const std::size_t begin = text.rfind('\n', id) + 1;
-    text.erase(begin, text.find('\n', id) + 1 - begin);
-  }
-}
-
-/// "rgb( 34,  34,  34)" as "#222222".
-void shorten_colours(std::string& text) {
-  for (std::size_t at = 0; (at = text.find("rgb(", at)) != std::string::npos; ++at) {
-    int red = 0;
-    int green = 0;
-    int blue = 0;
-    int length = 0;
-    if (std::sscanf(text.c_str() + at, "rgb(%d,%d,%d)%n", &red, &green, &blue, &length) == 3 &&
-        length > 0) {
-      text.replace(at, static_cast<std::size_t>(length),
-                   fmt::format("#{:02x}{:02x}{:02x}", red, green, blue));
-    }
-  }
-}
-
-/// One filled circle as gnuplot draws it.
-struct Dot {
-  double x = 0.0, y = 0.0, radius = 0.0;
-  std::string colour;
-};
-
-std::optional<Dot> dot_in(const std::string& line) {
-  Dot dot;
-  char colour[16] = {};
-  int length = 0;
-  constexpr const char* form =
-      " <use xlink:href='#gpPt6' transform='translate(%lf,%lf) scale(%lf)' "
-      "color='%15[#0-9a-f]'/>%n";
-  if (std::sscanf(line.c_str(), form, &dot.x, &dot.y, &dot.radius, colour, &length) != 4 ||
-      length != static_cast<int>(line.size())) {
-    return std::nullopt;
-  }
-  dot.colour = colour;
-  return dot;
-}
-
-/// Clouds of equal dots as one path each: strokes without length and with round ends, a sixth of
-/// the text.
-void pack_dots(std::string& text) {
-  constexpr std::size_t fewest = 3;
-  std::string out;
-  std::string pending;  // the lines of a run, should it stay short
-  std::string path;
-  std::size_t count = 0;
-  Dot first;
-  const auto flush = [&] {
-    if (count >= fewest) {
-      out +=
-          fmt::format("<path stroke='{}' stroke-width='{:.2f}' stroke-linecap='round' d='{}'/>\n",
-                      first.colour, 2.0 * first.radius, path);
-    } else {
-      out += pending;
-    }
-    pending.clear();
-    path.clear();
-    count = 0;
-  };
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
-    const std::string line = text.substr(at, end - at);
-    at = end;
-    const std::optional<Dot> dot = dot_in(line.substr(0, line.find('\n')));
-    const bool joins =
-        dot && count > 0 && dot->colour == first.colour && dot->radius == first.radius;
-    if (!joins) flush();
-    if (!dot) {
-      out += line;
-      continue;
-    }
-    if (count == 0) first = *dot;
-    pending += line;
-    path += fmt::format("M{:.1f},{:.1f}h0", dot->x, dot->y);
-    ++count;
-  }
-  flush();
-  text = std::move(out);
-}
-
-/// Coordinate pairs "76.00,198.18" with one decimal, which is a tenth of a pixel.
-void shorten_coordinates(std::string& text) {
-  const auto digit = [&](std::size_t i) {
-    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
-  };
-  std::string out;
-  out.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool before = text[i] == ',' && i >= 4 && digit(i - 1) && digit(i - 2) &&
-                        text[i - 3] == '.' && digit(i - 4);
-    std::size_t end = i + 1;
-    while (before && digit(end)) ++end;
-    const bool after = before && end > i + 1 && end < text.size() && text[end] == '.' &&
-                       digit(end + 1) && digit(end + 2) && !digit(end + 3);
-    if (!after) {
-      out += text[i];
-      continue;
-    }
-    out.pop_back();
-    out += text.substr(i, end + 2 - i);
-    i = end + 2;
-  }
-  text = std::move(out);
-}
-
 }  // namespace
 
 std::string draw_svg(const PlotScript& script, const std::string& program) {
@@ -289,24 +146,7 @@ std::string draw_svg(const PlotScript& script, const std::string& program) {
   svg.erase(0, begin);
   while (!svg.empty() && std::isspace(static_cast<unsigned char>(svg.back())) != 0) svg.pop_back();
 
-  remove_between(svg, "<title>", "</title>");
-  remove_empty_groups(svg);
-  // What every group repeats is said once, on the canvas.
-  constexpr std::string_view common = " fill=\"none\" color=\"black\" stroke=\"currentColor\"";
-  replace_all(svg, fmt::format("<g{} stroke-width", common), "<g stroke-width");
-  replace_all(svg, "<g id=\"gnuplot_canvas\"", fmt::format("<g id=\"gnuplot_canvas\"{}", common));
-  replace_all(svg, "<rect ", "<rect stroke=\"none\" ");  // the background has no rim
-  replace_all(svg, " class=\"gridline\" ", "");
-  shorten_colours(svg);
-  pack_dots(svg);
-  shorten_coordinates(svg);
-  remove_unused_definitions(svg);
-  replace_all(svg, " font-family=\"DejaVu Sans\" ", " ");
-  replace_all(svg, "<tspan >", "<tspan>");
-  replace_all(svg, " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"", "");  // the defaults
-  replace_all(svg, "\"gnuplot_canvas\"", fmt::format("\"{}-canvas\"", script.name));
-  replace_all(svg, "'gp", fmt::format("'{}-gp", script.name));
-  replace_all(svg, "'#gp", fmt::format("'#{}-gp", script.name));
+  tidy_svg(svg, script.name);
   const std::string label = escape_html(script.title);
   return fmt::format(
       "<svg id=\"{0}\" viewBox=\"0 0 {1} {2}\" width=\"100%\" role=\"img\" aria-label=\"{3}\" "
