@@ -87,7 +87,7 @@ std::vector<double> drawn_upper(const Analysis& a, const PairStudy& study) {
 }
 
 /// Tick commands without their texts.
-std::string bare(std::string ticks) {
+std::string bare(const std::string& ticks) {
   std::string out;
   bool inside = false;
   for (const char c : ticks) {
@@ -126,8 +126,8 @@ struct Picture {
     const double left = 56.0 / picture_width;
     const double step_x = (1.0 - 8.0 / picture_width) / columns;
     const double x0 = left + step_x * static_cast<double>(panel % columns);
-    const double y0 =
-        (foot_height + row_height * static_cast<double>(rows() - 1 - panel / columns)) / height();
+    const std::size_t below = rows() - 1 - panel / columns;
+    const double y0 = (foot_height + row_height * static_cast<double>(below)) / height();
     return fmt::format(
         "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
         "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n",

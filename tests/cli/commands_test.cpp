@@ -107,6 +107,18 @@ TEST(Fit, ReferenceSolverAgrees) {
   }
 }
 
+TEST(Coverage, DrawsTheGridOnlyWhereThereIsOne) {
+  const Workplace place;
+  EXPECT_EQ(place.run({"coverage", "fit.toml", "--picture", "grid.svg"}).status, 2);
+  const Outcome run =
+      place.run({"coverage", "fit.toml", "--grid", "--designs", "n10 equal stated f0-fixed",
+                 "--datasets", "2", "--replicates", "39", "--picture", "grid.svg"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string svg = place.read("grid.svg");
+  EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
+  EXPECT_NE(svg.find("2 data sets per design"), std::string::npos);
+}
+
 TEST(Fit, FittedValuesCanBeSimulated) {
   const Workplace place;
   ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "out", "--replicates", "39"}).status, 0);
