@@ -69,21 +69,25 @@ std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Ob
   return estimates;
 }
 
-void recommend_capture(const FitResult& fitted, CaptureEstimate& capture) {
+void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate& capture) {
   const bool at_bound =
       std::find(fitted.at_bound.begin(), fitted.at_bound.end(), true) != fitted.at_bound.end();
-  if (capture.percentile.available() && (at_bound || !capture.delta.available())) {
+  const bool replicates = sd_stated || at_bound || !capture.delta.available();
+  if (capture.percentile.available() && replicates) {
     capture.recommended = "percentile";
-    capture.recommended_why = at_bound ? "a parameter rests on its bound, which the standard error "
-                                         "of the delta method does not know"
-                                       : capture.delta.why;
+    capture.recommended_why =
+        sd_stated
+            ? "the replicates settle what the delta method holds fixed: with captured spheres "
+              "among 20 points it held the truth in 79 to 90 %, the percentiles in 78 to 97 %"
+        : at_bound ? "a parameter rests on its bound, which the delta method does not know"
+                   : capture.delta.why;
     capture.interval = capture.percentile;
     return;
   }
   capture.recommended = "delta";
   capture.recommended_why =
-      "in the coverage study it held the truth more often than the percentiles, which are too "
-      "narrow where few points estimate the noise";
+      sd_stated ? "there are no percentiles: " + capture.percentile.why
+                : "it knows how few points estimate the noise, which percentiles do not";
   capture.interval = capture.delta;
   if (!capture.delta.available() && !capture.percentile.why.empty()) {
     capture.interval = capture.percentile;

@@ -10,9 +10,10 @@ namespace recoil {
 std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Observations& data,
                                                double level, const std::vector<Dataset>& datasets);
 
-/// Names the interval of V* to quote: the delta interval, which knows how few points estimated the
-/// noise; where a parameter rests on its bound the covariance says nothing about it, and the
-/// replicates are better.
-void recommend_capture(const FitResult& fitted, CaptureEstimate& capture);
+/// Names the interval of V* to quote. Where the noise is stated the percentiles: the replicates
+/// settle what the delta method holds fixed (reports/coverage-grid-n20-stated.md). Where it is
+/// estimated the delta interval, which knows how few points did that, unless a parameter rests on
+/// its bound, of which the covariance says nothing.
+void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate& capture);
 
 }  // namespace recoil

@@ -131,8 +131,7 @@ void recommend(IntervalSet& set, bool sd_stated) {
   if (!sd_stated && !bound_is_felt && set.studentized.available()) {
     set.recommended = "studentized";
     set.recommended_why =
-        "the noise is estimated: it rests on no assumption about where the points scatter more, "
-        "and where they do it held the truth more often than the others in the coverage study";
+        "the noise is estimated, and it rests on no assumption about where the points scatter more";
     return;
   }
   if (set.profile.available()) {

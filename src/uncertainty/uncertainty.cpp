@@ -151,7 +151,7 @@ void read_off(const FitResult& fitted, const Observations& data,
     } else {
       capture.percentile = percentile_interval(column(boot.capture_velocity, k), options.level);
     }
-    recommend_capture(fitted, capture);
+    recommend_capture(fitted, data.sd_stated, capture);
     worst = std::max(worst, relative_error(capture.interval));
   }
   if (worst > 0.0) boot.relative_error = worst;
