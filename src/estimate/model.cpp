@@ -121,7 +121,7 @@ long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
 
 void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double> row) const {
   const PointConditions& p = points_[i];
-  const std::array<double, 3>& by_group = results_[i].gradient;
+  const auto& by_group = results_[i].gradient;
   std::fill(row.begin(), row.end(), 0.0);
   row[model_.slot_C_H[p.dataset]] += scale * p.velocity * by_group[0];
   row[model_.slot_f0[p.dataset]] += scale * beta_per_f0_[i] * by_group[1];
@@ -130,7 +130,7 @@ void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double>
 
 double PointPredictor::velocity_slope(std::size_t i) const {
   const ImpactGroups& g = groups_[i];
-  const std::array<double, 3>& by_group = results_[i].gradient;
+  const auto& by_group = results_[i].gradient;
   return (g.alpha * by_group[0] - 0.8 * g.beta * by_group[1] + g.gamma * by_group[2]) /
          points_[i].velocity;
 }

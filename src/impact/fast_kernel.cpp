@@ -4,6 +4,7 @@
 // instruction set for that of another (tests/impact/kernel_symbols.sh looks at the symbols).
 #include <experimental/simd>
 
+#include "impact/bulk_dashpot_law.hpp"
 #include "impact/flights.hpp"
 #include "impact/force_law.hpp"
 
@@ -11,14 +12,24 @@ namespace recoil::RECOIL_KERNEL {
 
 using Pack = std::experimental::fixed_size_simd<double, RECOIL_LANES>;
 
+template <class Law>
+void fly_by(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+            std::span<ImpactResult> results) {
+  if (options.gradient) {
+    Flights<Law, Pack, true>(groups, options, results).fly();
+  } else {
+    Flights<Law, Pack, false>(groups, options, results).fly();
+  }
+}
+
 std::size_t lanes() { return RECOIL_LANES; }
 
 void fly(std::span<const ImpactGroups> groups, const ImpactOptions& options,
          std::span<ImpactResult> results) {
-  if (options.gradient) {
-    Flights<RingAdhesionLaw, Pack, true>(groups, options, results).fly();
+  if (options.dashpot) {
+    fly_by<BulkDashpotLaw>(groups, options, results);
   } else {
-    Flights<RingAdhesionLaw, Pack, false>(groups, options, results).fly();
+    fly_by<RingAdhesionLaw>(groups, options, results);
   }
 }
 
