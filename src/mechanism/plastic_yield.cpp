@@ -3,7 +3,8 @@
 namespace recoil {
 namespace {
 
-/// Elastic-perfectly plastic contact. V_Y = (pi^2 / sqrt(40)) sqrt(p^5 / (E*^4 rho)); with
+/// Elastic-perfectly plastic contact, with p = p_Y (V / (1 m/s))^q where the rate of straining
+/// raises the yield pressure. V_Y = (pi^2 / sqrt(40)) sqrt(p^5 / (E*^4 rho)); with
 /// s = (V_Y / V)^2 < 1 and the loads in units of that at yield,
 ///   P = sqrt(1 + (6/5) (1/s - 1))                       at the turning point,
 ///   e_p^2 = (6 sqrt(3) / 5) (1 - s/6) sqrt(y / (y + 2 sqrt(6/5 - s/5))),  y = V_Y / V,
@@ -15,8 +16,9 @@ struct PlasticYield {
   static void before(Encounter<T>& e, std::span<const T> own) {
     const double E = e.at->reduced_modulus;
     const double pi = std::numbers::pi;
+    const T pressure = own[0] * exponential(own[1] * logarithm(e.velocity));
     const T yield_velocity =
-        power(own[0], 2.5) * (pi * pi / (std::sqrt(40.0 * e.at->density) * E * E));
+        power(pressure, 2.5) * (pi * pi / (std::sqrt(40.0 * e.at->density) * E * E));
     if (!(value_of(e.velocity) > value_of(yield_velocity))) return;
     const T y = yield_velocity / e.velocity;
     const T s = y * y;
@@ -38,7 +40,8 @@ Mechanism plastic_yield() {
       .title = "plastic yielding of the contact",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula = "above V_Y = 1.56 (p_Y^5 / (E*^4 rho))^(1/2): e_p^2 = (6 sqrt(3) / 5) (1 - s/6) "
+      .formula = "above V_Y = 1.56 (p^5 / (E*^4 rho))^(1/2), p = p_Y (V / (1 m/s))^q: e_p^2 = (6 "
+                 "sqrt(3) / 5) (1 - s/6) "
                  "(y / (y + 2 (6/5 - s/5)^(1/2)))^(1/2), y = V_Y / V, s = y^2; unloading with the "
                  "flattened radius R_p",
       .source = "Thornton, C. & Ning, Z. (1998), Powder Technol. 99, 154-162; Johnson, K. L. "
@@ -47,18 +50,29 @@ Mechanism plastic_yield() {
       .fingerprint = "e falls with V above a threshold, concave, towards V^(-1/4), alike for all "
                      "sizes and targets; the flattened contact sticks better, so that capture sets "
                      "in earlier and steeper with size",
-      .parameters = {{.name = "yield_pressure",
-                      .unit = "Pa",
-                      .meaning = "contact pressure at which the softer body flows",
-                      .null_value = 1e12,
-                      .initial = 3e8,
-                      .lower = 1e5,
-                      .upper = 1e12,
-                      .plausible = {1e7, 3e10,
-                                    "1.6 to 2.8 times the yield stress: from soft organic solids "
-                                    "(10 MPa) to hard ceramics (30 GPa)"},
-                      .starts = {3e7, 1e8, 1e9, 3e9},
-                      .log_scale = true}},
+      .parameters =
+          {{.name = "yield_pressure",
+            .unit = "Pa",
+            .meaning = "contact pressure at which the softer body flows",
+            .null_value = 1e12,
+            .initial = 3e8,
+            .lower = 1e5,
+            .upper = 1e12,
+            .plausible = {1e7, 3e10,
+                          "1.6 to 2.8 times the yield stress: from soft organic solids "
+                          "(10 MPa) to hard ceramics (30 GPa)"},
+            .starts = {3e7, 1e8, 1e9, 3e9},
+            .log_scale = true},
+           {.name = "yield_rate_exponent",
+            .unit = "1",
+            .meaning = "q, of the yield pressure with the impact velocity (p_Y is that at 1 m/s)",
+            .null_value = 0.0,
+            .initial = 0.0,
+            .lower = 0.0,
+            .upper = 0.35,
+            .plausible = {0.0, 0.3, "metals 0.01 to 0.1, organic solids up to about 0.3"},
+            .starts = {0.1, 0.25},
+            .free = false}},
   });
 }
 
