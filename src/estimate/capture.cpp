@@ -56,15 +56,15 @@ class CaptureSearch {
     if (!(slope > 0.0) || !(next > captured_) || !(next < rebounds_)) {
       next = rebound_seen_ ? std::sqrt(std::max(captured_, 1e-4 * rebounds_) * rebounds_)
                            : 4.0 * square_;
-      if (extended_ && rebound_seen_ && captured_ == 0.0 && next < lowest * scale_ * scale_) {
-        result_.found = true;  // everything comes back
-        done_ = true;
-        return;
-      }
       if (!rebound_seen_ && next > 1e6 * scale_ * scale_) {  // nothing rebounds
         done_ = true;
         return;
       }
+    }
+    if (extended_ && rebound_seen_ && captured_ == 0.0 && next < lowest * scale_ * scale_) {
+      result_.found = true;  // everything comes back
+      done_ = true;
+      return;
     }
     if (std::abs(next - square_) <= convergence * square_) {
       done_ = true;
@@ -79,7 +79,8 @@ class CaptureSearch {
  private:
   static constexpr int most_iterations = 60;
   static constexpr double convergence = 2e-9;  // of V^2
-  static constexpr double lowest = 1e-12;      // V^2 / V_a^2: slower than this is at rest
+  // V^2 / V_a^2 of a sphere at rest: the error of e^2, 1e-10 of the depth of the well, is 1 % here.
+  static constexpr double lowest = 1e-8;
 
   CaptureQuery query_;
   CaptureVelocity result_;

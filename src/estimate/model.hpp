@@ -132,6 +132,10 @@ class PointPredictor {
   std::vector<ImpactResult> results_;
 };
 
+/// The typical sphere of a point as the mechanisms leave it at the contact.
+ContactView contact_view(const ImpactModel& model, std::span<const double> theta,
+                         const PointConditions& point);
+
 /// Simulates every point under `theta` at once.
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
                                 std::vector<PointConditions> points, bool gradient);

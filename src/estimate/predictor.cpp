@@ -133,4 +133,21 @@ double PointPredictor::diameter_slope(std::size_t i) const {
   return -2.0 / 3.0 * groups_[i].beta * results_[i].gradient[1] / points_[i].diameter;
 }
 
+ContactView contact_view(const ImpactModel& model, std::span<const double> theta,
+                         const PointConditions& point) {
+  std::vector<double> values = {theta[model.slot_C_H[point.dataset]],
+                                theta[model.slot_C_A[point.dataset]],
+                                theta[model.slot_f0[point.dataset]]};
+  std::size_t k = 0;
+  for (const Mechanism* mechanism : model.chain) {
+    for (const MechanismParameter& p : mechanism->info.parameters) {
+      const std::vector<std::size_t>& slots = model.slot_own[k++][point.dataset];
+      const bool known = !p.per_series || point.series < slots.size();
+      values.push_back(known ? theta[slots[p.per_series ? point.series : 0]] : p.null_value);
+    }
+  }
+  return view_contact(model.chain,
+                      {&model.surroundings[point.dataset], point.diameter, point.velocity}, values);
+}
+
 }  // namespace recoil
