@@ -66,17 +66,20 @@ std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::stri
                    near.empty() ? "leave it out for the first" : "did you mean " + near + "?");
 }
 
-std::string history_csv(const std::vector<ImpactMoment>& history, const ImpactScales& scales) {
+std::string history_csv(const std::vector<ImpactMoment>& history, const ImpactScales& scales,
+                        bool dashpot) {
   std::string csv =
       "time_ns,penetration_nm,approach_velocity_m_s,hertz_force_uN,hertz_damping_force_uN,"
-      "adhesion_force_uN,adhesion_damping_force_uN\n";
+      "adhesion_force_uN,adhesion_damping_force_uN";
+  csv += dashpot ? ",dashpot_force_uN\n" : "\n";
   constexpr double uN = 1e-6;
   for (const ImpactMoment& m : history) {
-    csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+    csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}",
                        m.time * scales.time / units::ns, m.penetration * scales.length / units::nm,
                        m.approach * scales.velocity, m.hertz * scales.force / uN,
                        m.hertz_damping * scales.force / uN, m.adhesion * scales.force / uN,
                        m.adhesion_damping * scales.force / uN);
+    csv += dashpot ? fmt::format(",{:.6g}\n", m.dashpot * scales.force / uN) : "\n";
   }
   return csv;
 }
@@ -226,7 +229,7 @@ void simulate(const SimulateOptions& options) {
                                        to_string(impact.outcome)));
   }
   if (!options.history.empty()) {
-    write_whole_file(options.history, history_csv(history, scales));
+    write_whole_file(options.history, history_csv(history, scales, groups.kappa > 0.0));
   }
   print_impact(groups, scales, conditions, impact, datasets[d], model.contacts[d], model.phase,
                extended);

@@ -114,6 +114,7 @@ struct ImpactMoment {
   double hertz_damping = 0.0;
   double adhesion = 0.0;
   double adhesion_damping = 0.0;
+  double dashpot = 0.0;
 };
 
 /// Integrates one impact from touch to release or to the first outer turning point.

@@ -256,7 +256,7 @@ void observe(const Integration& run, const ImpactOptions& options, ImpactResult&
                                     0.4 * std::pow(q, 5), 2.0 / 3.0 * f.beta * q * q * q});
   if (history != nullptr && options.budget) {
     history->push_back({run.quadrature(0), q * q, run.u(), -forces.hertz, -forces.hertz_damping,
-                        -forces.adhesion, -forces.adhesion_damping});
+                        -forces.adhesion, -forces.adhesion_damping, q * f.kappa * run.u()});
   }
 }
 

@@ -126,8 +126,10 @@ long ExtendedImpacts::evaluate(std::span<const double> values, ImpactOptions opt
   };
   if (!options.gradient) return with(plain_);
   slopes_.resize(points_.size() * (base_directions + own_count_));
-  if (base_directions + own_count_ <= FewDirections().slope.size()) return with(few_);
-  assert(base_directions + own_count_ <= ManyDirections().slope.size());
+  const std::size_t directions = base_directions + own_count_;
+  if (directions <= FewDirections().slope.size()) return with(few_);
+  if (directions <= SomeDirections().slope.size()) return with(some_);
+  assert(directions <= ManyDirections().slope.size());
   return with(many_);
 }
 

@@ -81,6 +81,7 @@ class ExtendedImpacts {
   std::vector<double> slopes_;
   std::unique_ptr<Workspace<double>> plain_;
   std::unique_ptr<Workspace<FewDirections>> few_;
+  std::unique_ptr<Workspace<SomeDirections>> some_;
   std::unique_ptr<Workspace<ManyDirections>> many_;
 };
 

@@ -80,11 +80,14 @@ struct MechanismLaw {
 /// Directions that a dual number carries: V, D, C_H, C_A, f0, then the mechanisms' parameters.
 inline constexpr std::size_t base_directions = 5;
 using FewDirections = Dual<8>;    ///< up to three parameters
+using SomeDirections = Dual<12>;  ///< up to seven: two or three mechanisms
 using ManyDirections = Dual<32>;  ///< more than the whole catalogue has
 
 struct Mechanism {
   MechanismInfo info;
-  std::tuple<MechanismLaw<double>, MechanismLaw<FewDirections>, MechanismLaw<ManyDirections>> laws;
+  std::tuple<MechanismLaw<double>, MechanismLaw<FewDirections>, MechanismLaw<SomeDirections>,
+             MechanismLaw<ManyDirections>>
+      laws;
   bool dashpot = false;  ///< sets Encounter::relaxation
 
   template <class T>
@@ -135,6 +138,7 @@ Mechanism make_mechanism(MechanismInfo info) {
   m.info = std::move(info);
   m.laws = {mechanism_detail::law_for<Law, double>(),
             mechanism_detail::law_for<Law, FewDirections>(),
+            mechanism_detail::law_for<Law, SomeDirections>(),
             mechanism_detail::law_for<Law, ManyDirections>()};
   if constexpr (requires { Law::dashpot; }) m.dashpot = Law::dashpot;
   return m;

@@ -170,6 +170,7 @@ T survivors_square(std::span<const T> x) {
 
 template double survivors_square(std::span<const double>);
 template FewDirections survivors_square(std::span<const FewDirections>);
+template SomeDirections survivors_square(std::span<const SomeDirections>);
 template ManyDirections survivors_square(std::span<const ManyDirections>);
 
 }  // namespace recoil

@@ -25,6 +25,7 @@ T survivors_square(std::span<const T> squares);
 
 extern template double survivors_square(std::span<const double>);
 extern template FewDirections survivors_square(std::span<const FewDirections>);
+extern template SomeDirections survivors_square(std::span<const SomeDirections>);
 extern template ManyDirections survivors_square(std::span<const ManyDirections>);
 
 }  // namespace recoil
