@@ -4,7 +4,6 @@
 // instruction set for that of another (tests/impact/kernel_symbols.sh looks at the symbols).
 #include <experimental/simd>
 
-#include "impact/bulk_dashpot_law.hpp"
 #include "impact/flights.hpp"
 #include "impact/force_law.hpp"
 
@@ -12,24 +11,19 @@ namespace recoil::RECOIL_KERNEL {
 
 using Pack = std::experimental::fixed_size_simd<double, RECOIL_LANES>;
 
-template <class Law>
-void fly_by(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-            std::span<ImpactResult> results) {
-  if (options.gradient) {
-    Flights<Law, Pack, true>(groups, options, results).fly();
-  } else {
-    Flights<Law, Pack, false>(groups, options, results).fly();
-  }
-}
+void fly_with_dashpot(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                      std::span<ImpactResult> results);
 
 std::size_t lanes() { return RECOIL_LANES; }
 
 void fly(std::span<const ImpactGroups> groups, const ImpactOptions& options,
          std::span<ImpactResult> results) {
   if (options.dashpot) {
-    fly_by<BulkDashpotLaw>(groups, options, results);
+    fly_with_dashpot(groups, options, results);
+  } else if (options.gradient) {
+    Flights<RingAdhesionLaw, Pack, true>(groups, options, results).fly();
   } else {
-    fly_by<RingAdhesionLaw>(groups, options, results);
+    Flights<RingAdhesionLaw, Pack, false>(groups, options, results).fly();
   }
 }
 
