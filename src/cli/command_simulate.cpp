@@ -66,31 +66,75 @@ std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::stri
                    near.empty() ? "leave it out for the first" : "did you mean " + near + "?");
 }
 
-std::string history_csv(const std::vector<ImpactMoment>& history, const ImpactScales& scales) {
+std::string history_csv(const std::vector<ImpactMoment>& history, const ImpactScales& scales,
+                        bool dashpot) {
   std::string csv =
       "time_ns,penetration_nm,approach_velocity_m_s,hertz_force_uN,hertz_damping_force_uN,"
-      "adhesion_force_uN,adhesion_damping_force_uN\n";
+      "adhesion_force_uN,adhesion_damping_force_uN";
+  csv += dashpot ? ",dashpot_force_uN\n" : "\n";
   constexpr double uN = 1e-6;
   for (const ImpactMoment& m : history) {
-    csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+    csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}",
                        m.time * scales.time / units::ns, m.penetration * scales.length / units::nm,
                        m.approach * scales.velocity, m.hertz * scales.force / uN,
                        m.hertz_damping * scales.force / uN, m.adhesion * scales.force / uN,
                        m.adhesion_damping * scales.force / uN);
+    csv += dashpot ? fmt::format(",{:.6g}\n", m.dashpot * scales.force / uN) : "\n";
   }
   return csv;
 }
 
-void print_impact(const ImpactConditions& c, const ImpactResult& impact, const Dataset& dataset,
-                  const ContactProperties& contact, AdhesionDampingPhase phase) {
-  const ImpactScales scales = impact_scales(c);
-  const ImpactGroups groups = impact_groups(c);
+/// e as measured, what every mechanism contributes, and where the base impact that follows starts.
+void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diameter,
+                      double velocity) {
+  const std::vector<double> theta = model.initial();
+  const auto square = [&](const std::vector<double>& values) {
+    const Prediction at = predict(model, values, dataset, diameter, velocity, false);
+    if (!at.usable()) {
+      throw ComputationError(
+          fmt::format("the impact at V = {:.6g} m/s, d = {:.6g} um with its "
+                      "mechanisms: {}",
+                      velocity, diameter / units::um, to_string(at.outcome)));
+    }
+    return at.restitution_squared;
+  };
+  const double all = square(theta);
+  fmt::print("restitution: {:.8f}\n", std::sqrt(std::max(all, 0.0)));
+  fmt::print("outcome: {}\n", all > 0.0 ? "rebound" : "captured");
+  fmt::print("e^2 with mechanisms: {:+.8f}, base model alone: {:+.8f}\n", all,
+             square(without_mechanisms(model, theta)));
+  fmt::print("change of e^2 when one mechanism is left out, the others kept:\n");
+  for (const Mechanism* mechanism : model.chain) {
+    std::vector<double> without = theta;
+    std::string values;
+    for (std::size_t j = 0; j < theta.size(); ++j) {
+      const ParameterSlot& slot = model.slots[j];
+      if (slot.mechanism != mechanism->info.id) continue;
+      without[j] = slot.null_value;
+      values += fmt::format("{}{} = {:.6g}{}", values.empty() ? "" : ", ", slot.label(),
+                            slot.initial, slot.unit == "1" ? "" : " " + slot.unit);
+    }
+    fmt::print("  {:<22}{:>+12.6f}  ({}; {})\n", mechanism->info.id, square(without) - all,
+               to_string(mechanism->info.kind), values);
+  }
+}
+
+/// The impact of the base model. @param extended the conditions are those in which mechanisms leave
+/// the sphere at the contact
+void print_impact(const ImpactGroups& groups, const ImpactScales& scales, const ImpactConditions& c,
+                  const ImpactResult& impact, const Dataset& dataset,
+                  const ContactProperties& contact, AdhesionDampingPhase phase, bool extended) {
   const double incident = 0.5 * scales.energy;
   const double e = std::sqrt(std::max(impact.restitution_squared, 0.0));
   const bool captured = impact.outcome == ImpactOutcome::captured;
-  fmt::print("restitution: {:.8f}\n", captured ? 0.0 : e);
-  fmt::print("outcome: {}\n", to_string(impact.outcome));
-  fmt::print("rebound velocity: {:.6g} m/s\n", captured ? 0.0 : e * c.velocity);
+  if (extended) {
+    fmt::print("\nthe impact of the base model at the contact, in at {:.6g} m/s{}:\n", c.velocity,
+               captured ? "; captured" : fmt::format(", out at {:.6g} m/s", e * c.velocity));
+  } else {
+    fmt::print("restitution: {:.8f}\n", captured ? 0.0 : e);
+    fmt::print("outcome: {}\n", to_string(impact.outcome));
+    fmt::print("rebound velocity: {:.6g} m/s\n", captured ? 0.0 : e * c.velocity);
+  }
   fmt::print("contact time: {:.6g} ns{}\n", impact.contact_time * scales.time / units::ns,
              captured ? " (until the first outer turning point)" : "");
   fmt::print("largest penetration: {:.6g} nm\n",
@@ -104,12 +148,14 @@ void print_impact(const ImpactConditions& c, const ImpactResult& impact, const D
   share("rebound", captured ? 0.0 : impact.energy.kinetic);
   share("Hertz damping (C_H)", impact.energy.hertz_loss);
   share("adhesion damping (C_A)", impact.energy.adhesion_loss);
+  if (groups.kappa > 0.0) share("dashpot of the mechanisms", impact.energy.dashpot_loss);
   if (captured)
     share("still bound in the contact", impact.energy.kinetic + impact.energy.potential);
   fmt::print("  {:<28}{:>14.1e}\n", "audit (should be 0)", impact.energy.audit());
   fmt::print("groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)\n",
              groups.alpha, groups.gamma,
-             groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY, adhesion_velocity(c));
+             groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY,
+             c.velocity * std::pow(groups.beta, 1.25));
   fmt::print("model: K = {:.6g} GPa, f0 = {:.6g} N/m at this diameter, adhesion damping: {}\n",
              c.stiffness / units::GPa, c.adhesion_force, to_string(phase));
   if (captured) {
@@ -155,24 +201,39 @@ void simulate(const SimulateOptions& options) {
   ImpactModel model = make_model(spec, datasets);
   if (!options.parameters.empty()) take_fitted_values(model, options.parameters);
   const std::size_t d = choose_dataset(datasets, options.dataset);
-  const ImpactConditions conditions =
+  ImpactConditions conditions =
       conditions_at(model, model.initial(), d, options.diameter * units::um, options.velocity);
   ImpactOptions impact_options;
   impact_options.phase = model.phase;
   impact_options.budget = true;
   impact_options.gradient = true;
   std::vector<ImpactMoment> history;
-  const ImpactResult impact = simulate_impact(impact_groups(conditions), impact_options, &history);
+  ImpactGroups groups = impact_groups(conditions);
+  ImpactScales scales = impact_scales(conditions);
+  const bool extended = !model.chain.empty();
+  if (extended) {
+    const double diameter = conditions.diameter;
+    print_mechanisms(model, d, diameter, options.velocity);
+    const ContactView view = contact_view(model, model.initial(), {d, diameter, options.velocity});
+    groups = view.groups;
+    scales = view.scales;
+    impact_options.dashpot = true;
+    conditions.velocity = view.encounter.velocity;
+    conditions.diameter = view.encounter.diameter;
+    conditions.adhesion_force = view.encounter.adhesion_force;
+  }
+  const ImpactResult impact = simulate_impact(groups, impact_options, &history);
   if (!impact.usable()) {
     throw ComputationError(fmt::format("the impact at V = {:.6g} m/s, d = {:.6g} um: {}",
                                        options.velocity, options.diameter,
                                        to_string(impact.outcome)));
   }
   if (!options.history.empty()) {
-    write_whole_file(options.history, history_csv(history, impact_scales(conditions)));
+    write_whole_file(options.history, history_csv(history, scales, groups.kappa > 0.0));
   }
-  print_impact(conditions, impact, datasets[d], model.contacts[d], model.phase);
-  print_sensitivity(conditions, impact, datasets[d]);
+  print_impact(groups, scales, conditions, impact, datasets[d], model.contacts[d], model.phase,
+               extended);
+  if (!extended) print_sensitivity(conditions, impact, datasets[d]);
   fmt::print("parameters: C_H = {:.6g} s/m, C_A = {:.6g} s/m ({})\n", conditions.hertz_damping,
              conditions.adhesion_damping,
              options.parameters.empty()

@@ -17,7 +17,11 @@ class CaptureSearch {
     result_.gradient.assign(model.slots.size(), 0.0);
     const ImpactConditions c = conditions_at(model, theta, query.dataset, query.diameter, 1.0);
     scale_ = adhesion_velocity(c);
-    if (!(scale_ > 0.0) || (c.hertz_damping == 0.0 && c.adhesion_damping == 0.0)) {
+    extended_ = !model.chain.empty();
+    if (extended_) {
+      // Mechanisms may capture what the base model lets go.
+      if (!(scale_ > 0.0)) scale_ = 1.0;
+    } else if (!(scale_ > 0.0) || (c.hertz_damping == 0.0 && c.adhesion_damping == 0.0)) {
       result_.found = true;  // conservative: everything comes back
       done_ = true;
       return;
@@ -29,6 +33,7 @@ class CaptureSearch {
     constexpr double J = 0.827350;
     square_ = query.guess > 0.0 ? query.guess * query.guess
                                 : 2.0 * J * damping * scale_ * scale_ * scale_;
+    if (extended_ && !(square_ > lowest * scale_ * scale_)) square_ = scale_ * scale_;
     rebounds_ = 1e6 * scale_ * scale_;
   }
 
@@ -56,6 +61,11 @@ class CaptureSearch {
         return;
       }
     }
+    if (extended_ && rebound_seen_ && captured_ == 0.0 && next < lowest * scale_ * scale_) {
+      result_.found = true;  // everything comes back
+      done_ = true;
+      return;
+    }
     if (std::abs(next - square_) <= convergence * square_) {
       done_ = true;
       result_.found = true;
@@ -69,6 +79,8 @@ class CaptureSearch {
  private:
   static constexpr int most_iterations = 60;
   static constexpr double convergence = 2e-9;  // of V^2
+  // V^2 / V_a^2 of a sphere at rest: the error of e^2, 1e-10 of the depth of the well, is 1 % here.
+  static constexpr double lowest = 1e-8;
 
   CaptureQuery query_;
   CaptureVelocity result_;
@@ -77,6 +89,7 @@ class CaptureSearch {
   double captured_ = 0.0;  // largest V^2 seen that is captured
   double rebounds_ = 0.0;  // smallest V^2 seen that rebounds
   bool rebound_seen_ = false;
+  bool extended_ = false;  // mechanisms act
   bool done_ = false;
   int iterations_ = 0;
 };
@@ -97,7 +110,7 @@ std::vector<CaptureVelocity> capture_velocities(const ImpactModel& model,
       points.push_back(searches[i].next());
     }
     if (open.empty()) break;
-    PointPredictor predictor(model, std::move(points));
+    PointPredictor predictor(model, std::move(points), Effects::of_nature);
     predictor.evaluate(theta, true);
     for (std::size_t k = 0; k < open.size(); ++k) searches[open[k]].learn(predictor, k);
   }

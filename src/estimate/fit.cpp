@@ -22,7 +22,8 @@ constexpr double doubtful_level = 0.05;
 constexpr double tie_tolerance = 1e-6;
 
 /// The stated start, and the damping factors ten times smaller and larger in all combinations:
-/// capture and strong damping make flat and non-convex regions on either side.
+/// capture and strong damping make flat and non-convex regions on either side. Then what the
+/// catalogue of mechanisms advises, one parameter at a time.
 std::vector<std::vector<double>> starting_points(const ImpactModel& model,
                                                  const std::vector<double>& first, bool several) {
   std::vector<std::vector<double>> starts = {first};
@@ -34,12 +35,21 @@ std::vector<std::vector<double>> starting_points(const ImpactModel& model,
       bool moved = false;
       for (std::size_t j = 0; j < start.size(); ++j) {
         const ParameterSlot& slot = model.slots[j];
-        if (!slot.free || slot.name == "f0") continue;
+        if (!slot.free || slot.name == "f0" || !slot.mechanism.empty()) continue;
         const double factor = slot.name == "C_H" ? hertz : adhesion;
         start[j] = std::clamp(start[j] * factor, slot.lower, slot.upper);
         moved = moved || start[j] != first[j];
       }
       if (moved) starts.push_back(std::move(start));
+    }
+  }
+  for (std::size_t j = 0; j < first.size(); ++j) {
+    const ParameterSlot& slot = model.slots[j];
+    if (!slot.free) continue;
+    for (const double value : slot.starts) {
+      if (value < slot.lower || value > slot.upper || value == first[j]) continue;
+      starts.push_back(first);
+      starts.back()[j] = value;
     }
   }
   return starts;
@@ -55,7 +65,7 @@ std::vector<Prediction> predict_observations(const ImpactModel& model,
                                              const Observations& data) {
   std::vector<PointConditions> points;
   for (const Observation& point : data.points) {
-    points.push_back({point.dataset, point.diameter, point.velocity});
+    points.push_back({point.dataset, point.diameter, point.velocity, point.series});
   }
   return predict(model, theta, std::move(points), false);
 }
@@ -269,7 +279,7 @@ double root_mean_square(const ImpactModel& model, std::span<const double> theta,
   std::vector<PointConditions> conditions;
   for (const std::size_t i : points) {
     const Observation& point = data.points[i];
-    conditions.push_back({point.dataset, point.diameter, point.velocity});
+    conditions.push_back({point.dataset, point.diameter, point.velocity, point.series});
   }
   const std::vector<Prediction> predictions = predict(model, theta, std::move(conditions), false);
   double sum = 0.0;

@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "data/text.hpp"
 #include "estimate/noise_reader.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
@@ -110,19 +111,49 @@ class FitReader : private TomlReader {
     const toml::node* const mechanisms = model.get("mechanisms");
     if (mechanisms == nullptr) return;
     if (!mechanisms->is_array()) wrong_type(*mechanisms, "mechanisms", "a list", "mechanisms = []");
-    for (const toml::node& item : *mechanisms->as_array()) {
-      const std::string id = string(item, "mechanisms", "mechanisms = []");
-      fail(item, fmt::format("the mechanism {} cannot be fitted", quote(id)),
-           "this version has no mechanisms beyond the model of Li, Dunn & Brach (1999)",
-           "write mechanisms = []");
+    for (const toml::node& item : *mechanisms->as_array()) add_mechanism(item);
+  }
+
+  void add_mechanism(const toml::node& item) {
+    const std::string id = string(item, "mechanisms", "mechanisms = [\"plastic_yield\"]");
+    std::vector<std::string> known;
+    for (const Mechanism& mechanism : mechanism_catalogue()) known.emplace_back(mechanism.info.id);
+    if (find_mechanism(id) == nullptr) {
+      fail(item, fmt::format("unknown mechanism {}", quote(id)), "the catalogue does not have it",
+           did_you_mean(id, known));
+    }
+    std::vector<std::string>& mechanisms = fit_.spec.mechanisms;
+    if (std::find(mechanisms.begin(), mechanisms.end(), id) != mechanisms.end()) {
+      fail(item, fmt::format("the mechanism {} stands here twice", quote(id)),
+           "it acts once or not at all", "remove one");
+    }
+    mechanisms.push_back(id);
+  }
+
+  /// A parameter of a mechanism that the fit does not name is a likely slip.
+  void refuse_parameters_of_others(const toml::table& parameters) const {
+    for (const Mechanism& mechanism : mechanism_catalogue()) {
+      const std::string id(mechanism.info.id);
+      const auto& chosen = fit_.spec.mechanisms;
+      if (std::find(chosen.begin(), chosen.end(), id) != chosen.end()) continue;
+      for (const MechanismParameter& parameter : mechanism.info.parameters) {
+        const toml::node* const node = parameters.get(parameter.name);
+        if (node == nullptr) continue;
+        fail(*node, fmt::format("'{}' belongs to the mechanism '{}'", parameter.name, id),
+             "[model] does not name it", fmt::format("add \"{}\" to its mechanisms", id));
+      }
     }
   }
 
   void read_parameters(const toml::table* parameters) {
+    const std::vector<ParameterEntry> entries = parameters_with(fit_.spec.mechanisms);
     std::vector<std::string> names;
-    for (const ParameterEntry& entry : parameter_catalogue()) names.push_back(entry.name);
-    if (parameters != nullptr) allow_only(*parameters, "[parameters]", names);
-    for (const ParameterEntry& entry : parameter_catalogue()) {
+    for (const ParameterEntry& entry : entries) names.push_back(entry.name);
+    if (parameters != nullptr) {
+      refuse_parameters_of_others(*parameters);
+      allow_only(*parameters, "[parameters]", names);
+    }
+    for (const ParameterEntry& entry : entries) {
       ParameterSpec spec{entry.name, entry.initial, entry.lower, entry.upper,
                          entry.free, false,         false};
       const toml::node* const node = parameters == nullptr ? nullptr : parameters->get(entry.name);
@@ -153,7 +184,7 @@ class FitReader : private TomlReader {
     if (bounds != nullptr) read_bounds(*bounds, entry, spec);
     const toml::node* const initial = table.get("initial");
     if (initial != nullptr) {
-      spec.initial = not_negative(*initial, "initial", entry);
+      spec.initial = admissible(*initial, "initial", entry);
       spec.initial_stated = true;
     }
     const bool derived = entry.name == "f0" && !spec.initial_stated;  // eq. 12, not known yet
@@ -167,9 +198,16 @@ class FitReader : private TomlReader {
     }
   }
 
-  double not_negative(const toml::node& node, const std::string& name,
-                      const ParameterEntry& entry) const {
+  double admissible(const toml::node& node, const std::string& name,
+                    const ParameterEntry& entry) const {
     const double value = number(node, name);
+    if (!entry.mechanism.empty()) {
+      if (value >= entry.lower && value <= entry.upper) return value;
+      fail(node, fmt::format("'{}' of '{}' is {:g} {}", name, entry.name, value, entry.unit),
+           fmt::format("the formula of '{}' holds from {:g} to {:g}", entry.mechanism, entry.lower,
+                       entry.upper),
+           "choose a value within");
+    }
     if (value >= 0.0) return value;
     fail(node, fmt::format("'{}' of '{}' is {:g} {}", name, entry.name, value, entry.unit),
          fmt::format("the {} cannot be negative", entry.meaning), "0 is the lowest value");
@@ -182,8 +220,8 @@ class FitReader : private TomlReader {
            "it has to be [lower, upper]",
            fmt::format("for example bounds = [{:g}, {:g}]", entry.lower, entry.upper));
     }
-    spec.lower = not_negative(*pair->get(0), "bounds", entry);
-    spec.upper = not_negative(*pair->get(1), "bounds", entry);
+    spec.lower = admissible(*pair->get(0), "bounds", entry);
+    spec.upper = admissible(*pair->get(1), "bounds", entry);
     if (spec.lower > spec.upper) {
       fail(node, fmt::format("the bounds of '{}' are the wrong way round", entry.name),
            fmt::format("{:g} is above {:g}", spec.lower, spec.upper),
@@ -264,6 +302,18 @@ const std::vector<ParameterEntry>& parameter_catalogue() {
        true},
   };
   return catalogue;
+}
+
+std::vector<ParameterEntry> parameters_with(const std::vector<std::string>& mechanisms) {
+  std::vector<ParameterEntry> entries = parameter_catalogue();
+  for (const Mechanism* mechanism : chain_of(mechanisms)) {
+    for (const MechanismParameter& p : mechanism->info.parameters) {
+      entries.push_back({std::string(p.name), std::string(p.unit), std::string(p.meaning),
+                         p.initial, p.lower, p.upper, p.free, p.log_scale,
+                         std::string(mechanism->info.id)});
+    }
+  }
+  return entries;
 }
 
 FitSpec parse_fit(const std::string& text, const std::filesystem::path& file) {

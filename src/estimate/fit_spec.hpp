@@ -38,8 +38,8 @@ struct FitSpec {
   std::filesystem::path file;
   std::vector<std::filesystem::path> datasets;  ///< folders, as seen from here
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
-  std::vector<std::string> mechanisms;    ///< ids from the catalogue, none known to this version
-  std::vector<ParameterSpec> parameters;  ///< all of the catalogue, in its order
+  std::vector<std::string> mechanisms;    ///< ids from the catalogue of mechanisms
+  std::vector<ParameterSpec> parameters;  ///< all of `parameters_with(mechanisms)`, in that order
   NoiseSpec noise;
   UncertaintySpec uncertainty;
   std::string sha256;  ///< of the file's text
@@ -54,18 +54,24 @@ struct ParameterEntry {
   double lower;
   double upper;
   bool free;
-  bool log_scale;  ///< estimated in its logarithm: it is positive by nature
+  bool log_scale;              ///< estimated in its logarithm: it is positive by nature
+  std::string mechanism = {};  ///< id of that to which it belongs; empty for the base model
 };
 
 /// C_H, C_A and f0, in this order.
 const std::vector<ParameterEntry>& parameter_catalogue();
+
+/// Those and the parameters of `mechanisms`, in the order in which the mechanisms act.
+std::vector<ParameterEntry> parameters_with(const std::vector<std::string>& mechanisms);
 
 /// Reads and validates a fit file. Unknown keys are errors that name the nearest known one.
 ///
 /// Rules for `[parameters]`: values are finite and not negative (damping only takes energy out);
 /// bounds are [lower, upper] with lower < upper, and above zero for a parameter on a log scale; the
 /// initial value of a free parameter lies within its bounds, and that of a fixed one within bounds
-/// that the file states. `dataset` paths are relative to the file's folder.
+/// that the file states. Parameters of mechanisms stay within the bounds of the catalogue, where
+/// their formulas hold, and may be negative there. `dataset` paths are relative to the file's
+/// folder.
 /// @throws InputError with file, line and column.
 FitSpec load_fit(const std::filesystem::path& file);
 

@@ -16,7 +16,7 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
   }
   std::vector<PointConditions> points;
   for (const Observation& point : data.points) {
-    points.push_back({point.dataset, point.diameter, point.velocity});
+    points.push_back({point.dataset, point.diameter, point.velocity, point.series});
   }
   const auto predictor = std::make_shared<PointPredictor>(model, std::move(points));
   problem.evaluate = [predictor, &data, handovers](std::span<const double> theta,

@@ -6,8 +6,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "impact/fast_solver.hpp"
-
 namespace recoil {
 namespace {
 
@@ -18,21 +16,55 @@ double reference_diameter_of(const Dataset& dataset) {
   return diameters[diameters.size() / 2];
 }
 
-std::size_t add_slot(ImpactModel& model, const ParameterSpec& spec, const std::string& dataset,
-                     double initial) {
-  const auto& catalogue = parameter_catalogue();
-  const auto entry = std::find_if(catalogue.begin(), catalogue.end(),
-                                  [&](const ParameterEntry& e) { return e.name == spec.name; });
-  assert(entry != catalogue.end());
-  model.slots.push_back({spec.name, entry->unit, dataset, initial, spec.lower, spec.upper,
-                         spec.free, entry->log_scale && spec.lower > 0.0});
+std::size_t add_slot(ImpactModel& model, const ParameterEntry& entry, const ParameterSpec& spec,
+                     const std::string& dataset, double initial) {
+  model.slots.push_back({spec.name, entry.unit, dataset, initial, spec.lower, spec.upper, spec.free,
+                         entry.log_scale && spec.lower > 0.0, entry.mechanism});
   return model.slots.size() - 1;
+}
+
+/// The slots of one parameter of a mechanism, per dataset: one, or one per series.
+std::vector<std::vector<std::size_t>> add_own_slots(ImpactModel& model, const ParameterEntry& entry,
+                                                    const ParameterSpec& spec,
+                                                    const MechanismParameter& parameter,
+                                                    const std::vector<Dataset>& datasets) {
+  std::vector<std::vector<std::size_t>> all;
+  const auto add = [&](const std::string& dataset, const std::string& series) {
+    const std::size_t slot = add_slot(model, entry, spec, dataset, spec.initial);
+    model.slots[slot].series = series;
+    model.slots[slot].null_value = parameter.null_value;
+    model.slots[slot].starts = parameter.starts;
+    return slot;
+  };
+  const bool several = datasets.size() > 1;
+  for (const Dataset& dataset : datasets) {
+    std::vector<std::size_t>& slots = all.emplace_back();
+    if (parameter.per_series) {
+      for (const std::string& series : dataset.series) {
+        slots.push_back(add(several ? dataset.id : "", series));
+      }
+    } else if (all.size() == 1 || spec.per_dataset) {
+      slots.push_back(add(several && spec.per_dataset ? dataset.id : "", ""));
+    } else {
+      slots = all.front();
+    }
+  }
+  return all;
+}
+
+const MechanismParameter& parameter_of(const ParameterEntry& entry) {
+  const Mechanism* const mechanism = find_mechanism(entry.mechanism);
+  const auto& all = mechanism->info.parameters;
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const MechanismParameter& p) { return p.name == entry.name; });
 }
 
 }  // namespace
 
 std::string ParameterSlot::label() const {
-  return dataset.empty() ? name : fmt::format("{}[{}]", name, dataset);
+  if (series.empty()) return dataset.empty() ? name : fmt::format("{}[{}]", name, dataset);
+  return dataset.empty() ? fmt::format("{}[{}]", name, series)
+                         : fmt::format("{}[{}/{}]", name, dataset, series);
 }
 
 std::vector<double> ImpactModel::initial() const {
@@ -46,8 +78,20 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
   model.phase = spec.phase;
   for (const Dataset& dataset : datasets) {
     model.contacts.push_back(derive_contact(dataset.system, reference_diameter_of(dataset)));
+    model.surroundings.push_back(surroundings_of(dataset.system, model.contacts.back()));
   }
-  for (const ParameterSpec& parameter : spec.parameters) {
+  model.chain = chain_of(spec.mechanisms);
+  const std::vector<ParameterEntry> entries = parameters_with(spec.mechanisms);
+  assert(entries.size() == spec.parameters.size());
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const ParameterEntry& entry = entries[k];
+    const ParameterSpec& parameter = spec.parameters[k];
+    assert(entry.name == parameter.name);
+    if (!entry.mechanism.empty()) {
+      model.slot_own.push_back(
+          add_own_slots(model, entry, parameter, parameter_of(entry), datasets));
+      continue;
+    }
     std::vector<std::size_t>& index = parameter.name == "C_H"   ? model.slot_C_H
                                       : parameter.name == "C_A" ? model.slot_C_A
                                                                 : model.slot_f0;
@@ -61,10 +105,17 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
         continue;
       }
       const double initial = derived ? model.contacts[d].adhesion_force : parameter.initial;
-      index.push_back(add_slot(model, parameter, split ? datasets[d].id : "", initial));
+      index.push_back(add_slot(model, entry, parameter, split ? datasets[d].id : "", initial));
     }
   }
   return model;
+}
+
+std::vector<double> without_mechanisms(const ImpactModel& model, std::vector<double> theta) {
+  for (std::size_t j = 0; j < theta.size(); ++j) {
+    if (!model.slots[j].mechanism.empty()) theta[j] = model.slots[j].null_value;
+  }
+  return theta;
 }
 
 double Prediction::restitution() const { return std::sqrt(std::max(restitution_squared, 0.0)); }
@@ -80,64 +131,6 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
           adhesion_force_at(theta[model.slot_f0[dataset]], contact.reference_diameter, diameter),
           theta[model.slot_C_H[dataset]],
           theta[model.slot_C_A[dataset]]};
-}
-
-PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointConditions> points)
-    : model_(model),
-      points_(std::move(points)),
-      beta_per_f0_(points_.size()),
-      groups_(points_.size()),
-      results_(points_.size()) {
-  std::vector<double> unit_adhesion = model.initial();
-  for (const std::size_t slot : model.slot_f0) unit_adhesion[slot] = 1.0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const PointConditions& p = points_[i];
-    beta_per_f0_[i] =
-        impact_groups(conditions_at(model, unit_adhesion, p.dataset, p.diameter, p.velocity)).beta;
-  }
-}
-
-long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
-  assert(theta.size() == model_.slots.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const PointConditions& p = points_[i];
-    groups_[i] = {theta[model_.slot_C_H[p.dataset]] * p.velocity,
-                  theta[model_.slot_f0[p.dataset]] * beta_per_f0_[i],
-                  theta[model_.slot_C_A[p.dataset]] * p.velocity};
-  }
-  ImpactOptions options;
-  options.phase = model_.phase;
-  options.gradient = gradient;
-  options.tolerance *= model_.loosened;
-  options.fast_tolerance *= model_.loosened;
-  if (model_.solver == Solver::fast) {
-    return simulate_impacts_fast(groups_, options, results_);
-  }
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    results_[i] = simulate_impact(groups_[i], options);
-  }
-  return 0;
-}
-
-void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double> row) const {
-  const PointConditions& p = points_[i];
-  const std::array<double, 3>& by_group = results_[i].gradient;
-  std::fill(row.begin(), row.end(), 0.0);
-  row[model_.slot_C_H[p.dataset]] += scale * p.velocity * by_group[0];
-  row[model_.slot_f0[p.dataset]] += scale * beta_per_f0_[i] * by_group[1];
-  row[model_.slot_C_A[p.dataset]] += scale * p.velocity * by_group[2];
-}
-
-double PointPredictor::velocity_slope(std::size_t i) const {
-  const ImpactGroups& g = groups_[i];
-  const std::array<double, 3>& by_group = results_[i].gradient;
-  return (g.alpha * by_group[0] - 0.8 * g.beta * by_group[1] + g.gamma * by_group[2]) /
-         points_[i].velocity;
-}
-
-double PointPredictor::diameter_slope(std::size_t i) const {
-  // beta ~ f0 / D with f0 ~ D^(1/3) (eq. 12).
-  return -2.0 / 3.0 * groups_[i].beta * results_[i].gradient[1] / points_[i].diameter;
 }
 
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,

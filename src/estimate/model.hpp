@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "estimate/fit_spec.hpp"
 #include "impact/contact.hpp"
 #include "impact/impact.hpp"
+#include "mechanism/extended_impacts.hpp"
 
 namespace recoil {
 
@@ -26,8 +28,12 @@ struct ParameterSlot {
   double upper = 0.0;
   bool free = true;
   bool log_scale = false;
+  std::string mechanism = {};       ///< id of that to which it belongs; empty for the base model
+  std::string series = {};          ///< name when every series has its own, else empty
+  double null_value = 0.0;          ///< of a mechanism's parameter: here the mechanism vanishes
+  std::vector<double> starts = {};  ///< further ones worth trying
 
-  /// "C_A" or "C_A[wall1990-mica]".
+  /// "C_A", "C_A[wall1990-mica]", "series_offset[monday]", "series_offset[wall1990-mica/monday]".
   std::string label() const;
 };
 
@@ -40,8 +46,16 @@ struct ImpactModel {
   std::vector<ContactProperties> contacts;               ///< per dataset
   std::vector<std::size_t> slot_C_H, slot_C_A, slot_f0;  ///< per dataset: index into `slots`
 
+  std::vector<const Mechanism*> chain;     ///< in the order in which they act
+  std::vector<Surroundings> surroundings;  ///< per dataset
+  /// [parameter of the chain][dataset]: index into `slots`, one or one per series.
+  std::vector<std::vector<std::vector<std::size_t>>> slot_own;
+
   std::vector<double> initial() const;
 };
+
+/// theta with every mechanism at its null value: the base model.
+std::vector<double> without_mechanisms(const ImpactModel& model, std::vector<double> theta);
 
 /// Lays out theta for `spec`. f0 that is not free, or has no stated start, takes the value of eq.
 /// 12 for its dataset.
@@ -52,7 +66,15 @@ struct PointConditions {
   std::size_t dataset = 0;
   double diameter = 0.0;  ///< [m]
   double velocity = 0.0;  ///< [m/s]
+  std::size_t series = no_series;
+
+  /// A sphere of no series in particular: what belongs to a series is left out.
+  static constexpr std::size_t no_series = static_cast<std::size_t>(-1);
 };
+
+/// Which mechanisms of a model act: all, as in the data, or only those that are no error of the
+/// measurement, for what a sphere does whether it is measured or not.
+enum class Effects { as_measured, of_nature };
 
 /// A model's answer for one (diameter, velocity).
 struct Prediction {
@@ -80,14 +102,15 @@ Prediction predict(const ImpactModel& model, std::span<const double> theta, std:
 class PointPredictor {
  public:
   /// Refers to `model`, which must outlive it.
-  PointPredictor(const ImpactModel& model, std::vector<PointConditions> points);
+  PointPredictor(const ImpactModel& model, std::vector<PointConditions> points,
+                 Effects effects = Effects::as_measured);
 
   /// Simulates every point under `theta`, with gradients when asked for.
   /// @return how many impacts the fast solver handed over to the reference
   long evaluate(std::span<const double> theta, bool gradient);
 
   std::size_t size() const { return points_.size(); }
-  /// The outcome at point i; `gradient` is that in the groups.
+  /// The outcome and e^2 at point i, mechanisms included.
   const ImpactResult& at(std::size_t i) const { return results_[i]; }
   /// Writes scale * d e^2(point i) / d theta into `row` [slots].
   void gradient_row(std::size_t i, double scale, std::span<double> row) const;
@@ -96,12 +119,22 @@ class PointPredictor {
   double diameter_slope(std::size_t i) const;
 
  private:
+  long evaluate_extended(std::span<const double> theta, const ImpactOptions& options);
+
   const ImpactModel& model_;
   std::vector<PointConditions> points_;
-  std::vector<double> beta_per_f0_;  // beta is proportional to f0
+  std::vector<double> beta_per_f0_;          // beta is proportional to f0
+  std::optional<ExtendedImpacts> extended_;  // when mechanisms act
+  std::vector<std::size_t> slots_;           // of the values of every point, with extended_
+  std::vector<double> nulls_;                // of these values where there is no slot
+  std::vector<double> values_;
   std::vector<ImpactGroups> groups_;
   std::vector<ImpactResult> results_;
 };
+
+/// The typical sphere of a point as the mechanisms leave it at the contact.
+ContactView contact_view(const ImpactModel& model, std::span<const double> theta,
+                         const PointConditions& point);
 
 /// Simulates every point under `theta` at once.
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
@@ -122,7 +155,7 @@ struct CaptureQuery {
 };
 
 /// Solves e^2(V) = 0 for the largest V at which capture turns into rebound, for all spheres
-/// together.
+/// together. Errors of the measurement (Effects) are left out.
 std::vector<CaptureVelocity> capture_velocities(const ImpactModel& model,
                                                 std::span<const double> theta,
                                                 std::span<const CaptureQuery> queries);

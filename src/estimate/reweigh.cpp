@@ -61,11 +61,11 @@ class Reweighing {
     const auto beside = [&](const Observation& p, double h, bool in_velocity) {
       for (const double factor : {std::exp(h), std::exp(-h)}) {
         all.push_back({p.dataset, p.diameter * (in_velocity ? 1.0 : factor),
-                       p.velocity * (in_velocity ? factor : 1.0)});
+                       p.velocity * (in_velocity ? factor : 1.0), p.series});
       }
     };
     for (const Observation& p : data_.points) {
-      all.push_back({p.dataset, p.diameter, p.velocity});
+      all.push_back({p.dataset, p.diameter, p.velocity, p.series});
       if (p.velocity_sd > 0.0) beside(p, error_step(p.velocity_sd / p.velocity), true);
       if (p.diameter_sd > 0.0) beside(p, error_step(p.diameter_sd / p.diameter), false);
       if (mixed_) beside(p, std::sqrt(3.0) * data_.noise.event_spread, true);

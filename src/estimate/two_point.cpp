@@ -268,7 +268,7 @@ std::vector<double> two_point_theta(const ImpactModel& model, std::size_t datase
 TwoPointResult two_point(const ImpactModel& model, const Observations& data, std::size_t dataset,
                          double diameter) {
   TwoPointResult result;
-  result.theta = model.initial();
+  result.theta = without_mechanisms(model, model.initial());
   if (!choose_points(data, dataset, diameter, result)) {
     result.text = "the diameter has fewer than two velocities at which spheres rebounded";
     return result;

@@ -11,11 +11,16 @@ namespace recoil::RECOIL_KERNEL {
 
 using Pack = std::experimental::fixed_size_simd<double, RECOIL_LANES>;
 
+void fly_with_dashpot(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                      std::span<ImpactResult> results);
+
 std::size_t lanes() { return RECOIL_LANES; }
 
 void fly(std::span<const ImpactGroups> groups, const ImpactOptions& options,
          std::span<ImpactResult> results) {
-  if (options.gradient) {
+  if (options.dashpot) {
+    fly_with_dashpot(groups, options, results);
+  } else if (options.gradient) {
     Flights<RingAdhesionLaw, Pack, true>(groups, options, results).fly();
   } else {
     Flights<RingAdhesionLaw, Pack, false>(groups, options, results).fly();

@@ -39,6 +39,13 @@ constexpr auto regularised_acceleration(const Q& q, const U& u, const Alpha& alp
   return twice_q * (f.hertz + f.hertz_damping + f.adhesion + f.adhesion_damping);
 }
 
+/// What a dashpot along the contact radius, the force -kappa x^(1/2) u, adds to du/dsigma.
+template <class Q, class U, class Kappa>
+constexpr auto dashpot_acceleration(const Q& q, const U& u, const Kappa& kappa) {
+  const Q twice_x = (q + q) * q;
+  return -(twice_x * (kappa * u));
+}
+
 /// Potential energy (2/5) x^(5/2) - (2/3) beta x^(3/2) [m V^2].
 template <class Q, class Beta>
 constexpr auto potential_energy(const Q& q, const Beta& beta) {
@@ -57,12 +64,14 @@ inline constexpr double settled_part = 1e-10;
 
 /// True when the sphere is bound to creep into the well: (C_H + C_A) V_a >= 2, the critical damping
 /// of small motions about its bottom (x'' + (alpha + gamma) beta^(3/2) x' + beta^(1/2) (x - beta) =
-/// 0 there). Such a sphere never has an outer turning point, at whatever velocity it arrives: found
-/// by integration from V / V_a = 1e-3 to 1e4, not proved (tests/impact/outcome_test.cpp asks the
-/// reference again).
+/// 0 there, where a dashpot adds kappa beta^(1/2) x'). Such a sphere never has an outer turning
+/// point, at whatever velocity it arrives: found by integration from V / V_a = 1e-3 to 1e4, not
+/// proved (tests/impact/outcome_test.cpp asks the reference again).
 inline bool creeps_into_the_well(const ImpactGroups& groups) {
   constexpr double critical_damping = 2.0;
-  return (groups.alpha + groups.gamma) * std::pow(groups.beta, 1.25) >= critical_damping;
+  const double damping = (groups.alpha + groups.gamma) * std::pow(groups.beta, 1.25);
+  if (groups.kappa == 0.0) return damping >= critical_damping;
+  return damping + groups.kappa * std::pow(groups.beta, 0.25) >= critical_damping;
 }
 
 /// The model as a solver of any number type sees it: another law is another struct like this one.

@@ -28,11 +28,13 @@ struct ImpactConditions {
 /// B = 2 pi sqrt(r) f0 / m, lengths in n_c = (V^2 / A)^(2/5) and velocities in V, the equation of
 /// motion (eq. 5) becomes
 ///   x'' = -x^(3/2) (1 + alpha u) + beta x^(1/2) (1 + gamma S),
-/// S = -u while the damping of the adhesion acts and 0 otherwise.
+/// S = -u while the damping of the adhesion acts and 0 otherwise. A mechanism may add a dashpot
+/// that works along the contact radius in both phases, -kappa x^(1/2) u (see BulkDashpotLaw).
 struct ImpactGroups {
   double alpha = 0.0;  ///< C_H V
   double beta = 0.0;   ///< B A^(-3/5) V^(-4/5) = (V / V_a)^(-4/5)
   double gamma = 0.0;  ///< C_A V
+  double kappa = 0.0;  ///< of the dashpot; other than 0 only with ImpactOptions::dashpot
 };
 
 /// The scales that turn the dimensionless impact back into SI units.
@@ -62,6 +64,7 @@ struct EnergyBudget {
   double potential = 0.0;      ///< at the end: Hertz minus adhesion; 0 after a release
   double hertz_loss = 0.0;     ///< taken by C_H
   double adhesion_loss = 0.0;  ///< taken by C_A
+  double dashpot_loss = 0.0;   ///< taken by kappa
   double largest = 0.0;        ///< largest single energy on the way, the yardstick of the audit
 
   /// 1/2 - (kinetic + potential + losses), relative to `largest`: zero but for integration error.
@@ -78,7 +81,7 @@ struct EnergyBudget {
 struct ImpactResult {
   ImpactOutcome outcome = ImpactOutcome::integration_failure;
   double restitution_squared = 0.0;
-  std::array<double, 3> gradient = {};  ///< d e^2 / d (alpha, beta, gamma)
+  std::array<double, 4> gradient = {};  ///< d e^2 / d (alpha, beta, gamma, kappa)
   EnergyBudget energy;                  ///< when asked for
   double contact_time = 0.0;            ///< until release or the outer turning point [n_c / V]
   double penetration_max = 0.0;         ///< [n_c]
@@ -96,6 +99,7 @@ struct ImpactOptions {
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   bool gradient = false;          ///< forward sensitivities
   bool budget = false;            ///< energy budget, contact time and peak forces
+  bool dashpot = false;           ///< the law with kappa; without, kappa has to be 0
   double tolerance = 1e-11;       ///< relative, per step, of the reference
   long max_steps = 200000;        ///< of the reference
   double fast_tolerance = 1e-10;  ///< absolute error of q and u per step of the fast solver
@@ -110,6 +114,7 @@ struct ImpactMoment {
   double hertz_damping = 0.0;
   double adhesion = 0.0;
   double adhesion_damping = 0.0;
+  double dashpot = 0.0;
 };
 
 /// Integrates one impact from touch to release or to the first outer turning point.

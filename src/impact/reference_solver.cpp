@@ -15,7 +15,7 @@
 namespace recoil {
 namespace {
 
-constexpr int groups_count = 3;
+constexpr int most_groups = 4;       // three, and kappa where there is a dashpot
 constexpr int anderson_depth = 0;    // the field is not stiff: plain functional iteration
 constexpr double longest_arc = 1e9;  // "until an event": no impact is this long in sigma
 // At the separatrix q falls like sigma^-2 and release is never reached. Inside this circle about
@@ -25,7 +25,7 @@ constexpr double undecided_energy = 1e-15;
 enum class Stage { compression, restitution };
 
 struct Field {
-  double alpha, beta, gamma;
+  double alpha, beta, gamma, kappa;
   AdhesionDampingPhase phase;
   Stage stage = Stage::compression;
   double cusp_radius_squared = 0.0;
@@ -43,7 +43,8 @@ int right_hand_side(realtype, N_Vector y, N_Vector y_dot, void* user_data) {
   const double q = NV_Ith_S(y, 0);
   const double u = NV_Ith_S(y, 1);
   NV_Ith_S(y_dot, 0) = u;
-  NV_Ith_S(y_dot, 1) = regularised_acceleration(q, u, f.alpha, f.beta, f.gamma, f.acts());
+  NV_Ith_S(y_dot, 1) = regularised_acceleration(q, u, f.alpha, f.beta, f.gamma, f.acts()) +
+                       dashpot_acceleration(q, u, f.kappa);
   return 0;
 }
 
@@ -51,10 +52,12 @@ int right_hand_side(realtype, N_Vector y, N_Vector y_dot, void* user_data) {
 int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vector* s,
                                 N_Vector* s_dot, void* user_data, N_Vector, N_Vector) {
   const Field& f = field_of(user_data);
-  using Dual = ceres::Jet<double, 2 + groups_count>;
-  const Dual acceleration =
-      regularised_acceleration(Dual(NV_Ith_S(y, 0), 0), Dual(NV_Ith_S(y, 1), 1), Dual(f.alpha, 2),
-                               Dual(f.beta, 3), Dual(f.gamma, 4), f.acts());
+  using Dual = ceres::Jet<double, 2 + most_groups>;
+  const Dual q(NV_Ith_S(y, 0), 0);
+  const Dual u(NV_Ith_S(y, 1), 1);
+  const Dual acceleration = regularised_acceleration(q, u, Dual(f.alpha, 2), Dual(f.beta, 3),
+                                                     Dual(f.gamma, 4), f.acts()) +
+                            dashpot_acceleration(q, u, Dual(f.kappa, 5));
   for (int i = 0; i < count; ++i) {
     const double s_q = NV_Ith_S(s[i], 0);
     const double s_u = NV_Ith_S(s[i], 1);
@@ -65,7 +68,7 @@ int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vec
   return 0;
 }
 
-/// Time and the two losses: dt = 2 q dsigma, power = -force times u.
+/// Time and the losses: dt = 2 q dsigma, power = -force times u.
 int quadrature_right_hand_side(realtype, N_Vector y, N_Vector rates, void* user_data) {
   const Field& f = field_of(user_data);
   const double q = NV_Ith_S(y, 0);
@@ -74,6 +77,7 @@ int quadrature_right_hand_side(realtype, N_Vector y, N_Vector rates, void* user_
   NV_Ith_S(rates, 0) = 2.0 * q;
   NV_Ith_S(rates, 1) = -2.0 * q * forces.hertz_damping * u;
   NV_Ith_S(rates, 2) = -2.0 * q * forces.adhesion_damping * u;
+  if (NV_LENGTH_S(rates) > 3) NV_Ith_S(rates, 3) = -dashpot_acceleration(q, u, f.kappa) * u;
   return 0;
 }
 
@@ -110,9 +114,10 @@ class Integration {
  public:
   Integration(const ImpactGroups& groups, const ImpactOptions& options)
       : options_(options),
-        field_{groups.alpha, groups.beta, groups.gamma, options.phase},
+        groups_count_(options.dashpot ? most_groups : most_groups - 1),
+        field_{groups.alpha, groups.beta, groups.gamma, groups.kappa, options.phase},
         state_(N_VNew_Serial(2, context_)),
-        quadratures_(N_VNew_Serial(3, context_)) {
+        quadratures_(N_VNew_Serial(groups_count_, context_)) {
     // U(q) and u^2/2 are both below undecided_energy when (2/3) beta q^3 is, with u ~ q^(3/2).
     const double radius = std::cbrt(undecided_energy / std::max(groups.beta, 1.0));
     field_.cusp_radius_squared = radius * radius;
@@ -166,11 +171,11 @@ class Integration {
 
   /// d (2 H) / d group at the end of the impact. Both ends need no correction for the change of the
   /// arc length: u' = 0 at a release (q = 0) and H' = 0 at a turning point (u = 0).
-  bool energy_gradient(std::array<double, 3>& gradient) {
+  bool energy_gradient(std::array<double, most_groups>& gradient) {
     if (CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
     using Dual = ceres::Jet<double, 2>;
     const Dual potential = potential_energy(Dual(q(), 0), Dual(field_.beta, 1));
-    for (int i = 0; i < groups_count; ++i) {
+    for (int i = 0; i < groups_count_; ++i) {
       const double s_q = NV_Ith_S(sensitivity_[i], 0);
       const double s_u = NV_Ith_S(sensitivity_[i], 1);
       const double direct = i == 1 ? potential.v[1] : 0.0;
@@ -203,15 +208,16 @@ class Integration {
 
   bool set_up_sensitivities(double absolute) {
     void* memory = memory_.get();
-    for (int i = 0; i < groups_count; ++i) {
+    for (int i = 0; i < groups_count_; ++i) {
       sensitivity_owner_[static_cast<std::size_t>(i)].reset(N_VNew_Serial(2, context_));
       sensitivity_[i] = sensitivity_owner_[static_cast<std::size_t>(i)].get();
       N_VConst(0.0, sensitivity_[i]);
     }
-    std::array<double, groups_count> absolutes = {absolute, absolute, absolute};
+    std::array<double, most_groups> absolutes = {};
+    absolutes.fill(absolute);
     sensitivity_solver_.reset(
-        SUNNonlinSol_FixedPointSens(groups_count + 1, state_.get(), anderson_depth, context_));
-    return CVodeSensInit(memory, groups_count, CV_SIMULTANEOUS, sensitivity_right_hand_side,
+        SUNNonlinSol_FixedPointSens(groups_count_ + 1, state_.get(), anderson_depth, context_));
+    return CVodeSensInit(memory, groups_count_, CV_SIMULTANEOUS, sensitivity_right_hand_side,
                          sensitivity_) == CV_SUCCESS &&
            CVodeSensSStolerances(memory, options_.tolerance, absolutes.data()) == CV_SUCCESS &&
            CVodeSetSensErrCon(memory, SUNTRUE) == CV_SUCCESS &&
@@ -221,11 +227,12 @@ class Integration {
   // Declared in the order of dependence: everything below lives in the context.
   sundials::Context context_;
   ImpactOptions options_;
+  int groups_count_;
   Field field_;
   Vector state_;
   Vector quadratures_;
-  std::array<Vector, groups_count> sensitivity_owner_;
-  N_Vector sensitivity_[groups_count] = {};
+  std::array<Vector, most_groups> sensitivity_owner_;
+  N_Vector sensitivity_[most_groups] = {};
   NonlinearSolver solver_;
   NonlinearSolver sensitivity_solver_;
   std::unique_ptr<void, FreeMemory> memory_;
@@ -240,7 +247,8 @@ void observe(const Integration& run, const ImpactOptions& options, ImpactResult&
   const double q = std::max(run.q(), 0.0);
   const auto forces = contact_forces(q, run.u(), f.alpha, f.beta, f.gamma, f.acts());
   const double push =
-      -(forces.hertz + forces.hertz_damping + forces.adhesion + forces.adhesion_damping);
+      -(forces.hertz + forces.hertz_damping + forces.adhesion + forces.adhesion_damping) +
+      q * f.kappa * run.u();
   result.penetration_max = std::max(result.penetration_max, q * q);
   result.force_compression = std::max(result.force_compression, push);
   result.force_tension = std::max(result.force_tension, -push);
@@ -248,7 +256,7 @@ void observe(const Integration& run, const ImpactOptions& options, ImpactResult&
                                     0.4 * std::pow(q, 5), 2.0 / 3.0 * f.beta * q * q * q});
   if (history != nullptr && options.budget) {
     history->push_back({run.quadrature(0), q * q, run.u(), -forces.hertz, -forces.hertz_damping,
-                        -forces.adhesion, -forces.adhesion_damping});
+                        -forces.adhesion, -forces.adhesion_damping, q * f.kappa * run.u()});
   }
 }
 
@@ -270,6 +278,7 @@ void finish(Integration& run, const ImpactOptions& options, ImpactResult& result
     result.contact_time = run.quadrature(0);
     result.energy.hertz_loss = run.quadrature(1);
     result.energy.adhesion_loss = run.quadrature(2);
+    if (options.dashpot) result.energy.dashpot_loss = run.quadrature(3);
   }
   result.energy.kinetic = kinetic;
   result.energy.potential = potential;
@@ -278,14 +287,17 @@ void finish(Integration& run, const ImpactOptions& options, ImpactResult& result
 }  // namespace
 
 double EnergyBudget::audit() const {
-  return (0.5 - (kinetic + potential + hertz_loss + adhesion_loss)) / std::max(largest, 0.5);
+  return (0.5 - (kinetic + potential + hertz_loss + adhesion_loss + dashpot_loss)) /
+         std::max(largest, 0.5);
 }
 
 ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& options,
                              std::vector<ImpactMoment>* history) {
   ImpactResult result;
   if (!(std::isfinite(groups.alpha) && std::isfinite(groups.beta) && std::isfinite(groups.gamma) &&
-        groups.alpha >= 0.0 && groups.beta >= 0.0 && groups.gamma >= 0.0)) {
+        groups.alpha >= 0.0 && groups.beta >= 0.0 && groups.gamma >= 0.0 &&
+        (options.dashpot ? std::isfinite(groups.kappa) && groups.kappa >= 0.0
+                         : groups.kappa == 0.0))) {
     return result;  // an inadmissible trial point of an optimiser is a failure, not a crash
   }
   Integration run(groups, options);

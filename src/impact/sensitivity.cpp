@@ -1,11 +1,15 @@
 #include "impact/sensitivity.hpp"
 
+#include <cassert>
+
 #include "impact/contact.hpp"
 
 namespace recoil {
 
 ImpactSensitivity impact_sensitivity(const ImpactConditions& c, const ImpactResult& impact) {
-  const auto [by_alpha, by_beta, by_gamma] = impact.gradient;
+  const auto [by_alpha, by_beta, by_gamma, by_kappa] = impact.gradient;
+  assert(by_kappa == 0.0);  // the base model only
+  static_cast<void>(by_kappa);
   const ImpactGroups groups = impact_groups(c);
   ImpactConditions unit_adhesion = c;
   unit_adhesion.adhesion_force = 1.0;

@@ -95,8 +95,9 @@ void write_variables(Blocks& out, const Analysis& a) {
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
     const std::string name = fmt::format("{:<{}}", slot.label() + ":", widest + 1);
+    const std::string unit = slot.unit == "1" ? "" : " " + slot.unit;
     if (!slot.free) {
-      out.line(fmt::format("{}  {} {} (fixed)", name, number(f.theta[s]), slot.unit));
+      out.line(fmt::format("{}  {}{} (fixed)", name, number(f.theta[s]), unit));
       continue;
     }
     const double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
@@ -104,12 +105,12 @@ void write_variables(Blocks& out, const Analysis& a) {
     const auto [value, spread] = number_with_error(f.theta[s], error);
     std::string content = fmt::format("{}  {}", name, value);
     if (error > 0.0 && std::isfinite(error)) {
-      content += fmt::format(" +/- {} {}", spread, slot.unit);
+      content += fmt::format(" +/- {}{}", spread, unit);
       if (f.theta[s] != 0.0) {
         content += fmt::format(" ({} %)", number(100.0 * error / std::abs(f.theta[s]), 3));
       }
     } else {
-      content += " " + slot.unit + (at_bound ? "" : " (no standard error)");
+      content += unit + (at_bound ? "" : " (no standard error)");
     }
     content += fmt::format(" (init = {})", number(slot.initial));
     if (at_bound) {

@@ -32,7 +32,9 @@ std::vector<double> velocity_grid(double slowest, double fastest, double capture
 std::vector<double> evaluate(const ImpactModel& model, std::span<const double> theta,
                              const RestitutionCurve& curve) {
   std::vector<PointConditions> points;
-  for (const double v : curve.velocity) points.push_back({curve.dataset, curve.diameter, v});
+  for (const double v : curve.velocity) {
+    points.push_back({curve.dataset, curve.diameter, v, curve.series_number});
+  }
   std::vector<double> e;
   for (const Prediction& at : predict(model, theta, std::move(points), false)) {
     e.push_back(at.usable() ? at.restitution() : std::nan(""));
@@ -89,7 +91,10 @@ std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted, const 
     double fastest = 0.0;
     for (const Observation& point : data.points) {
       if (point.dataset != capture.dataset || point.diameter != capture.diameter) continue;
-      if (curve.series.empty()) curve.series = datasets[point.dataset].series[point.series];
+      if (curve.series.empty()) {
+        curve.series = datasets[point.dataset].series[point.series];
+        curve.series_number = point.series;
+      }
       slowest = slowest == 0.0 ? point.velocity : std::min(slowest, point.velocity);
       fastest = std::max(fastest, point.velocity);
     }

@@ -94,6 +94,7 @@ struct RestitutionCurve {
   std::vector<double> restitution;   ///< full fit [1]
   std::vector<double> lower, upper;  ///< band of the full fit [1]; empty without a bootstrap
   std::vector<double> two_point;     ///< the two-point calibration [1]; empty when it failed
+  std::size_t series_number = PointConditions::no_series;  ///< of `series` in its dataset
 };
 
 /// Two points against all: both calibrated on one diameter, both judged on the others.

@@ -223,8 +223,8 @@ const Mistake mistakes[] = {
     {"phase_unknown", "\"both\"", "\"rebouns\"", "fit.toml:3:26: ", "unknown phase 'rebouns'",
      "did you mean 'rebound'?"},
     {"phase_number", "\"both\"", "1", "fit.toml:3:26: ", "is of the type integer", "\"rebound\""},
-    {"mechanism_unknown", "[]", "[\"jkr_hysteresis\"]", "fit.toml:4:15: ", "'jkr_hysteresis'",
-     "mechanisms = []"},
+    {"mechanism_unknown", "[]", "[\"jkr_histeresis\"]", "fit.toml:4:15: ", "'jkr_histeresis'",
+     "did you mean 'jkr_hysteresis'?"},
     {"mechanisms_string", "[]", "\"none\"", "fit.toml:4:14: ", "is of the type string",
      "mechanisms = []"},
     // The parameters.

@@ -12,14 +12,15 @@ namespace {
 
 void require_sound(const recoil::FitSpec& spec) {
   fuzz::require(!spec.datasets.empty(), "datasets");
-  fuzz::require(spec.mechanisms.empty(), "mechanisms");
-  fuzz::require(spec.parameters.size() == recoil::parameter_catalogue().size(), "all parameters");
+  const std::vector<recoil::ParameterEntry> entries = recoil::parameters_with(spec.mechanisms);
+  fuzz::require(spec.parameters.size() == entries.size(), "all parameters");
   for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
     const recoil::ParameterSpec& parameter = spec.parameters[i];
-    const recoil::ParameterEntry& entry = recoil::parameter_catalogue()[i];
+    const recoil::ParameterEntry& entry = entries[i];
     fuzz::require(parameter.name == entry.name, "order of the catalogue");
-    fuzz::require(parameter.initial >= 0.0 && std::isfinite(parameter.initial), "initial");
-    fuzz::require(parameter.lower >= 0.0 && parameter.lower < parameter.upper, "bounds");
+    const double lowest = entry.mechanism.empty() ? 0.0 : entry.lower;
+    fuzz::require(parameter.initial >= lowest && std::isfinite(parameter.initial), "initial");
+    fuzz::require(parameter.lower >= lowest && parameter.lower < parameter.upper, "bounds");
     fuzz::require(std::isfinite(parameter.upper), "upper bound");
     fuzz::require(!entry.log_scale || parameter.lower > 0.0, "logarithm");
     const bool inside =

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cassert>
+
+#include "estimate/model.hpp"
+#include "impact/fast_solver.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
+
+long simulate_by_reference(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                           std::span<ImpactResult> results) {
+  for (std::size_t i = 0; i < groups.size(); ++i) results[i] = simulate_impact(groups[i], options);
+  return 0;
+}
+
+SimulateImpacts simulator(Solver solver) {
+  return solver == Solver::fast ? simulate_impacts_fast : simulate_by_reference;
+}
+
+}  // namespace
+
+PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointConditions> points,
+                               Effects effects)
+    : model_(model),
+      points_(std::move(points)),
+      beta_per_f0_(points_.size()),
+      groups_(points_.size()),
+      results_(points_.size()) {
+  std::vector<double> unit_adhesion = model.initial();
+  for (const std::size_t slot : model.slot_f0) unit_adhesion[slot] = 1.0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PointConditions& p = points_[i];
+    beta_per_f0_[i] =
+        impact_groups(conditions_at(model, unit_adhesion, p.dataset, p.diameter, p.velocity)).beta;
+  }
+
+  std::vector<const Mechanism*> chain;
+  std::vector<std::size_t> own;  // which parameters of the model's chain
+  std::vector<const MechanismParameter*> own_parameters;
+  std::size_t parameter = 0;
+  for (const Mechanism* mechanism : model.chain) {
+    const bool acts =
+        effects == Effects::as_measured || mechanism->info.kind != MechanismKind::measurement;
+    if (acts) chain.push_back(mechanism);
+    for (const MechanismParameter& p : mechanism->info.parameters) {
+      if (acts) {
+        own.push_back(parameter);
+        own_parameters.push_back(&p);
+      }
+      ++parameter;
+    }
+  }
+  if (chain.empty()) return;
+  std::vector<ExtendedPoint> extended;
+  for (const PointConditions& p : points_) {
+    extended.push_back({&model.surroundings[p.dataset], p.diameter, p.velocity});
+    for (const auto* base : {&model.slot_C_H, &model.slot_C_A, &model.slot_f0}) {
+      slots_.push_back((*base)[p.dataset]);
+      nulls_.push_back(0.0);
+    }
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const std::vector<std::size_t>& slots = model.slot_own[own[k]][p.dataset];
+      const bool per_series = own_parameters[k]->per_series;
+      const bool known = !per_series || p.series < slots.size();
+      slots_.push_back(known ? slots[per_series ? p.series : 0] : no_slot);
+      nulls_.push_back(own_parameters[k]->null_value);
+    }
+  }
+  extended_.emplace(std::move(chain), std::move(extended));
+  values_.resize(slots_.size());
+}
+
+long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
+  assert(theta.size() == model_.slots.size());
+  ImpactOptions options;
+  options.phase = model_.phase;
+  options.gradient = gradient;
+  options.tolerance *= model_.loosened;
+  options.fast_tolerance *= model_.loosened;
+  if (extended_) return evaluate_extended(theta, options);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PointConditions& p = points_[i];
+    groups_[i] = {theta[model_.slot_C_H[p.dataset]] * p.velocity,
+                  theta[model_.slot_f0[p.dataset]] * beta_per_f0_[i],
+                  theta[model_.slot_C_A[p.dataset]] * p.velocity};
+  }
+  return simulator(model_.solver)(groups_, options, results_);
+}
+
+long PointPredictor::evaluate_extended(std::span<const double> theta,
+                                       const ImpactOptions& options) {
+  for (std::size_t k = 0; k < slots_.size(); ++k) {
+    values_[k] = slots_[k] == no_slot ? nulls_[k] : theta[slots_[k]];
+  }
+  const long handed_over = extended_->evaluate(values_, options, simulator(model_.solver));
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    results_[i].outcome = extended_->at(i).outcome;
+    results_[i].restitution_squared = extended_->at(i).restitution_squared;
+  }
+  return handed_over;
+}
+
+void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double> row) const {
+  const PointConditions& p = points_[i];
+  const auto& by_group = results_[i].gradient;
+  std::fill(row.begin(), row.end(), 0.0);
+  if (extended_) {
+    const std::span<const double> slopes = extended_->slopes(i).subspan(2);
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+      const std::size_t slot = slots_[i * slopes.size() + k];
+      if (slot != no_slot) row[slot] += scale * slopes[k];
+    }
+    return;
+  }
+  row[model_.slot_C_H[p.dataset]] += scale * p.velocity * by_group[0];
+  row[model_.slot_f0[p.dataset]] += scale * beta_per_f0_[i] * by_group[1];
+  row[model_.slot_C_A[p.dataset]] += scale * p.velocity * by_group[2];
+}
+
+double PointPredictor::velocity_slope(std::size_t i) const {
+  if (extended_) return extended_->slopes(i)[0];
+  const ImpactGroups& g = groups_[i];
+  const auto& by_group = results_[i].gradient;
+  return (g.alpha * by_group[0] - 0.8 * g.beta * by_group[1] + g.gamma * by_group[2]) /
+         points_[i].velocity;
+}
+
+double PointPredictor::diameter_slope(std::size_t i) const {
+  if (extended_) return extended_->slopes(i)[1];
+  // beta ~ f0 / D with f0 ~ D^(1/3) (eq. 12).
+  return -2.0 / 3.0 * groups_[i].beta * results_[i].gradient[1] / points_[i].diameter;
+}
+
+ContactView contact_view(const ImpactModel& model, std::span<const double> theta,
+                         const PointConditions& point) {
+  std::vector<double> values = {theta[model.slot_C_H[point.dataset]],
+                                theta[model.slot_C_A[point.dataset]],
+                                theta[model.slot_f0[point.dataset]]};
+  std::size_t k = 0;
+  for (const Mechanism* mechanism : model.chain) {
+    for (const MechanismParameter& p : mechanism->info.parameters) {
+      const std::vector<std::size_t>& slots = model.slot_own[k++][point.dataset];
+      const bool known = !p.per_series || point.series < slots.size();
+      values.push_back(known ? theta[slots[p.per_series ? point.series : 0]] : p.null_value);
+    }
+  }
+  return view_contact(model.chain,
+                      {&model.surroundings[point.dataset], point.diameter, point.velocity}, values);
+}
+
+}  // namespace recoil

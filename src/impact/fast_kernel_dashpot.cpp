@@ -1,0 +1,20 @@
+// The other law of fast_kernel.cpp, compiled like it; apart, so that both compile at the same time.
+#include <experimental/simd>
+
+#include "impact/bulk_dashpot_law.hpp"
+#include "impact/flights.hpp"
+
+namespace recoil::RECOIL_KERNEL {
+
+using Pack = std::experimental::fixed_size_simd<double, RECOIL_LANES>;
+
+void fly_with_dashpot(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                      std::span<ImpactResult> results) {
+  if (options.gradient) {
+    Flights<BulkDashpotLaw, Pack, true>(groups, options, results).fly();
+  } else {
+    Flights<BulkDashpotLaw, Pack, false>(groups, options, results).fly();
+  }
+}
+
+}  // namespace recoil::RECOIL_KERNEL

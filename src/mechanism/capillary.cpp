@@ -1,0 +1,44 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double water_surface_tension = 0.0728;  // [N/m] at 293 K (IAPWS)
+
+struct Capillary {
+  template <class T>
+  static void after(Encounter<T>& e, std::span<const T> own) {
+    e.lose(4.0 * std::numbers::pi * water_surface_tension * e.radius() * own[0]);
+  }
+};
+
+}  // namespace
+
+Mechanism capillary() {
+  return make_mechanism<Capillary>({
+      .id = "capillary",
+      .title = "a water bridge that breaks on the way out",
+      .kind = MechanismKind::physics,
+      .place = MechanismPlace::contact,
+      .formula = "loss 4 pi r gamma l: the force of the bridge over the length l at which it "
+                 "breaks, gamma = 0.0728 N/m",
+      .source = "Israelachvili, J. N., Intermolecular and Surface Forces (force of a liquid bridge "
+                "at small contact angle)",
+      .fingerprint =
+          "1 - e^2 ~ V^(-2) d^(-2), V* ~ d^(-1); depends on the humidity, gone in vacuum",
+      .parameters =
+          {{.name = "bridge_length",
+            .unit = "m",
+            .meaning = "l, at which the bridge breaks",
+            .null_value = 0.0,
+            .initial = 1e-9,
+            .lower = 0.0,
+            .upper = 1e-5,
+            .plausible =
+                {0.0, 2e-8,
+                 "adsorbed water is 0.3 to some nm thick; a bridge breaks at a few times that"},
+            .starts = {1e-10, 1e-8}}},
+  });
+}
+
+}  // namespace recoil

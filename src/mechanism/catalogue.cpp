@@ -1,0 +1,61 @@
+#include <algorithm>
+
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+
+// RECOIL_MECHANISMS is X(id) X(id) ..., made by CMakeLists.txt from the files of this folder.
+#define X(id) Mechanism id();
+RECOIL_MECHANISMS
+#undef X
+
+namespace {
+
+std::vector<Mechanism> all_mechanisms() {
+  std::vector<Mechanism> all;
+#define X(id) all.push_back(id());
+  RECOIL_MECHANISMS
+#undef X
+  std::sort(all.begin(), all.end(), [](const Mechanism& a, const Mechanism& b) {
+    return std::tie(a.info.place, a.info.id) < std::tie(b.info.place, b.info.id);
+  });
+  return all;
+}
+
+}  // namespace
+
+std::string to_string(MechanismKind kind) {
+  switch (kind) {
+    case MechanismKind::physics:
+      return "physics";
+    case MechanismKind::measurement:
+      return "measurement";
+    case MechanismKind::description:
+      return "description";
+  }
+  return "";
+}
+
+const std::vector<Mechanism>& mechanism_catalogue() {
+  static const std::vector<Mechanism> catalogue = all_mechanisms();
+  return catalogue;
+}
+
+const Mechanism* find_mechanism(std::string_view id) {
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    if (mechanism.info.id == id) return &mechanism;
+  }
+  return nullptr;
+}
+
+std::vector<const Mechanism*> chain_of(const std::vector<std::string>& ids) {
+  std::vector<const Mechanism*> chain;
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    if (std::find(ids.begin(), ids.end(), mechanism.info.id) != ids.end()) {
+      chain.push_back(&mechanism);
+    }
+  }
+  return chain;
+}
+
+}  // namespace recoil

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "data/material.hpp"
+#include "impact/contact.hpp"
+#include "impact/impact.hpp"
+#include "mechanism/dual.hpp"
+
+namespace recoil {
+
+/// What every impact of one dataset shares.
+struct Surroundings {
+  double density = 0.0;             ///< of the sphere [kg/m3]
+  double stiffness = 0.0;           ///< K [Pa]
+  double reduced_modulus = 0.0;     ///< E* = (3/4) K [Pa]
+  double reference_diameter = 0.0;  ///< where f0 is stated [m]
+  double wave_mobility = 0.0;       ///< D of `elastic_waves`, for a half-space [m s / N]
+};
+
+/// @param contact derived from `system`
+Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties& contact);
+
+/// One sphere on its way to the surface and back, as the mechanisms see and change it. `T` is
+/// double, or a dual number that carries derivatives along.
+///
+/// On the way in, `velocity` is that of the sphere at the present place, from the measuring plane
+/// to the contact. After the contact `square` holds v^2 on the way out, continued below zero for a
+/// sphere that does not come back (minus twice the energy that it lacks, per mass).
+template <class T>
+struct Encounter {
+  const Surroundings* at = nullptr;
+  T measured_velocity;  ///< as the dataset has it [m/s]
+  T diameter;           ///< of the sphere: its mass [m]
+  T contact_radius;     ///< of the curvature that unloads the contact [m]
+  T velocity;           ///< inward [m/s]
+  T adhesion_force;     ///< f0 at this sphere's diameter [N/m]
+  T hertz_damping;      ///< C_H [s/m]
+  T adhesion_damping;   ///< C_A [s/m]
+  T relaxation;         ///< of a dashpot -(3/2) relaxation sqrt(contact_radius n) K n' [s]
+  T square;             ///< on the way out [m2/s2]
+
+  T radius() const { return diameter * 0.5; }
+  T mass() const { return diameter * diameter * diameter * (at->density * std::numbers::pi / 6.0); }
+  /// n_c = (m V^2 / (K sqrt(R)))^(2/5), see ImpactScales [m].
+  T scale() const {
+    return power(mass() * velocity * velocity / (sqrt(contact_radius) * at->stiffness), 0.4);
+  }
+  /// Largest penetration of an elastic sphere, (5/4)^(2/5) n_c [m].
+  T hertz_penetration() const { return scale() * std::pow(1.25, 0.4); }
+  /// Takes `energy` [J] from the sphere.
+  void lose(const T& energy) { square -= 2.0 * energy / mass(); }
+};
+
+/// What one point shows, when all that happened to its spheres is done.
+template <class T>
+struct Sight {
+  T square;    ///< e^2, continued below zero [1]
+  T velocity;  ///< measured incident velocity [m/s]
+};
+
+/// (sqrt(x) + shift)^2 for what was seen to come back: rises smoothly from x to its value around
+/// x = 0, over |x| ~ width^2. At x >> width^2 the relative error of `shift` is below
+/// (width^2 / x)^2 / 2; a sphere that does not come back (x < 0) keeps x.
+template <class T>
+T shifted_if_seen(const T& x, const T& shift, const T& width) {
+  const T w4 = width * width * (width * width);
+  const T hypotenuse = sqrt(x * x + w4);
+  const T sum = value_of(x) >= 0.0 ? (hypotenuse + x) * 0.5 : w4 * 0.5 / (hypotenuse - x);
+  const T seen = sum / hypotenuse;  // from 0 to 1
+  return x + 2.0 * shift * (sqrt(sum) * seen) + shift * shift * (seen * seen);
+}
+
+}  // namespace recoil

@@ -1,0 +1,242 @@
+#include "mechanism/extended_impacts.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "mechanism/survivors_mean.hpp"
+
+namespace recoil {
+namespace {
+
+/// The groups of the base impact, carrying derivatives.
+template <class T>
+struct Groups {
+  T alpha, beta, gamma, kappa;
+};
+
+template <class T>
+Encounter<T> approaching(const ExtendedPoint& point, std::span<const T> values, const T& velocity,
+                         const T& diameter) {
+  Encounter<T> e;
+  e.at = point.at;
+  e.measured_velocity = velocity;
+  e.diameter = diameter;
+  e.contact_radius = diameter * 0.5;
+  e.velocity = velocity;
+  e.hertz_damping = values[0];
+  e.adhesion_damping = values[1];
+  e.adhesion_force = values[2] * power(diameter / point.at->reference_diameter, 1.0 / 3.0);
+  e.relaxation = T(0.0);
+  e.square = T(0.0);
+  return e;
+}
+
+template <class T>
+Groups<T> groups_at_contact(const Encounter<T>& e) {
+  // beta = B A^(-3/5) V^(-4/5) = B / (A n_c), and B / A = 2 pi f0 / K.
+  const T scale = e.scale();
+  return {e.hertz_damping * e.velocity,
+          e.adhesion_force / scale * (2.0 * std::numbers::pi / e.at->stiffness),
+          e.adhesion_damping * e.velocity, 1.5 * e.relaxation * e.velocity / scale};
+}
+
+template <class T>
+T base_square(const Groups<T>& groups, const ImpactResult& impact) {
+  T square = impact.restitution_squared;
+  add_slopes(square, impact.gradient[0], groups.alpha);
+  add_slopes(square, impact.gradient[1], groups.beta);
+  add_slopes(square, impact.gradient[2], groups.gamma);
+  add_slopes(square, impact.gradient[3], groups.kappa);
+  return square;
+}
+
+/// Calls act(mechanism, its own parameters) along the chain.
+template <class T, class Act>
+void along(std::span<const Mechanism* const> chain, std::span<const T> own, Act act) {
+  std::size_t first = 0;
+  for (const Mechanism* mechanism : chain) {
+    const std::size_t count = mechanism->info.parameters.size();
+    act(*mechanism, own.subspan(first, count));
+    first += count;
+  }
+}
+
+template <class T, class Act>
+void back_along(std::span<const Mechanism* const> chain, std::span<const T> own, Act act) {
+  std::size_t last = own.size();
+  for (std::size_t k = chain.size(); k-- > 0;) {
+    const std::size_t count = chain[k]->info.parameters.size();
+    last -= count;
+    act(*chain[k], own.subspan(last, count));
+  }
+}
+
+/// The sphere at node `node` on its way in. Of several spreads the last is innermost.
+template <class T>
+void approach(std::span<const Mechanism* const> chain, std::span<const T> own, std::size_t node,
+              std::size_t nodes, Encounter<T>& e) {
+  std::size_t rest = node;
+  std::size_t stride = nodes;
+  along<T>(chain, own, [&](const Mechanism& mechanism, std::span<const T> its) {
+    const MechanismLaw<T>& law = mechanism.law<T>();
+    if (law.vary != nullptr) {
+      stride /= spread_nodes;
+      law.vary(e, its, spread_positions()[rest / stride]);
+      rest %= stride;
+    }
+    if (law.before != nullptr) law.before(e, its);
+  });
+}
+
+}  // namespace
+
+template <class T>
+struct ExtendedImpacts::Workspace {
+  std::vector<T> values;                 // of one point
+  std::vector<Encounter<T>> encounters;  // [points x nodes]
+  std::vector<Groups<T>> groups;         // [points x nodes]
+  std::vector<T> squares;                // of the nodes of one point
+};
+
+ExtendedImpacts::ExtendedImpacts(std::vector<const Mechanism*> chain,
+                                 std::vector<ExtendedPoint> points)
+    : chain_(std::move(chain)), points_(std::move(points)) {
+  for (const Mechanism* mechanism : chain_) {
+    own_count_ += mechanism->info.parameters.size();
+    if (mechanism->spreads()) nodes_ *= spread_nodes;
+    dashpot_ = dashpot_ || mechanism->dashpot;
+  }
+  groups_.resize(points_.size() * nodes_);
+  results_.resize(points_.size() * nodes_);
+  answers_.resize(points_.size());
+}
+
+ExtendedImpacts::~ExtendedImpacts() = default;
+ExtendedImpacts::ExtendedImpacts(ExtendedImpacts&&) noexcept = default;
+ExtendedImpacts& ExtendedImpacts::operator=(ExtendedImpacts&&) noexcept = default;
+
+long ExtendedImpacts::evaluate(std::span<const double> values, ImpactOptions options,
+                               SimulateImpacts simulate) {
+  assert(values.size() == points_.size() * value_count());
+  options.dashpot = dashpot_;
+  const auto with = [&](auto& work) {
+    using Work = typename std::decay_t<decltype(work)>::element_type;
+    if (!work) work = std::make_unique<Work>();
+    return evaluate_with(*work, values, options, simulate);
+  };
+  if (!options.gradient) return with(plain_);
+  slopes_.resize(points_.size() * (base_directions + own_count_));
+  const std::size_t directions = base_directions + own_count_;
+  if (directions <= FewDirections().slope.size()) return with(few_);
+  if (directions <= SomeDirections().slope.size()) return with(some_);
+  assert(directions <= ManyDirections().slope.size());
+  return with(many_);
+}
+
+template <class T>
+long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> values,
+                                    const ImpactOptions& options, SimulateImpacts simulate) {
+  const std::size_t count = value_count();
+  work.values.resize(count);
+  work.squares.resize(nodes_);
+  work.encounters.resize(points_.size() * nodes_);
+  work.groups.resize(points_.size() * nodes_);
+  const auto variable = [](double at, [[maybe_unused]] std::size_t direction) {
+    if constexpr (std::is_same_v<T, double>) {
+      return at;
+    } else {
+      return T(at, direction);
+    }
+  };
+  const auto take_values = [&](std::size_t i) {
+    for (std::size_t j = 0; j < count; ++j) {
+      work.values[j] = variable(values[i * count + j], j + 2);
+    }
+    return std::span<const T>(work.values).subspan(base_directions - 2);
+  };
+
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const std::span<const T> own = take_values(i);
+    const Encounter<T> start =
+        approaching<T>(points_[i], work.values, variable(points_[i].velocity, 0),
+                       variable(points_[i].diameter, 1));
+    for (std::size_t node = 0; node < nodes_; ++node) {
+      const std::size_t at = i * nodes_ + node;
+      Encounter<T>& e = work.encounters[at];
+      e = start;
+      approach<T>(chain_, own, node, nodes_, e);
+      work.groups[at] = groups_at_contact(e);
+      const Groups<T>& g = work.groups[at];
+      groups_[at] = {value_of(g.alpha), value_of(g.beta), value_of(g.gamma), value_of(g.kappa)};
+    }
+  }
+  const long handed_over = simulate(groups_, options, results_);
+
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const std::span<const T> own = take_values(i);
+    ExtendedAnswer& answer = answers_[i];
+    answer = {ImpactOutcome::rebound, 0.0};
+    for (std::size_t node = 0; node < nodes_; ++node) {
+      const ImpactResult& impact = results_[i * nodes_ + node];
+      if (!impact.usable()) answer.outcome = impact.outcome;
+      Encounter<T>& e = work.encounters[i * nodes_ + node];
+      e.square = base_square(work.groups[i * nodes_ + node], impact) * (e.velocity * e.velocity);
+      back_along<T>(chain_, own, [&](const Mechanism& mechanism, std::span<const T> its) {
+        const MechanismLaw<T>& law = mechanism.law<T>();
+        if (law.after != nullptr) law.after(e, its);
+      });
+      work.squares[node] = e.square / (e.measured_velocity * e.measured_velocity);
+    }
+    if (answer.outcome != ImpactOutcome::rebound) continue;
+    for (std::size_t left = nodes_; left > 1; left /= spread_nodes) {
+      for (std::size_t k = 0; k < left / spread_nodes; ++k) {
+        const std::span<const T> siblings(&work.squares[k * spread_nodes], spread_nodes);
+        work.squares[k] = survivors_square<T>(siblings);
+      }
+    }
+    Sight<T> sight{work.squares.front(), work.encounters[i * nodes_].measured_velocity};
+    along<T>(chain_, own, [&](const Mechanism& mechanism, std::span<const T> its) {
+      const MechanismLaw<T>& law = mechanism.law<T>();
+      if (law.observe != nullptr) law.observe(sight, its);
+    });
+    answer.restitution_squared = value_of(sight.square);
+    keep_slopes(i, sight.square);
+    if (!std::isfinite(answer.restitution_squared)) {
+      answer.outcome = ImpactOutcome::integration_failure;
+    } else if (!(answer.restitution_squared > 0.0)) {
+      answer.outcome = ImpactOutcome::captured;
+    }
+  }
+  return handed_over;
+}
+
+template <class T>
+void ExtendedImpacts::keep_slopes([[maybe_unused]] std::size_t i,
+                                  [[maybe_unused]] const T& square) {
+  if constexpr (!std::is_same_v<T, double>) {
+    const std::size_t count = base_directions + own_count_;
+    std::copy_n(square.slope.begin(), count, slopes_.begin() + static_cast<long>(i * count));
+  }
+}
+
+std::span<const double> ExtendedImpacts::slopes(std::size_t i) const {
+  const std::size_t count = base_directions + own_count_;
+  return std::span<const double>(slopes_).subspan(i * count, count);
+}
+
+ContactView view_contact(std::span<const Mechanism* const> chain, const ExtendedPoint& point,
+                         std::span<const double> values) {
+  std::size_t nodes = 1;
+  for (const Mechanism* mechanism : chain) nodes *= mechanism->spreads() ? spread_nodes : 1;
+  ContactView view;
+  view.encounter = approaching<double>(point, values, point.velocity, point.diameter);
+  approach<double>(chain, values.subspan(base_directions - 2), nodes / 2, nodes, view.encounter);
+  const Encounter<double>& e = view.encounter;
+  const Groups<double> g = groups_at_contact(e);
+  view.groups = {g.alpha, g.beta, g.gamma, g.kappa};
+  const double energy = e.mass() * e.velocity * e.velocity;
+  view.scales = {e.scale(), e.velocity, e.scale() / e.velocity, energy / e.scale(), energy};
+  return view;
+}
+
+}  // namespace recoil

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "impact/impact.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+
+/// How a batch of impacts is answered: `simulate_impacts_fast`, or anything that agrees with it.
+using SimulateImpacts = long (*)(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                                 std::span<ImpactResult> results);
+
+/// One point: a sphere as the dataset has it.
+struct ExtendedPoint {
+  const Surroundings* at = nullptr;
+  double diameter = 0.0;  ///< [m]
+  double velocity = 0.0;  ///< [m/s]
+};
+
+/// What a point shows with mechanisms at work.
+struct ExtendedAnswer {
+  ImpactOutcome outcome = ImpactOutcome::integration_failure;
+  double restitution_squared = 0.0;  ///< continued below zero for a capture
+};
+
+/// The base model with a chain of mechanisms at a fixed list of points. For one sphere:
+///   on the way in every mechanism of the chain changes what arrives (`before`), outermost first;
+///   the impact of the base model gives e_0^2, and v^2 = e_0^2 V^2 with V as it arrived;
+///   on the way out the chain in reverse order changes v^2 (`after`);
+///   e^2 = v^2 / V_measured^2.
+/// Where spheres of one point differ (`vary`) this is done at nine of them, all in one batch, and
+/// the mean of the survivors is taken (several such mechanisms: on the product of their nodes, the
+/// last of the chain innermost). At last the chain changes what is seen (`observe`).
+///
+/// Derivatives are exact: those of the base impact come from the solver, those of the chain by dual
+/// numbers. Nothing is allocated after the first evaluation with and without them.
+class ExtendedImpacts {
+ public:
+  ExtendedImpacts(std::vector<const Mechanism*> chain, std::vector<ExtendedPoint> points);
+  ~ExtendedImpacts();
+  ExtendedImpacts(ExtendedImpacts&&) noexcept;
+  ExtendedImpacts& operator=(ExtendedImpacts&&) noexcept;
+
+  /// Parameters of the mechanisms in the order of the chain, and how many of them there are.
+  std::size_t own_count() const { return own_count_; }
+  /// C_H, C_A, f0 at the reference diameter, then the mechanisms' parameters.
+  std::size_t value_count() const { return base_directions - 2 + own_count_; }
+
+  /// @param values [points x value_count()]
+  /// @param options phase, gradient and tolerances; dashpot is set here
+  /// @return what `simulate` returned: how many impacts were handed over
+  long evaluate(std::span<const double> values, ImpactOptions options, SimulateImpacts simulate);
+
+  std::size_t size() const { return points_.size(); }
+  const ExtendedAnswer& at(std::size_t i) const { return answers_[i]; }
+  /// d e^2 / d (V, D, values...) at point i, [2 + value_count()]; after an evaluation with
+  /// gradient.
+  std::span<const double> slopes(std::size_t i) const;
+
+ private:
+  template <class T>
+  struct Workspace;
+  template <class T>
+  long evaluate_with(Workspace<T>& work, std::span<const double> values,
+                     const ImpactOptions& options, SimulateImpacts simulate);
+  template <class T>
+  void keep_slopes(std::size_t i, const T& square);
+
+  std::vector<const Mechanism*> chain_;
+  std::vector<ExtendedPoint> points_;
+  std::size_t own_count_ = 0;
+  std::size_t nodes_ = 1;  ///< impacts per point
+  bool dashpot_ = false;
+  std::vector<ImpactGroups> groups_;
+  std::vector<ImpactResult> results_;
+  std::vector<ExtendedAnswer> answers_;
+  std::vector<double> slopes_;
+  std::unique_ptr<Workspace<double>> plain_;
+  std::unique_ptr<Workspace<FewDirections>> few_;
+  std::unique_ptr<Workspace<SomeDirections>> some_;
+  std::unique_ptr<Workspace<ManyDirections>> many_;
+};
+
+/// One encounter with one sphere, for those who want to look: the conditions at the contact and the
+/// groups of the base impact there. @param values C_H, C_A, f0, then the parameters of the chain
+struct ContactView {
+  Encounter<double> encounter;  ///< as it arrives at the contact
+  ImpactGroups groups;
+  ImpactScales scales;
+};
+ContactView view_contact(std::span<const Mechanism* const> chain, const ExtendedPoint& point,
+                         std::span<const double> values);
+
+}  // namespace recoil

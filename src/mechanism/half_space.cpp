@@ -1,0 +1,85 @@
+#include "mechanism/half_space.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "mechanism/encounter.hpp"
+
+namespace recoil {
+namespace {
+
+using std::numbers::pi;
+
+/// Integral of f over [0, pi/2] by the midpoint rule: f is periodic and smooth in the angles used
+/// here, so that it converges faster than any power.
+template <class F>
+double over_quarter_turn(F f) {
+  constexpr int count = 400;
+  double sum = 0.0;
+  for (int i = 0; i < count; ++i) sum += f((i + 0.5) * pi / (2.0 * count));
+  return sum * pi / (2.0 * count);
+}
+
+}  // namespace
+
+double half_space_radiation(double poisson_ratio) {
+  // Wave numbers in units of that of transverse waves; g is that of longitudinal ones.
+  const double g2 = (1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio));
+  const double g = std::sqrt(g2);
+  // k < g: both waves carry energy away. k = g sin(t).
+  const double both = over_quarter_turn([&](double t) {
+    const double k = g * std::sin(t);
+    const double l = g * std::cos(t);
+    const double square = (2.0 * k * k - 1.0) * (2.0 * k * k - 1.0);
+    return k * l * l / (square + 4.0 * k * k * l * std::sqrt(1.0 - k * k));
+  });
+  // g < k < 1: transverse waves only. k^2 = g^2 + (1 - g^2) sin^2 t.
+  const double transverse = over_quarter_turn([&](double t) {
+    const double s = std::sin(t);
+    const double c = std::cos(t);
+    const double k2 = g2 + (1.0 - g2) * s * s;
+    const double l2 = (1.0 - g2) * s * s;
+    const double q = std::sqrt(1.0 - g2) * c;
+    const double fourth = std::pow(2.0 * k2 - 1.0, 4);
+    // k dk = (1 - g^2) s c dt
+    return 4.0 * k2 * l2 * q * (1.0 - g2) * s * c / (fourth + 16.0 * k2 * k2 * l2 * q * q);
+  });
+  // k > 1: the pole of the Rayleigh wave, R(k) = (2 k^2 - 1)^2 - 4 k^2 sqrt((k^2-g^2)(k^2-1)).
+  const auto rayleigh = [&](double k2) {
+    return (2.0 * k2 - 1.0) * (2.0 * k2 - 1.0) - 4.0 * k2 * std::sqrt((k2 - g2) * (k2 - 1.0));
+  };
+  double low = 1.0;
+  double high = 4.0;  // slower than half of c_T a Rayleigh wave is only for nu < -0.9
+  while (rayleigh(high) > 0.0) high *= 2.0;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    (rayleigh(middle) > 0.0 ? low : high) = middle;
+  }
+  const double k2 = 0.5 * (low + high);
+  const double root = std::sqrt((k2 - g2) * (k2 - 1.0));
+  // dR / d(k^2); dR/dk is 2 k times that.
+  const double slope =
+      4.0 * (2.0 * k2 - 1.0) - 4.0 * root - 2.0 * k2 * (2.0 * k2 - 1.0 - g2) / root;
+  const double surface = pi * std::sqrt(k2 - g2) / (2.0 * std::abs(slope));
+  return both + transverse + surface;
+}
+
+double half_space_mobility(double youngs_modulus, double poisson_ratio, double density) {
+  const double mu = youngs_modulus / (2.0 * (1.0 + poisson_ratio));
+  return half_space_radiation(poisson_ratio) / (2.0 * pi * mu * std::sqrt(mu / density));
+}
+
+Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties& contact) {
+  Surroundings s;
+  s.density = contact.particle_density;
+  s.stiffness = contact.stiffness;
+  s.reduced_modulus = 0.75 * contact.stiffness;
+  s.reference_diameter = contact.reference_diameter;
+  const Material& surface = system.surface;
+  s.wave_mobility =
+      half_space_mobility(surface.youngs_modulus, surface.poisson_ratio,
+                          surface.density > 0.0 ? surface.density : system.particle.density);
+  return s;
+}
+
+}  // namespace recoil

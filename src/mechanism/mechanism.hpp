@@ -1,0 +1,147 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "mechanism/encounter.hpp"
+
+namespace recoil {
+
+/// What a mechanism is a statement about. A description fits and explains nothing: it is never
+/// named as a cause.
+enum class MechanismKind { physics, measurement, description };
+
+std::string to_string(MechanismKind kind);
+
+/// Where on the way of a sphere a mechanism acts, from the outside in. On the way in mechanisms act
+/// in this order, on the way out in the reverse one; those at the same place in the order of their
+/// ids. The last three act on what a point shows, in this order.
+enum class MechanismPlace {
+  size,        ///< which sphere it is
+  spread,      ///< how the spheres of one point differ
+  instrument,  ///< what the velocimeter reads
+  height,      ///< between the measuring plane and the surface
+  gas,
+  field,
+  contact,
+  selection,  ///< which rebounds are seen
+  pairing,    ///< which rebound belongs to which impact
+  batch,      ///< what all points of a series share
+};
+
+/// Values that a parameter can physically have, and why.
+struct PlausibleRange {
+  double lower = 0.0;
+  double upper = 0.0;
+  std::string_view why;
+};
+
+struct MechanismParameter {
+  std::string_view name;  ///< as a fit file has it; unique in the catalogue
+  std::string_view unit;
+  std::string_view meaning;
+  double null_value = 0.0;  ///< here the mechanism vanishes
+  double initial = 0.0;     ///< where a fit starts
+  double lower = 0.0;       ///< bounds; also the domain of the formula
+  double upper = 0.0;
+  PlausibleRange plausible;
+  std::vector<double> starts = {};  ///< further ones worth trying
+  bool free = true;                 ///< fitted unless the fit file says otherwise
+  bool log_scale = false;           ///< positive over several decades: its logarithm is fitted
+  bool per_series = false;          ///< one value for every series
+};
+
+struct MechanismInfo {
+  std::string_view id;
+  std::string_view title;
+  MechanismKind kind = MechanismKind::physics;
+  MechanismPlace place = MechanismPlace::contact;
+  std::string_view formula;
+  std::string_view source;
+  std::string_view
+      fingerprint;  ///< what it leaves in the data when the base model is fitted without it
+  std::vector<MechanismParameter> parameters = {};
+};
+
+/// The law of a mechanism for one number type; null where it does nothing. `own` holds its
+/// parameters in the order of `MechanismInfo::parameters`.
+template <class T>
+struct MechanismLaw {
+  void (*before)(Encounter<T>&, std::span<const T> own) = nullptr;  ///< on the way in
+  void (*after)(Encounter<T>&, std::span<const T> own) = nullptr;   ///< on the way out
+  void (*observe)(Sight<T>&, std::span<const T> own) = nullptr;
+  /// The sphere that lies z standard deviations from the typical one of its point.
+  void (*vary)(Encounter<T>&, std::span<const T> own, double z) = nullptr;
+};
+
+/// Directions that a dual number carries: V, D, C_H, C_A, f0, then the mechanisms' parameters.
+inline constexpr std::size_t base_directions = 5;
+using FewDirections = Dual<8>;    ///< up to three parameters
+using SomeDirections = Dual<12>;  ///< up to seven: two or three mechanisms
+using ManyDirections = Dual<32>;  ///< more than the whole catalogue has
+
+struct Mechanism {
+  MechanismInfo info;
+  std::tuple<MechanismLaw<double>, MechanismLaw<FewDirections>, MechanismLaw<SomeDirections>,
+             MechanismLaw<ManyDirections>>
+      laws;
+  bool dashpot = false;  ///< sets Encounter::relaxation
+
+  template <class T>
+  const MechanismLaw<T>& law() const {
+    return std::get<MechanismLaw<T>>(laws);
+  }
+  bool spreads() const { return law<double>().vary != nullptr; }
+};
+
+/// Every mechanism, in the order in which they act.
+const std::vector<Mechanism>& mechanism_catalogue();
+
+/// The mechanism `id`; null when there is none.
+const Mechanism* find_mechanism(std::string_view id);
+
+/// Those of `ids`, in the order in which they act. @pre all of them exist
+std::vector<const Mechanism*> chain_of(const std::vector<std::string>& ids);
+
+namespace mechanism_detail {
+
+template <class Law, class T>
+MechanismLaw<T> law_for() {
+  using Own = std::span<const T>;
+  MechanismLaw<T> law;
+  if constexpr (requires(Encounter<T> & e, Own own) { Law::before(e, own); }) {
+    law.before = [](Encounter<T>& e, Own own) { Law::before(e, own); };
+  }
+  if constexpr (requires(Encounter<T> & e, Own own) { Law::after(e, own); }) {
+    law.after = [](Encounter<T>& e, Own own) { Law::after(e, own); };
+  }
+  if constexpr (requires(Sight<T> & s, Own own) { Law::observe(s, own); }) {
+    law.observe = [](Sight<T>& s, Own own) { Law::observe(s, own); };
+  }
+  if constexpr (requires(Encounter<T> & e, Own own) { Law::vary(e, own, 0.0); }) {
+    law.vary = [](Encounter<T>& e, Own own, double z) { Law::vary(e, own, z); };
+  }
+  return law;
+}
+
+}  // namespace mechanism_detail
+
+/// `Law` has any of the functions of MechanismLaw as static templates over the number type. Each
+/// mechanism defines a function of the name of its id that returns make_mechanism<Law>(...); the
+/// list of ids stands in CMakeLists.txt and nowhere else.
+template <class Law>
+Mechanism make_mechanism(MechanismInfo info) {
+  Mechanism m;
+  m.info = std::move(info);
+  m.laws = {mechanism_detail::law_for<Law, double>(),
+            mechanism_detail::law_for<Law, FewDirections>(),
+            mechanism_detail::law_for<Law, SomeDirections>(),
+            mechanism_detail::law_for<Law, ManyDirections>()};
+  if constexpr (requires { Law::dashpot; }) m.dashpot = Law::dashpot;
+  return m;
+}
+
+}  // namespace recoil

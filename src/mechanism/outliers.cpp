@@ -1,0 +1,44 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+/// e of the border between seen and not seen.
+constexpr double border = 0.1;
+
+struct Outliers {
+  /// ((1 - q) e + q / 2)^2 for what is seen.
+  template <class T>
+  static void observe(Sight<T>& s, std::span<const T> own) {
+    const T right = 1.0 - own[0];
+    s.square = shifted_if_seen(right * right * s.square, 0.5 * own[0], T(border));
+  }
+};
+
+}  // namespace
+
+Mechanism outliers() {
+  return make_mechanism<Outliers>({
+      .id = "outliers",
+      .title = "rebounds paired with the wrong impact",
+      .kind = MechanismKind::measurement,
+      .place = MechanismPlace::pairing,
+      .formula =
+          "the part q of all pairs is chance, with e even between 0 and 1: the mean is (1 - q) e + "
+          "q / 2. Single wild points are a matter of the noise (Student's t), not of this",
+      .source = "no further source",
+      .fingerprint = "draws e towards 1/2 at all velocities: too low where e is high, too high "
+                     "near capture; the same at all sizes and targets",
+      .parameters = {{.name = "outlier_share",
+                      .unit = "1",
+                      .meaning = "q, part of the pairs that do not belong together",
+                      .null_value = 0.0,
+                      .initial = 0.03,
+                      .lower = 0.0,
+                      .upper = 0.9,
+                      .plausible = {0.0, 0.2, "more than a fifth would show in every histogram"},
+                      .starts = {0.1}}},
+  });
+}
+
+}  // namespace recoil

@@ -1,0 +1,43 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+struct PlateFlexure {
+  static constexpr bool dashpot = true;
+  template <class T>
+  static void before(Encounter<T>& e, std::span<const T> own) {
+    e.relaxation += e.mass() * own[0];
+  }
+};
+
+}  // namespace
+
+Mechanism plate_flexure() {
+  return make_mechanism<PlateFlexure>({
+      .id = "plate_flexure",
+      .title = "flexural waves in a thin target",
+      .kind = MechanismKind::physics,
+      .place = MechanismPlace::contact,
+      .formula = "the struck place yields with the velocity F / Z: n'' = -F / m - F' / Z, for a "
+                 "plate of thickness H with Z = (4 / sqrt(3)) H^2 (E_2 rho_2 / (1 - nu_2^2))^(1/2)",
+      .source =
+          "Zener, C. (1941), Phys. Rev. 59, 669-673. The flexure by the adhesion force is left out",
+      .fingerprint = "1 - e^2 ~ V^(1/5) d^(+2): large spheres lose most, the opposite of adhesion; "
+                     "no dependence on surface energy",
+      .parameters =
+          {{.name = "plate_mobility",
+            .unit = "s/kg",
+            .meaning = "1 / Z, velocity of the target per force",
+            .null_value = 0.0,
+            .initial = 1e-1,
+            .lower = 0.0,
+            .upper = 1e9,
+            .plausible =
+                {0.0, 1e3,
+                 "a silicon wafer of 0.5 mm has 0.1 s/kg, a mica sheet of 10 um some 300 s/kg"},
+            .starts = {1.0, 10.0, 100.0}}},
+  });
+}
+
+}  // namespace recoil

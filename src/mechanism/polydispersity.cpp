@@ -1,0 +1,42 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+struct Polydispersity {
+  template <class T>
+  static void vary(Encounter<T>& e, std::span<const T> own, double z) {
+    const T factor = exponential(own[0] * z);
+    e.diameter *= factor;
+    e.contact_radius *= factor;
+    e.adhesion_force *= exponential(own[0] * (z / 3.0));
+  }
+};
+
+}  // namespace
+
+Mechanism polydispersity() {
+  return make_mechanism<Polydispersity>({
+      .id = "polydispersity",
+      .title = "spheres of many sizes in one point",
+      .kind = MechanismKind::measurement,
+      .place = MechanismPlace::spread,
+      .formula = "diameters are lognormal about the stated one; a point is the mean e of those "
+                 "that rebound",
+      .source = "Hinds, W. C., Aerosol Technology (lognormal sizes)",
+      .fingerprint = "rounds e(V) off near capture, where only the large ones come back: e too "
+                     "high just above V*, where the mean sphere would hardly rebound",
+      .parameters = {{.name = "size_spread",
+                      .unit = "1",
+                      .meaning = "standard deviation of ln(diameter)",
+                      .null_value = 0.0,
+                      .initial = 0.1,
+                      .lower = 0.0,
+                      .upper = 1.0,
+                      .plausible = {0.0, 0.5,
+                                    "calibration spheres have 0.01 to 0.05, sieved powders 0.3"},
+                      .starts = {0.02, 0.3}}},
+  });
+}
+
+}  // namespace recoil

@@ -1,0 +1,44 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double gravity = 9.80665;  // standard [m/s2]
+
+struct ProbePlane {
+  template <class T>
+  static void before(Encounter<T>& e, std::span<const T> own) {
+    e.velocity = sqrt(e.velocity * e.velocity + 2.0 * gravity * own[0]);
+  }
+  template <class T>
+  static void after(Encounter<T>& e, std::span<const T> own) {
+    e.square -= 2.0 * gravity * own[0];
+  }
+};
+
+}  // namespace
+
+Mechanism probe_plane() {
+  return make_mechanism<ProbePlane>({
+      .id = "probe_plane",
+      .title = "the measuring plane is higher than it was corrected for",
+      .kind = MechanismKind::measurement,
+      .place = MechanismPlace::height,
+      .formula =
+          "spheres fall: V^2 = V_p^2 + 2 g h on the way in, V_p^2 = V^2 - 2 g h on the way out",
+      .source = "Galilei's law of falling bodies; Li, X., Dunn, P. F. & Brach, R. M. (1999) "
+                "measure above the surface",
+      .fingerprint = "1 - e^2 ~ V^(-2) at low V, the same at all sizes and for all targets",
+      .parameters = {{.name = "plane_height",
+                      .unit = "m",
+                      .meaning = "h, height that was not corrected for",
+                      .null_value = 0.0,
+                      .initial = 1e-4,
+                      .lower = -1e-2,
+                      .upper = 1e-1,
+                      .plausible = {-2e-3, 5e-3, "beams are placed within some mm"},
+                      .starts = {1e-3, -1e-4}}},
+  });
+}
+
+}  // namespace recoil

@@ -1,0 +1,40 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+struct SizeCalibration {
+  template <class T>
+  static void before(Encounter<T>& e, std::span<const T> own) {
+    const T factor = 1.0 + own[0];
+    e.diameter *= factor;
+    e.contact_radius *= factor;
+    e.adhesion_force *= power(factor, 1.0 / 3.0);
+  }
+};
+
+}  // namespace
+
+Mechanism size_calibration() {
+  return make_mechanism<SizeCalibration>({
+      .id = "size_calibration",
+      .title = "diameters are stated wrong by a factor",
+      .kind = MechanismKind::measurement,
+      .place = MechanismPlace::size,
+      .formula = "true diameter (1 + s) d",
+      .source = "Li, X., Dunn, P. F. & Brach, R. M. (1999) state the error of their sizes",
+      .fingerprint = "V* shifts by 5/4 of the relative error at all sizes alike; at one size the "
+                     "same as a wrong f0 or density",
+      .parameters = {{.name = "diameter_error",
+                      .unit = "1",
+                      .meaning = "s, true diameter over stated one, less 1",
+                      .null_value = 0.0,
+                      .initial = 0.02,
+                      .lower = -0.8,
+                      .upper = 4.0,
+                      .plausible = {-0.15, 0.15, "15 % below 2 um, 1 % above 80 um"},
+                      .starts = {-0.02, 0.1, -0.1}}},
+  });
+}
+
+}  // namespace recoil

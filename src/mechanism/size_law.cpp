@@ -1,0 +1,40 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+struct SizeLaw {
+  template <class T>
+  static void before(Encounter<T>& e, std::span<const T> own) {
+    const T ratio = logarithm(e.diameter / e.at->reference_diameter);
+    e.adhesion_force *= exponential((own[0] - 1.0 / 3.0) * ratio);
+  }
+};
+
+}  // namespace
+
+Mechanism size_law() {
+  return make_mechanism<SizeLaw>({
+      .id = "size_law",
+      .title = "adhesion with another power of the size",
+      .kind = MechanismKind::description,
+      .place = MechanismPlace::size,
+      .formula = "f0 ~ r^p",
+      .source = "generalises equation 12 of Li, X., Dunn, P. F. & Brach, R. M. (1999), p = 1/3",
+      .fingerprint = "takes up any dependence on size: p near 5/9 is what a rate-independent loss "
+                     "(JKR, area hysteresis) leaves. It describes and explains nothing",
+      .parameters =
+          {{.name = "size_exponent",
+            .unit = "1",
+            .meaning = "p, of f0 with the radius",
+            .null_value = 1.0 / 3.0,
+            .initial = 1.0 / 3.0,
+            .lower = -2.0,
+            .upper = 4.0,
+            .plausible = {1.0 / 3.0, 1.0 / 3.0,
+                          "equation 12 has 1/3; another value stands for a cause not named"},
+            .starts = {0.55, 0.1}}},
+  });
+}
+
+}  // namespace recoil

@@ -1,0 +1,39 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+struct SurvivorBias {
+  template <class T>
+  static void vary(Encounter<T>& e, std::span<const T> own, double z) {
+    e.adhesion_force *= exponential(own[0] * z);
+  }
+};
+
+}  // namespace
+
+Mechanism survivor_bias() {
+  return make_mechanism<SurvivorBias>({
+      .id = "survivor_bias",
+      .title = "adhesion differs from impact to impact, and only survivors are averaged",
+      .kind = MechanismKind::measurement,
+      .place = MechanismPlace::spread,
+      .formula =
+          "f0 is lognormal from impact to impact; a point is the mean e of those that rebound",
+      .source = "Rabinovich, Y. I. et al. (2000), J. Colloid Interface Sci. 232, 10-16 (adhesion "
+                "between rough surfaces) for why adhesion scatters",
+      .fingerprint = "flattens e(V) near capture and hides the capture velocity: spheres are seen "
+                     "to rebound where the typical one sticks",
+      .parameters = {{.name = "adhesion_spread",
+                      .unit = "1",
+                      .meaning = "standard deviation of ln(f0) from impact to impact",
+                      .null_value = 0.0,
+                      .initial = 0.2,
+                      .lower = 0.0,
+                      .upper = 1.5,
+                      .plausible = {0.0, 0.6, "roughness scatters pull-off forces by 20 to 50 %"},
+                      .starts = {0.05, 0.5}}},
+  });
+}
+
+}  // namespace recoil

@@ -1,0 +1,176 @@
+#include "mechanism/survivors_mean.hpp"
+
+#include <cassert>
+
+namespace recoil {
+namespace {
+
+using Weights = std::array<double, spread_nodes>;
+
+/// Lagrange polynomials at z and their derivatives, by the product formula: nine nodes are few.
+struct Basis {
+  Weights value{};
+  Weights slope{};
+};
+
+Basis basis_at(double z) {
+  const Weights& x = spread_positions();
+  Basis basis;
+  for (std::size_t k = 0; k < spread_nodes; ++k) {
+    double product = 1.0;
+    double derivative = 0.0;
+    for (std::size_t j = 0; j < spread_nodes; ++j) {
+      if (j == k) continue;
+      const double inverse = 1.0 / (x[k] - x[j]);
+      derivative = (derivative * (z - x[j]) + product) * inverse;
+      product *= (z - x[j]) * inverse;
+    }
+    basis.value[k] = product;
+    basis.slope[k] = derivative;
+  }
+  return basis;
+}
+
+/// Gauss-Legendre points and weights on [0, 1], by Newton's method on the polynomial.
+constexpr std::size_t quadrature_points = 12;
+struct Quadrature {
+  std::array<double, quadrature_points> at{};
+  std::array<double, quadrature_points> weight{};
+  std::array<Basis, quadrature_points> whole_from_low{};  // bases of the undivided interval
+  std::array<Basis, quadrature_points> whole_from_high{};
+};
+
+const Quadrature& quadrature() {
+  static const Quadrature rule = [] {
+    Quadrature q;
+    constexpr int n = quadrature_points;
+    for (int i = 0; i < n; ++i) {
+      double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
+      double slope = 0.0;
+      for (int round = 0; round < 100; ++round) {
+        double p0 = 1.0;
+        double p1 = x;
+        for (int k = 2; k <= n; ++k) {
+          const double p2 = ((2.0 * k - 1.0) * x * p1 - (k - 1.0) * p0) / k;
+          p0 = p1;
+          p1 = p2;
+        }
+        slope = n * (x * p1 - p0) / (x * x - 1.0);
+        x -= p1 / slope;
+      }
+      const auto k = static_cast<std::size_t>(i);
+      q.at[k] = 0.5 * (1.0 - x);
+      q.weight[k] = 1.0 / ((1.0 - x * x) * slope * slope);
+      const double s2 = q.at[k] * q.at[k];
+      q.whole_from_low[k] = basis_at(spread_reach * (2.0 * s2 - 1.0));
+      q.whole_from_high[k] = basis_at(spread_reach * (1.0 - 2.0 * s2));
+    }
+    return q;
+  }();
+  return rule;
+}
+
+template <class T>
+T combine(const Basis& basis, std::span<const T> x) {
+  // Relative to the typical sphere: exact when all are alike.
+  const T& middle = x[spread_nodes / 2];
+  T sum = middle;
+  for (std::size_t k = 0; k < spread_nodes; ++k) sum += basis.value[k] * (x[k] - middle);
+  return sum;
+}
+
+template <class T>
+double slope_at(const Basis& basis, std::span<const T> x) {
+  double sum = 0.0;
+  const double middle = value_of(x[spread_nodes / 2]);
+  for (std::size_t k = 0; k < spread_nodes; ++k) {
+    sum += basis.slope[k] * (value_of(x[k]) - middle);
+  }
+  return sum;
+}
+
+/// Where the interpolated e^2 passes through zero, between nodes of opposite sign.
+template <class T>
+T crossing(std::span<const T> x) {
+  double inside =
+      value_of(x.front()) > value_of(x.back()) ? -spread_reach : spread_reach;  // comes back
+  double outside = -inside;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    const Basis basis = basis_at(middle);
+    double at = 0.0;
+    for (std::size_t k = 0; k < spread_nodes; ++k) at += basis.value[k] * value_of(x[k]);
+    (at > 0.0 ? inside : outside) = middle;
+  }
+  const Basis basis = basis_at(inside);
+  const T there = combine(basis, x);
+  T z = inside;
+  add_slopes(z, -1.0 / slope_at(basis, x), there);
+  return z;
+}
+
+/// e^2 where even the last sphere is captured. With D = its distance to the other end, the slope is
+/// 4/9 at first (the mean of sqrt(t) over a short interval is 2/3 of its largest value) and 1 far
+/// below, or when all are alike.
+template <class T>
+T beyond_the_last(const T& last, const T& other) {
+  const T depth = -1.0 * last;
+  const T width = last - other;
+  if (value_of(depth) + value_of(width) == 0.0) return last;
+  return last * ((4.0 / 9.0 * width + depth) / (width + depth));
+}
+
+}  // namespace
+
+const std::array<double, spread_nodes>& spread_positions() {
+  static const Weights positions = [] {
+    Weights z{};
+    for (std::size_t k = 0; k < spread_nodes; ++k) {
+      z[k] = -spread_reach *
+             std::cos(std::numbers::pi * static_cast<double>(k) / (spread_nodes - 1.0));
+    }
+    z[spread_nodes / 2] = 0.0;
+    return z;
+  }();
+  return positions;
+}
+
+template <class T>
+T survivors_square(std::span<const T> x) {
+  assert(x.size() == spread_nodes);
+  const double low = value_of(x.front());
+  const double high = value_of(x.back());
+  const bool low_best = low >= high;  // small z comes back most easily
+  const T& best = low_best ? x.front() : x.back();
+  const T& worst = low_best ? x.back() : x.front();
+  if (!(value_of(best) > 0.0)) return beyond_the_last(best, worst);
+  const bool whole = value_of(worst) > 0.0;
+  const double from = low_best ? -spread_reach : spread_reach;
+  const T edge = whole ? T(-from) : crossing(x);
+  // z = edge + (from - edge) (1 - s^2 ...): points crowd at the edge, where sqrt(e^2) is steep.
+  const Quadrature& rule = quadrature();
+  T total = 0.0;
+  T weights = 0.0;
+  for (std::size_t i = 0; i < quadrature_points; ++i) {
+    const double s = rule.at[i];
+    const T z = edge + (from - edge) * (s * s);
+    const Basis moved = whole ? Basis{} : basis_at(value_of(z));
+    const Basis& basis =
+        !whole ? moved : (low_best ? rule.whole_from_high[i] : rule.whole_from_low[i]);
+    T square = combine(basis, x);
+    if (!whole) add_slopes(square, slope_at(basis, x), z);
+    if (!(value_of(square) > 0.0)) continue;  // within rounding of the edge
+    const T weight = rule.weight[i] * s * normal_density(z);
+    total += weight * sqrt(square);
+    weights += weight;
+  }
+  const T mean = total / weights;
+  return mean * mean;
+}
+
+template double survivors_square(std::span<const double>);
+template FewDirections survivors_square(std::span<const FewDirections>);
+template SomeDirections survivors_square(std::span<const SomeDirections>);
+template ManyDirections survivors_square(std::span<const ManyDirections>);
+
+}  // namespace recoil

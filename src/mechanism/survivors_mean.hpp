@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+
+/// Where the spheres of a point are sampled, in standard deviations: the Chebyshev-Lobatto points
+/// of [-2.5, 2.5], which is where the distribution is cut off. Among some tens of impacts none lies
+/// further out; beyond, the picture "normal" is not known to hold.
+inline constexpr std::size_t spread_nodes = 9;
+inline constexpr double spread_reach = 2.5;
+const std::array<double, spread_nodes>& spread_positions();
+
+/// The e^2 that a point shows when its spheres differ: the square of the mean e of those that come
+/// back. `squares[k]` is e^2, continued below zero, of the sphere at spread_positions()[k]; between
+/// them it is interpolated by a polynomial. When even the last sphere is captured the value goes on
+/// below zero along its e^2, with a slope that is continuous; spheres that are all alike give back
+/// their own e^2.
+template <class T>
+T survivors_square(std::span<const T> squares);
+
+extern template double survivors_square(std::span<const double>);
+extern template FewDirections survivors_square(std::span<const FewDirections>);
+extern template SomeDirections survivors_square(std::span<const SomeDirections>);
+extern template ManyDirections survivors_square(std::span<const ManyDirections>);
+
+}  // namespace recoil

@@ -1,0 +1,44 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+/// Rebounds slower than this part of V are the border between seen and not seen.
+constexpr double border = 0.1;
+
+struct VelocityOffset {
+  template <class T>
+  static void before(Encounter<T>& e, std::span<const T> own) {
+    e.velocity -= own[0];
+  }
+  template <class T>
+  static void after(Encounter<T>& e, std::span<const T> own) {
+    e.square = shifted_if_seen(e.square, own[0], border * e.measured_velocity);
+  }
+};
+
+}  // namespace
+
+Mechanism velocity_offset() {
+  return make_mechanism<VelocityOffset>({
+      .id = "velocity_offset",
+      .title = "the velocimeter reads too much by a constant",
+      .kind = MechanismKind::measurement,
+      .place = MechanismPlace::instrument,
+      .formula = "both velocities are read as v + delta",
+      .source = "an instrument's zero error; no further source",
+      .fingerprint = "e changes by delta (1 / V_r - 1 / V_i): 1 - e^2 ~ V^(-1), the same at all "
+                     "sizes and targets",
+      .parameters = {{.name = "velocity_error",
+                      .unit = "m/s",
+                      .meaning = "delta, read too much",
+                      .null_value = 0.0,
+                      .initial = 1e-2,
+                      .lower = -10.0,
+                      .upper = 10.0,
+                      .plausible = {-0.1, 0.1, "a velocimeter's zero is good to some cm/s"},
+                      .starts = {-1e-2, 1e-1, -1e-1}}},
+  });
+}
+
+}  // namespace recoil

@@ -1,0 +1,225 @@
+// Fits with mechanisms, from the text of a fit file to the answer, on data from formulas and
+// integrators that the fitter does not use.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "../impact/independent_impact.hpp"
+#include "core/error.hpp"
+#include "estimate/fit.hpp"
+#include "reconstruction/elastoplastic_truth.hpp"
+#include "synthetic.hpp"
+
+namespace recoil {
+namespace {
+
+FitSpec parsed(const std::string& mechanisms, const std::string& parameters) {
+  return parse_fit(
+      "dataset = \"d\"\n[model]\nmechanisms = [" + mechanisms + "]\n[parameters]\n" + parameters,
+      "fits/fit.toml");
+}
+
+/// The design of `synthetic`, with e^2 from elsewhere.
+template <class Square>
+Dataset dataset_of(Square square, std::vector<double> diameters = {2.58e-6, 4.9e-6, 6.89e-6}) {
+  synthetic::Design design;
+  design.diameters = std::move(diameters);
+  design.sd = 1e-4;  // the residual allows for a bias of sd^2
+  Dataset data = synthetic::dataset(design);
+  for (ImpactPoint& point : data.points) {
+    const double x = square(point.series, point.diameter, point.incident_velocity);
+    point.restitution = std::sqrt(std::max(0.0, x));
+    point.captured = x > 0.0 ? 0 : 1;
+  }
+  return data;
+}
+
+double value_of_slot(const FitResult& result, const std::string& label) {
+  for (std::size_t j = 0; j < result.theta.size(); ++j) {
+    if (result.model.slots[j].label() == label) return result.theta[j];
+  }
+  ADD_FAILURE() << "no parameter " << label;
+  return NAN;
+}
+
+double mass(double d) { return 1350.0 * std::numbers::pi / 6.0 * d * d * d; }
+
+TEST(MechanismFit, FindsYieldPressureAndWorkOfAdhesion) {
+  const std::vector<Dataset> datasets = {dataset_of([](std::size_t, double d, double v) {
+    return elastoplastic_impact({0.75 * 1.789e9, 0.5 * d, mass(d), 0.2, 0.0, 1e8}, v)
+        .restitution_squared;
+  })};
+  const FitSpec spec = parsed("\"plastic_yield\", \"jkr_hysteresis\"",
+                              "C_H = { free = false, initial = 0 }\n"
+                              "C_A = { free = false, initial = 0 }\n");
+  const FitResult result = fit(make_model(spec, datasets), gather(datasets));
+  ASSERT_TRUE(result.usable) << result.failure;
+  EXPECT_NEAR(value_of_slot(result, "yield_pressure"), 1e8, 1e4);
+  EXPECT_NEAR(value_of_slot(result, "jkr_work"), 0.2, 1e-4);
+  EXPECT_LT(result.chi2, 1e-3);
+  for (const ParameterSlot& slot : result.model.slots) {
+    if (slot.name == "jkr_work") {
+      EXPECT_EQ(slot.unit, "J/m2");
+    }
+    if (slot.name == "yield_pressure") {
+      EXPECT_TRUE(slot.log_scale);
+    }
+  }
+}
+
+TEST(MechanismFit, FindsTheRelaxationTimeOfTheBulk) {
+  // The independent integrator with both damping terms and the dashpot.
+  const double relaxation = 2e-10;
+  const double f0 = 8.9;
+  const std::vector<Dataset> datasets = {dataset_of([&](std::size_t, double d, double v) {
+    const double A = std::sqrt(0.5 * d) * 1.789e9 / mass(d);
+    const double scale = std::pow(v * v / A, 0.4);
+    const double B =
+        2.0 * std::numbers::pi * std::sqrt(0.5 * d) * f0 * std::cbrt(d / 4.9e-6) / mass(d);
+    const independent::Groups<double> groups{2e-3 * v, B / (A * scale), 0.03 * v,
+                                             1.5 * relaxation * v / scale};
+    return independent::twice_energy_left(groups, false);
+  })};
+  const FitSpec spec = parsed("\"bulk_viscoelastic\"", "");
+  const FitResult result = fit(make_model(spec, datasets), gather(datasets));
+  ASSERT_TRUE(result.usable) << result.failure;
+  EXPECT_NEAR(value_of_slot(result, "bulk_relaxation"), relaxation, 1e-3 * relaxation);
+  EXPECT_NEAR(value_of_slot(result, "C_H"), 2e-3, 2e-6);
+  EXPECT_NEAR(value_of_slot(result, "C_A"), 0.03, 3e-5);
+}
+
+TEST(MechanismFit, EverySeriesHasItsOwnOffset) {
+  const std::vector<double> offsets = {0.03, -0.02, 0.01};
+  RingAdhesionTruth truth;
+  truth.density = 1350.0;
+  truth.stiffness = 1.789e9;
+  truth.adhesion_force = 8.9;
+  truth.reference_diameter = 4.9e-6;
+  truth.C_H = 3e-3;
+  truth.C_A = 0.02;
+  const std::vector<Dataset> datasets = {dataset_of([&](std::size_t series, double d, double v) {
+    return std::pow(true_restitution(truth, d, v) + offsets[series], 2);
+  })};
+  const FitSpec spec = parsed("\"series_offset\"", "C_H = { free = false, initial = 3e-3 }\n");
+  const ImpactModel model = make_model(spec, datasets);
+  ASSERT_EQ(model.slots.size(), 6U);
+  const FitResult result = fit(model, gather(datasets));
+  ASSERT_TRUE(result.usable) << result.failure;
+  for (std::size_t s = 0; s < offsets.size(); ++s) {
+    EXPECT_NEAR(value_of_slot(result, "series_offset[" + std::to_string(s) + "]"), offsets[s],
+                2e-4);
+  }
+  // Elsewhere than in a series there is no offset.
+  const Prediction anywhere = predict(model, result.theta, 0, 4.9e-6, 20.0, true);
+  EXPECT_NEAR(anywhere.restitution(), true_restitution(truth, 4.9e-6, 20.0), 2e-4);
+  EXPECT_EQ(anywhere.gradient[4], 0.0);
+}
+
+TEST(MechanismFit, NullValuesGiveTheBaseModel) {
+  const std::vector<Dataset> datasets = {synthetic::dataset({})};
+  const ImpactModel base = make_model(parsed("", ""), datasets);
+  const ImpactModel extended = make_model(
+      parsed("\"plastic_yield\", \"gas_film\", \"survivor_bias\", \"size_law\"", ""), datasets);
+  const std::vector<double> theta = without_mechanisms(extended, extended.initial());
+  for (const double v : {1.1, 2.0, 30.0}) {
+    EXPECT_NEAR(predict(extended, theta, 0, 4.9e-6, v, false).restitution_squared,
+                predict(base, base.initial(), 0, 4.9e-6, v, false).restitution_squared, 1e-10);
+  }
+  EXPECT_EQ(base.initial().size(), 3U);
+}
+
+TEST(MechanismCapture, FollowsTheExtendedModelAndForgetsTheMeasurement) {
+  const std::vector<Dataset> datasets = {synthetic::dataset({})};
+  // JKR alone on a conservative sphere: V_s = (2 * 7.0922 / m)^(1/2) (W^5 R^4 / E*^2)^(1/6).
+  const FitSpec spec = parsed("\"jkr_hysteresis\", \"probe_plane\", \"velocity_offset\"",
+                              "C_H = { free = false, initial = 0 }\n"
+                              "C_A = { free = false, initial = 0 }\n"
+                              "jkr_work = { initial = 0.2 }\n"
+                              "plane_height = { initial = 5e-3 }\n");
+  const ImpactModel model = make_model(spec, datasets);
+  const std::vector<double> theta = model.initial();
+  const double d = 4.9e-6;
+  const double E = 0.75 * 1.789e9;
+  const double expected = std::sqrt(2.0 * 7.0922 / mass(d)) *
+                          std::pow(std::pow(0.2, 5) * std::pow(0.5 * d, 4) / (E * E), 1.0 / 6.0);
+  const CaptureVelocity found = capture_velocity(model, theta, 0, d);
+  ASSERT_TRUE(found.found);
+  EXPECT_NEAR(found.value, expected, 1e-6 * expected);
+  for (std::size_t j = 0; j < theta.size(); ++j) {
+    // d ln V* / d ln W = 5/6; the instrument's errors do not move it.
+    const std::string& name = model.slots[j].name;
+    if (name == "jkr_work") {
+      EXPECT_NEAR(found.gradient[j] * 0.2 / expected, 5.0 / 6.0, 1e-6);
+    }
+    if (name == "plane_height" || name == "velocity_error") {
+      EXPECT_EQ(found.gradient[j], 0.0);
+    }
+  }
+  // Nothing sticks without a loss.
+  std::vector<double> none = without_mechanisms(model, theta);
+  const CaptureVelocity nowhere = capture_velocity(model, none, 0, d);
+  EXPECT_TRUE(nowhere.found);
+  EXPECT_EQ(nowhere.value, 0.0);
+}
+
+void expect_refused(const std::string& mechanisms, const std::string& parameters,
+                    const std::vector<std::string>& parts) {
+  try {
+    parsed(mechanisms, parameters);
+    ADD_FAILURE() << "accepted: " << mechanisms << " / " << parameters;
+  } catch (const InputError& error) {
+    for (const std::string& part : parts) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
+          << part << " is not in: " << error.what();
+    }
+  }
+}
+
+TEST(MechanismSpec, MistakesNameTheNearestKnownWord) {
+  expect_refused("\"plastic_yeild\"", "", {"fit.toml:3:15: ", "did you mean 'plastic_yield'?"});
+  expect_refused("\"plastic_yield\", \"plastic_yield\"", "", {"fit.toml:3:32: ", "twice"});
+  expect_refused("\"plastic_yield\"", "yield_presure = { initial = 1e8 }",
+                 {"fit.toml:5:1: ", "did you mean 'yield_pressure'?"});
+  expect_refused(
+      "\"plastic_yield\"", "jkr_work = { initial = 0.1 }",
+      {"fit.toml:5:", "belongs to the mechanism 'jkr_hysteresis'", "\"jkr_hysteresis\""});
+  expect_refused("\"plastic_yield\"", "yield_pressure = { initial = 10 }",
+                 {"fit.toml:5:", "the formula of 'plastic_yield' holds from 100000 to 1e+12"});
+  expect_refused("\"velocity_offset\"", "velocity_error = { bounds = [-20, 1] }",
+                 {"fit.toml:5:", "'velocity_offset' holds from -10 to 10"});
+}
+
+TEST(MechanismSpec, NegativeValuesAreFineWhereTheyMeanSomething) {
+  const FitSpec spec =
+      parsed("\"velocity_offset\"", "velocity_error = { initial = -0.01, bounds = [-0.1, 0.1] }");
+  ASSERT_EQ(spec.parameters.size(), 4U);
+  EXPECT_EQ(spec.parameters[3].name, "velocity_error");
+  EXPECT_EQ(spec.parameters[3].initial, -0.01);
+  EXPECT_EQ(spec.parameters[3].lower, -0.1);
+  EXPECT_TRUE(spec.parameters[3].free);
+}
+
+TEST(MechanismSpec, ParametersMayBelongToEachDataset) {
+  std::vector<Dataset> datasets = {synthetic::dataset({}), synthetic::dataset({})};
+  datasets[1].id = "other";
+  const ImpactModel model = make_model(
+      parsed("\"jkr_hysteresis\", \"series_offset\"", "jkr_work = { per = \"dataset\" }"),
+      datasets);
+  std::vector<std::string> labels;
+  for (const ParameterSlot& slot : model.slots) labels.push_back(slot.label());
+  const std::vector<std::string> expected = {"C_H",
+                                             "C_A",
+                                             "f0[synthetic]",
+                                             "f0[other]",
+                                             "jkr_work[synthetic]",
+                                             "jkr_work[other]",
+                                             "series_offset[synthetic/0]",
+                                             "series_offset[synthetic/1]",
+                                             "series_offset[other/0]",
+                                             "series_offset[other/1]"};
+  EXPECT_EQ(labels, expected);
+}
+
+}  // namespace
+}  // namespace recoil

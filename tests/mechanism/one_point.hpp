@@ -1,0 +1,71 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "impact/fast_solver.hpp"
+#include "mechanism/extended_impacts.hpp"
+
+namespace recoil::one_point {
+
+/// Ammonium fluorescein on molybdenum, as in the README's table.
+inline ImpactSystem fluorescein() {
+  ImpactSystem system;
+  system.particle = {"ammonium fluorescein", 1350.0, 1.2e9, 0.33, {}};
+  system.surface = {"molybdenum", 10200.0, 320e9, 0.31, {}};
+  system.adhesion_force_f0 = 8.9;
+  system.reference_diameter = 4.9e-6;
+  return system;
+}
+
+/// 316 stainless steel on steel.
+inline ImpactSystem steel() {
+  ImpactSystem system;
+  system.particle = {"steel", 7900.0, 193e9, 0.25, {}};
+  system.surface = {"steel", 7900.0, 193e9, 0.25, {}};
+  system.adhesion_force_f0 = 300.0;
+  system.reference_diameter = 49e-6;
+  return system;
+}
+
+inline Surroundings around(const ImpactSystem& system) {
+  return surroundings_of(system, derive_contact(system, *system.reference_diameter));
+}
+
+/// C_H, C_A and f0 of the base model.
+struct Base {
+  double C_H = 0.0, C_A = 0.0, f0 = 0.0;
+};
+
+/// e^2 and its derivatives in V, D, C_H, C_A, f0 and the mechanisms' parameters.
+struct Answer {
+  bool usable = false;
+  double square = 0.0;
+  std::vector<double> slopes;
+};
+
+inline Answer ask(const Surroundings& at, const std::vector<std::string>& ids,
+                  const std::vector<double>& own, double diameter, double velocity,
+                  const Base& base = {}, bool gradient = true) {
+  ExtendedImpacts impacts(chain_of(ids), {{&at, diameter, velocity}});
+  std::vector<double> values = {base.C_H, base.C_A, base.f0};
+  values.insert(values.end(), own.begin(), own.end());
+  ImpactOptions options;
+  options.gradient = gradient;
+  impacts.evaluate(values, options, simulate_impacts_fast);
+  Answer answer;
+  const ImpactOutcome outcome = impacts.at(0).outcome;
+  answer.usable = outcome == ImpactOutcome::rebound || outcome == ImpactOutcome::captured;
+  answer.square = impacts.at(0).restitution_squared;
+  if (gradient) answer.slopes.assign(impacts.slopes(0).begin(), impacts.slopes(0).end());
+  return answer;
+}
+
+/// e^2 alone, without derivatives.
+inline double square(const Surroundings& at, const std::vector<std::string>& ids,
+                     const std::vector<double>& own, double diameter, double velocity,
+                     const Base& base = {}) {
+  return ask(at, ids, own, diameter, velocity, base, false).square;
+}
+
+}  // namespace recoil::one_point

@@ -1,0 +1,113 @@
+// Means over spheres that differ, against sums over thousands of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "impact/contact.hpp"
+#include "mechanism/survivors_mean.hpp"
+#include "one_point.hpp"
+
+namespace recoil {
+namespace {
+
+using one_point::square;
+
+const Surroundings kSoft = one_point::around(one_point::fluorescein());
+constexpr double kDiameter = 4.9e-6;
+const one_point::Base kBase{3e-3, 0.05, 8.9};
+
+/// Mean e of those that come back, cut off at 2.5 standard deviations; -1 when none does.
+template <class Square>
+double brute_force(Square square_of) {
+  double sum = 0.0;
+  double weights = 0.0;
+  constexpr int count = 4000;
+  for (int i = 0; i < count; ++i) {
+    const double z = -2.5 + 5.0 * (i + 0.5) / count;
+    const double x = square_of(z);
+    if (x <= 0.0) continue;
+    sum += std::exp(-0.5 * z * z) * std::sqrt(x);
+    weights += std::exp(-0.5 * z * z);
+  }
+  return weights > 0.0 ? sum / weights : -1.0;
+}
+
+double base_square(double f0, double diameter, double velocity) {
+  ImpactConditions c{diameter, velocity, kSoft.density, kSoft.stiffness, f0, kBase.C_H, kBase.C_A};
+  return simulate_impact_fast(impact_groups(c), {}).restitution_squared;
+}
+
+TEST(SurvivorBias, IsTheMeanOfTheSurvivors) {
+  // The capture velocity of the typical sphere is about 1.28 m/s.
+  for (const double spread : {0.05, 0.2, 0.4}) {
+    for (const double V : {1.0, 1.2, 1.28, 1.4, 1.7, 3.0, 20.0}) {
+      const double expected = brute_force(
+          [&](double z) { return base_square(kBase.f0 * std::exp(spread * z), kDiameter, V); });
+      const double found = square(kSoft, {"survivor_bias"}, {spread}, kDiameter, V, kBase);
+      if (expected < 0.0) {
+        EXPECT_LT(found, 0.0) << spread << " " << V;
+      } else {
+        EXPECT_NEAR(std::sqrt(std::max(found, 0.0)), expected, 5e-3) << spread << " " << V;
+      }
+    }
+  }
+}
+
+TEST(Polydispersity, IsTheMeanOverTheSizes) {
+  for (const double spread : {0.05, 0.3}) {
+    for (const double V : {0.9, 1.3, 2.0, 10.0}) {
+      const double expected = brute_force([&](double z) {
+        const double d = kDiameter * std::exp(spread * z);
+        return base_square(kBase.f0 * std::cbrt(d / kDiameter), d, V);
+      });
+      const double found = square(kSoft, {"polydispersity"}, {spread}, kDiameter, V, kBase);
+      if (expected < 0.0) {
+        EXPECT_LT(found, 0.0) << spread << " " << V;
+      } else {
+        EXPECT_NEAR(std::sqrt(std::max(found, 0.0)), expected, 5e-3) << spread << " " << V;
+      }
+    }
+  }
+}
+
+TEST(SurvivorsMean, OfAStraightLine) {
+  // x = c - z over a normal cut off at +-2.5, by Simpson in t = sqrt(c - z).
+  const auto mean = [](double c) {
+    const double top = std::sqrt(c + 2.5);
+    const double bottom = std::sqrt(std::max(0.0, c - 2.5));
+    constexpr int n = 4000;
+    double sum = 0.0;
+    double weights = 0.0;
+    for (int i = 0; i <= n; ++i) {
+      const double t = bottom + (top - bottom) * i / n;
+      const double z = c - t * t;
+      const double w = (i == 0 || i == n ? 1.0
+                        : i % 2 == 1     ? 4.0
+                                         : 2.0) *
+                       t * std::exp(-0.5 * z * z);
+      sum += w * t;
+      weights += w;
+    }
+    return sum / weights;
+  };
+  for (const double c : {-2.0, -0.5, 0.3, 2.0, 2.49, 4.0, 30.0}) {
+    std::vector<double> x;
+    for (const double z : spread_positions()) x.push_back(c - z);
+    EXPECT_NEAR(std::sqrt(survivors_square<double>(x)), mean(c), 2e-6 * mean(c)) << c;
+  }
+}
+
+TEST(SurvivorsMean, PassesSmoothlyThroughTheCaptureOfTheLast) {
+  const auto at = [](double c) {
+    std::vector<double> x;
+    for (const double z : spread_positions()) x.push_back(c - 0.1 * z);
+    return survivors_square<double>(x);
+  };
+  const double h = 1e-6;
+  EXPECT_NEAR(at(-0.25 + h), -at(-0.25 - h), 1e-3 * h);
+  EXPECT_LT(at(-0.25 - 1e-3), 0.0);
+  EXPECT_NEAR((at(-0.25 + h) - at(-0.25)) / h, 4.0 / 9.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace recoil
