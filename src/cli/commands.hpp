@@ -9,6 +9,7 @@ namespace recoil {
 void add_check(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_fit(CLI::App& program);
+void add_diagnose(CLI::App& program);
 void add_coverage(CLI::App& program);
 void add_reconstruct(CLI::App& program);
 void add_report(CLI::App& program);

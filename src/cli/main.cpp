@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   recoil::add_check(program);
   recoil::add_simulate(program);
   recoil::add_fit(program);
+  recoil::add_diagnose(program);
   recoil::add_coverage(program);
   recoil::add_reconstruct(program);
   recoil::add_report(program);

@@ -10,6 +10,8 @@ enum class RandomPurpose : std::uint32_t {
   reconstruction = 2,
   coverage = 3,
   two_point_pairs = 4,
+  diagnosis = 5,
+  held_out = 6,
 };
 
 /// A reproducible stream of random numbers that is a pure function of (seed, purpose, replicate):

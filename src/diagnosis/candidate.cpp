@@ -1,0 +1,173 @@
+#include "diagnosis/candidate.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "estimate/impact_problem.hpp"
+#include "uncertainty/bootstrap.hpp"
+
+namespace recoil {
+namespace {
+
+bool belongs_to(const Candidate& candidate, const ParameterSlot& slot) {
+  return std::find(candidate.added.begin(), candidate.added.end(), slot.mechanism) !=
+         candidate.added.end();
+}
+
+/// `near` and what differs from it by an advised start of one parameter of an added mechanism.
+std::vector<std::vector<double>> advised_starts(const Candidate& candidate,
+                                                const std::vector<double>& near) {
+  std::vector<std::vector<double>> starts = {near};
+  for (std::size_t j = 0; j < near.size(); ++j) {
+    const ParameterSlot& slot = candidate.model.slots[j];
+    if (!slot.free || !belongs_to(candidate, slot)) continue;
+    std::vector<double> values = slot.starts;
+    values.push_back(slot.initial);
+    for (const double value : values) {
+      if (value == near[j] || value < slot.lower || value > slot.upper) continue;
+      starts.push_back(near);
+      starts.back()[j] = value;
+    }
+  }
+  return starts;
+}
+
+/// `near` with the damping of the base model taken down: another loss may stand for all of it.
+std::vector<double> hardly_damped(const Candidate& candidate, std::vector<double> near) {
+  for (std::size_t j = 0; j < near.size(); ++j) {
+    const ParameterSlot& slot = candidate.model.slots[j];
+    if (!slot.free || !slot.mechanism.empty() || slot.name == "f0") continue;
+    near[j] = std::clamp(0.1 * near[j], slot.lower, slot.upper);
+  }
+  return near;
+}
+
+/// The `most` of `starts` with the smallest deviance.
+std::vector<std::vector<double>> best_starts(const LeastSquaresProblem& problem,
+                                             std::vector<std::vector<double>> starts,
+                                             std::size_t most) {
+  if (starts.size() <= most) return starts;
+  std::vector<double> residuals(problem.residual_count);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    if (!problem.evaluate(starts[k], residuals, {})) continue;
+    order.emplace_back(
+        std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0), k);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::vector<double>> best;
+  for (const auto& [deviance, k] : order) {
+    if (best.size() < most) best.push_back(std::move(starts[k]));
+  }
+  return best;
+}
+
+/// Narrows the bounds of a mechanism's parameter to its plausible range.
+void keep_possible(const ParameterEntry& entry, ParameterSpec& spec) {
+  for (const MechanismParameter& parameter : find_mechanism(entry.mechanism)->info.parameters) {
+    if (parameter.name != entry.name) continue;
+    spec.lower = std::max(spec.lower, parameter.plausible.lower);
+    spec.upper = std::min(spec.upper, parameter.plausible.upper);
+    spec.initial = std::clamp(spec.initial, spec.lower, spec.upper);
+  }
+}
+
+}  // namespace
+
+std::string Candidate::name() const { return fmt::format("{}", fmt::join(added, " + ")); }
+
+Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                         const std::vector<std::string>& added, bool release, bool possible) {
+  Candidate candidate;
+  candidate.released = release;
+  candidate.spec = spec;
+  for (const Mechanism* mechanism : chain_of(added)) {
+    candidate.added.emplace_back(mechanism->info.id);
+    candidate.spec.mechanisms.emplace_back(mechanism->info.id);
+  }
+  std::map<std::string, ParameterSpec> known;
+  for (const ParameterSpec& parameter : spec.parameters) known[parameter.name] = parameter;
+  candidate.spec.parameters.clear();
+  for (const ParameterEntry& entry : parameters_with(candidate.spec.mechanisms)) {
+    const auto found = known.find(entry.name);
+    if (found != known.end()) {
+      candidate.spec.parameters.push_back(found->second);
+    } else {
+      ParameterSpec own{entry.name, entry.initial, entry.lower, entry.upper, entry.free || release,
+                        false,      false};
+      if (possible && own.free) keep_possible(entry, own);
+      candidate.spec.parameters.push_back(own);
+    }
+  }
+  candidate.model = make_model(candidate.spec, datasets);
+  candidate.free_count =
+      static_cast<int>(std::count_if(candidate.model.slots.begin(), candidate.model.slots.end(),
+                                     [](const ParameterSlot& slot) { return slot.free; }));
+  return candidate;
+}
+
+std::vector<double> carried_over(const ImpactModel& model, std::span<const double> theta,
+                                 const ImpactModel& to) {
+  std::map<std::string, double> values;
+  for (std::size_t j = 0; j < theta.size(); ++j) values[model.slots[j].label()] = theta[j];
+  std::vector<double> carried = to.initial();
+  for (std::size_t j = 0; j < carried.size(); ++j) {
+    const auto found = values.find(to.slots[j].label());
+    if (found != values.end() && to.slots[j].free) carried[j] = found->second;
+  }
+  return carried;
+}
+
+Refit refit_candidate(const Candidate& candidate, const Observations& data,
+                      std::span<const double> near, int tries) {
+  const LeastSquaresProblem problem = impact_problem(candidate.model, data);
+  const std::vector<double> first(near.begin(), near.end());
+  const auto most = static_cast<std::size_t>(tries);
+  std::vector<std::vector<double>> starts =
+      best_starts(problem, advised_starts(candidate, first), most);
+  if (tries > 1) {
+    for (std::vector<double>& start :
+         best_starts(problem, advised_starts(candidate, hardly_damped(candidate, first)), most)) {
+      starts.push_back(std::move(start));
+    }
+  }
+  LeastSquaresOptions options = refit_options();
+  options.covariance = false;
+  Refit best;
+  for (const std::vector<double>& start : starts) {
+    LeastSquaresResult run = minimise(problem, start, options);
+    if (!run.converged || !std::isfinite(run.sum_of_squares)) continue;
+    if (best.usable && run.sum_of_squares >= best.chi2) continue;
+    best.usable = true;
+    best.theta = std::move(run.theta);
+    best.chi2 = run.sum_of_squares;
+    best.residuals = std::move(run.residuals);
+    best.jacobian = std::move(run.jacobian);
+    best.moving.assign(best.theta.size(), false);
+    for (std::size_t j = 0; j < best.theta.size(); ++j) {
+      best.moving[j] = candidate.model.slots[j].free && !run.at_bound[j];
+    }
+  }
+  return best;
+}
+
+double log_deviance(const Observations& data, double chi2) {
+  if (data.sd_stated) return chi2;
+  const auto n = static_cast<double>(data.points.size());
+  return n * std::log(std::max(chi2, 1e-300) / n);
+}
+
+double corrected_criterion(const Observations& data, double chi2, int free_count) {
+  const auto n = static_cast<double>(data.points.size());
+  const double k = free_count + (data.sd_stated ? 0 : 1);
+  const double spare = n - k - 1.0;
+  if (spare <= 0.0) return INFINITY;
+  return log_deviance(data, chi2) + 2.0 * k + 2.0 * k * (k + 1.0) / spare;
+}
+
+}  // namespace recoil

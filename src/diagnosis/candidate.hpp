@@ -1,0 +1,63 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "estimate/fit.hpp"
+
+namespace recoil {
+
+/// The model of a fit with further mechanisms, ready to be refitted to many samples.
+struct Candidate {
+  std::vector<std::string>
+      added;              ///< ids of the further mechanisms, in the order in which they act
+  bool released = false;  ///< parameters that the catalogue holds fixed are free
+  FitSpec spec;
+  ImpactModel model;
+  int free_count = 0;
+
+  /// "plastic_yield", "plastic_yield + probe_plane".
+  std::string name() const;
+};
+
+/// `spec` with the mechanisms `added` on top of its own, their parameters as the catalogue has
+/// them.
+/// @param release free those parameters too that the catalogue holds fixed
+/// @param possible keep them within the range that is physically plausible
+Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                         const std::vector<std::string>& added, bool release = false,
+                         bool possible = false);
+
+/// The fit of one candidate to one sample under weights that stay as they are, so that the
+/// deviances of all candidates are those of one likelihood.
+struct Refit {
+  bool usable = false;
+  std::vector<double> theta;      ///< [slots]
+  double chi2 = 0.0;              ///< deviance at theta
+  std::vector<double> residuals;  ///< weighted [points]
+  std::vector<double> jacobian;   ///< d residual / d theta [points x slots]
+  std::vector<bool> moving;       ///< [slots] free, and not resting on a bound
+};
+
+/// The values of `theta` under `model` carried over to the free slots of another one by their
+/// labels; the others keep their initial value.
+std::vector<double> carried_over(const ImpactModel& model, std::span<const double> theta,
+                                 const ImpactModel& to);
+
+/// Minimises from `near`, with the parameters of the added mechanisms also at every start that the
+/// catalogue advises; of these starts the `tries` with the smallest deviance are followed, and as
+/// many with the damping of the base model taken down to a tenth, if `tries` exceeds one.
+/// @param near theta of the candidate: the base parameters of a fit without the mechanisms, say
+Refit refit_candidate(const Candidate& candidate, const Observations& data,
+                      std::span<const double> near, int tries);
+
+/// -2 ln likelihood but for a constant: the deviance where standard deviations are stated,
+/// n ln(deviance / n) where only their proportions are known and their scale is estimated.
+double log_deviance(const Observations& data, double chi2);
+
+/// log_deviance + 2 k + 2 k (k + 1) / (n - k - 1), k the number of free parameters (and of the
+/// scale, where it is estimated): Hurvich & Tsai (1989), Biometrika 76, 297-307.
+double corrected_criterion(const Observations& data, double chi2, int free_count);
+
+}  // namespace recoil

@@ -1,0 +1,219 @@
+#include "diagnosis/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/progress.hpp"
+#include "diagnosis/misfit_map.hpp"
+#include "diagnosis/next_measurement.hpp"
+#include "diagnosis/search.hpp"
+#include "diagnosis/verdict_words.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double size_factor = 1.2;         // diameters within this factor are one size
+constexpr double apart_at_one_size = 20.0;  // there nothing but the shape of one curve speaks
+constexpr double excused = 0.01;            // level at which a free form takes up the misfit
+
+bool has_one_size(const Observations& data) {
+  double low = INFINITY, high = 0.0;
+  for (const Observation& point : data.points) {
+    low = std::min(low, point.diameter);
+    high = std::max(high, point.diameter);
+  }
+  return high < low * size_factor;
+}
+
+/// Step 1: does the base model leave structure?
+void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
+  const StructureStatistics statistics(base.fitted.data, base.refit,
+                                       base.fitted.prediction_squared);
+  const auto count = static_cast<std::size_t>(diagnosis.options.simulated);
+  std::vector<std::vector<double>> simulated(count);
+  parallel_over(count, diagnosis.options.threads, [&](std::size_t b) {
+    const Observations sample = simulate_base(base, b);
+    const Refit refit = refit_candidate(base.candidate, sample, base.refit.theta, 1);
+    if (refit.usable) simulated[b] = statistics(refit.residuals);
+    if (b % 10 == 0) progress.advance();
+  });
+  const auto failed = std::erase_if(simulated, [](const auto& row) { return row.empty(); });
+  diagnosis.structure = judge_structure(statistics, base.refit.residuals, simulated);
+  diagnosis.structure.failed = static_cast<int>(failed);
+  if (static_cast<double>(failed) > 0.01 * static_cast<double>(count)) {
+    diagnosis.warnings.push_back(fmt::format(
+        "{} of {} simulated data sets could not be fitted: the p-values rest on the others", failed,
+        count));
+  }
+  diagnosis.free_form = statistics.free_form(base.refit.residuals);
+  if (!diagnosis.free_form.empty()) {
+    Observations rest = base.fitted.data;
+    Refit without = base.refit;
+    for (std::size_t i = 0; i < without.residuals.size(); ++i) {
+      without.residuals[i] -= diagnosis.free_form[i];
+    }
+    diagnosis.free_form_p =
+        quick_structure(rest, without, base.fitted.prediction_squared, 999, diagnosis.options.seed)
+            .p_value;
+  } else {
+    diagnosis.free_form_p = diagnosis.structure.p_value;
+  }
+}
+
+/// Those of `candidates` (the best first) that cannot be told from the best explanation, which is
+/// the first of them; none without an explanation.
+std::vector<const CandidateResult*> explanations(const std::vector<CandidateResult>& candidates,
+                                                 double apart, bool one_size) {
+  std::vector<const CandidateResult*> found;
+  for (const CandidateResult& c : candidates) {
+    if (found.empty()) {
+      if (c.explains()) found.push_back(&c);
+      continue;
+    }
+    if (c.delta_aicc > found.front()->delta_aicc + apart) break;
+    // So close to the best one the other reasons to set something aside are as doubtful as it.
+    const bool possible = c.plausible && c.kind != MechanismKind::description &&
+                          c.delta_aicc < 0.0 && c.candidate.added.size() == 1;
+    const bool counts = one_size || c.candidate.added.size() > 1 ? c.explains() : possible;
+    if (counts) found.push_back(&c);
+  }
+  return found;
+}
+
+/// Step 4.
+void decide(const std::vector<const CandidateResult*>& found, bool one_size, Diagnosis& diagnosis) {
+  if (found.empty()) {
+    diagnosis.verdict = Verdict::unexplained;
+    return;
+  }
+  diagnosis.extended = *found.front();
+  if (found.size() == 1 && !one_size) {
+    diagnosis.verdict = Verdict::cause_named;
+    diagnosis.named = found.front()->candidate.added;
+    return;
+  }
+  diagnosis.verdict = Verdict::not_separable;
+  for (const CandidateResult* c : found) {
+    for (const std::string& id : c->candidate.added) {
+      auto& rivals = diagnosis.rivals;
+      if (std::find(rivals.begin(), rivals.end(), id) == rivals.end()) rivals.push_back(id);
+    }
+  }
+}
+
+void compare_capture(Diagnosis& diagnosis) {
+  std::set<std::pair<std::size_t, double>> sizes;
+  for (const Observation& point : diagnosis.base.data.points) {
+    sizes.insert({point.dataset, point.diameter});
+  }
+  std::vector<CaptureQuery> queries;
+  for (const auto& [dataset, diameter] : sizes) queries.push_back({dataset, diameter, 0.0});
+  const auto values = [&](const FitResult& fitted) {
+    return capture_velocities(fitted.model, fitted.theta, queries);
+  };
+  const std::vector<CaptureVelocity> base = values(diagnosis.base);
+  const std::vector<CaptureVelocity> extended = values(*diagnosis.extended_fit);
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    CaptureChange change{queries[k].dataset, queries[k].diameter, {}, {}};
+    if (base[k].found) change.base = base[k].value;
+    if (extended[k].found) change.extended = extended[k].value;
+    diagnosis.capture.push_back(change);
+  }
+}
+
+/// The extended model as `fit` would have it, with settled weights.
+void extend(const SearchBase& base, Diagnosis& diagnosis) {
+  const CandidateResult& best = *diagnosis.extended;
+  FitOptions options;
+  options.several_starts = false;
+  options.start = best.refit.theta;
+  const Observations gathered = gather(base.datasets, base.spec.noise);
+  diagnosis.extended_fit = fit(best.candidate.model, gathered, options);
+  if (!diagnosis.extended_fit->usable) {
+    diagnosis.warnings.push_back("the extended model has no usable fit of its own: " +
+                                 diagnosis.extended_fit->failure);
+    diagnosis.extended_fit.reset();
+    return;
+  }
+  diagnosis.gain = best.gain;
+  compare_capture(diagnosis);
+}
+
+/// Steps 2 to 4.
+void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
+  const DiagnosisOptions& options = diagnosis.options;
+  diagnosis.candidates = try_singles(base);
+  calibrate(base, diagnosis.candidates, [&] { progress.advance(); });
+  const std::vector<Fold> folds =
+      held_out_folds(base.fitted.data, base.datasets, base.candidate.free_count + 1);
+  const std::vector<FoldPrediction> base_folds =
+      predict_folds(base.candidate, base.fitted.data, folds, base.refit.theta, options.threads);
+  judge(base, diagnosis.candidates, folds, base_folds);
+  const bool one_size = has_one_size(base.fitted.data);
+  const double apart = one_size ? apart_at_one_size : options.apart;
+  std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, apart, one_size);
+  if (found.empty()) {
+    diagnosis.pairs = try_pairs(base, diagnosis.candidates, [] {});
+    judge(base, diagnosis.pairs, folds, base_folds);
+    found = explanations(diagnosis.pairs, apart, one_size);
+  }
+  decide(found, one_size, diagnosis);
+  if (diagnosis.verdict == Verdict::not_separable) {
+    diagnosis.next = next_measurements(diagnosis.base, found);
+  }
+  if (diagnosis.extended) extend(base, diagnosis);
+}
+
+}  // namespace
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::adequate:
+      return "adequate";
+    case Verdict::cause_named:
+      return "cause_named";
+    case Verdict::not_separable:
+      return "not_separable";
+    case Verdict::unexplained:
+      return "unexplained";
+  }
+  return "";
+}
+
+Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                   const DiagnosisOptions& options) {
+  Diagnosis diagnosis;
+  diagnosis.options = options;
+  diagnosis.spec = spec;
+  diagnosis.datasets = datasets;
+  diagnosis.base = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+  if (!diagnosis.base.usable) {
+    throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", spec.file.string(),
+                                       diagnosis.base.failure));
+  }
+  const SearchBase base = search_base(spec, datasets, diagnosis.base, options);
+  if (!base.refit.usable) {
+    throw ComputationError(
+        fmt::format("{}: the fit cannot be repeated from its own answer", spec.file.string()));
+  }
+  Progress progress("diagnosis",
+                    static_cast<std::size_t>((options.simulated + 9) / 10 + options.compared));
+  test_base(base, diagnosis, progress);
+  diagnosis.where = misfit_map(diagnosis.base);
+  if (diagnosis.structure.p_value > options.level) {
+    diagnosis.verdict = Verdict::adequate;
+    progress.advance(static_cast<std::size_t>(options.compared));
+  } else {
+    search(base, diagnosis, progress);
+  }
+  diagnosis.text = verdict_text(diagnosis);
+  return diagnosis;
+}
+
+}  // namespace recoil

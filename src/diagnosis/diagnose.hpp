@@ -1,0 +1,127 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/candidate.hpp"
+#include "diagnosis/held_out.hpp"
+#include "diagnosis/structure.hpp"
+
+namespace recoil {
+
+struct DiagnosisOptions {
+  int simulated = 999;  ///< data sets of the base model that calibrate the tests of the residuals
+  int compared = 99;    ///< of these, how many are fitted with every candidate
+  double level = 0.05;  ///< a correct model is accused in no more than this part of all data
+  /// Two causes whose criteria differ by less cannot be told apart. For a false rival R and the
+  /// truth T, with delta^2 the misfit that R would leave, the difference of their deviances is
+  /// about normal with mean delta^2 and standard deviation 2 delta, so that R leads by c with a
+  /// probability of at most Phi(-sqrt(c)): 0.7 % at 6.
+  double apart = 6.0;
+  std::uint64_t seed = 20260101;
+  int threads = 0;  ///< 0: all cores. No digit depends on it.
+};
+
+/// Where the fitted base model misses: one diameter, one band of velocities.
+struct MisfitCell {
+  std::size_t dataset = 0;
+  double diameter = 0.0;  ///< [m]
+  double slowest = 0.0;   ///< incident velocity [m/s]
+  double fastest = 0.0;   ///< [m/s]
+  int points = 0;
+  double restitution = 0.0;   ///< mean of e - e_model [1]: positive where the model is too low
+  double energy = 0.0;        ///< mean of m V^2 / 2 (e^2 - e_model^2) [J]
+  double standardised = 0.0;  ///< mean of e - e_model over its standard error [1]
+};
+
+/// A parameter of an added mechanism as it was fitted.
+struct FoundParameter {
+  std::string label;
+  std::string unit;
+  double value = 0.0;
+  double null_value = 0.0;
+  bool plausible = true;
+  std::string why_not;  ///< when it is not
+};
+
+/// One mechanism, or several at once, tried as an explanation.
+struct CandidateResult {
+  Candidate candidate;
+  Refit refit;
+  MechanismKind kind = MechanismKind::physics;
+  std::vector<FoundParameter> parameters;
+  double delta_aicc = 0.0;          ///< criterion less that of the base model: negative is better
+  std::optional<double> p_value;    ///< see `diagnose`; none for several at once
+  double remaining_p = 0.0;         ///< of the structure that it leaves, `quick_structure`
+  std::optional<HeldOutGain> gain;  ///< where worth computing
+  bool plausible = true;
+  std::string aside;  ///< why it is not taken for a cause; empty otherwise
+
+  bool explains() const { return aside.empty(); }
+};
+
+enum class Verdict { adequate, cause_named, not_separable, unexplained };
+std::string to_string(Verdict verdict);
+
+/// A measurement that would tell two rivals apart.
+struct NextMeasurement {
+  std::size_t dataset = 0;
+  double velocity = 0.0;  ///< [m/s]
+  double diameter = 0.0;  ///< [m]
+  std::string one, other;
+  double difference = 0.0;    ///< of the two predictions of e [1]
+  double event_sd = 0.0;      ///< of one impact's e there [1]
+  std::optional<int> events;  ///< that tell them apart at three standard errors; none: 10^6
+                              ///< would not do
+};
+
+/// The capture velocity of one diameter under both models.
+struct CaptureChange {
+  std::size_t dataset = 0;
+  double diameter = 0.0;                 ///< [m]
+  std::optional<double> base, extended;  ///< [m/s]; none where nothing is captured
+};
+
+struct Diagnosis {
+  DiagnosisOptions options;
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+  FitResult base;
+  Verdict verdict = Verdict::adequate;
+  std::string text;                         ///< the answer in words
+  Structure structure;                      ///< of the base model's residuals
+  std::vector<MisfitCell> where;            ///< the map
+  std::vector<double> free_form;            ///< discrepancy as residuals [points]; empty: none
+  double free_form_p = 1.0;                 ///< of the scatter that it leaves
+  std::vector<CandidateResult> candidates;  ///< single mechanisms, the best first
+  std::vector<CandidateResult> pairs;       ///< the best pairs, when one did not suffice
+  std::vector<std::string> named;
+  std::vector<std::string> rivals;
+  std::optional<CandidateResult> extended;  ///< the model of `extended.toml`
+  std::optional<FitResult> extended_fit;
+  std::optional<HeldOutGain> gain;
+  std::vector<CaptureChange> capture;
+  std::vector<NextMeasurement> next;
+  std::vector<std::string> warnings;
+};
+
+/// What the fitted model of `spec` gets wrong, and why.
+///
+/// 1. The residuals are tested for structure (`StructureStatistics`); the p-value comes from data
+///    sets simulated by the fitted model and refitted.
+/// 2. Unless the model is adequate, every mechanism of the catalogue is added and the whole model
+///    refitted, with the weights of the base fit. The p-value of a candidate is the part of data
+///    sets simulated by the base model in which the best of all candidates gains as much.
+/// 3. A candidate explains the data when that p-value is below the level, it leaves no structure
+///    (or none to speak of beside what it took), its parameters are possible, and it predicts
+///    blocks that were held out better than the base does. A description never explains.
+/// 4. Explanations within `apart` of the best are rivals. One alone is named; several are not
+///    separable; none sends the search to pairs; if they fail too the structure is unexplained.
+///    One diameter names nothing: the size dependence, which tells causes apart, was not seen.
+/// @throws ComputationError when the base model has no usable fit.
+Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                   const DiagnosisOptions& options);
+
+}  // namespace recoil

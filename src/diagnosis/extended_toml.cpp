@@ -1,0 +1,87 @@
+#include "diagnosis/extended_toml.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace recoil {
+namespace {
+
+toml::table& subtable(toml::table& table, const char* key) {
+  if (!table.contains(key)) table.insert(key, toml::table{});
+  return *table.get(key)->as_table();
+}
+
+toml::array paths_from(const FitSpec& spec, const std::filesystem::path& folder) {
+  toml::array paths;
+  for (const std::filesystem::path& path : spec.datasets) {
+    const std::filesystem::path seen =
+        std::filesystem::absolute(path).lexically_normal().lexically_relative(
+            std::filesystem::absolute(folder).lexically_normal());
+    paths.push_back(seen.empty() ? std::filesystem::absolute(path).string() : seen.string());
+  }
+  return paths;
+}
+
+/// The estimate of `name`, or that of its first dataset or series; a per-series parameter starts
+/// at its null value instead, which is its default.
+void start_at_estimate(toml::table& parameters, const ParameterSpec& spec,
+                       const FitResult& fitted) {
+  const auto slot = std::find_if(fitted.model.slots.begin(), fitted.model.slots.end(),
+                                 [&](const ParameterSlot& s) { return s.name == spec.name; });
+  if (slot == fitted.model.slots.end() || !slot->series.empty()) return;
+  const bool derived = spec.name == "f0" && !spec.free && !spec.initial_stated;
+  toml::table& entry = subtable(parameters, spec.name.c_str());
+  entry.insert_or_assign("free", spec.free);
+  if (spec.free) {
+    if (!entry.contains("bounds")) {
+      entry.insert("bounds", toml::array{spec.lower, spec.upper});
+    }
+  }
+  if (derived) return;
+  const double value = fitted.theta[static_cast<std::size_t>(slot - fitted.model.slots.begin())];
+  entry.insert_or_assign("initial", spec.free ? std::clamp(value, spec.lower, spec.upper) : value);
+}
+
+}  // namespace
+
+std::string extended_toml(const Diagnosis& diagnosis, const std::filesystem::path& folder) {
+  toml::table root;
+  try {
+    root = toml::parse(read_text_file(diagnosis.spec.file));
+  } catch (const toml::parse_error&) {
+    throw InputError({diagnosis.spec.file.string()}, "the file is not valid TOML any more",
+                     "it was when the diagnosis began", "leave it alone until the end");
+  }
+  toml::array paths = paths_from(diagnosis.spec, folder);
+  if (paths.size() == 1) {
+    root.insert_or_assign("dataset", *paths.get(0)->as_string());
+  } else {
+    root.insert_or_assign("dataset", paths);
+  }
+  std::string head = fmt::format("# {}, ", diagnosis.spec.id);
+  if (diagnosis.extended && diagnosis.extended_fit) {
+    const FitSpec& spec = diagnosis.extended->candidate.spec;
+    head += fmt::format("extended by {}: {}\n", diagnosis.extended->candidate.name(),
+                        to_string(diagnosis.verdict));
+    toml::array mechanisms;
+    for (const std::string& id : spec.mechanisms) mechanisms.push_back(id);
+    subtable(root, "model").insert_or_assign("mechanisms", mechanisms);
+    toml::table& parameters = subtable(root, "parameters");
+    for (const ParameterSpec& parameter : spec.parameters) {
+      start_at_estimate(parameters, parameter, *diagnosis.extended_fit);
+    }
+  } else {
+    head += fmt::format("as it was: {}\n", to_string(diagnosis.verdict));
+  }
+  std::ostringstream text;
+  text << root;
+  return head + text.str() + "\n";
+}
+
+}  // namespace recoil

@@ -1,0 +1,182 @@
+#include "diagnosis/held_out.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/parallel.hpp"
+#include "core/random.hpp"
+#include "core/units.hpp"
+#include "estimate/impact_problem.hpp"
+#include "uncertainty/intervals.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_size_folds = 6;
+constexpr std::size_t velocity_bands = 3;
+constexpr int resamplings = 1999;
+
+Observations subset(const Observations& data, const std::vector<std::size_t>& points, bool inside) {
+  std::vector<bool> chosen(data.points.size(), false);
+  for (const std::size_t i : points) chosen[i] = true;
+  Observations part = data;
+  part.points.clear();
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    if (chosen[i] == inside) part.points.push_back(data.points[i]);
+  }
+  return part;
+}
+
+/// Distinct values with how many points each has, split into at most `most` runs of like size.
+std::vector<std::vector<double>> groups_of(const std::set<double>& values, std::size_t most) {
+  const std::vector<double> sorted(values.begin(), values.end());
+  const std::size_t count = std::min(most, sorted.size());
+  std::vector<std::vector<double>> groups(count);
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    groups[k * count / sorted.size()].push_back(sorted[k]);
+  }
+  return groups;
+}
+
+void add_size_folds(const Observations& data, std::vector<Fold>& folds) {
+  std::set<double> diameters;
+  for (const Observation& point : data.points) diameters.insert(point.diameter);
+  if (diameters.size() < 2) return;
+  for (const std::vector<double>& group : groups_of(diameters, most_size_folds)) {
+    Fold fold{"size", fmt::format("{:.3g} um", group.front() / units::um), {}};
+    if (group.size() > 1) {
+      fold.name =
+          fmt::format("{:.3g} to {:.3g} um", group.front() / units::um, group.back() / units::um);
+    }
+    for (std::size_t i = 0; i < data.points.size(); ++i) {
+      const double d = data.points[i].diameter;
+      if (d >= group.front() && d <= group.back()) fold.points.push_back(i);
+    }
+    folds.push_back(std::move(fold));
+  }
+}
+
+void add_velocity_folds(const Observations& data, std::vector<Fold>& folds) {
+  double low = INFINITY, high = 0.0;
+  for (const Observation& point : data.points) {
+    low = std::min(low, point.velocity);
+    high = std::max(high, point.velocity);
+  }
+  for (std::size_t k = 0; k < velocity_bands; ++k) {
+    const auto edge = [&](std::size_t j) {
+      return low * std::pow(high / low, static_cast<double>(j) / velocity_bands);
+    };
+    Fold fold{"velocity", fmt::format("{:.3g} to {:.3g} m/s", edge(k), edge(k + 1)), {}};
+    for (std::size_t i = 0; i < data.points.size(); ++i) {
+      const double V = data.points[i].velocity;
+      const bool last = k + 1 == velocity_bands;
+      if ((k == 0 || V >= edge(k)) && (last || V < edge(k + 1))) fold.points.push_back(i);
+    }
+    if (!fold.points.empty()) folds.push_back(std::move(fold));
+  }
+}
+
+double mean_square(const std::vector<double>& errors) {
+  double sum = 0.0;
+  for (const double error : errors) sum += error * error;
+  return errors.empty() ? 0.0 : sum / static_cast<double>(errors.size());
+}
+
+}  // namespace
+
+std::vector<Fold> held_out_folds(const Observations& data, const std::vector<Dataset>& datasets,
+                                 int free_count) {
+  std::vector<Fold> folds;
+  add_size_folds(data, folds);
+  add_velocity_folds(data, folds);
+  if (datasets.size() > 1) {
+    for (std::size_t k = 0; k < datasets.size(); ++k) {
+      Fold fold{"target", datasets[k].id, {}};
+      for (std::size_t i = 0; i < data.points.size(); ++i) {
+        if (data.points[i].dataset == k) fold.points.push_back(i);
+      }
+      folds.push_back(std::move(fold));
+    }
+  }
+  const auto least = static_cast<std::size_t>(free_count) + 2;
+  std::erase_if(folds, [&](const Fold& fold) {
+    return data.points.size() - fold.points.size() < least || fold.points.empty();
+  });
+  return folds;
+}
+
+std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Observations& data,
+                                          const std::vector<Fold>& folds,
+                                          std::span<const double> near, int threads) {
+  std::vector<FoldPrediction> predictions(folds.size());
+  parallel_over(folds.size(), threads, [&](std::size_t f) {
+    const Observations seen = subset(data, folds[f].points, false);
+    const Observations unseen = subset(data, folds[f].points, true);
+    const Refit refit = refit_candidate(candidate, seen, near, 2);
+    if (!refit.usable) return;
+    const LeastSquaresProblem problem = impact_problem(candidate.model, unseen);
+    std::vector<double> residuals(unseen.points.size());
+    if (!problem.evaluate(refit.theta, residuals, {})) return;
+    std::vector<PointConditions> conditions;
+    for (const Observation& point : unseen.points) {
+      conditions.push_back({point.dataset, point.diameter, point.velocity, point.series});
+    }
+    const std::vector<Prediction> at =
+        predict(candidate.model, refit.theta, std::move(conditions), false);
+    FoldPrediction& out = predictions[f];
+    out.usable = true;
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+      const Observation& point = unseen.points[k];
+      out.deviance += residuals[k] * residuals[k];
+      out.error.push_back((point.censored ? 0.0 : point.restitution) -
+                          expected_restitution(point, at[k].restitution_squared));
+    }
+  });
+  return predictions;
+}
+
+HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base,
+                          const std::vector<FoldPrediction>& extended, std::uint64_t seed) {
+  HeldOutGain gain;
+  std::vector<std::size_t> used;
+  std::vector<double> all_base, all_extended;
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    if (!base[f].usable || !extended[f].usable) continue;
+    used.push_back(f);
+    gain.folds.push_back({folds[f], std::sqrt(mean_square(base[f].error)),
+                          std::sqrt(mean_square(extended[f].error)),
+                          0.5 * (base[f].deviance - extended[f].deviance)});
+    gain.log_score += gain.folds.back().log_score;
+    all_base.insert(all_base.end(), base[f].error.begin(), base[f].error.end());
+    all_extended.insert(all_extended.end(), extended[f].error.begin(), extended[f].error.end());
+  }
+  if (used.empty()) return gain;
+  gain.rmse_base = std::sqrt(mean_square(all_base));
+  gain.rmse_extended = std::sqrt(mean_square(all_extended));
+  if (!(gain.rmse_base > 0.0)) return gain;
+  gain.relative = 1.0 - gain.rmse_extended / gain.rmse_base;
+  std::vector<double> samples;
+  for (int b = 0; b < resamplings; ++b) {
+    RandomStream random(seed, RandomPurpose::held_out, static_cast<std::uint64_t>(b));
+    double square_base = 0.0, square_extended = 0.0;
+    for (const std::size_t f : used) {
+      for (std::size_t k = 0; k < base[f].error.size(); ++k) {
+        const std::size_t i = random.below(base[f].error.size());
+        square_base += base[f].error[i] * base[f].error[i];
+        square_extended += extended[f].error[i] * extended[f].error[i];
+      }
+    }
+    if (square_base > 0.0) samples.push_back(1.0 - std::sqrt(square_extended / square_base));
+  }
+  std::sort(samples.begin(), samples.end());
+  if (!samples.empty()) {
+    gain.lower = sorted_quantile(samples, 0.025);
+    gain.upper = sorted_quantile(samples, 0.975);
+  }
+  return gain;
+}
+
+}  // namespace recoil

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/candidate.hpp"
+
+namespace recoil {
+
+/// A block of points that is predicted from the others.
+struct Fold {
+  std::string kind;  ///< "size", "velocity" or "target"
+  std::string name;  ///< "2.58 um", "1.1 to 4.7 m/s", "wall1990-mica"
+  std::vector<std::size_t> points;
+};
+
+/// Every diameter (of more than six: six groups of neighbours), the lower, middle and upper third
+/// of ln V, and every dataset of several. Blocks that leave too few points to fit are left out.
+/// Single points are not held out: their neighbours would tell what they are.
+std::vector<Fold> held_out_folds(const Observations& data, const std::vector<Dataset>& datasets,
+                                 int free_count);
+
+/// How one model predicts the points of one fold from all others.
+struct FoldPrediction {
+  bool usable = false;
+  double deviance = 0.0;      ///< sum of r^2 over the fold
+  std::vector<double> error;  ///< e - e_model of each point of the fold [1]
+};
+
+/// @param near where the refits start [slots of the candidate]
+std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Observations& data,
+                                          const std::vector<Fold>& folds,
+                                          std::span<const double> near, int threads);
+
+/// What an extended model gains over the base on data that neither has seen.
+struct HeldOutGain {
+  struct PerFold {
+    Fold fold;
+    double rmse_base = 0.0, rmse_extended = 0.0;  ///< of e [1]
+    double log_score = 0.0;                       ///< gain of ln likelihood [nat]
+  };
+  std::vector<PerFold> folds;
+  double rmse_base = 0.0, rmse_extended = 0.0;  ///< over all folds [1]
+  double relative = 0.0;                        ///< 1 - rmse_extended / rmse_base [1]
+  double log_score = 0.0;                       ///< sum over the folds [nat]
+  /// Of `relative`, 95 %: percentile of 1999 samples in which the points of every fold are drawn
+  /// with replacement. It knows the scatter of the held-out points, not that of the fits.
+  std::optional<double> lower, upper;
+};
+
+/// Folds in which either model has no answer are left out.
+HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base,
+                          const std::vector<FoldPrediction>& extended, std::uint64_t seed);
+
+}  // namespace recoil

@@ -1,0 +1,117 @@
+#include "diagnosis/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace recoil {
+namespace {
+
+constexpr double firmest = 0.3;         // yield pressure over E*
+constexpr double allowed_errors = 2.0;  // outside of a plausible range
+constexpr double at_null = 1e-9;        // of the range of a parameter
+
+const MechanismParameter* catalogue_entry(const ParameterSlot& slot) {
+  const Mechanism* mechanism = find_mechanism(slot.mechanism);
+  if (mechanism == nullptr) return nullptr;
+  for (const MechanismParameter& parameter : mechanism->info.parameters) {
+    if (parameter.name == slot.name) return &parameter;
+  }
+  return nullptr;
+}
+
+/// The softest E* of the datasets of a model [Pa].
+double softest(const ImpactModel& model) {
+  double modulus = INFINITY;
+  for (const Surroundings& at : model.surroundings) modulus = std::min(modulus, at.reduced_modulus);
+  return modulus;
+}
+
+/// `value` by `errors` standard errors `sd` towards the range; for a logarithmic slot in ln.
+double nearest_to_range(const ParameterSlot& slot, double value, double sd, double lower,
+                        double upper) {
+  if (!(sd > 0.0)) return value;
+  const double reach = allowed_errors * sd;
+  const double down = slot.log_scale ? value * std::exp(-reach / value) : value - reach;
+  const double up = slot.log_scale ? value * std::exp(reach / value) : value + reach;
+  if (value > upper) return std::max(down, upper);
+  if (value < lower) return std::min(up, lower);
+  return value;
+}
+
+}  // namespace
+
+std::vector<double> standard_errors(const Refit& refit, double noise_scale) {
+  const std::size_t p = refit.theta.size();
+  std::vector<double> errors(p, 0.0);
+  std::vector<std::size_t> moving;
+  for (std::size_t j = 0; j < p; ++j) {
+    if (refit.moving[j]) moving.push_back(j);
+  }
+  if (moving.empty() || p == 0) return errors;
+  const auto n = static_cast<Eigen::Index>(refit.jacobian.size() / p);
+  const auto q = static_cast<Eigen::Index>(moving.size());
+  Eigen::MatrixXd J(n, q);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < q; ++j) {
+      J(i, j) =
+          refit.jacobian[static_cast<std::size_t>(i) * p + moving[static_cast<std::size_t>(j)]];
+    }
+  }
+  // Columns of unit length: the units of the parameters lie twenty decades apart.
+  Eigen::VectorXd length = J.colwise().norm();
+  for (Eigen::Index j = 0; j < q; ++j) {
+    if (!(length(j) > 0.0)) return errors;
+    J.col(j) /= length(j);
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J);
+  if (qr.rank() < q) return errors;
+  const Eigen::MatrixXd inverse = (J.transpose() * J).ldlt().solve(Eigen::MatrixXd::Identity(q, q));
+  for (Eigen::Index j = 0; j < q; ++j) {
+    errors[moving[static_cast<std::size_t>(j)]] =
+        noise_scale * std::sqrt(std::max(inverse(j, j), 0.0)) / length(j);
+  }
+  return errors;
+}
+
+std::vector<FoundParameter> found_parameters(const Candidate& candidate, const Refit& refit,
+                                             double noise_scale) {
+  const std::vector<double> errors = standard_errors(refit, noise_scale);
+  std::vector<FoundParameter> found;
+  for (std::size_t j = 0; j < refit.theta.size(); ++j) {
+    const ParameterSlot& slot = candidate.model.slots[j];
+    if (std::find(candidate.added.begin(), candidate.added.end(), slot.mechanism) ==
+        candidate.added.end()) {
+      continue;
+    }
+    const MechanismParameter* entry = catalogue_entry(slot);
+    FoundParameter parameter{slot.label(), slot.unit, refit.theta[j], slot.null_value, true, ""};
+    const bool vanishes =
+        std::abs(parameter.value - slot.null_value) <= at_null * (slot.upper - slot.lower);
+    if (slot.free && entry != nullptr && !vanishes) {
+      const auto [lower, upper, why] = entry->plausible;
+      const double value = nearest_to_range(slot, parameter.value, errors[j], lower, upper);
+      if (value < lower || value > upper) {
+        parameter.plausible = false;
+        parameter.why_not =
+            fmt::format("{} = {:.3g} {} lies outside of {:.3g} to {:.3g}: {}", parameter.label,
+                        parameter.value, slot.unit, lower, upper, why);
+      }
+      const double limit = firmest * softest(candidate.model);
+      if (slot.name == "yield_pressure" &&
+          nearest_to_range(slot, parameter.value, errors[j], lower, limit) > limit) {
+        parameter.plausible = false;
+        parameter.why_not = fmt::format(
+            "a yield pressure of {:.3g} Pa is {:.2g} times the reduced modulus: no solid resists "
+            "more than about 0.3 of it",
+            parameter.value, parameter.value / softest(candidate.model));
+      }
+    }
+    found.push_back(std::move(parameter));
+  }
+  return found;
+}
+
+}  // namespace recoil

@@ -1,0 +1,291 @@
+#include "diagnosis/search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/parallel.hpp"
+#include "diagnosis/plausibility.hpp"
+#include "estimate/noise.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int tries_on_data = 2;
+constexpr int quick_samples = 999;
+constexpr double worth_releasing = 2.0;  // gain of the criterion by a released parameter
+// What a cause may leave: structure at this level, or this part of what it took. The laws of the
+// catalogue are good to some per cent of the loss that they describe.
+constexpr double remaining_level = 0.01;
+constexpr double remaining_part = 0.03;
+constexpr double shown_as_lead = 30.0;  // candidates this far behind the best are not held out
+
+constexpr const char* one_would_do = "one of the two does as well alone";
+
+MechanismKind kind_of(const std::vector<std::string>& ids) {
+  MechanismKind kind = MechanismKind::measurement;
+  for (const Mechanism* mechanism : chain_of(ids)) {
+    if (mechanism->info.kind == MechanismKind::description) return MechanismKind::description;
+    if (mechanism->info.kind == MechanismKind::physics) kind = MechanismKind::physics;
+  }
+  return kind;
+}
+
+std::vector<double> predicted_squares(const Candidate& candidate, const Refit& refit,
+                                      const Observations& data) {
+  std::vector<PointConditions> points;
+  for (const Observation& point : data.points) {
+    points.push_back({point.dataset, point.diameter, point.velocity, point.series});
+  }
+  std::vector<double> squares;
+  for (const Prediction& at : predict(candidate.model, refit.theta, std::move(points), false)) {
+    squares.push_back(at.restitution_squared);
+  }
+  return squares;
+}
+
+/// Fits one candidate and looks at what it leaves.
+CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near) {
+  const Observations& data = base.fitted.data;
+  CandidateResult result;
+  result.candidate = std::move(candidate);
+  result.kind = kind_of(result.candidate.added);
+  result.refit = refit_candidate(result.candidate, data, near, tries_on_data);
+  if (!result.refit.usable) return result;
+  result.delta_aicc =
+      corrected_criterion(data, result.refit.chi2, result.candidate.free_count) - base.criterion;
+  result.parameters = found_parameters(result.candidate, result.refit, base.noise_scale);
+  result.plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
+                                 [](const FoundParameter& p) { return p.plausible; });
+  const std::vector<double> squares = predicted_squares(result.candidate, result.refit, data);
+  result.remaining_p =
+      quick_structure(data, result.refit, squares, quick_samples, base.options.seed).p_value;
+  return result;
+}
+
+std::vector<double> within_bounds(const ImpactModel& model, std::vector<double> theta) {
+  for (std::size_t j = 0; j < theta.size(); ++j) {
+    const ParameterSlot& slot = model.slots[j];
+    if (slot.free) theta[j] = std::clamp(theta[j], slot.lower, slot.upper);
+  }
+  return theta;
+}
+
+/// Does a free parameter of an added mechanism rest on a bound?
+bool rests_on_the_edge(const CandidateResult& result) {
+  for (std::size_t j = 0; j < result.refit.theta.size(); ++j) {
+    const ParameterSlot& slot = result.candidate.model.slots[j];
+    const auto& added = result.candidate.added;
+    const bool own = std::find(added.begin(), added.end(), slot.mechanism) != added.end();
+    if (own && slot.free && !result.refit.moving[j]) return true;
+  }
+  return false;
+}
+
+/// Does every series hold one diameter, and every diameter one series? A batch then cannot be told
+/// from an effect of size.
+bool series_are_sizes(const Observations& data) {
+  std::set<std::pair<std::size_t, std::size_t>> series;
+  std::set<std::pair<std::size_t, double>> sizes;
+  std::set<std::tuple<std::size_t, std::size_t, double>> both;
+  for (const Observation& point : data.points) {
+    series.insert({point.dataset, point.series});
+    sizes.insert({point.dataset, point.diameter});
+    both.insert({point.dataset, point.series, point.diameter});
+  }
+  return sizes.size() > 1 && series.size() == both.size() && sizes.size() == both.size();
+}
+
+bool can_be_released(const Candidate& candidate) {
+  return std::any_of(
+      candidate.model.slots.begin(), candidate.model.slots.end(), [&](const ParameterSlot& slot) {
+        return !slot.free && std::find(candidate.added.begin(), candidate.added.end(),
+                                       slot.mechanism) != candidate.added.end();
+      });
+}
+
+/// The same with released parameters, if that is worth it.
+void try_released(const SearchBase& base, CandidateResult& result) {
+  if (!result.refit.usable || !can_be_released(result.candidate)) return;
+  const bool possible = result.candidate.added.size() > 1;
+  Candidate released =
+      make_candidate(base.spec, base.datasets, result.candidate.added, true, possible);
+  const std::vector<double> near = within_bounds(
+      released.model, carried_over(result.candidate.model, result.refit.theta, released.model));
+  CandidateResult other = try_one(base, std::move(released), near);
+  if (other.refit.usable && other.delta_aicc < result.delta_aicc - worth_releasing) {
+    result = std::move(other);
+  }
+}
+
+void sort_by_criterion(std::vector<CandidateResult>& candidates) {
+  std::erase_if(candidates, [](const CandidateResult& c) { return !c.refit.usable; });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const CandidateResult& a, const CandidateResult& b) {
+                     return a.delta_aicc < b.delta_aicc;
+                   });
+}
+
+/// The part of the base model's misfit that a candidate leaves [1].
+double part_left(const SearchBase& base, const CandidateResult& candidate) {
+  if (!base.fitted.data.sd_stated) return 1.0;  // nobody knows how much misfit there is
+  const auto n = static_cast<double>(base.fitted.data.points.size());
+  const double before = base.refit.chi2 - (n - base.candidate.free_count);
+  const double after = candidate.refit.chi2 - (n - candidate.candidate.free_count);
+  return before > 0.0 ? after / before : 1.0;
+}
+
+std::string reason_aside(const SearchBase& base, const CandidateResult& c) {
+  if (c.kind == MechanismKind::description) return "a description explains nothing";
+  if (!(c.delta_aicc < 0.0)) return "it gains less than its parameters cost";
+  if (c.p_value && *c.p_value > base.options.level) {
+    return fmt::format("chance gives the best of all candidates as much in {:.0f} % of data sets",
+                       100.0 * *c.p_value);
+  }
+  for (const FoundParameter& parameter : c.parameters) {
+    if (!parameter.plausible) return "not possible: " + parameter.why_not;
+  }
+  if (c.remaining_p < remaining_level && part_left(base, c) > remaining_part) {
+    return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
+  }
+  return "";
+}
+
+}  // namespace
+
+SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                       const FitResult& fitted, const DiagnosisOptions& options) {
+  SearchBase base{spec, datasets, fitted, make_candidate(spec, datasets, {}),
+                  {},   0.0,      1.0,    options};
+  base.candidate.model.solver = fitted.model.solver;
+  base.refit = refit_candidate(base.candidate, fitted.data, fitted.theta, 1);
+  base.criterion = corrected_criterion(fitted.data, base.refit.chi2, base.candidate.free_count);
+  if (!fitted.data.sd_stated) base.noise_scale = fitted.noise_scale;
+  return base;
+}
+
+Observations simulate_base(const SearchBase& base, std::uint64_t index) {
+  RandomStream random(base.options.seed, RandomPurpose::diagnosis, index);
+  Observations sample = base.fitted.data;
+  for (std::size_t i = 0; i < sample.points.size(); ++i) {
+    Observation& point = sample.points[i];
+    point =
+        simulate_observation(point, base.fitted.prediction_squared[i], base.noise_scale, random);
+    if (point.scatter > 0.0 && !point.censored) locate_peak(point);
+  }
+  return sample;
+}
+
+std::vector<CandidateResult> try_singles(const SearchBase& base) {
+  std::vector<const Mechanism*> todo;
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    const auto& own = base.spec.mechanisms;
+    if (std::find(own.begin(), own.end(), mechanism.info.id) == own.end()) {
+      todo.push_back(&mechanism);
+    }
+  }
+  std::vector<CandidateResult> results(todo.size());
+  parallel_over(todo.size(), base.options.threads, [&](std::size_t k) {
+    Candidate candidate = make_candidate(base.spec, base.datasets, {std::string(todo[k]->info.id)});
+    if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 1) return;
+    const std::vector<double> near =
+        carried_over(base.candidate.model, base.refit.theta, candidate.model);
+    results[k] = try_one(base, std::move(candidate), near);
+    try_released(base, results[k]);
+  });
+  sort_by_criterion(results);
+  return results;
+}
+
+void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
+               const std::function<void()>& tick) {
+  const auto count = static_cast<std::size_t>(base.options.compared);
+  std::vector<double> most(count, -INFINITY);
+  parallel_over(count, base.options.threads, [&](std::size_t b) {
+    const Observations sample = simulate_base(base, b);
+    const Refit alone = refit_candidate(base.candidate, sample, base.refit.theta, 1);
+    tick();
+    if (!alone.usable) return;
+    const double criterion = corrected_criterion(sample, alone.chi2, base.candidate.free_count);
+    for (const CandidateResult& c : candidates) {
+      const std::vector<double> near =
+          carried_over(base.candidate.model, alone.theta, c.candidate.model);
+      const Refit refit = refit_candidate(c.candidate, sample, near, 1);
+      if (!refit.usable) continue;
+      const double gain =
+          criterion - corrected_criterion(sample, refit.chi2, c.candidate.free_count);
+      most[b] = std::max(most[b], gain);
+    }
+  });
+  for (CandidateResult& c : candidates) {
+    const auto as_much =
+        std::count_if(most.begin(), most.end(), [&](double gain) { return gain >= -c.delta_aicc; });
+    c.p_value = (1.0 + static_cast<double>(as_much)) / (1.0 + static_cast<double>(count));
+  }
+}
+
+std::vector<CandidateResult> try_pairs(const SearchBase& base,
+                                       const std::vector<CandidateResult>& singles,
+                                       const std::function<void()>& tick) {
+  std::vector<const CandidateResult*> causes;
+  for (const CandidateResult& single : singles) {
+    const bool batch = single.candidate.added.front() == "series_offset";
+    if (single.kind == MechanismKind::description) continue;
+    if (batch && series_are_sizes(base.fitted.data)) continue;
+    causes.push_back(&single);
+  }
+  struct Pair {
+    const CandidateResult* first;
+    const CandidateResult* second;
+  };
+  std::vector<Pair> todo;
+  for (std::size_t a = 0; a < causes.size(); ++a) {
+    for (std::size_t b = a + 1; b < causes.size(); ++b) todo.push_back({causes[a], causes[b]});
+  }
+  std::vector<CandidateResult> results(todo.size());
+  parallel_over(todo.size(), base.options.threads, [&](std::size_t k) {
+    const auto& [first, second] = todo[k];
+    tick();
+    const std::vector<std::string> ids = {first->candidate.added.front(),
+                                          second->candidate.added.front()};
+    Candidate candidate = make_candidate(base.spec, base.datasets, ids, false, true);
+    if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 2) return;
+    const std::vector<double> near = within_bounds(
+        candidate.model, carried_over(first->candidate.model, first->refit.theta, candidate.model));
+    results[k] = try_one(base, std::move(candidate), near);
+    try_released(base, results[k]);
+    // Both have to carry their part.
+    const double better = std::min(first->delta_aicc, second->delta_aicc);
+    const bool possible =
+        first->delta_aicc < second->delta_aicc ? first->plausible : second->plausible;
+    if (possible && !(results[k].delta_aicc < better - base.options.apart)) {
+      results[k].aside = one_would_do;
+    }
+    if (rests_on_the_edge(results[k])) {
+      results[k].aside = "a parameter rests on the edge of what is possible";
+    }
+  });
+  sort_by_criterion(results);
+  return results;
+}
+
+void judge(const SearchBase& base, std::vector<CandidateResult>& candidates,
+           const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base_folds) {
+  if (candidates.empty()) return;
+  const double best = candidates.front().delta_aicc;
+  for (CandidateResult& c : candidates) {
+    if (c.aside.empty()) c.aside = reason_aside(base, c);
+    const bool lead = c.delta_aicc < best + shown_as_lead && c.delta_aicc < 0.0;
+    if (!c.aside.empty() && !lead) continue;
+    const std::vector<FoldPrediction> own =
+        predict_folds(c.candidate, base.fitted.data, folds, c.refit.theta, base.options.threads);
+    c.gain = held_out_gain(folds, base_folds, own, base.options.seed);
+    if (c.aside.empty() && !folds.empty() && !(c.gain->log_score > 0.0)) {
+      c.aside = "it predicts points that were held out no better than the base model";
+    }
+  }
+}
+
+}  // namespace recoil

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "diagnosis/diagnose.hpp"
+
+namespace recoil {
+
+/// What every candidate is compared with: the base model and the sample with its weights.
+struct SearchBase {
+  const FitSpec& spec;
+  const std::vector<Dataset>& datasets;
+  const FitResult& fitted;  ///< its `data` are what every candidate is fitted to
+  Candidate candidate;      ///< the base itself: nothing added
+  Refit refit;
+  double criterion = 0.0;
+  double noise_scale = 1.0;  ///< of the base: 1 where standard deviations are stated
+  const DiagnosisOptions& options;
+};
+
+SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                       const FitResult& fitted, const DiagnosisOptions& options);
+
+/// Replicate `index` of the sample under the base model.
+Observations simulate_base(const SearchBase& base, std::uint64_t index);
+
+/// Every mechanism of the catalogue that `spec` does not have, refitted, with its structure and its
+/// plausibility; the best first. Mechanisms that cannot be fitted are left out.
+std::vector<CandidateResult> try_singles(const SearchBase& base);
+
+/// Fills the p-values of `candidates`: (1 + number of simulated data sets in which the best of all
+/// candidates gains as much) / (1 + number of data sets).
+/// @param tick called once per data set
+void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
+               const std::function<void()>& tick);
+
+/// Every two of `singles` that could be causes, within their plausible ranges; the best first.
+/// @param tick called once per pair
+std::vector<CandidateResult> try_pairs(const SearchBase& base,
+                                       const std::vector<CandidateResult>& singles,
+                                       const std::function<void()>& tick);
+
+/// Says of every candidate why it is not a cause, or nothing; held-out gains are computed for those
+/// that pass everything else.
+void judge(const SearchBase& base, std::vector<CandidateResult>& candidates,
+           const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base_folds);
+
+}  // namespace recoil

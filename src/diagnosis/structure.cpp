@@ -1,0 +1,295 @@
+#include "diagnosis/structure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "core/random.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int highest_degree = 11;       // of the free form in ln V
+constexpr double negligible = 1e-6;      // part of a function that the model does not follow
+constexpr double same_diameter = 0.005;  // relative
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+/// P_0 .. P_degree at u in [-1, 1] (Bonnet's recursion).
+std::vector<double> legendre(double u, int degree) {
+  std::vector<double> p = {1.0, u};
+  for (int k = 1; k < degree; ++k) {
+    p.push_back(((2 * k + 1) * u * p[static_cast<std::size_t>(k)] -
+                 k * p[static_cast<std::size_t>(k) - 1]) /
+                (k + 1));
+  }
+  p.resize(static_cast<std::size_t>(degree) + 1);
+  return p;
+}
+
+/// `values` mapped onto [-1, 1]; zeros when they are all the same.
+std::vector<double> onto_unit(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  std::vector<double> unit(values.size(), 0.0);
+  if (!(*high > *low)) return unit;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    unit[i] = 2.0 * (values[i] - *low) / (*high - *low) - 1.0;
+  }
+  return unit;
+}
+
+/// (part of `sorted` that is at least `value`, with the data themselves counted)
+double upper_share(const std::vector<double>& sorted, double value) {
+  const auto below = std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin();
+  const auto n = static_cast<double>(sorted.size());
+  return (1.0 + n - static_cast<double>(below)) / (n + 1.0);
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, std::string>>& StructureStatistics::titles() {
+  static const std::vector<std::pair<std::string, std::string>> all = {
+      {"scatter", "the residuals are larger than the stated deviations"},
+      {"size", "whole diameters lie above or below the model"},
+      {"trend", "residuals rise or fall with velocity"},
+      {"curvature", "residuals bend with velocity"},
+      {"capture", "the model bends wrongly near capture"},
+      {"runs", "neighbouring points miss on the same side"},
+      {"smooth", "a smooth function of velocity and size takes up the residuals"},
+  };
+  return all;
+}
+
+StructureStatistics::StructureStatistics(const Observations& data, const Refit& fitted,
+                                         std::span<const double> predicted)
+    : stated_(data.sd_stated), used_(data.points.size(), true) {
+  const std::size_t n = data.points.size();
+  const std::size_t p = fitted.theta.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    used_[i] = !(data.points[i].censored && predicted[i] <= 0.0);
+  }
+  for (std::size_t j = 0; j < p; ++j) {
+    if (!fitted.moving[j]) continue;
+    Column column(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (used_[i]) column[i] = fitted.jacobian[i * p + j];
+    }
+    if (orthogonalise(column, {})) model_.push_back(std::move(column));
+  }
+  add_local_functions(data);
+  add_global_functions(data);
+}
+
+bool StructureStatistics::orthogonalise(Column& column, const std::vector<Column>& against) const {
+  const double before = std::sqrt(dot(column, column));
+  if (!(before > 0.0)) return false;
+  for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Giraud, Langou & Rozloznik 2005)
+    for (const std::vector<Column>* columns : {&model_, &against}) {
+      for (const Column& other : *columns) {
+        const double along = dot(column, other);
+        for (std::size_t i = 0; i < column.size(); ++i) column[i] -= along * other[i];
+      }
+    }
+  }
+  const double after = std::sqrt(dot(column, column));
+  if (!(after > std::sqrt(negligible) * before)) return false;
+  for (double& value : column) value /= after;
+  return true;
+}
+
+void StructureStatistics::add_local_functions(const Observations& data) {
+  const std::size_t n = data.points.size();
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::erase_if(order, [&](std::size_t i) { return !used_[i]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const Observation& x = data.points[a];
+    const Observation& y = data.points[b];
+    return std::tie(x.dataset, x.diameter, x.velocity) <
+           std::tie(y.dataset, y.diameter, y.velocity);
+  });
+  for (const std::size_t i : order) {
+    const Observation& point = data.points[i];
+    const bool fresh =
+        runs_.empty() || data.points[runs_.back().front()].dataset != point.dataset ||
+        point.diameter > data.points[runs_.back().front()].diameter * (1.0 + same_diameter);
+    if (fresh) runs_.emplace_back();
+    runs_.back().push_back(i);
+  }
+  Column near_capture(n, 0.0);
+  for (std::vector<std::size_t>& run : runs_) {
+    std::stable_sort(run.begin(), run.end(), [&](std::size_t a, std::size_t b) {
+      return data.points[a].velocity < data.points[b].velocity;
+    });
+    std::vector<double> log_velocity;
+    for (const std::size_t i : run) log_velocity.push_back(std::log(data.points[i].velocity));
+    const std::vector<double> unit = onto_unit(log_velocity);
+    std::vector<Column> local;
+    for (int degree = 0; degree <= 2 && degree < static_cast<int>(run.size()); ++degree) {
+      Column column(n, 0.0);
+      for (std::size_t k = 0; k < run.size(); ++k) {
+        column[run[k]] = legendre(unit[k], 2)[static_cast<std::size_t>(degree)];
+      }
+      local.push_back(std::move(column));
+    }
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      near_capture[run[k]] = std::exp(2.0 * (log_velocity.front() - log_velocity[k]));
+    }
+    // Every family is orthogonal in itself (groups share no points but through the model).
+    const std::vector<std::vector<Column>*> families = {&size_, &trend_, &curvature_};
+    for (std::size_t degree = 0; degree < local.size(); ++degree) {
+      if (orthogonalise(local[degree], *families[degree])) {
+        families[degree]->push_back(std::move(local[degree]));
+      }
+    }
+  }
+  if (orthogonalise(near_capture, {})) capture_.push_back(std::move(near_capture));
+}
+
+void StructureStatistics::add_global_functions(const Observations& data) {
+  const std::size_t n = data.points.size();
+  std::vector<double> log_velocity, log_diameter;
+  for (const Observation& point : data.points) {
+    log_velocity.push_back(std::log(point.velocity));
+    log_diameter.push_back(std::log(point.diameter));
+  }
+  const std::vector<double> u = onto_unit(log_velocity);
+  const std::vector<double> w = onto_unit(log_diameter);
+  const auto used = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
+  std::size_t longest = 0;
+  for (const auto& run : runs_) longest = std::max(longest, run.size());
+  const int degrees = std::min<int>(highest_degree, static_cast<int>(longest) - 2);
+  for (int degree = 0; degree <= degrees; ++degree) {
+    for (const bool with_size : {false, true}) {
+      if (smooth_.size() + model_.size() + 3 > used) return;
+      Column column(n, 0.0);
+      for (std::size_t i = 0; i < n; ++i) {
+        if (!used_[i]) continue;
+        column[i] = legendre(u[i], std::max(degree, 1))[static_cast<std::size_t>(degree)] *
+                    (with_size ? w[i] : 1.0);
+        // A discrepancy in e, seen in units of the point's deviation.
+        const double sd = data.points[i].mean_sd > 0.0 ? data.points[i].mean_sd : data.points[i].sd;
+        if (sd > 0.0) column[i] /= sd;
+      }
+      if (orthogonalise(column, smooth_)) smooth_.push_back(std::move(column));
+    }
+  }
+}
+
+double StructureStatistics::square_along(const std::vector<Column>& columns,
+                                         std::span<const double> r) const {
+  double sum = 0.0;
+  for (const Column& column : columns) sum += std::pow(dot(column, r), 2);
+  return sum;
+}
+
+std::vector<double> StructureStatistics::operator()(std::span<const double> residuals) const {
+  std::vector<double> r(residuals.begin(), residuals.end());
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    if (!used_[i]) r[i] = 0.0;
+  }
+  const double square = dot(r, r);
+  if (!stated_ && square > 0.0) {  // in units of their own size
+    const double dof = static_cast<double>(std::count(used_.begin(), used_.end(), true)) -
+                       static_cast<double>(model_.size());
+    const double scale = std::sqrt(square / std::max(dof, 1.0));
+    for (double& value : r) value /= scale;
+  }
+  double runs = 0.0;
+  for (const std::vector<std::size_t>& run : runs_) {
+    for (std::size_t k = 1; k < run.size(); ++k) runs += r[run[k - 1]] * r[run[k]];
+  }
+  double smooth = -INFINITY;
+  double along = 0.0;
+  for (std::size_t m = 0; m < smooth_.size(); ++m) {
+    along += std::pow(dot(smooth_[m], r), 2);
+    const auto count = static_cast<double>(m + 1);
+    smooth = std::max(smooth, (along - count) / std::sqrt(2.0 * count));
+  }
+  if (smooth_.empty()) smooth = 0.0;
+  return {stated_ ? square : 0.0,
+          square_along(size_, r),
+          square_along(trend_, r),
+          square_along(curvature_, r),
+          square_along(capture_, r),
+          runs,
+          smooth};
+}
+
+std::vector<double> StructureStatistics::residuals_of_noise(std::span<const double> noise) const {
+  std::vector<double> r(noise.begin(), noise.end());
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    if (!used_[i]) r[i] = 0.0;
+  }
+  for (const Column& column : model_) {
+    const double along = dot(column, r);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] -= along * column[i];
+  }
+  return r;
+}
+
+std::vector<double> StructureStatistics::free_form(std::span<const double> residuals) const {
+  double best = 0.0, along = 0.0;
+  std::size_t order = 0;
+  for (std::size_t m = 0; m < smooth_.size(); ++m) {
+    along += std::pow(dot(smooth_[m], residuals), 2);
+    const double gain = along - 2.0 * static_cast<double>(m + 1);
+    if (gain > best) {
+      best = gain;
+      order = m + 1;
+    }
+  }
+  if (order == 0) return {};
+  std::vector<double> shape(residuals.size(), 0.0);
+  for (std::size_t m = 0; m < order; ++m) {
+    const double size = dot(smooth_[m], residuals);
+    for (std::size_t i = 0; i < shape.size(); ++i) shape[i] += size * smooth_[m][i];
+  }
+  return shape;
+}
+
+Structure judge_structure(const StructureStatistics& statistics, std::span<const double> observed,
+                          const std::vector<std::vector<double>>& simulated) {
+  Structure judged;
+  judged.simulated = static_cast<int>(simulated.size());
+  const std::vector<double> own = statistics(observed);
+  std::vector<double> smallest(simulated.size(), 1.0);
+  double smallest_own = 1.0;
+  for (std::size_t t = 0; t < own.size(); ++t) {
+    const auto& [id, title] = StructureStatistics::titles()[t];
+    if (id == "scatter" && !statistics.tests_scatter()) continue;
+    std::vector<double> sorted;
+    for (const std::vector<double>& sample : simulated) sorted.push_back(sample[t]);
+    std::sort(sorted.begin(), sorted.end());
+    const double p = upper_share(sorted, own[t]);
+    judged.tests.push_back({id, title, own[t], p});
+    smallest_own = std::min(smallest_own, p);
+    for (std::size_t b = 0; b < simulated.size(); ++b) {
+      smallest[b] = std::min(smallest[b], upper_share(sorted, simulated[b][t]));
+    }
+    if (id != "scatter" && p <= 0.01) judged.smooth = true;
+  }
+  const auto as_small =
+      std::count_if(smallest.begin(), smallest.end(), [&](double p) { return p <= smallest_own; });
+  judged.p_value =
+      (1.0 + static_cast<double>(as_small)) / (1.0 + static_cast<double>(simulated.size()));
+  return judged;
+}
+
+Structure quick_structure(const Observations& data, const Refit& fitted,
+                          std::span<const double> predicted, int count, std::uint64_t seed) {
+  const StructureStatistics statistics(data, fitted, predicted);
+  std::vector<std::vector<double>> simulated;
+  std::vector<double> noise(data.points.size());
+  for (int b = 0; b < count; ++b) {
+    RandomStream random(seed, RandomPurpose::diagnosis, static_cast<std::uint64_t>(b));
+    for (double& value : noise) value = random.normal();
+    simulated.push_back(statistics(statistics.residuals_of_noise(noise)));
+  }
+  return judge_structure(statistics, fitted.residuals, simulated);
+}
+
+}  // namespace recoil

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnosis/candidate.hpp"
+#include "uncertainty/resample.hpp"
+
+namespace recoil {
+
+/// One question put to the residuals.
+struct StructureTest {
+  std::string id;     ///< "scatter", "size", "trend", "curvature", "capture", "runs", "smooth"
+  std::string title;  ///< what it asks, in words
+  double statistic = 0.0;
+  double p_value = 1.0;  ///< part of the simulated data sets that show as much
+};
+
+/// What is systematic in the residuals of a fit.
+struct Structure {
+  std::vector<StructureTest> tests;
+  double p_value = 1.0;  ///< of the most striking test, paid for having looked at all of them
+  int simulated = 0;     ///< data sets that calibrate it
+  int failed = 0;        ///< of these, without an answer
+  bool smooth = false;   ///< is it in the shape of the residuals, or only in their size?
+};
+
+/// The statistics of `StructureTest`, for residuals in units of their standard deviation.
+///
+/// With groups g (the points of one diameter in one dataset, ordered by velocity) and P_k the
+/// Legendre polynomials over the ln V of a group, made orthonormal on its points:
+/// - scatter: sum r^2; only where standard deviations are stated, as it says nothing else
+/// elsewhere;
+/// - size: sum over g of (P_0 . r)^2; trend: of (P_1 . r)^2; curvature: of (P_2 . r)^2;
+/// - capture: (b . r)^2, b = (V_min / V)^2 in each group, all groups together;
+/// - runs: sum over neighbours of r_i r_(i+1), positive where residuals come in runs;
+/// - smooth: max over m of (T_m - m) / sqrt(2 m), T_m the part of sum r^2 in the first m of the
+///   functions P_j(ln V), P_j(ln V) ln d (j = 0, 1, ...; over all points), which is an adaptive
+///   Neyman test (Fan 1996, J. Am. Stat. Assoc. 91, 674-688).
+/// All functions are first freed of what the fit's own parameters can follow (the columns of its
+/// Jacobian), so that they ask only for what the model cannot do.
+class StructureStatistics {
+ public:
+  /// @param fitted whose Jacobian says what the model can follow
+  /// @param predicted e^2 of every point: a point that is captured in the data and in the model has
+  ///   no scatter and is left out
+  StructureStatistics(const Observations& data, const Refit& fitted,
+                      std::span<const double> predicted);
+
+  /// @returns one number per test, in the order of `titles`
+  std::vector<double> operator()(std::span<const double> residuals) const;
+
+  /// (id, title) of the tests.
+  static const std::vector<std::pair<std::string, std::string>>& titles();
+
+  /// The projection of white noise onto what the fit leaves: what residuals look like where the
+  /// model is right, to first order.
+  std::vector<double> residuals_of_noise(std::span<const double> noise) const;
+
+  bool tests_scatter() const { return stated_; }
+
+  /// The free-form discrepancy that the smallest criterion T_m - 2 m chooses, as residuals
+  /// [points]; empty when m = 0 is best.
+  std::vector<double> free_form(std::span<const double> residuals) const;
+
+ private:
+  using Column = std::vector<double>;
+  void add_local_functions(const Observations& data);
+  void add_global_functions(const Observations& data);
+  bool orthogonalise(Column& column, const std::vector<Column>& against) const;
+  double square_along(const std::vector<Column>& columns, std::span<const double> r) const;
+
+  bool stated_ = true;
+  std::vector<bool> used_;
+  std::vector<Column> model_;                   // orthonormal, spans the Jacobian
+  std::vector<std::vector<std::size_t>> runs_;  // groups in the order of velocity
+  std::vector<Column> size_, trend_, curvature_, capture_;
+  std::vector<Column> smooth_;
+};
+
+/// p-values by comparison with simulated statistics [data sets][tests]: of each test, and of the
+/// smallest of these p-values among the smallest ones of the simulated sets.
+Structure judge_structure(const StructureStatistics& statistics, std::span<const double> observed,
+                          const std::vector<std::vector<double>>& simulated);
+
+/// The structure in the residuals of `fitted`, beside `count` samples of white noise that go
+/// through the same projection: no refits, exact for a model that is linear over its errors.
+Structure quick_structure(const Observations& data, const Refit& fitted,
+                          std::span<const double> predicted, int count, std::uint64_t seed);
+
+}  // namespace recoil

@@ -1,0 +1,156 @@
+#include "diagnosis/verdict_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+
+namespace recoil {
+namespace {
+
+std::string p_words(double p, int simulated) {
+  const double smallest = 1.0 / (simulated + 1.0);
+  return p <= smallest * 1.001 ? fmt::format("p < {:.2g}", 2.0 * smallest)
+                               : fmt::format("p = {:.2g}", p);
+}
+
+std::string title_of(const std::string& id) {
+  const Mechanism* mechanism = find_mechanism(id);
+  return mechanism == nullptr ? id : fmt::format("{} ({})", id, mechanism->info.title);
+}
+
+std::string titles_of(const std::vector<std::string>& ids) {
+  std::vector<std::string> titles;
+  for (const std::string& id : ids) titles.push_back(title_of(id));
+  return fmt::format("{}", fmt::join(titles, ", "));
+}
+
+std::string parameters_words(const CandidateResult& candidate) {
+  std::vector<std::string> words;
+  for (const FoundParameter& p : candidate.parameters) {
+    words.push_back(
+        fmt::format("{} = {:.3g}{}", p.label, p.value, p.unit == "1" ? "" : " " + p.unit));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string gain_words(const Diagnosis& d) {
+  if (!d.gain || d.gain->folds.empty()) return "";
+  std::string text = fmt::format(
+      " Points that were held out are predicted with an error of {:.3g} in e instead of {:.3g}",
+      d.gain->rmse_extended, d.gain->rmse_base);
+  if (d.gain->lower && d.gain->upper) {
+    text += fmt::format(" ({:.0f} % less, 95 % interval {:.0f} to {:.0f} %)",
+                        100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper);
+  }
+  return text + ".";
+}
+
+std::string aside_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  for (const CandidateResult& c : d.candidates) {
+    if (!c.plausible && c.delta_aicc < -d.options.apart && words.size() < 2) {
+      words.push_back(fmt::format("{} is set aside, {}", c.candidate.name(), c.aside));
+    }
+  }
+  return words.empty() ? "" : fmt::format(" {}.", fmt::join(words, "; "));
+}
+
+std::string next_words(const Diagnosis& d) {
+  if (d.next.empty()) return "";
+  const NextMeasurement& next = d.next.front();
+  std::string text = fmt::format(
+      " What would tell {} from {}: spheres of {:.3g} um at {:.3g} m/s, where they differ by "
+      "{:.2g} "
+      "in e",
+      next.one, next.other, next.diameter / units::um, next.velocity, std::abs(next.difference));
+  text += next.events ? fmt::format("; about {} events", *next.events)
+                      : "; a million events would not be enough";
+  return text + ".";
+}
+
+std::string one_size_words(const Diagnosis& d) {
+  double low = INFINITY, high = 0.0;
+  for (const Observation& point : d.base.data.points) {
+    low = std::min(low, point.diameter);
+    high = std::max(high, point.diameter);
+  }
+  return high < 1.2 * low ? " One diameter cannot show how the effect depends on size, which is "
+                            "what tells causes apart: none is named."
+                          : "";
+}
+
+std::string found_words(const Diagnosis& d) {
+  std::vector<std::string> found;
+  for (const StructureTest& test : d.structure.tests) {
+    if (test.p_value <= 0.01) found.push_back(test.title);
+  }
+  return found.empty() ? "" : fmt::format(": {}", fmt::join(found, "; "));
+}
+
+}  // namespace
+
+std::string where_text(const Diagnosis& d) {
+  const auto worst = std::max_element(d.where.begin(), d.where.end(),
+                                      [](const MisfitCell& a, const MisfitCell& b) {
+                                        return std::abs(a.standardised) < std::abs(b.standardised);
+                                      });
+  if (worst == d.where.end() || std::abs(worst->standardised) < 2.0) return "";
+  return fmt::format(
+      "It is furthest off for {:.3g} um at {:.3g} to {:.3g} m/s, where it is too {} by {:.2g} in e "
+      "({:.2g} standard errors) and by {:.2g} J in the energy of the rebound",
+      worst->diameter / units::um, worst->slowest, worst->fastest,
+      worst->restitution > 0.0 ? "low" : "high", std::abs(worst->restitution),
+      std::abs(worst->standardised), std::abs(worst->energy));
+}
+
+std::string verdict_text(const Diagnosis& d) {
+  const std::string p = p_words(d.structure.p_value, d.structure.simulated);
+  if (d.verdict == Verdict::adequate) {
+    return fmt::format(
+        "The model describes these points: nothing systematic is left in its residuals ({}; of "
+        "data sets that the model itself makes, so many look as systematic).",
+        p);
+  }
+  std::string text =
+      fmt::format("The fitted model leaves structure in its residuals ({}){}. ", p, found_words(d));
+  const std::string where = where_text(d);
+  if (!where.empty()) text += where + ". ";
+  switch (d.verdict) {
+    case Verdict::cause_named:
+      text += fmt::format("Of all that the catalogue offers, only {} explains it: {}.",
+                          titles_of(d.named), parameters_words(*d.extended));
+      text += gain_words(d);
+      break;
+    case Verdict::not_separable:
+      text += fmt::format("These data cannot tell which of these causes it is: {}.",
+                          titles_of(d.rivals));
+      text += one_size_words(d);
+      text += fmt::format(" The extended model takes {}: {}.", d.extended->candidate.name(),
+                          parameters_words(*d.extended));
+      text += gain_words(d) + next_words(d);
+      break;
+    case Verdict::unexplained:
+      text += "Nothing in the catalogue explains it, alone or in pairs.";
+      if (!d.structure.smooth) {
+        text +=
+            " It has no shape in velocity and size: the points scatter more than their stated "
+            "deviations say, which are then too small.";
+      } else if (d.free_form_p > 0.01) {
+        text +=
+            " A smooth function of velocity and size takes it up: there is an effect that this "
+            "program does not know, or one that acts on some of the points only.";
+      } else {
+        text += " A smooth function of velocity and size does not take it up either.";
+      }
+      break;
+    case Verdict::adequate:
+      break;
+  }
+  return text + aside_words(d);
+}
+
+}  // namespace recoil

@@ -1,0 +1,168 @@
+#include "core/units.hpp"
+#include "report/diagnosis_report.hpp"
+#include "report/json_values.hpp"
+
+namespace recoil {
+namespace {
+
+Json optional_number(const std::optional<double>& value) {
+  return value ? number_or_null(*value) : Json(nullptr);
+}
+
+Json structure_json(const Structure& structure) {
+  Json tests = Json::array();
+  for (const StructureTest& test : structure.tests) {
+    tests.push_back({{"id", test.id},
+                     {"asks", test.title},
+                     {"statistic", number_or_null(test.statistic)},
+                     {"p_value", test.p_value}});
+  }
+  return {{"p_value", structure.p_value},
+          {"simulated", structure.simulated},
+          {"failed", structure.failed},
+          {"tests", tests}};
+}
+
+Json cell_json(const Diagnosis& d, const MisfitCell& cell) {
+  return {{"dataset", d.datasets[cell.dataset].id},
+          {"diameter_um", cell.diameter / units::um},
+          {"incident_velocity", {cell.slowest, cell.fastest}},
+          {"points", cell.points},
+          {"restitution", number_or_null(cell.restitution)},
+          {"energy_J", number_or_null(cell.energy)},
+          {"standardised", number_or_null(cell.standardised)},
+          {"model_is", cell.restitution > 0.0 ? "too low" : "too high"}};
+}
+
+Json parameters_json(const CandidateResult& candidate) {
+  Json parameters = Json::object();
+  for (const FoundParameter& p : candidate.parameters) {
+    parameters[p.label] = {{"value", number_or_null(p.value)},
+                           {"unit", p.unit},
+                           {"null_value", p.null_value},
+                           {"plausible", p.plausible}};
+  }
+  return parameters;
+}
+
+Json candidate_json(const CandidateResult& c) {
+  Json out = {{"id", c.candidate.name()},
+              {"kind", to_string(c.kind)},
+              {"parameters", parameters_json(c)},
+              {"p_value", optional_number(c.p_value)},
+              {"delta_aicc", number_or_null(c.delta_aicc)},
+              {"remaining_p", c.remaining_p},
+              {"held_out_gain", c.gain ? number_or_null(c.gain->relative) : Json(nullptr)},
+              {"held_out_log_score", c.gain ? number_or_null(c.gain->log_score) : Json(nullptr)},
+              {"plausible", c.plausible}};
+  out["aside"] = c.aside.empty() ? Json(nullptr) : Json(c.aside);
+  return out;
+}
+
+Json candidates_json(const std::vector<CandidateResult>& candidates, std::size_t most) {
+  Json out = Json::array();
+  for (const CandidateResult& c : candidates) {
+    if (out.size() < most) out.push_back(candidate_json(c));
+  }
+  return out;
+}
+
+Json gain_json(const Diagnosis& d) {
+  if (!d.gain) return nullptr;
+  Json folds = Json::array();
+  for (const HeldOutGain::PerFold& fold : d.gain->folds) {
+    folds.push_back({{"kind", fold.fold.kind},
+                     {"name", fold.fold.name},
+                     {"points", fold.fold.points.size()},
+                     {"rmse_base", number_or_null(fold.rmse_base)},
+                     {"rmse_extended", number_or_null(fold.rmse_extended)},
+                     {"log_score", number_or_null(fold.log_score)}});
+  }
+  Json interval = nullptr;
+  if (d.gain->lower && d.gain->upper) interval = {*d.gain->lower, *d.gain->upper};
+  return {{"held_out_rmse_base", number_or_null(d.gain->rmse_base)},
+          {"held_out_rmse_extended", number_or_null(d.gain->rmse_extended)},
+          {"relative", number_or_null(d.gain->relative)},
+          {"interval", interval},
+          {"log_score", number_or_null(d.gain->log_score)},
+          {"folds", folds}};
+}
+
+Json fit_json(const FitResult& fitted) {
+  Json parameters = Json::object();
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    const ParameterSlot& slot = fitted.model.slots[j];
+    parameters[slot.label()] = {{"value", number_or_null(fitted.theta[j])},
+                                {"unit", slot.unit},
+                                {"free", slot.free},
+                                {"std_error", number_or_null(fitted.std_error[j])}};
+  }
+  return {{"parameters", parameters},
+          {"chi2", number_or_null(fitted.chi2)},
+          {"dof", fitted.dof},
+          {"rmse", number_or_null(fitted.rmse)}};
+}
+
+Json next_json(const Diagnosis& d) {
+  Json out = Json::array();
+  for (const NextMeasurement& next : d.next) {
+    out.push_back({{"dataset", d.datasets[next.dataset].id},
+                   {"incident_velocity", next.velocity},
+                   {"diameter_um", next.diameter / units::um},
+                   {"separates", {next.one, next.other}},
+                   {"expected_difference", number_or_null(next.difference)},
+                   {"event_sd", number_or_null(next.event_sd)},
+                   {"events", next.events ? Json(*next.events) : Json(nullptr)}});
+  }
+  return out;
+}
+
+Json capture_json(const Diagnosis& d) {
+  Json out = Json::array();
+  for (const CaptureChange& change : d.capture) {
+    out.push_back({{"dataset", d.datasets[change.dataset].id},
+                   {"diameter_um", change.diameter / units::um},
+                   {"base", optional_number(change.base)},
+                   {"extended", optional_number(change.extended)}});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string diagnosis_json(const Diagnosis& d) {
+  Json out;
+  out["fit"] = d.spec.id;
+  Json datasets = Json::array();
+  for (const Dataset& dataset : d.datasets) {
+    datasets.push_back({{"id", dataset.id},
+                        {"provenance", to_string(dataset.provenance)},
+                        {"points", dataset.points.size()},
+                        {"sha256", dataset.sha256}});
+  }
+  out["datasets"] = datasets;
+  out["verdict"] = to_string(d.verdict);
+  out["text"] = d.text;
+  out["misfit"] = structure_json(d.structure);
+  out["misfit"]["where"] = Json::array();
+  for (const MisfitCell& cell : d.where) out["misfit"]["where"].push_back(cell_json(d, cell));
+  out["misfit"]["free_form_remaining_p"] = d.free_form_p;
+  out["named"] = d.named;
+  out["rivals"] = d.rivals;
+  out["candidates"] = candidates_json(d.candidates, d.candidates.size());
+  constexpr std::size_t most_pairs = 20;
+  out["pairs"] = candidates_json(d.pairs, most_pairs);
+  out["gain"] = gain_json(d);
+  out["base"] = fit_json(d.base);
+  out["extended"] = d.extended_fit ? fit_json(*d.extended_fit) : Json(nullptr);
+  out["capture_velocity"] = capture_json(d);
+  out["next_measurement"] = next_json(d);
+  out["settings"] = {{"level", d.options.level},
+                     {"apart", d.options.apart},
+                     {"compared", d.options.compared},
+                     {"seed", d.options.seed}};
+  out["warnings"] = d.warnings;
+  return out.dump(2) + "\n";
+}
+
+}  // namespace recoil
