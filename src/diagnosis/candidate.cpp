@@ -67,12 +67,21 @@ std::vector<std::vector<double>> best_starts(const LeastSquaresProblem& problem,
   return best;
 }
 
-/// Narrows the bounds of a mechanism's parameter to its plausible range.
+/// Narrows the bounds of a mechanism's parameter to its plausible range and a fifth of its width
+/// beyond (of its logarithm where it has one): an estimate scatters about a truth at the edge.
 void keep_possible(const ParameterEntry& entry, ParameterSpec& spec) {
   for (const MechanismParameter& parameter : find_mechanism(entry.mechanism)->info.parameters) {
     if (parameter.name != entry.name) continue;
-    spec.lower = std::max(spec.lower, parameter.plausible.lower);
-    spec.upper = std::min(spec.upper, parameter.plausible.upper);
+    const auto [lower, upper, why] = parameter.plausible;
+    if (parameter.log_scale) {
+      const double beyond = std::pow(upper / lower, 0.2);
+      spec.lower = std::max(spec.lower, lower / beyond);
+      spec.upper = std::min(spec.upper, upper * beyond);
+    } else {
+      const double beyond = 0.2 * (upper - lower);
+      spec.lower = std::max(spec.lower, lower == parameter.null_value ? lower : lower - beyond);
+      spec.upper = std::min(spec.upper, upper + beyond);
+    }
     spec.initial = std::clamp(spec.initial, spec.lower, spec.upper);
   }
 }

@@ -13,7 +13,7 @@ namespace recoil {
 
 struct DiagnosisOptions {
   int simulated = 999;  ///< data sets of the base model that calibrate the tests of the residuals
-  int compared = 99;    ///< of these, how many are fitted with every candidate
+  int compared = 39;    ///< of these, how many are fitted with every candidate
   double level = 0.05;  ///< a correct model is accused in no more than this part of all data
   /// Two causes whose criteria differ by less cannot be told apart. For a false rival R and the
   /// truth T, with delta^2 the misfit that R would leave, the difference of their deviances is

@@ -144,11 +144,16 @@ HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<Fold
   std::vector<std::size_t> used;
   std::vector<double> all_base, all_extended;
   for (std::size_t f = 0; f < folds.size(); ++f) {
+    if (base[f].usable && extended[f].usable && folds[f].kind != "velocity") gain.decisive = true;
+  }
+  for (std::size_t f = 0; f < folds.size(); ++f) {
     if (!base[f].usable || !extended[f].usable) continue;
-    used.push_back(f);
     gain.folds.push_back({folds[f], std::sqrt(mean_square(base[f].error)),
                           std::sqrt(mean_square(extended[f].error)),
-                          0.5 * (base[f].deviance - extended[f].deviance)});
+                          0.5 * (base[f].deviance - extended[f].deviance), true});
+    gain.folds.back().counted = !gain.decisive || folds[f].kind != "velocity";
+    if (!gain.folds.back().counted) continue;
+    used.push_back(f);
     gain.log_score += gain.folds.back().log_score;
     all_base.insert(all_base.end(), base[f].error.begin(), base[f].error.end());
     all_extended.insert(all_extended.end(), extended[f].error.begin(), extended[f].error.end());

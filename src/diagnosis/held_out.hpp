@@ -33,15 +33,19 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
                                           const std::vector<Fold>& folds,
                                           std::span<const double> near, int threads);
 
-/// What an extended model gains over the base on data that neither has seen.
+/// What an extended model gains over the base on data that neither has seen. Sizes and targets that
+/// were held out decide, where there are any; a band of velocities need not hold what determines a
+/// mechanism (yield, without the fast impacts) and is shown beside them.
 struct HeldOutGain {
   struct PerFold {
     Fold fold;
     double rmse_base = 0.0, rmse_extended = 0.0;  ///< of e [1]
     double log_score = 0.0;                       ///< gain of ln likelihood [nat]
+    bool counted = true;                          ///< in the sums below
   };
+  bool decisive = false;  ///< are the sums those of sizes and targets?
   std::vector<PerFold> folds;
-  double rmse_base = 0.0, rmse_extended = 0.0;  ///< over all folds [1]
+  double rmse_base = 0.0, rmse_extended = 0.0;  ///< over the counted folds [1]
   double relative = 0.0;                        ///< 1 - rmse_extended / rmse_base [1]
   double log_score = 0.0;                       ///< sum over the folds [nat]
   /// Of `relative`, 95 %: percentile of 1999 samples in which the points of every fold are drawn

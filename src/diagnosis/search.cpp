@@ -13,7 +13,8 @@
 namespace recoil {
 namespace {
 
-constexpr int tries_on_data = 2;
+constexpr int tries_alone = 4;
+constexpr int tries_in_pairs = 2;
 constexpr int quick_samples = 999;
 constexpr double worth_releasing = 2.0;  // gain of the criterion by a released parameter
 // What a cause may leave: structure at this level, or this part of what it took. The laws of the
@@ -52,7 +53,8 @@ CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<c
   CandidateResult result;
   result.candidate = std::move(candidate);
   result.kind = kind_of(result.candidate.added);
-  result.refit = refit_candidate(result.candidate, data, near, tries_on_data);
+  result.refit = refit_candidate(result.candidate, data, near,
+                                 result.candidate.added.size() > 1 ? tries_in_pairs : tries_alone);
   if (!result.refit.usable) return result;
   result.delta_aicc =
       corrected_criterion(data, result.refit.chi2, result.candidate.free_count) - base.criterion;
@@ -73,13 +75,21 @@ std::vector<double> within_bounds(const ImpactModel& model, std::vector<double> 
   return theta;
 }
 
-/// Does a free parameter of an added mechanism rest on a bound?
+/// Is it a parameter that the catalogue holds fixed?
+bool is_released(const ParameterSlot& slot) {
+  for (const MechanismParameter& parameter : find_mechanism(slot.mechanism)->info.parameters) {
+    if (parameter.name == slot.name) return !parameter.free;
+  }
+  return false;
+}
+
+/// Does a free parameter of an added mechanism rest on a bound? Exponents may.
 bool rests_on_the_edge(const CandidateResult& result) {
   for (std::size_t j = 0; j < result.refit.theta.size(); ++j) {
     const ParameterSlot& slot = result.candidate.model.slots[j];
     const auto& added = result.candidate.added;
     const bool own = std::find(added.begin(), added.end(), slot.mechanism) != added.end();
-    if (own && slot.free && !result.refit.moving[j]) return true;
+    if (own && slot.free && !result.refit.moving[j] && !is_released(slot)) return true;
   }
   return false;
 }
@@ -109,9 +119,7 @@ bool can_be_released(const Candidate& candidate) {
 /// The same with released parameters, if that is worth it.
 void try_released(const SearchBase& base, CandidateResult& result) {
   if (!result.refit.usable || !can_be_released(result.candidate)) return;
-  const bool possible = result.candidate.added.size() > 1;
-  Candidate released =
-      make_candidate(base.spec, base.datasets, result.candidate.added, true, possible);
+  Candidate released = make_candidate(base.spec, base.datasets, result.candidate.added, true, true);
   const std::vector<double> near = within_bounds(
       released.model, carried_over(result.candidate.model, result.refit.theta, released.model));
   CandidateResult other = try_one(base, std::move(released), near);
@@ -282,8 +290,8 @@ void judge(const SearchBase& base, std::vector<CandidateResult>& candidates,
     const std::vector<FoldPrediction> own =
         predict_folds(c.candidate, base.fitted.data, folds, c.refit.theta, base.options.threads);
     c.gain = held_out_gain(folds, base_folds, own, base.options.seed);
-    if (c.aside.empty() && !folds.empty() && !(c.gain->log_score > 0.0)) {
-      c.aside = "it predicts points that were held out no better than the base model";
+    if (c.aside.empty() && c.gain->decisive && !(c.gain->log_score > 0.0)) {
+      c.aside = "it predicts sizes or targets that were held out no better than the base model";
     }
   }
 }

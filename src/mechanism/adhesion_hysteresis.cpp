@@ -7,7 +7,7 @@ struct AdhesionHysteresis {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
     // a_max^2 = R n_max
-    e.lose(std::numbers::pi * e.contact_radius * e.hertz_penetration() * own[0]);
+    e.lose(std::numbers::pi * e.contact_radius * e.deepest() * own[0]);
   }
 };
 
@@ -19,10 +19,10 @@ Mechanism adhesion_hysteresis() {
       .title = "parting takes more work per area than meeting gave",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula = "loss pi a_max^2 dW, with a_max of the Hertzian impact",
+      .formula = "loss pi a_max^2 dW, with a_max of the undamped impact",
       .source =
           "Chaudhury, M. K. & Whitesides, G. M. (1991), Langmuir 7, 1013-1025 (adhesion hysteresis "
-          "of contacts); that adhesion deepens the contact near capture is left out",
+          "of contacts); that damping makes the contact smaller is left out",
       .fingerprint = "1 - e^2 falls like V^(-6/5) d^(-1), slower than for a constant energy; V* ~ "
                      "d^(-5/6), which a freed size law takes for f0 ~ r^(5/9)",
       .parameters = {{.name = "hysteresis_energy",

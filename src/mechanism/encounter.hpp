@@ -47,8 +47,41 @@ struct Encounter {
   T scale() const {
     return power(mass() * velocity * velocity / (sqrt(contact_radius) * at->stiffness), 0.4);
   }
-  /// Largest penetration of an elastic sphere, (5/4)^(2/5) n_c [m].
+  /// Largest penetration of an elastic sphere without adhesion, (5/4)^(2/5) n_c [m].
   T hertz_penetration() const { return scale() * std::pow(1.25, 0.4); }
+  /// Kinetic energy per mass, times two, of an undamped sphere at penetration n [m2/s2]:
+  ///   V^2 + (8/3) pi sqrt(R) f0 n^(3/2) / m - (4/5) K sqrt(R) n^(5/2) / m.
+  T undamped_square(const T& n) const {
+    const T root = sqrt(contact_radius * n) / mass();
+    return velocity * velocity + n * root * adhesion_force * (8.0 / 3.0 * std::numbers::pi) -
+           n * n * root * (0.8 * at->stiffness);
+  }
+  /// Largest penetration of an undamped sphere [m]: where `undamped_square` vanishes. Damping on
+  /// the way in makes it smaller by about C_H V / 5 of itself.
+  T deepest() const {
+    Encounter<double> plain;
+    plain.at = at;
+    plain.diameter = value_of(diameter);
+    plain.contact_radius = value_of(contact_radius);
+    plain.velocity = value_of(velocity);
+    plain.adhesion_force = value_of(adhesion_force);
+    // From above, where the function is concave, Newton's steps cannot overshoot.
+    double n = plain.hertz_penetration() +
+               10.0 / 3.0 * std::numbers::pi * plain.adhesion_force / at->stiffness;
+    for (int step = 0; step < 30; ++step) {
+      const double next = n - plain.undamped_square(n) / plain.square_slope(n);
+      const bool done = std::abs(next - n) <= 1e-14 * n;
+      n = next;
+      if (done) break;
+    }
+    // One more step carries the derivatives.
+    return T(n) - undamped_square(T(n)) / plain.square_slope(n);
+  }
+  /// d undamped_square / d n.
+  T square_slope(const T& n) const {
+    const T root = sqrt(contact_radius * n) / mass();
+    return root * adhesion_force * (4.0 * std::numbers::pi) - n * root * (2.0 * at->stiffness);
+  }
   /// Takes `energy` [J] from the sphere.
   void lose(const T& energy) { square -= 2.0 * energy / mass(); }
 };

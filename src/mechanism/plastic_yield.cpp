@@ -70,7 +70,7 @@ Mechanism plastic_yield() {
             .initial = 0.0,
             .lower = 0.0,
             .upper = 0.35,
-            .plausible = {0.0, 0.3, "metals 0.01 to 0.1, organic solids up to about 0.3"},
+            .plausible = {0.0, 0.35, "metals have 0.01 to 0.1, organic solids up to about a third"},
             .starts = {0.1, 0.25},
             .free = false}},
   });

@@ -76,7 +76,8 @@ Json gain_json(const Diagnosis& d) {
                      {"points", fold.fold.points.size()},
                      {"rmse_base", number_or_null(fold.rmse_base)},
                      {"rmse_extended", number_or_null(fold.rmse_extended)},
-                     {"log_score", number_or_null(fold.log_score)}});
+                     {"log_score", number_or_null(fold.log_score)},
+                     {"counted", fold.counted}});
   }
   Json interval = nullptr;
   if (d.gain->lower && d.gain->upper) interval = {*d.gain->lower, *d.gain->upper};
