@@ -4,6 +4,7 @@
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
+#include "cli/recipe_words.hpp"
 #include "core/files.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/extended_toml.hpp"
@@ -25,10 +26,12 @@ void run_diagnosis(const DiagnoseFlags& flags) {
   DiagnosisOptions options;
   options.threads = flags.threads;
   options.seed = flags.seed >= 0 ? static_cast<std::uint64_t>(flags.seed) : spec.uncertainty.seed;
-  const Diagnosis diagnosis = diagnose(spec, load_datasets(spec), options);
+  Diagnosis diagnosis = diagnose(spec, load_datasets(spec), options);
+  diagnosis.remarks = recipe_remarks(diagnosis.datasets);
   if (!flags.out.empty()) {
     const std::filesystem::path folder = flags.out;
     write_whole_file(folder / "extended.toml", extended_toml(diagnosis, folder));
+    write_whole_file(folder / "diagnosis.html", diagnosis_html(diagnosis));
     write_whole_file(folder / "diagnosis.json", diagnosis_json(diagnosis));
   }
   fmt::print("{}", diagnosis_text(diagnosis));
@@ -47,7 +50,9 @@ void add_diagnose(CLI::App& program) {
       "  cause_named     one cause explains it, and nothing else in the catalogue does\n"
       "  not_separable   several causes explain it: which ones, and what to measure to tell\n"
       "  unexplained     something is there that the catalogue does not know\n"
-      "With --out it writes diagnosis.json and extended.toml, a fit file of the extended model.\n\n"
+      "With --out it writes diagnosis.json, diagnosis.html (a page to read) and extended.toml (a "
+      "fit\n"
+      "file of the extended model).\n\n"
       "  recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis\n"
       "  recoil fit diagnosis/extended.toml");
   const auto flags = std::make_shared<DiagnoseFlags>();

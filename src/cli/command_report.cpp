@@ -6,8 +6,11 @@
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/recipe_words.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "diagnosis/extended_toml.hpp"
+#include "report/diagnosis_report.hpp"
 
 namespace recoil {
 namespace {
@@ -53,6 +56,22 @@ bool is_current(const fs::path& stamp, const std::string& expected,
   return all_there && fs::exists(stamp) && read_text_file(stamp) == expected;
 }
 
+Diagnosis diagnose_for_report(const Analysis& analysis, const AnalysisFlags& flags) {
+  DiagnosisOptions options;
+  options.seed = analysis.uncertainty.options.seed;
+  options.threads = flags.threads;
+  Diagnosis diagnosis = diagnose(analysis.spec, analysis.datasets, options);
+  diagnosis.remarks = recipe_remarks(diagnosis.datasets);
+  return diagnosis;
+}
+
+std::string link_to(const std::string& address) {
+  return fmt::format(
+      "<p><a href=\"{}\">The whole diagnosis</a>: what was asked of the residuals, "
+      "every cause that was tried, what was held out.</p>\n",
+      address);
+}
+
 void report(const ReportOptions& options) {
   const fs::path out = options.out;
   require_writable_folder(out);
@@ -71,7 +90,12 @@ void report(const ReportOptions& options) {
       AnalysisOptions resolved = options.analysis.resolved();
       resolved.folder = out / id;
       const Analysis analysis = analyse(fit_file, resolved);
-      write_whole_file(page, html_report(analysis));
+      const Diagnosis diagnosis = diagnose_for_report(analysis, options.analysis);
+      write_whole_file(page, html_report(analysis, diagnosis_section(diagnosis) +
+                                                       link_to(id + "/diagnosis.html")));
+      write_whole_file(out / id / "diagnosis.html", diagnosis_html(diagnosis));
+      write_whole_file(out / id / "diagnosis.json", diagnosis_json(diagnosis));
+      write_whole_file(out / id / "extended.toml", extended_toml(diagnosis, out / id));
       write_whole_file(text, text_report(analysis));
       write_whole_file(picture, thumbnail(analysis));
       write_whole_file(json, json_report(analysis));

@@ -127,6 +127,19 @@ void compare_capture(Diagnosis& diagnosis) {
   }
 }
 
+std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const Diagnosis& diagnosis) {
+  UncertaintyOptions options;
+  options.replicates = fitted.data.sd_stated ? 0 : 199;
+  options.level = diagnosis.spec.uncertainty.level;
+  options.seed = diagnosis.options.seed;
+  options.threads = diagnosis.options.threads;
+  options.curves = false;
+  options.capture = false;
+  options.two_point = false;
+  options.pair_simulations = 0;
+  return assess_uncertainty(fitted, fitted.data, diagnosis.datasets, options).intervals;
+}
+
 /// The extended model as `fit` would have it, with settled weights.
 void extend(const SearchBase& base, Diagnosis& diagnosis) {
   const CandidateResult& best = *diagnosis.extended;
@@ -141,6 +154,8 @@ void extend(const SearchBase& base, Diagnosis& diagnosis) {
     diagnosis.extended_fit.reset();
     return;
   }
+  diagnosis.base_intervals = intervals_of_fit(diagnosis.base, diagnosis);
+  diagnosis.extended_intervals = intervals_of_fit(*diagnosis.extended_fit, diagnosis);
   diagnosis.gain = best.gain;
   compare_capture(diagnosis);
 }

@@ -8,6 +8,7 @@
 #include "diagnosis/candidate.hpp"
 #include "diagnosis/held_out.hpp"
 #include "diagnosis/structure.hpp"
+#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 
@@ -101,10 +102,15 @@ struct Diagnosis {
   std::vector<std::string> rivals;
   std::optional<CandidateResult> extended;  ///< the model of `extended.toml`
   std::optional<FitResult> extended_fit;
+  /// Intervals of the parameters [slots] of the base fit and of the extended one: the profile
+  /// where standard deviations are stated, otherwise with 199 replicates.
+  std::vector<IntervalSet> base_intervals, extended_intervals;
   std::optional<HeldOutGain> gain;
   std::vector<CaptureChange> capture;
   std::vector<NextMeasurement> next;
   std::vector<std::string> warnings;
+  /// What a reader has to know about the points: for reconstructions, what their recipe put there.
+  std::vector<std::string> remarks;
 };
 
 /// What the fitted model of `spec` gets wrong, and why.

@@ -181,7 +181,7 @@ std::vector<Section> table_sections(const Analysis& a) {
 
 }  // namespace
 
-std::string html_report(const Analysis& analysis) {
+std::string html_report(const Analysis& analysis, const std::string& diagnosis) {
   if (!analysis.fitted.usable) {
     throw ComputationError(
         fmt::format("there is no page without a usable fit: {}", analysis.fitted.failure));
@@ -193,6 +193,7 @@ std::string html_report(const Analysis& analysis) {
   body += fmt::format("<p class=\"summary\">{}</p>\n", prose_html(summary_words(analysis)));
 
   std::vector<Section> sections = plot_sections(analysis);
+  sections.insert(sections.begin() + 2, {"diagnosis", "What the model gets wrong", diagnosis});
   for (Section& section : table_sections(analysis)) sections.push_back(std::move(section));
   const std::vector<std::string> warnings = all_warnings(analysis);
   body += "<nav aria-label=\"Contents\">";

@@ -1,6 +1,7 @@
 #include "core/units.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/json_values.hpp"
+#include "uncertainty/identifiability.hpp"
 
 namespace recoil {
 namespace {
@@ -89,7 +90,7 @@ Json gain_json(const Diagnosis& d) {
           {"folds", folds}};
 }
 
-Json fit_json(const FitResult& fitted) {
+Json fit_json(const FitResult& fitted, const std::vector<IntervalSet>& intervals) {
   Json parameters = Json::object();
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
@@ -97,6 +98,9 @@ Json fit_json(const FitResult& fitted) {
                                 {"unit", slot.unit},
                                 {"free", slot.free},
                                 {"std_error", number_or_null(fitted.std_error[j])}};
+    if (j < intervals.size()) {
+      parameters[slot.label()]["interval"] = interval_json(recommended_interval(intervals[j]));
+    }
   }
   return {{"parameters", parameters},
           {"chi2", number_or_null(fitted.chi2)},
@@ -154,8 +158,9 @@ std::string diagnosis_json(const Diagnosis& d) {
   constexpr std::size_t most_pairs = 20;
   out["pairs"] = candidates_json(d.pairs, most_pairs);
   out["gain"] = gain_json(d);
-  out["base"] = fit_json(d.base);
-  out["extended"] = d.extended_fit ? fit_json(*d.extended_fit) : Json(nullptr);
+  out["base"] = fit_json(d.base, d.base_intervals);
+  out["extended"] =
+      d.extended_fit ? fit_json(*d.extended_fit, d.extended_intervals) : Json(nullptr);
   out["capture_velocity"] = capture_json(d);
   out["next_measurement"] = next_json(d);
   out["settings"] = {{"level", d.options.level},
@@ -163,6 +168,7 @@ std::string diagnosis_json(const Diagnosis& d) {
                      {"compared", d.options.compared},
                      {"seed", d.options.seed}};
   out["warnings"] = d.warnings;
+  out["remarks"] = d.remarks;
   return out.dump(2) + "\n";
 }
 

@@ -32,9 +32,10 @@ std::string json_report(const Analysis& analysis);
 
 /// One self-contained page: plots (inline SVG by gnuplot), tables, provenance; no network, no
 /// script, less than 1 MB.
+/// @param diagnosis HTML of the section on what the model gets wrong; empty: there is none
 /// @pre analysis.fitted.usable
 /// @throws ComputationError when gnuplot cannot be run.
-std::string html_report(const Analysis& analysis);
+std::string html_report(const Analysis& analysis, const std::string& diagnosis = "");
 
 /// A small e(V) picture of the whole fit as SVG, for the index.
 /// @throws ComputationError when gnuplot cannot be run.

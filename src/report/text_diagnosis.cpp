@@ -34,6 +34,9 @@ std::string diagnosis_text(const Diagnosis& d) {
   for (const auto& [label, sentence] : provenances(d.datasets)) {
     out += fmt::format("    {}: {}\n", label, wrap(sentence, columns - 8, 8));
   }
+  for (const std::string& remark : d.remarks) {
+    out += fmt::format("    {}\n", wrap(remark, columns - 4, 4));
+  }
   out += fmt::format("[[Residuals of the base model]] ({} simulated data sets)\n",
                      d.structure.simulated);
   for (const StructureTest& test : d.structure.tests) {

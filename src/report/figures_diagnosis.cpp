@@ -1,0 +1,240 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/units.hpp"
+#include "report/diagnosis_report.hpp"
+#include "report/figure_style.hpp"
+#include "report/format.hpp"
+#include "report/svg_plot.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_bars = 12;
+constexpr int curve_points = 80;
+constexpr double largest_z = 6.0;  // of the colour scale
+
+std::string name_of(const Diagnosis& d, const std::string& kind, std::size_t dataset) {
+  return plot_name(fmt::format("{}-{}-{}", kind, d.spec.id, dataset));
+}
+
+std::string in_dataset(const Diagnosis& d, std::size_t dataset) {
+  return d.datasets.size() > 1 ? ", " + d.datasets[dataset].id : std::string();
+}
+
+struct Rows {
+  std::vector<double> velocities, diameters;
+  std::vector<std::vector<double>> misses;  // V, d [um], e - e_model, standardised, sd
+};
+
+Rows rows_of(const Diagnosis& d, std::size_t dataset) {
+  Rows rows;
+  for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
+    const Observation& point = d.base.data.points[i];
+    if (point.dataset != dataset) continue;
+    const double miss = (point.censored ? 0.0 : point.restitution) -
+                        expected_restitution(point, d.base.prediction_squared[i]);
+    rows.velocities.push_back(point.velocity);
+    rows.diameters.push_back(point.diameter / units::um);
+    rows.misses.push_back({point.velocity, point.diameter / units::um, miss,
+                           point.sd > 0.0 ? miss / point.sd : 0.0, point.sd});
+  }
+  return rows;
+}
+
+std::pair<double, double> log_range(const std::vector<double>& values, double margin) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double factor = std::pow(std::max(*high / *low, 1.5), margin);
+  return {*low / factor, *high * factor};
+}
+
+Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
+  const Rows rows = rows_of(d, dataset);
+  const auto [slow, fast] = log_range(rows.velocities, 0.06);
+  const auto [small, big] = log_range(rows.diameters, 0.25);
+  PlotScript script;
+  script.name = name_of(d, "misfit", dataset);
+  script.title = "Where the base model misses, over velocity and diameter";
+  script.height = 300;
+  std::string& c = script.commands;
+  c = style::preamble() +
+      fmt::format(
+          "set logscale xy\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n"
+          "set xlabel 'V  [m/s]' offset 0,0.4\nset ylabel 'd  [µm]' offset 1,0\n"
+          "set palette defined (-1 '{}', 0 '#EEEEEE', 1 '{}')\nset cbrange [{:.3g}:{:.3g}]\n"
+          "set cblabel '(e - e_{{model}}) / sd' offset -0.5,0\nunset key\n",
+          slow, fast, small, big, style::blue, style::vermillion, -largest_z, largest_z) +
+      log_ticks('x', slow, fast) + log_ticks('y', small, big);
+  c += data_block("misses", rows.misses);
+  // The area of a disc grows with the size of the miss, and is never nothing.
+  c += "plot $misses using 1:2:(0.5+0.35*sqrt(abs($4))):4 with points pt 7 ps variable lc palette, "
+       "$misses using 1:2:(0.5+0.35*sqrt(abs($4))) with points pt 6 ps variable lc rgb '#777777' "
+       "lw 0.5\n";
+  return {
+      "misfit-" + std::to_string(dataset),
+      "Where the model is too low or too high" + in_dataset(d, dataset),
+      "Every disc is a point. Orange: the measured e is higher than the fitted base model; blue: "
+      "lower. The larger, the more standard deviations. Patches of one colour are structure; "
+      "a mixture is noise.",
+      draw_svg(script), false};
+}
+
+std::string short_aside(const CandidateResult& c) {
+  if (c.explains()) return "";
+  return c.aside.substr(0, c.aside.find(':'));
+}
+
+/// The base curve and the extended one of one diameter, as rows V, base, extended.
+std::vector<std::vector<double>> curves_of(const Diagnosis& d, std::size_t dataset, double diameter,
+                                           std::size_t series, double slow, double fast) {
+  std::vector<PointConditions> points;
+  for (int k = 0; k < curve_points; ++k) {
+    points.push_back({dataset, diameter,
+                      slow * std::pow(fast / slow, static_cast<double>(k) / (curve_points - 1)),
+                      series});
+  }
+  const std::vector<Prediction> base = predict(d.base.model, d.base.theta, points, false);
+  const std::vector<Prediction> extended =
+      predict(d.extended_fit->model, d.extended_fit->theta, points, false);
+  std::vector<std::vector<double>> rows;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    rows.push_back({points[k].velocity, base[k].usable() ? base[k].restitution() : NAN,
+                    extended[k].usable() ? extended[k].restitution() : NAN});
+  }
+  return rows;
+}
+
+Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
+  const Rows rows = rows_of(d, dataset);
+  const auto [slow, fast] = log_range(rows.velocities, 0.04);
+  std::map<double, std::vector<std::vector<double>>> points;
+  std::map<double, std::size_t> series;
+  double top = 1.0;
+  for (const Observation& point : d.base.data.points) {
+    if (point.dataset != dataset) continue;
+    points[point.diameter].push_back(
+        {point.velocity, point.censored ? 0.0 : point.restitution, point.sd});
+    series[point.diameter] = point.series;
+    top = std::max(top, point.restitution + 2.0 * point.sd);
+  }
+  PlotScript script;
+  script.name = name_of(d, "extended", dataset);
+  script.title = "Restitution against velocity under the base and the extended model";
+  script.width = 720;
+  script.height = 420;
+  std::string& c = script.commands;
+  c = style::preamble() +
+      fmt::format(
+          "set logscale x\nset xrange [{:.6g}:{:.6g}]\nset yrange [0:{:.4g}]\n"
+          "set xlabel 'V  [m/s]' offset 0,0.4\nset ylabel 'e' offset 1,0\n",
+          slow, fast, 1.03 * top) +
+      style::key_above() + log_ticks('x', slow, fast);
+  std::vector<std::string> layers;
+  std::size_t k = 0;
+  for (const auto& [diameter, rebounds] : points) {
+    const style::Marker marker = style::markers[k % style::markers.size()];
+    c += data_block(fmt::format("points{}", k), rebounds);
+    c += data_block(fmt::format("curve{}", k),
+                    curves_of(d, dataset, diameter, series[diameter], slow, fast));
+    layers.push_back(fmt::format(
+        "$curve{} using 1:2 with lines lc rgb '{}' lw 1.2 dt (5,4) notitle", k, marker.colour));
+    layers.push_back(
+        fmt::format("$curve{} using 1:3 with lines lc rgb '{}' lw 2 notitle", k, marker.colour));
+    layers.push_back(fmt::format(
+        "$points{} using 1:2:3 with yerrorbars lc rgb '{}' pt {} ps 0.7 lw 1 {}", k, marker.colour,
+        marker.point,
+        points.size() <= 7 ? "title " + gnuplot_text(diameter_text(diameter / 1.0) + " µm")
+                           : std::string("notitle")));
+    ++k;
+  }
+  c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
+  return {"before-after-" + std::to_string(dataset),
+          "The fit before and after" + in_dataset(d, dataset),
+          fmt::format("Dashed: the base model fitted to all points. Solid: extended by {}. Error "
+                      "bars are one standard deviation.",
+                      d.extended->candidate.name()),
+          draw_svg(script), true};
+}
+
+}  // namespace
+
+std::vector<Figure> misfit_figures(const Diagnosis& d) {
+  std::vector<Figure> figures;
+  for (std::size_t k = 0; k < d.datasets.size(); ++k) figures.push_back(misfit_figure(d, k));
+  return figures;
+}
+
+std::vector<Figure> before_after_figures(const Diagnosis& d) {
+  std::vector<Figure> figures;
+  if (!d.extended_fit) return figures;
+  for (std::size_t k = 0; k < d.datasets.size(); ++k) figures.push_back(before_after_figure(d, k));
+  return figures;
+}
+
+std::vector<Figure> ranking_figures(const Diagnosis& d) {
+  std::vector<const CandidateResult*> shown;
+  for (const CandidateResult& c : d.candidates) {
+    if (c.delta_aicc < 0.0 && shown.size() < most_bars) shown.push_back(&c);
+  }
+  std::size_t pairs = 0;
+  for (const CandidateResult& c : d.pairs) {
+    if (c.delta_aicc < 0.0 && pairs++ < 4) shown.push_back(&c);
+  }
+  std::stable_sort(shown.begin(), shown.end(),
+                   [](const auto* a, const auto* b) { return a->delta_aicc < b->delta_aicc; });
+  if (shown.empty()) return {};
+  PlotScript script;
+  script.name = name_of(d, "ranking", 0);
+  script.title = "Candidates by what they gain over the base model";
+  script.width = 720;
+  script.height = 70 + 24 * static_cast<int>(shown.size());
+  std::vector<std::vector<double>> taken, aside;
+  std::vector<std::string> names, labels;
+  double longest = 0.0;
+  for (const CandidateResult* c : shown) longest = std::max(longest, -c->delta_aicc);
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const CandidateResult& c = *shown[k];
+    const auto row = static_cast<double>(k);
+    (c.explains() ? taken : aside)
+        .push_back({0.0, row, 0.0, -c.delta_aicc, row - 0.32, row + 0.32});
+    names.push_back(fmt::format("{} {}", gnuplot_text(c.candidate.name()), row));
+    const std::string label = short_aside(c);
+    if (!label.empty()) {
+      labels.push_back(
+          fmt::format("set label {} at {:.6g},{} left offset 0.6,0 tc rgb '{}' "
+                      "font ',9' front\n",
+                      gnuplot_text(label), -c.delta_aicc, row, style::grey));
+    }
+  }
+  std::string& c = script.commands;
+  c = style::preamble() +
+      fmt::format(
+          "set xrange [0:{:.6g}]\nset yrange [{:.3g}:-0.6]\nset ytics ({}) nomirror\n"
+          "set lmargin 34\nset xlabel 'gain of the corrected criterion (AICc)' offset 0,0.4\nunset "
+          "key\nset style fill solid 0.85 noborder\n",
+          1.75 * longest, static_cast<double>(shown.size()) - 0.4, fmt::join(names, ", "));
+  for (const std::string& label : labels) c += label;
+  std::vector<std::string> layers;
+  const auto layer = [&](const char* name, const std::vector<std::vector<double>>& rows,
+                         const char* colour) {
+    if (rows.empty()) return;
+    c += data_block(name, rows);
+    layers.push_back(
+        fmt::format("${} using 1:2:3:4:5:6 with boxxyerror lc rgb '{}'", name, colour));
+  };
+  layer("taken", taken, style::blue);
+  layer("aside", aside, "#BBBBBB");
+  c += fmt::format("plot {}\n", fmt::join(layers, ", "));
+  return {{"ranking", "What could explain it",
+           fmt::format("The longer the bar, the better the whole model fits with this added, its "
+                       "parameters paid for. Blue: explains the data. Grey: set aside, with the "
+                       "reason. Bars within {:.0f} of each other cannot be told apart.",
+                       d.options.apart),
+           draw_svg(script), true}};
+}
+
+}  // namespace recoil
