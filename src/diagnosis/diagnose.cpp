@@ -105,6 +105,13 @@ void decide(const std::vector<const CandidateResult*>& found, bool one_size, Dia
       if (std::find(rivals.begin(), rivals.end(), id) == rivals.end()) rivals.push_back(id);
     }
   }
+  for (const std::string& id : diagnosis.rivals) {
+    const bool everywhere = std::all_of(found.begin(), found.end(), [&](const auto* c) {
+      const auto& added = c->candidate.added;
+      return std::find(added.begin(), added.end(), id) != added.end();
+    });
+    if (everywhere && found.size() > 1) diagnosis.common.push_back(id);
+  }
 }
 
 void compare_capture(Diagnosis& diagnosis) {

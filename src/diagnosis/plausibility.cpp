@@ -95,9 +95,9 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
       const double value = nearest_to_range(slot, parameter.value, errors[j], lower, upper);
       if (value < lower || value > upper) {
         parameter.plausible = false;
-        parameter.why_not =
-            fmt::format("{} = {:.3g} {} lies outside of {:.3g} to {:.3g}: {}", parameter.label,
-                        parameter.value, slot.unit, lower, upper, why);
+        parameter.why_not = fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}",
+                                        parameter.label, parameter.value,
+                                        slot.unit == "1" ? "" : " " + slot.unit, lower, upper, why);
       }
       const double limit = firmest * softest(candidate.model);
       if (slot.name == "yield_pressure" &&

@@ -11,6 +11,8 @@
 namespace recoil {
 namespace {
 
+constexpr std::size_t most_titles = 3;  // of tests that found something
+
 std::string p_words(double p, int simulated) {
   const double smallest = 1.0 / (simulated + 1.0);
   return p <= smallest * 1.001 ? fmt::format("p < {:.2g}", 2.0 * smallest)
@@ -49,14 +51,24 @@ std::string gain_words(const Diagnosis& d) {
   return text + ".";
 }
 
+/// Those that would have gained as much as the answer, but are not possible.
 std::string aside_words(const Diagnosis& d) {
   std::vector<std::string> words;
+  const double answer = d.extended ? d.extended->delta_aicc + d.options.apart : 0.0;
   for (const CandidateResult& c : d.candidates) {
-    if (!c.plausible && c.delta_aicc < -d.options.apart && words.size() < 2) {
+    if (!c.plausible && c.delta_aicc < answer && words.size() < 2) {
       words.push_back(fmt::format("{} is set aside, {}", c.candidate.name(), c.aside));
     }
   }
   return words.empty() ? "" : fmt::format(" {}.", fmt::join(words, "; "));
+}
+
+/// When two causes at once are needed: which one all the answers have in common.
+std::string common_words(const Diagnosis& d) {
+  if (!d.extended || d.extended->candidate.added.size() < 2) return "";
+  std::string text = " It takes two at once";
+  for (const std::string& id : d.common) text += fmt::format("; {} is one of them in any case", id);
+  return text + ".";
 }
 
 std::string next_words(const Diagnosis& d) {
@@ -86,9 +98,14 @@ std::string one_size_words(const Diagnosis& d) {
 std::string found_words(const Diagnosis& d) {
   std::vector<std::string> found;
   for (const StructureTest& test : d.structure.tests) {
-    if (test.p_value <= 0.01) found.push_back(test.title);
+    if (test.p_value > 0.01) continue;
+    if (found.size() == most_titles) {
+      found.emplace_back("and more");
+      break;
+    }
+    found.push_back(test.title);
   }
-  return found.empty() ? "" : fmt::format(": {}", fmt::join(found, "; "));
+  return found.empty() ? "" : fmt::format(": {}", fmt::join(found, ", "));
 }
 
 }  // namespace
@@ -128,7 +145,7 @@ std::string verdict_text(const Diagnosis& d) {
     case Verdict::not_separable:
       text += fmt::format("These data cannot tell which of these causes it is: {}.",
                           titles_of(d.rivals));
-      text += one_size_words(d);
+      text += common_words(d) + one_size_words(d);
       text += fmt::format(" The extended model takes {}: {}.", d.extended->candidate.name(),
                           parameters_words(*d.extended));
       text += gain_words(d) + next_words(d);

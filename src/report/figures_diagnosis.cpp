@@ -83,6 +83,11 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
       draw_svg(script), false};
 }
 
+/// Is it the extended model, or one that cannot be told from it?
+bool is_answer(const Diagnosis& d, const CandidateResult& c) {
+  return d.extended && c.explains() && c.delta_aicc <= d.extended->delta_aicc + d.options.apart;
+}
+
 std::string short_aside(const CandidateResult& c) {
   if (c.explains()) return "";
   return c.aside.substr(0, c.aside.find(':'));
@@ -144,11 +149,11 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
         "$curve{} using 1:2 with lines lc rgb '{}' lw 1.2 dt (5,4) notitle", k, marker.colour));
     layers.push_back(
         fmt::format("$curve{} using 1:3 with lines lc rgb '{}' lw 2 notitle", k, marker.colour));
-    layers.push_back(fmt::format(
-        "$points{} using 1:2:3 with yerrorbars lc rgb '{}' pt {} ps 0.7 lw 1 {}", k, marker.colour,
-        marker.point,
-        points.size() <= 7 ? "title " + gnuplot_text(diameter_text(diameter / 1.0) + " µm")
-                           : std::string("notitle")));
+    layers.push_back(
+        fmt::format("$points{} using 1:2:3 with yerrorbars lc rgb '{}' pt {} ps 0.7 lw 1 {}", k,
+                    marker.colour, marker.point,
+                    points.size() <= 7 ? "title " + gnuplot_text(diameter_text(diameter) + " µm")
+                                       : std::string("notitle")));
     ++k;
   }
   c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
@@ -199,7 +204,7 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const CandidateResult& c = *shown[k];
     const auto row = static_cast<double>(k);
-    (c.explains() ? taken : aside)
+    (is_answer(d, c) ? taken : aside)
         .push_back({0.0, row, 0.0, -c.delta_aicc, row - 0.32, row + 0.32});
     names.push_back(fmt::format("{} {}", gnuplot_text(c.candidate.name()), row));
     const std::string label = short_aside(c);
@@ -230,10 +235,11 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
   layer("aside", aside, "#BBBBBB");
   c += fmt::format("plot {}\n", fmt::join(layers, ", "));
   return {{"ranking", "What could explain it",
-           fmt::format("The longer the bar, the better the whole model fits with this added, its "
-                       "parameters paid for. Blue: explains the data. Grey: set aside, with the "
-                       "reason. Bars within {:.0f} of each other cannot be told apart.",
-                       d.options.apart),
+           fmt::format(
+               "The longer the bar, the better the whole model fits with this added, its "
+               "parameters paid for. Blue: the answer. Grey: further behind, or set aside "
+               "for the reason beside it. Bars within {:.0f} of each other cannot be told apart.",
+               d.options.apart),
            draw_svg(script), true}};
 }
 

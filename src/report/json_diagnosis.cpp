@@ -154,6 +154,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   out["misfit"]["free_form_remaining_p"] = d.free_form_p;
   out["named"] = d.named;
   out["rivals"] = d.rivals;
+  out["in_every_explanation"] = d.common;
   out["candidates"] = candidates_json(d.candidates, d.candidates.size());
   constexpr std::size_t most_pairs = 20;
   out["pairs"] = candidates_json(d.pairs, most_pairs);

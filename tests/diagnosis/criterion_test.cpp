@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/candidate.hpp"
+#include "synthetic.hpp"
+
+namespace recoil {
+namespace {
+
+Observations points(int count, bool stated) {
+  Observations data;
+  data.sd_stated = stated;
+  data.points.resize(static_cast<std::size_t>(count));
+  return data;
+}
+
+TEST(Criterion, IsWorkedByHand) {
+  // 12 points, 3 parameters: 20 + 2 * 3 + 2 * 3 * 4 / 8.
+  EXPECT_DOUBLE_EQ(corrected_criterion(points(12, true), 20.0, 3), 29.0);
+  // The scale counts as a fourth: 12 ln(2) + 8 + 2 * 4 * 5 / 7.
+  EXPECT_NEAR(corrected_criterion(points(12, false), 24.0, 3),
+              12.0 * std::log(2.0) + 8.0 + 40.0 / 7.0, 1e-12);
+}
+
+TEST(Criterion, RefusesMoreParametersThanItCanCorrectFor) {
+  EXPECT_EQ(corrected_criterion(points(5, true), 1.0, 4), INFINITY);
+}
+
+TEST(Candidate, CarriesFreeParametersOverAndLeavesFixedOnesAlone) {
+  const std::vector<Dataset> data = {synthetic::dataset({})};
+  const Candidate base = make_candidate(synthetic::spec(), data, {});
+  const Candidate crack = make_candidate(synthetic::spec(), data, {"crack_rate"});
+  const std::vector<double> theta =
+      carried_over(base.model, std::vector<double>{0.007, 0.02, 5.0}, crack.model);
+  ASSERT_EQ(theta.size(), 5U);
+  EXPECT_EQ(theta[0], 0.007);
+  EXPECT_EQ(theta[1], 0.02);
+  EXPECT_EQ(theta[2], 8.9);  // f0 is fixed in both
+  EXPECT_EQ(crack.free_count, 3);
+  EXPECT_EQ(make_candidate(synthetic::spec(), data, {"crack_rate"}, true).free_count, 4);
+}
+
+TEST(Candidate, FindsTheParametersThatMadeThePoints) {
+  synthetic::Design design;
+  const std::vector<Dataset> data = {synthetic::dataset(design)};
+  const Candidate base = make_candidate(synthetic::spec(), data, {});
+  const Refit refit = refit_candidate(base, gather(data), std::vector<double>{6e-3, 0.05, 8.9}, 2);
+  ASSERT_TRUE(refit.usable);
+  EXPECT_NEAR(refit.theta[0], design.C_H, 1e-5);
+  EXPECT_NEAR(refit.theta[1], design.C_A, 1e-4);
+  EXPECT_LT(refit.chi2, 1e-4);
+}
+
+}  // namespace
+}  // namespace recoil

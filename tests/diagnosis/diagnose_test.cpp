@@ -1,0 +1,125 @@
+#include "diagnosis/diagnose.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/error.hpp"
+#include "diagnosis/extended_toml.hpp"
+#include "synthetic.hpp"
+
+namespace recoil {
+namespace {
+
+/// Points of four sizes with noise of `sd`, and `disturb(point, e)` in place of e.
+template <class Disturb>
+Dataset noisy(unsigned seed, double sd, const Disturb& disturb) {
+  synthetic::Design design;
+  design.diameters = {2.58e-6, 3.42e-6, 4.9e-6, 6.89e-6};
+  design.velocities = {4.5, 6.5, 9.0, 13.0, 20.0, 30.0, 50.0, 90.0};
+  design.sd = sd;
+  Dataset data = synthetic::dataset(design);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  for (ImpactPoint& point : data.points) {
+    point.restitution = std::max(0.0, disturb(point, point.restitution) + sd * normal(random));
+  }
+  return data;
+}
+
+DiagnosisOptions quick() {
+  DiagnosisOptions options;
+  options.simulated = 199;
+  options.compared = 19;
+  return options;
+}
+
+double undisturbed(const ImpactPoint&, double e) { return e; }
+
+/// A batch each for the sizes: what is read too much.
+double by_series(const ImpactPoint& point, double e) {
+  constexpr double offset[] = {0.04, -0.05, 0.045, -0.03};
+  return e + offset[point.series];
+}
+
+/// A resonance that no mechanism makes: a dip at one velocity, for one half of the sizes.
+double with_dip(const ImpactPoint& point, double e) {
+  const double away = std::log(point.incident_velocity / 20.0) / 0.15;
+  return point.series % 2 == 0 ? e - 0.12 * std::exp(-0.5 * away * away) : e;
+}
+
+TEST(Diagnose, IsSilentWhereTheModelIsRight) {
+  int accused = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const Diagnosis found = diagnose(synthetic::spec(), {noisy(seed, 0.01, undisturbed)}, quick());
+    accused += found.verdict == Verdict::adequate ? 0 : 1;
+  }
+  // 5 % of 12: more than three would be one chance in four hundred.
+  EXPECT_LE(accused, 3);
+}
+
+TEST(Diagnose, NamesABatchAndNothingElse) {
+  const Diagnosis found = diagnose(synthetic::spec(), {noisy(1, 0.008, by_series)}, quick());
+  ASSERT_EQ(found.verdict, Verdict::cause_named) << found.text;
+  EXPECT_EQ(found.named, std::vector<std::string>{"series_offset"});
+  ASSERT_TRUE(found.extended_fit);
+  EXPECT_LT(found.extended_fit->chi2, 60.0);
+  ASSERT_TRUE(found.gain);
+  EXPECT_FALSE(found.capture.empty());
+}
+
+TEST(Diagnose, AdmitsWhatItDoesNotKnow) {
+  const Diagnosis found = diagnose(synthetic::spec(), {noisy(2, 0.008, with_dip)}, quick());
+  EXPECT_EQ(found.verdict, Verdict::unexplained) << found.text;
+  EXPECT_TRUE(found.named.empty());
+  EXPECT_FALSE(found.extended);
+}
+
+TEST(Diagnose, NamesNothingAtOneSize) {
+  // A velocimeter that reads 0.3 m/s too much, both ways, at one diameter.
+  Dataset data = noisy(3, 0.004, [](const ImpactPoint& point, double e) {
+    const double V = point.incident_velocity;
+    return (e * (V - 0.3) + 0.3) / V;
+  });
+  std::erase_if(data.points, [](const ImpactPoint& point) { return point.series != 2; });
+  const Diagnosis found = diagnose(synthetic::spec(), {data}, quick());
+  EXPECT_NE(found.verdict, Verdict::cause_named) << found.text;
+}
+
+TEST(Diagnose, DoesNotDependOnTheNumberOfThreads) {
+  DiagnosisOptions one = quick();
+  one.threads = 1;
+  DiagnosisOptions several = quick();
+  several.threads = 3;
+  const std::vector<Dataset> data = {noisy(4, 0.008, by_series)};
+  const Diagnosis a = diagnose(synthetic::spec(), data, one);
+  const Diagnosis b = diagnose(synthetic::spec(), data, several);
+  EXPECT_EQ(a.text, b.text);
+  EXPECT_EQ(a.structure.p_value, b.structure.p_value);
+  ASSERT_EQ(a.candidates.size(), b.candidates.size());
+  for (std::size_t k = 0; k < a.candidates.size(); ++k) {
+    EXPECT_EQ(a.candidates[k].delta_aicc, b.candidates[k].delta_aicc);
+    EXPECT_EQ(a.candidates[k].p_value, b.candidates[k].p_value);
+  }
+}
+
+TEST(Diagnose, MapSaysWhereTheModelIsTooLow) {
+  const Diagnosis found = diagnose(synthetic::spec(), {noisy(5, 0.002, by_series)}, quick());
+  for (const MisfitCell& cell : found.where) {
+    if (cell.diameter < 3e-6) {
+      EXPECT_GT(cell.restitution, 0.0);
+    } else if (cell.diameter < 4e-6) {
+      EXPECT_LT(cell.restitution, 0.0);
+    }
+  }
+}
+
+TEST(Diagnose, RefusesPointsThatCannotDetermineTheModel) {
+  Dataset data = synthetic::dataset({});
+  data.points.resize(1);
+  EXPECT_THROW(diagnose(synthetic::spec(), {data}, quick()), ComputationError);
+}
+
+}  // namespace
+}  // namespace recoil

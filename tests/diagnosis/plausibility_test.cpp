@@ -1,0 +1,58 @@
+#include "diagnosis/plausibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include "synthetic.hpp"
+
+namespace recoil {
+namespace {
+
+/// The parameters of a mechanism at `value`, known to one part in a thousand.
+std::vector<FoundParameter> found(const std::string& id, double value) {
+  const std::vector<Dataset> data = {synthetic::dataset({})};
+  const Candidate candidate = make_candidate(synthetic::spec(), data, {id});
+  Refit refit;
+  refit.usable = true;
+  refit.theta = candidate.model.initial();
+  refit.theta[3] = value;
+  const std::size_t p = refit.theta.size();
+  refit.moving.assign(p, false);
+  refit.moving[3] = true;
+  refit.residuals.assign(4, 0.0);
+  refit.jacobian.assign(4 * p, 0.0);
+  for (std::size_t i = 0; i < 4; ++i) refit.jacobian[i * p + 3] = 500.0 / value;
+  return found_parameters(candidate, refit, 1.0);
+}
+
+TEST(Plausibility, RefusesAYieldPressureOfSteelInAPolymer) {
+  const FoundParameter steel = found("plastic_yield", 3e9).front();
+  EXPECT_FALSE(steel.plausible);
+  EXPECT_NE(steel.why_not.find("reduced modulus"), std::string::npos) << steel.why_not;
+  EXPECT_TRUE(found("plastic_yield", 2e8).front().plausible);
+}
+
+TEST(Plausibility, RefusesAChargeAboveBreakdown) {
+  const FoundParameter charge = found("electrostatic_image", 1e7).front();
+  EXPECT_FALSE(charge.plausible);
+  EXPECT_NE(charge.why_not.find("breaks down"), std::string::npos) << charge.why_not;
+  EXPECT_TRUE(found("electrostatic_image", 2e6).front().plausible);
+}
+
+TEST(Plausibility, AllowsTwoStandardErrors) {
+  // The standard error is 0.1 % of the value: 3.005e6 is 1.7 of them above 3e6.
+  EXPECT_TRUE(found("electrostatic_image", 3.005e6).front().plausible);
+  EXPECT_FALSE(found("electrostatic_image", 3.02e6).front().plausible);
+}
+
+TEST(Plausibility, StandardErrorsAreThoseOfTheJacobian) {
+  Refit refit;
+  refit.theta = {1.0, 2.0};
+  refit.moving = {true, false};
+  refit.jacobian = {3.0, 1.0, 4.0, 1.0};  // column 0: (3, 4), length 5
+  const std::vector<double> errors = standard_errors(refit, 2.0);
+  EXPECT_NEAR(errors[0], 2.0 / 5.0, 1e-15);
+  EXPECT_EQ(errors[1], 0.0);
+}
+
+}  // namespace
+}  // namespace recoil

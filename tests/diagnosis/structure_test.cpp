@@ -1,0 +1,155 @@
+#include "diagnosis/structure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t sizes = 3;
+constexpr std::size_t velocities = 12;
+
+/// Three diameters at twelve velocities, and a model of one parameter that moves all points alike.
+struct Case {
+  Observations data;
+  Refit fitted;
+  std::vector<double> predicted;
+
+  Case() {
+    for (std::size_t s = 0; s < sizes; ++s) {
+      for (std::size_t v = 0; v < velocities; ++v) {
+        Observation point;
+        point.series = s;
+        point.diameter = 1e-6 * std::pow(2.0, static_cast<double>(s));
+        point.velocity = std::pow(1.4, static_cast<double>(v));
+        point.restitution = 0.7;
+        point.sd = 0.02;
+        data.points.push_back(point);
+      }
+    }
+    fitted.usable = true;
+    fitted.theta = {1.0};
+    fitted.moving = {true};
+    fitted.residuals.assign(data.points.size(), 0.0);
+    fitted.jacobian.assign(data.points.size(), 1.0);
+    predicted.assign(data.points.size(), 0.49);
+  }
+  StructureStatistics statistics() const { return {data, fitted, predicted}; }
+};
+
+std::vector<double> noise(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::vector<double> z(sizes * velocities);
+  for (double& value : z) value = normal(random);
+  return z;
+}
+
+double p_of(const Structure& structure, const std::string& id) {
+  for (const StructureTest& test : structure.tests) {
+    if (test.id == id) return test.p_value;
+  }
+  ADD_FAILURE() << id;
+  return -1.0;
+}
+
+/// The structure of noise with `shape` added.
+Structure structure_with(const std::vector<double>& shape, unsigned seed) {
+  Case made;
+  std::mt19937 random(seed);
+  std::vector<double> r = noise(random);
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] += shape[i];
+  made.fitted.residuals = made.statistics().residuals_of_noise(r);
+  return quick_structure(made.data, made.fitted, made.predicted, 499, 7);
+}
+
+TEST(Structure, LeavesOutWhatTheModelCanFollow) {
+  const Case made;
+  std::mt19937 random(3);
+  const std::vector<double> r = made.statistics().residuals_of_noise(noise(random));
+  double sum = 0.0;
+  for (const double value : r) sum += value;
+  EXPECT_NEAR(sum, 0.0, 1e-12);
+}
+
+TEST(Structure, AccusesPureNoiseInFivePerCentOfCases) {
+  Case made;
+  std::mt19937 random(11);
+  constexpr int cases = 400;
+  int accused = 0;
+  for (int k = 0; k < cases; ++k) {
+    made.fitted.residuals = made.statistics().residuals_of_noise(noise(random));
+    const Structure found =
+        quick_structure(made.data, made.fitted, made.predicted, 199, static_cast<std::uint64_t>(k));
+    accused += found.p_value <= 0.05 ? 1 : 0;
+  }
+  // Binomial with 5 %: 20 of 400, standard deviation 4.4.
+  EXPECT_GE(accused, 6);
+  EXPECT_LE(accused, 34);
+}
+
+TEST(Structure, SeesADiameterThatIsOff) {
+  std::vector<double> shape(sizes * velocities, 0.0);
+  std::fill_n(shape.begin() + velocities, velocities, 1.5);
+  const Structure found = structure_with(shape, 5);
+  EXPECT_LE(p_of(found, "size"), 0.01);
+  EXPECT_LE(found.p_value, 0.05);
+  EXPECT_GT(p_of(found, "trend"), 0.01);
+}
+
+TEST(Structure, SeesAWaveInTheLogarithmOfTheVelocity) {
+  std::vector<double> shape;
+  for (std::size_t i = 0; i < sizes * velocities; ++i) {
+    const double u = static_cast<double>(i % velocities) / (velocities - 1.0);
+    shape.push_back(1.8 * std::sin(2.0 * std::numbers::pi * 2.0 * u));
+  }
+  const Structure found = structure_with(shape, 6);
+  EXPECT_LE(p_of(found, "smooth"), 0.01);
+  EXPECT_LE(found.p_value, 0.02);
+  EXPECT_TRUE(found.smooth);
+}
+
+TEST(Structure, TellsLargeScatterFromShape) {
+  Case made;
+  std::mt19937 random(9);
+  constexpr int cases = 100;
+  int accused = 0;
+  for (int k = 0; k < cases; ++k) {
+    std::vector<double> r = noise(random);
+    for (double& value : r) value *= 1.8;
+    made.fitted.residuals = made.statistics().residuals_of_noise(r);
+    made.data.sd_stated = false;  // nobody said how large it should be
+    const Structure found =
+        quick_structure(made.data, made.fitted, made.predicted, 199, static_cast<std::uint64_t>(k));
+    for (const StructureTest& test : found.tests) ASSERT_NE(test.id, "scatter");
+    accused += found.p_value <= 0.05 ? 1 : 0;
+  }
+  EXPECT_LE(accused, 12);  // binomial with 5 %: more has a chance of 1 in 500
+  made.data.sd_stated = true;
+  EXPECT_LE(p_of(quick_structure(made.data, made.fitted, made.predicted, 199, 1), "scatter"), 0.01);
+}
+
+TEST(Structure, FreeFormFollowsAWaveAndLeavesNoiseAlone) {
+  const Case made;
+  std::vector<double> wave;
+  for (std::size_t i = 0; i < sizes * velocities; ++i) {
+    const double u = static_cast<double>(i % velocities) / (velocities - 1.0);
+    wave.push_back(3.0 * std::sin(2.0 * std::numbers::pi * u));
+  }
+  const std::vector<double> r = made.statistics().residuals_of_noise(wave);
+  const std::vector<double> shape = made.statistics().free_form(r);
+  ASSERT_EQ(shape.size(), r.size());
+  double left = 0.0, before = 0.0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    left += (r[i] - shape[i]) * (r[i] - shape[i]);
+    before += r[i] * r[i];
+  }
+  EXPECT_LT(left, 0.02 * before);
+  EXPECT_TRUE(made.statistics().free_form(std::vector<double>(r.size(), 0.0)).empty());
+}
+
+}  // namespace
+}  // namespace recoil
