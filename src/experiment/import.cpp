@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "data/folder_names.hpp"
 #include "data/text.hpp"
 #include "experiment/import_package.hpp"
 #include "experiment/import_readers.hpp"
@@ -16,9 +18,6 @@ namespace recoil {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* recipe_name = "recipe.toml";
-constexpr const char* kept_recipe_name = "recipe-set-aside.toml";
 
 ImportedPoints read_points_of(const ImportRequest& request,
                               const std::vector<std::string>& package_map) {
@@ -142,7 +141,7 @@ void require_free(const ImportRequest& request) {
                      "choose another --into");
   }
   if (request.replace) return;
-  for (const char* name : {"datapackage.json", "points.csv"}) {
+  for (const char* name : {package_file_name, "points.csv"}) {
     if (!fs::exists(request.into / name, failed)) continue;
     throw InputError({(request.into / name).string()}, "there is a dataset here already",
                      "points are not overwritten unasked",
@@ -150,11 +149,30 @@ void require_free(const ImportRequest& request) {
   }
 }
 
+/// Points that a recipe made do not become digitised by being imported.
+void refuse_reconstructed_points(const ImportRequest& request, const Dataset& imported) {
+  const Dataset before = load_dataset(request.into);
+  const auto known = [&](const ImpactPoint& point) {
+    return std::any_of(before.points.begin(), before.points.end(), [&](const ImpactPoint& old) {
+      return std::abs(old.incident_velocity / point.incident_velocity - 1.0) < 1e-9 &&
+             std::abs(old.restitution - point.restitution) < 1e-9 &&
+             std::abs(old.diameter / point.diameter - 1.0) < 1e-9;
+    });
+  };
+  const auto same = std::count_if(imported.points.begin(), imported.points.end(), known);
+  if (2 * static_cast<std::size_t>(same) <= imported.points.size()) return;
+  throw InputError(
+      {request.file.string()},
+      fmt::format("{} of {} points are those of the reconstruction", same, imported.points.size()),
+      "a recipe made them and nobody measured or digitised them",
+      "import points of an experiment, or --provenance synthetic");
+}
+
 /// Keeps the recipe of a former reconstruction where nothing takes it for the folder's.
 void set_recipe_aside(const fs::path& folder, std::vector<std::string>& notes) {
   std::error_code failed;
   if (!fs::exists(folder / recipe_name, failed)) return;
-  fs::rename(folder / recipe_name, folder / kept_recipe_name, failed);
+  fs::rename(folder / recipe_name, folder / set_aside_recipe_name, failed);
   if (failed) {
     throw InputError({(folder / recipe_name).string()}, "cannot set the recipe aside",
                      failed.message(), "rename it by hand: the points are no longer its own");
@@ -162,7 +180,7 @@ void set_recipe_aside(const fs::path& folder, std::vector<std::string>& notes) {
   notes.push_back(
       fmt::format("the folder is no reconstruction any more; its {} is kept as {}, for comparison "
                   "only",
-                  recipe_name, kept_recipe_name));
+                  recipe_name, set_aside_recipe_name));
 }
 
 }  // namespace
@@ -199,11 +217,15 @@ ImportResult import_points(const ImportRequest& request) {
   } catch (const InputError& error) {
     blame_the_source(error, request, points_file, imported.points);
   }
+  if (existing && existing->provenance == Provenance::reconstruction &&
+      result.dataset.provenance != Provenance::synthetic) {
+    refuse_reconstructed_points(request, result.dataset);
+  }
   // Should the run be cut short in between, new points stand under the old label, which claims no
   // more than they are; without a package the folder is no dataset yet.
   require_writable_folder(request.into);
   write_whole_file(points_file, points.csv);
-  write_whole_file(request.into / "datapackage.json", package);
+  write_whole_file(request.into / package_file_name, package);
   set_recipe_aside(request.into, result.notes);
   return result;
 }

@@ -9,6 +9,7 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
+#include "data/folder_names.hpp"
 #include "data/text.hpp"
 #include "experiment/import_words.hpp"
 
@@ -17,10 +18,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* package_name = "datapackage.json";
 // How the titles and sources of the shipped reconstructions say what they are.
 constexpr const char* title_claim = ": a reconstruction";
 constexpr const char* source_claim = "; its points were not available";
+constexpr const char* recipe_claim = "the recipe's truth";
 
 void remove_words(std::string& text, const std::string& words) {
   if (const std::size_t at = text.find(words); at != std::string::npos)
@@ -57,7 +58,7 @@ Json material(const std::string& words, const std::string& option) {
 
 /// What a package says under `recoil`.
 Json system_of(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / package_name;
+  const std::filesystem::path file = folder / package_file_name;
   const Json json = parse_json(read_text_file(file), file);
   if (!json.contains("recoil") || !json["recoil"].is_object()) {
     throw InputError({file.string()}, "nothing under 'recoil'", "--like takes the materials of it",
@@ -153,12 +154,14 @@ Json sources_of(const ImportRequest& request, const std::optional<ExistingPackag
   if (!sources.empty()) return sources;
   notes.emplace_back("no source is stated: --source \"Author (year), journal, figure\" would");
   if (existing && existing->json.contains("sources")) {
-    sources = existing->json["sources"];
-    for (Json& source : sources) {
-      if (!source.contains("title") || !source["title"].is_string()) continue;
-      std::string title = source["title"];
-      remove_words(title, source_claim);
-      source["title"] = title;
+    for (Json source : existing->json["sources"]) {
+      if (source.contains("title") && source["title"].is_string()) {
+        std::string title = source["title"];
+        if (title.find(recipe_claim) != std::string::npos) continue;
+        remove_words(title, source_claim);
+        source["title"] = title;
+      }
+      sources.push_back(source);
     }
   }
   sources.push_back({{"title", fmt::format("{}, imported; who made it is not stated",
@@ -171,7 +174,7 @@ std::string number_text(double value) { return fmt::format("{:.9g}", value); }
 }  // namespace
 
 std::optional<ExistingPackage> existing_package(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / package_name;
+  const std::filesystem::path file = folder / package_file_name;
   std::error_code failed;
   if (!std::filesystem::exists(file, failed)) return std::nullopt;
   const std::string text = read_text_file(file);

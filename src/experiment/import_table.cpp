@@ -162,11 +162,10 @@ double ImportTable::unit_of(const ImportQuantity& quantity, const std::string& u
   if (name.empty() && plain) name = "1";
   const std::vector<std::string> names = import_unit_names(quantity.dimension);
   if (name.empty()) {
-    throw InputError(
-        {file_, header_[column].line, header_[column].column},
-        fmt::format("the unit of {} is not stated", quote(header_[column].text)),
-        fmt::format("{} is converted by it: {}", quantity.name, join(names)),
-        fmt::format("write --map {}={}:{}", quantity.name, header_[column].text, names.front()));
+    throw InputError({file_, header_[column].line, header_[column].column},
+                     fmt::format("the unit of {} is not stated", quote(header_[column].text)),
+                     fmt::format("{} is converted by it: {}", quantity.name, join(names)),
+                     fmt::format("write --map {}={}:UNIT", quantity.name, header_[column].text));
   }
   if (const auto factor = import_unit_factor(quantity.dimension, name)) return *factor;
   throw InputError({file_, header_[column].line, header_[column].column},

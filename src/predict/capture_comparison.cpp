@@ -41,7 +41,8 @@ std::vector<double> fitted_velocities(const ImpactModel& model, std::span<const 
 CaptureCurve fitted_curve(const FitResult& fitted, std::size_t dataset,
                           const std::vector<double>& diameters, const BootstrapResult& bootstrap,
                           const CaptureComparisonOptions& options) {
-  CaptureCurve curve{"fit", "this fit", "every parameter from the points", {}, {}, {}};
+  CaptureCurve curve{"fit", "this fit", "with its parameters, f0 of other sizes by eq. 12",
+                     {},    {},         {}};
   curve.velocity = fitted_velocities(fitted.model, fitted.theta, dataset, diameters);
   const std::size_t count =
       std::min(bootstrap.theta.size(), static_cast<std::size_t>(options.replicates));
@@ -125,12 +126,13 @@ void add_older_models(const Dataset& dataset, const ContactProperties& contact, 
   const std::string constants =
       fmt::format("W_A = {:.3g} J/m2 and K = {:.4g} GPa", contact.adhesion_energy,
                   contact.stiffness / units::GPa);
-  comparison.curves.push_back(
-      model_curve("jkr", "JKR; Thornton & Ning, elastic", constants + ", nothing fitted", contact,
-                  diameters, [](const CaptureContact& c) { return jkr_capture_velocity(c); }));
+  comparison.curves.push_back(model_curve(
+      "jkr", "JKR",
+      constants + ", nothing fitted; the elastic sphere of Thornton & Ning sticks alike", contact,
+      diameters, [](const CaptureContact& c) { return jkr_capture_velocity(c); }));
   if (const auto yield = published_yield_pressure(dataset.system.particle)) {
     comparison.curves.push_back(model_curve(
-        "thornton_ning", "Thornton & Ning, with yield",
+        "thornton_ning", "Thornton & Ning, yield",
         fmt::format("{}, yield pressure {:.3g} MPa ({}); a lower estimate, adhesion does not help "
                     "the sphere to yield",
                     constants, yield->pressure / 1e6, yield->source),

@@ -72,11 +72,10 @@ Figure figure_of(const Analysis& analysis, const CaptureComparison& comparison) 
     }
     c += data_block(fmt::format("curve{}", i), rows);
     if (!curve.lower.empty()) {
-      layers.push_back(fmt::format(
-          "$curve{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.2 noborder "
-          "title {}",
-          i, colours[i % colours.size()],
-          gnuplot_text(percent(analysis.uncertainty.options.level) + " band")));
+      layers.push_back(
+          fmt::format("$curve{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.2 "
+                      "noborder notitle",
+                      i, colours[i % colours.size()]));
     }
     layers.push_back(fmt::format("$curve{} using 1:2 with lines lc rgb '{}' lw 2 {} title {}", i,
                                  colours[i % colours.size()], dashes[i % dashes.size()],
@@ -103,7 +102,9 @@ Figure figure_of(const Analysis& analysis, const CaptureComparison& comparison) 
   add_published("modelled", modelled, 6, "published, of a model");
   c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
   for (const std::string& note : comparison.notes) words.push_back(note);
-  const std::string caption = fmt::format("{}. {}.", dataset.id, fmt::join(words, "; "));
+  const std::string caption =
+      fmt::format("{}, with the {} band of the fit. {}.", dataset.id,
+                  percent(analysis.uncertainty.options.level), fmt::join(words, "; "));
   return {script.name, script.title, caption, draw_svg(script)};
 }
 
