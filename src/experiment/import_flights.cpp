@@ -88,32 +88,41 @@ std::vector<Launch> gather_launches(const ImportTable& table, const ImportReques
 /// What the first two flights say of the height from which the ball was released, were its first
 /// bounce like its second.
 std::string release_check(const std::vector<Launch>& launches, double gravity) {
-  double ratio = 0.0;
-  double first = 0.0;
-  double second = 0.0;
-  double largest = 0.0;
-  double count = 0.0;
+  struct Sum {
+    double first = 0.0;    // e of the first bounce, with the stated height
+    double second = 0.0;   // e of the second
+    double missing = 0.0;  // of the height [m]
+    double count = 0.0;
+  };
+  std::map<double, Sum> by_height;
   for (const Launch& launch : launches) {
     if (!launch.release || launch.flights.size() < 2 || !(*launch.release > 0.0)) continue;
     if (launch.flights[1].bounce != launch.flights[0].bounce + 1.0) continue;
     const double fall = std::sqrt(2.0 * gravity * *launch.release);
-    const double e0 = 0.5 * gravity * launch.flights[0].duration / fall;
-    const double e1 = launch.flights[1].duration / launch.flights[0].duration;
-    ratio += (e0 / e1) * (e0 / e1);
-    largest = std::max(largest, std::abs((e0 / e1) * (e0 / e1) - 1.0));
-    first += e0;
-    second += e1;
-    count += 1.0;
+    const double first = 0.5 * gravity * launch.flights[0].duration / fall;
+    const double second = launch.flights[1].duration / launch.flights[0].duration;
+    Sum& sum = by_height[*launch.release];
+    sum.first += first;
+    sum.second += second;
+    sum.missing += (first * first / (second * second) - 1.0) * *launch.release;
+    sum.count += 1.0;
   }
-  if (count == 0.0) return "";
+  if (by_height.empty()) return "";
+  std::vector<std::string> heights;
+  for (const auto& [height, sum] : by_height) {
+    heights.push_back(
+        fmt::format("{:g} mm: e = {:.3f} at the first bounce, {:.3f} at the second, "
+                    "{:+.1f} mm",
+                    1e3 * height, sum.first / sum.count, sum.second / sum.count,
+                    1e3 * sum.missing / sum.count));
+  }
   return fmt::format(
-      "release height, a check over {} launches: with it the first bounce has e = {:.4f}, the "
-      "second "
-      "has {:.4f}; were both alike the ball fell {:+.1f} % further than stated on average ({:.1f} "
-      "% "
-      "at most). Heights are those of the ball's lowest point; air slows a fall and shortens a "
-      "flight. No point rests on it",
-      count, first / count, second / count, 100.0 * (ratio / count - 1.0), 100.0 * largest);
+      "release heights, a check (no point rests on them): what the ball seems to have fallen "
+      "further "
+      "than stated, were its first bounce like its second. {}. Alike at all heights it is an "
+      "offset "
+      "of the scale, such as another point of the ball",
+      fmt::join(heights, "; "));
 }
 
 }  // namespace

@@ -125,9 +125,12 @@ TEST(Intervals, TheReleaseHeightIsChecked) {
     request.gravity = "10";
     return recoil::import_points(request).notes.front();
   };
-  EXPECT_THAT(note("0.2"), HasSubstr("the first bounce has e = 0.8000, the second has 0.8000"));
-  EXPECT_THAT(note("0.2"), HasSubstr("+0.0 %"));
-  EXPECT_THAT(note("0.16"), HasSubstr("+25.0 %"));  // 0.2 / 0.16
+  EXPECT_THAT(note("0.2"), HasSubstr("200 mm: e = 0.800 at the first bounce, 0.800 at the second"));
+  EXPECT_THAT(note("0.2"), HasSubstr("+0.0 mm"));
+  // With 0.16 m stated e^2 of the first bounce is 0.64 x 0.2 / 0.16, and the height lacks 40 mm.
+  EXPECT_THAT(note("0.16"),
+              HasSubstr("160 mm: e = 0.894 at the first bounce, 0.800 at the second"));
+  EXPECT_THAT(note("0.16"), HasSubstr("+40.0 mm"));
 }
 
 TEST(Intervals, WhatIsAskedFor) {
