@@ -64,10 +64,16 @@ void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
       stated_error(request.diameter_error, ImportDimension::length, "--diameter-error");
   std::vector<std::string> named;
   std::vector<std::string> series;
+  bool asked = request.diameters.empty();
+  for (const std::string& word : request.diameters) {  // also those that nothing will need
+    const auto pair = split_pair(word);
+    value_with_unit(pair ? pair->second : word, ImportDimension::length, "--diameter");
+  }
   for (ImportedPoint& point : imported.points) {
     if (std::find(series.begin(), series.end(), point.series) == series.end()) {
       series.push_back(point.series);
     }
+    asked = asked || !point.diameter;
     if (!point.diameter) point.diameter = stated_diameter(request, point.series);
     if (!point.diameter) {
       point.diameter = diameter_in_name(point.series);
@@ -88,6 +94,9 @@ void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
     if (!pair || std::find(series.begin(), series.end(), pair->first) != series.end()) continue;
     throw InputError({}, fmt::format("--diameter {}: no such series", quote(word)),
                      "its diameter would be lost", did_you_mean(pair->first, series));
+  }
+  if (!asked) {
+    imported.notes.emplace_back("--diameter was not used: the file has a diameter for every point");
   }
   if (!named.empty()) {
     imported.notes.push_back(
@@ -124,7 +133,8 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
   const std::size_t why = text.find(" (");
   const std::size_t end = text.find(") ", why);
   if (why == std::string::npos || end == std::string::npos) throw error;
-  Location place{request.file.string()};
+  // Nothing in the file is to blame for a material.
+  Location place{at.file == points_file.string() ? request.file.string() : std::string()};
   const auto row = static_cast<std::size_t>(at.line) - 2;
   if (at.file == points_file.string() && at.line >= 2 && row < points.size()) {
     place.line = points[row].line;

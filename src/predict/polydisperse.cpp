@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 #include "core/units.hpp"
 
 namespace recoil {
@@ -227,8 +228,13 @@ PolydispersePrediction predict_mixture(const FitResult& fitted, const Observatio
   std::vector<std::vector<Mixture>> replicates(out.replicates);
   tbb::enumerable_thread_specific<MixtureFlight> flights(
       [&] { return MixtureFlight(model, dataset, bins, out.velocity, out.slowest_seen); });
-  parallel_over(out.replicates, options.threads,
-                [&](std::size_t i) { replicates[i] = flights.local().under(bootstrap.theta[i]); });
+  {
+    Progress progress("mixture", out.replicates);
+    parallel_over(out.replicates, options.threads, [&](std::size_t i) {
+      replicates[i] = flights.local().under(bootstrap.theta[i]);
+      progress.advance();
+    });
+  }
   for (std::size_t k = 0; k < out.velocity.size(); ++k) {
     const auto band_of = [&](const auto& quantity) {
       std::vector<double> values;

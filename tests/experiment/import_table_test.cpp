@@ -33,6 +33,7 @@ TEST(Table, ColumnsByTheirMap) {
   EXPECT_DOUBLE_EQ(made.points[0].restitution, 0.5);
   EXPECT_DOUBLE_EQ(made.points[1].diameter, 2.5e-6);
   EXPECT_THAT(result.notes, testing::Contains("columns not used: remark"));
+  EXPECT_THAT(result.notes, testing::Contains(HasSubstr("--diameter was not used")));
   EXPECT_EQ(made.sources, std::vector<std::string>{"A test"});
   EXPECT_EQ(made.system.particle.name, "polystyrene");
   EXPECT_DOUBLE_EQ(made.system.particle.density, 1050.0);
@@ -91,6 +92,10 @@ TEST(Table, WhatNobodySaidIsAskedFor) {
   using Request = recoil::ImportRequest;
   EXPECT_THAT(without([](Request& r) { r.particle.clear(); }),
               HasSubstr("the sphere's material is not known"));
+  EXPECT_THAT(without([](Request& r) {
+                r.particle = "material=x,density=2,youngs_modulus=1e9,poisson_ratio=0";
+              }),
+              testing::StartsWith("recoil.particle.density = 2 kg/m3"));
   EXPECT_THAT(without([](Request& r) { r.surface.clear(); }), HasSubstr("give --surface FILE"));
   EXPECT_THAT(without([](Request& r) { r.provenance.clear(); }),
               HasSubstr("give --provenance measured"));
@@ -112,8 +117,8 @@ TEST(Table, WhatNobodySaidIsAskedFor) {
               HasSubstr("incident_velocity in 'kg'"));
   EXPECT_THAT(without([](Request& r) { r.diameters = {"none=3um"}; }),
               HasSubstr("--diameter 'none=3um': no such series"));
-  EXPECT_THAT(without([](Request& r) { r.diameters = {"3 miles"}; }), HasSubstr("no complaint"))
-      << "the table has its own diameters";
+  EXPECT_THAT(without([](Request& r) { r.diameters = {"3 miles"}; }),
+              HasSubstr("--diameter '3 miles': no number with a unit"));
 }
 
 TEST(Table, NothingIsOverwrittenUnasked) {
