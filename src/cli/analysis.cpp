@@ -56,7 +56,49 @@ std::vector<Dataset> load_datasets(const FitSpec& spec) {
   return datasets;
 }
 
+std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id) {
+  if (id.empty()) return 0;
+  std::vector<std::string> known;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    if (datasets[d].id == id) return d;
+    known.push_back(datasets[d].id);
+  }
+  const std::string near = nearest_word(id, known);
+  throw InputError({}, fmt::format("--dataset {}: not a dataset of this fit", id),
+                   "it has to be one of those the fit names",
+                   near.empty() ? "leave it out for the first" : "did you mean " + near + "?");
+}
+
+void add_predictions(Analysis& analysis) {
+  const UncertaintyResult& assessed = analysis.uncertainty;
+  CaptureComparisonOptions compare;
+  compare.level = assessed.options.level;
+  compare.threads = assessed.options.threads;
+  PolydisperseOptions mix;
+  mix.level = assessed.options.level;
+  mix.threads = assessed.options.threads;
+  for (std::size_t d = 0; d < analysis.datasets.size(); ++d) {
+    const auto sizes = sizes_of_dataset(analysis.datasets[d].folder);
+    if (!sizes) continue;
+    mix.probe_height = sizes->probe_height.value_or(PolydisperseOptions{}.probe_height);
+    analysis.mixtures.push_back(
+        predict_mixture(analysis.fitted, analysis.data, d, assessed.bootstrap, *sizes, mix));
+    compare.include.emplace_back(d, sizes->smallest);
+    compare.include.emplace_back(d, sizes->largest);
+  }
+  analysis.captures = compare_captures(analysis.fitted, analysis.data, analysis.datasets,
+                                       assessed.bootstrap, compare);
+}
+
 Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& options) {
+  Analysis analysis = analyse_fit(fit_file, options);
+  const UncertaintyOptions assess = uncertainty_options(analysis.spec, options);
+  analysis.uncertainty =
+      assess_uncertainty(analysis.fitted, analysis.data, analysis.datasets, assess);
+  return analysis;
+}
+
+Analysis analyse_fit(const std::filesystem::path& fit_file, const AnalysisOptions& options) {
   Analysis analysis;
   analysis.spec = load_fit(fit_file);
   analysis.datasets = load_datasets(analysis.spec);
@@ -71,9 +113,6 @@ Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& o
                                        analysis.fitted.failure));
   }
   analysis.data = analysis.fitted.data;
-  const UncertaintyOptions assess = uncertainty_options(analysis.spec, options);
-  analysis.uncertainty =
-      assess_uncertainty(analysis.fitted, analysis.data, analysis.datasets, assess);
   return analysis;
 }
 

@@ -34,6 +34,17 @@ void forget_replicates(const std::filesystem::path& folder);
 /// Reads every dataset of a fit.
 std::vector<Dataset> load_datasets(const FitSpec& spec);
 
+/// Which of `datasets` --dataset names; the first when `id` is empty. @throws InputError
+std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id);
+
+/// The pipeline up to the fit: `uncertainty` stays empty.
+/// @throws ComputationError when the fit has no usable answer.
+Analysis analyse_fit(const std::filesystem::path& fit_file, const AnalysisOptions& options);
+
+/// What a report adds: the mixtures of the datasets that come with a size distribution, and the
+/// older capture models.
+void add_predictions(Analysis& analysis);
+
 /// The whole pipeline for one fit: data, fit, uncertainty.
 /// @throws Interrupted when the user stops it and `options.folder` keeps what was finished.
 /// @throws ComputationError when the fit has no usable answer.

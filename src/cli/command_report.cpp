@@ -43,7 +43,10 @@ std::vector<fs::path> fits_to_report(const ReportOptions& options) {
 std::string fingerprint(const fs::path& fit_file, const AnalysisFlags& flags) {
   const FitSpec spec = load_fit(fit_file);
   std::string text = spec.sha256;
-  for (const Dataset& dataset : load_datasets(spec)) text += dataset.sha256;
+  for (const Dataset& dataset : load_datasets(spec)) {
+    text += dataset.sha256;
+    if (const auto sizes = sizes_of_dataset(dataset.folder)) text += sizes->sha256;
+  }
   text += fmt::format("|{}|{}|{}|{}|{}", flags.replicates, flags.scheme, flags.seed, flags.solver,
                       program_stamp());
   return sha256_hex(text) + "\n";
@@ -89,7 +92,8 @@ void report(const ReportOptions& options) {
     } else {
       AnalysisOptions resolved = options.analysis.resolved();
       resolved.folder = out / id;
-      const Analysis analysis = analyse(fit_file, resolved);
+      Analysis analysis = analyse(fit_file, resolved);
+      add_predictions(analysis);
       const Diagnosis diagnosis = diagnose_for_report(analysis, options.analysis);
       write_whole_file(page, html_report(analysis, diagnosis_section(diagnosis) +
                                                        link_to(id + "/diagnosis.html")));

@@ -53,19 +53,6 @@ CLI::Validator positive(const std::string& what, double low, double high) {
           what};
 }
 
-std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id) {
-  if (id.empty()) return 0;
-  std::vector<std::string> known;
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    if (datasets[d].id == id) return d;
-    known.push_back(datasets[d].id);
-  }
-  const std::string near = nearest_word(id, known);
-  throw InputError({}, fmt::format("--dataset {}: not a dataset of this fit", id),
-                   "it has to be one of those the fit names",
-                   near.empty() ? "leave it out for the first" : "did you mean " + near + "?");
-}
-
 std::string history_csv(const std::vector<ImpactMoment>& history, const ImpactScales& scales,
                         bool dashpot) {
   std::string csv =

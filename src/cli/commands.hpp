@@ -12,6 +12,8 @@ void add_fit(CLI::App& program);
 void add_diagnose(CLI::App& program);
 void add_coverage(CLI::App& program);
 void add_reconstruct(CLI::App& program);
+void add_import(CLI::App& program);
+void add_predict(CLI::App& program);
 void add_report(CLI::App& program);
 
 }  // namespace recoil

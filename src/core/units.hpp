@@ -17,6 +17,9 @@ inline constexpr double ns = 1e-9;
 inline constexpr double GPa = 1e9;
 }  // namespace units
 
+/// Standard gravity [m/s2], exact by definition (CGPM 1901).
+inline constexpr double standard_gravity = 9.80665;
+
 /// What a column of a data file measures.
 enum class Dimension { length, velocity, ratio, count };
 

@@ -57,8 +57,12 @@ std::vector<FactCheck> check_facts(const Recipe& recipe,
                                    const std::vector<GeneratedPoint>& points) {
   std::vector<Recipe> siblings;
   for (const std::string& id : recipe.siblings) {
-    siblings.push_back(
-        load_recipe(std::filesystem::absolute(recipe.folder).lexically_normal() / ".." / id));
+    const std::filesystem::path folder =
+        std::filesystem::absolute(recipe.folder).lexically_normal() / ".." / id;
+    // A sibling whose points were replaced still has the truth with which this recipe compares.
+    const bool aside = !std::filesystem::exists(folder / recipe_name) &&
+                       std::filesystem::exists(folder / set_aside_recipe_name);
+    siblings.push_back(load_recipe(folder, aside ? set_aside_recipe_name : recipe_name));
   }
   const FactContext context{recipe, points, siblings};
   std::vector<FactCheck> checks;

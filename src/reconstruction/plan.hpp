@@ -4,12 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "core/units.hpp"  // standard_gravity
 #include "reconstruction/recipe.hpp"
 
 namespace recoil {
-
-/// Standard gravity [m/s2], exact by definition (CGPM 1901).
-inline constexpr double standard_gravity = 9.80665;
 
 /// The noiseless truth of every point of the recipe's design, in the order of points.csv.
 /// For mixed sizes, e is the mean over the impacts that are seen to rebound, weighted by the size

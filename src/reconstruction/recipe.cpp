@@ -211,10 +211,10 @@ double SizeDistribution::slowest_seen() const {
   return std::sqrt(2.0 * standard_gravity * probe_height);
 }
 
-Recipe load_recipe(const std::filesystem::path& folder) {
+Recipe load_recipe(const std::filesystem::path& folder, const std::string& name) {
   Recipe recipe;
   recipe.folder = folder;
-  recipe.file = folder / "recipe.toml";
+  recipe.file = folder / name;
   // An absolute path has a last component also for "." and "dir/".
   recipe.id = (std::filesystem::absolute(folder) / "recipe.toml")
                   .lexically_normal()

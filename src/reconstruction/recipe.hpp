@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "data/folder_names.hpp"
 #include "reconstruction/truth.hpp"
 
 namespace recoil {
@@ -81,8 +82,8 @@ struct Recipe {
   std::vector<PlannedPoint> plan;        ///< in the order of points.csv
 };
 
-/// Reads `folder`/recipe.toml and computes the truth of its points. Unknown keys are errors.
+/// Reads `folder`/`name` and computes the truth of its points. Unknown keys are errors.
 /// @throws InputError with file, line and column.
-Recipe load_recipe(const std::filesystem::path& folder);
+Recipe load_recipe(const std::filesystem::path& folder, const std::string& name = recipe_name);
 
 }  // namespace recoil

@@ -33,6 +33,21 @@ void require_same_design(const Dataset& original, const std::vector<GeneratedPoi
   }
 }
 
+/// A folder that is there but has no recipe is no reconstruction.
+void require_recipe(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder) || std::filesystem::exists(folder / recipe_name)) {
+    return;
+  }
+  const bool replaced = std::filesystem::exists(folder / set_aside_recipe_name);
+  throw InputError({folder.string()}, "this is no reconstruction",
+                   fmt::format("it has no {}", recipe_name),
+                   replaced ? fmt::format("its points were replaced; how they were made before "
+                                          "stands in {}",
+                                          set_aside_recipe_name)
+                            : std::string("its points are not made by a recipe; name a folder that "
+                                          "has one"));
+}
+
 /// The first line that differs, for people.
 std::string first_difference(const std::string& there, const std::string& made) {
   std::istringstream a(there);
@@ -85,6 +100,7 @@ bool ReconstructionResult::good() const {
 }
 
 ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only) {
+  require_recipe(folder);
   const Recipe recipe = load_recipe(folder);
   const std::vector<GeneratedPoint> points = draw_points(recipe, recipe.seed);
   const std::string made = to_csv(recipe, points);

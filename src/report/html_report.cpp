@@ -10,6 +10,7 @@
 #include "report/html_page.hpp"
 #include "report/html_tables.hpp"
 #include "report/pair_words.hpp"
+#include "report/prediction.hpp"
 
 namespace recoil {
 namespace {
@@ -151,6 +152,9 @@ std::vector<Section> plot_sections(const Analysis& a) {
        figures_html(joined(two_point_figures(a), pair_figures(a))) + pair_paragraphs(a)},
       {"forces", "Adhesion and contact forces",
        figures_html(joined(adhesion_force_figures(a), force_history_figures(a)))},
+      {"mixture", "A mixture of sizes", mixture_section(a)},
+      {"capture-models", "Capture velocity by this and other models",
+       capture_comparison_section(a)},
   };
 }
 

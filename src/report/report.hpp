@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "estimate/fit.hpp"
+#include "predict/capture_comparison.hpp"
+#include "predict/polydisperse.hpp"
 #include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
@@ -16,6 +18,8 @@ struct Analysis {
   Observations data;
   FitResult fitted;
   UncertaintyResult uncertainty;
+  std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
+  std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
 };
 
 /// This program's version, "0.1.0".

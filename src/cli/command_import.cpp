@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "experiment/import.hpp"
+
+namespace recoil {
+namespace {
+
+struct ImportFlags {
+  ImportRequest request;
+  std::string file;
+  std::string format;
+  std::string into;
+  std::string like;
+};
+
+void run_import(ImportFlags flags) {
+  flags.request.file = flags.file;
+  flags.request.into = flags.into;
+  flags.request.like = flags.like;
+  flags.request.format = import_format_named(flags.format);
+  const ImportResult result = import_points(flags.request);
+  fmt::print("{}", describe(result.dataset));
+  for (const std::string& note : result.notes) fmt::print("note: {}\n", note);
+  fmt::print("{}: written\n", flags.into);
+}
+
+}  // namespace
+
+void add_import(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "import", "digitised points, drop heights, bounce times or any table into a dataset folder");
+  command->footer(
+      "Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals "
+      "(between\n"
+      "bounces) and csv. --map ties columns to quantities, with units: um, mm, cm, m; m/s, cm/s;\n"
+      "s, ms; %. What neither file nor options say is asked for; nothing is overwritten "
+      "unasked.\n\n"
+      "  recoil import fig7.csv --format webplotdigitizer --into datasets/mine \\\n"
+      "    --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% --like "
+      "datasets/wall1990-mica\n"
+      "  recoil import drops.csv --format heights --into datasets/ball --diameter 40mm \\\n"
+      "    --map drop_height=h1:cm,rebound_height=h2:cm --particle ball.json --surface floor.json\n"
+      "  recoil import bounces.csv --format intervals --into datasets/ball2 --diameter 40mm \\\n"
+      "    --map launch=run,interval=t:s --time-error 1ms --like datasets/ball\n"
+      "  recoil import table.csv --format csv --into datasets/wall1990-molybdenum --replace \\\n"
+      "    --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run");
+  const auto flags = std::make_shared<ImportFlags>();
+  ImportRequest& r = flags->request;
+  command->add_option("FILE", flags->file, "what to import")->required();
+  command->add_option("--format", flags->format, "webplotdigitizer, heights, intervals or csv")
+      ->required();
+  command->add_option("--into", flags->into, "the dataset's folder")->required();
+  command->add_flag(
+      "--replace", r.replace,
+      "replace the points of the dataset that is there; it keeps its materials, and a "
+      "reconstruction becomes digitised");
+  command->add_option("--map", r.map, "quantity=column:unit, several with commas");
+  command->add_option("--diameter", r.diameters, "4.9um, or SERIES=4.9um (repeatable)");
+  command->add_option("--diameter-error", r.diameter_error, "one standard deviation: 1% or 0.1um");
+  command->add_option("--series", r.series, "name of the series when the file has none");
+  command->add_option(
+      "--particle", r.particle,
+      "a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
+  command->add_option("--surface", r.surface, "the same, without density");
+  command->add_option("--like", flags->like, "take the materials of this dataset");
+  command->add_option("--adhesion-energy", r.adhesion_energy, "[J/m2]; 0: no adhesion");
+  command
+      ->add_option("--provenance", r.provenance,
+                   "measured, digitised or synthetic (default: that of the format)")
+      ->check(CLI::IsMember({"measured", "digitised", "synthetic"}));
+  command->add_option("--title", r.title, "of the dataset");
+  command->add_option("--source", r.sources, "who published or measured it (repeatable)");
+  command->add_option("--axis", r.axes,
+                      "of a figure: x=log,MIN,MAX or y=linear,MIN,MAX,LENGTHpx (once for each)");
+  command->add_option("--reading-error", r.reading_error,
+                      "one standard deviation of a reading: 0.5% of an axis, or 2px");
+  command->add_option("--scatter", r.scatter,
+                      "of e beside the errors of the reading: 10%, or 0.02");
+  command
+      ->add_option("--captured-below", r.captured_below,
+                   "a digitised restitution below this is a capture")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--drop-error", r.drop_error, "of the drop height: 1mm or 1%");
+  command->add_option("--rebound-error", r.rebound_error, "of the rebound height");
+  command->add_option("--time-error", r.time_error, "of the time of one bounce: 1ms");
+  command->add_flag("--average", r.average, "drops from the same height become one point");
+  command->add_option("--gravity", r.gravity, "[m/s2]")->capture_default_str();
+  for (CLI::Option* option : command->get_options()) {
+    if (option->get_items_expected_max() > 1)
+      option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  }
+  command->callback([flags] { run_import(*flags); });
+}
+
+}  // namespace recoil

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/analysis.hpp"
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/units.hpp"
+#include "report/prediction.hpp"
+
+namespace recoil {
+namespace {
+
+struct PredictOptions {
+  std::string fit_file;
+  std::string sizes;
+  std::string unit;
+  std::string dataset;
+  std::string out;
+  double height = -1.0;  // [mm]; below zero: not stated
+  bool midpoints = false;
+  AnalysisFlags analysis;
+};
+
+void predict_sizes(const PredictOptions& options) {
+  if (!options.out.empty()) require_writable_folder(options.out);
+  const MeasuredSizes sizes = load_sizes(options.sizes, options.unit);
+  const AnalysisOptions resolved = options.analysis.resolved();
+  Analysis analysis = analyse_fit(options.fit_file, resolved);
+  const std::size_t dataset = choose_dataset(analysis.datasets, options.dataset);
+  UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
+  assess.profile = false;
+  assess.curves = false;
+  assess.two_point = false;
+  analysis.uncertainty =
+      assess_uncertainty(analysis.fitted, analysis.data, analysis.datasets, assess);
+
+  PolydisperseOptions mix;
+  mix.level = assess.level;
+  mix.threads = assess.threads;
+  if (sizes.probe_height) mix.probe_height = *sizes.probe_height;
+  if (options.height >= 0.0) mix.probe_height = options.height * units::mm;
+  if (options.midpoints) mix.parts = 1;
+  const PolydispersePrediction mixture = predict_mixture(
+      analysis.fitted, analysis.data, dataset, analysis.uncertainty.bootstrap, sizes, mix);
+  if (!options.out.empty()) {
+    const std::filesystem::path out = options.out;
+    for (const Figure& figure : mixture_figures(analysis, mixture)) {
+      const std::string part = figure.id.substr(figure.id.find('-') + 1);
+      write_whole_file(out / fmt::format("predict-{}.svg", part.substr(0, part.find('-'))),
+                       figure.svg);
+    }
+    write_whole_file(out / "predict.csv", csv_prediction(mixture));
+    write_whole_file(out / "predict.json", json_prediction(analysis, mixture));
+  }
+  fmt::print("{}", text_prediction(analysis, mixture));
+  if (options.height < 0.0 && !sizes.probe_height) {
+    fmt::print("note: no --height was given; {:g} mm is that of Li, Dunn & Brach (1999)\n",
+               mix.probe_height / units::mm);
+  }
+}
+
+}  // namespace
+
+void add_predict(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "predict", "what a mixture of sizes does: weighted averages over a size distribution");
+  command->footer(
+      "Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter "
+      "and\n"
+      "count) under three conventions side by side: captured spheres count as e = 0; are left "
+      "out;\n"
+      "are left out also when they return too slowly to climb back to the measuring plane. With\n"
+      "--out it writes predict.csv, predict.json and pictures.\n\n"
+      "  recoil predict fits/li1999-sst65-silicon.toml --sizes "
+      "datasets/li1999-sst65-silicon/sizes.csv");
+  const auto options = std::make_shared<PredictOptions>();
+  command->add_option("FIT", options->fit_file, "a fit file")->required();
+  command->add_option("--sizes", options->sizes, "the size distribution, CSV")->required();
+  command->add_option("--unit", options->unit,
+                      "of its diameters: um, mm or m (default: what the datapackage.json beside it "
+                      "says, else um)");
+  command
+      ->add_option("--height", options->height,
+                   "of the measuring plane above the surface [mm] (default: what the package says, "
+                   "else 1)")
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_flag(
+      "--midpoints", options->midpoints,
+      "all spheres of a bin have its mid-point as diameter, as in the paper (default: "
+      "spread over the bin)");
+  command->add_option("--dataset", options->dataset, "which dataset of a joint fit (its id)");
+  command->add_option("--out", options->out, "folder for the files (default: none are written)");
+  add_analysis_flags(*command, options->analysis);
+  command->callback([options] { predict_sizes(*options); });
+}
+
+}  // namespace recoil

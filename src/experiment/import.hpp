@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/dataset.hpp"
+
+namespace recoil {
+
+/// What the file to be imported holds.
+enum class ImportFormat {
+  webplotdigitizer,  ///< points read off a figure, one or several series
+  heights,           ///< drop and rebound heights
+  intervals,         ///< times between, or of, successive bounces
+  csv,               ///< any table, with a map of its columns
+};
+
+/// The names of the formats on the command line.
+std::vector<std::string> import_format_names();
+ImportFormat import_format_named(const std::string& name);
+
+/// What to import, and everything that the file itself cannot tell, as on the command line. Values
+/// with units are words such as "4.9um", errors are "2%" (of the value) or "0.5mm".
+struct ImportRequest {
+  std::filesystem::path file;
+  ImportFormat format = ImportFormat::csv;
+  std::filesystem::path into;  ///< the dataset's folder
+  bool replace = false;        ///< the points of a dataset that is already there
+
+  std::vector<std::string> map;        ///< "quantity=column:unit"
+  std::vector<std::string> diameters;  ///< "4.9um" for all, "SERIES=4.9um" for one
+  std::string diameter_error;
+  std::string series;  ///< name of the series when the file has none
+
+  std::string particle;  ///< a JSON file, or "material=...,density=...,youngs_modulus=..."
+  std::string surface;
+  std::filesystem::path like;             ///< a dataset whose materials are the same
+  std::optional<double> adhesion_energy;  ///< [J/m2]; 0: no adhesion
+
+  std::string provenance;  ///< empty: that of the format
+  std::string title;
+  std::vector<std::string> sources;
+
+  std::vector<std::string> axes;  ///< "x=log,1,100" or "y=linear,0,1,600px"
+  std::string reading_error;      ///< "0.5%" of an axis, or "2px"
+  std::string scatter;            ///< of e, beside the errors of the reading
+  double captured_below = 0.0;    ///< a restitution below this is a capture [1]
+
+  std::string drop_error, rebound_error;  ///< of the heights
+  std::string time_error;                 ///< of one bounce
+  bool average = false;                   ///< repeated drops from one height become one point
+  std::string gravity = "9.80665";        ///< [m/s2]
+};
+
+/// What was written.
+struct ImportResult {
+  Dataset dataset;                 ///< as `load_dataset` reads it
+  std::vector<std::string> notes;  ///< what was assumed, and what a check found, a sentence each
+};
+
+/// Reads the points, makes them a dataset and writes it into the folder: points.csv, then
+/// datapackage.json, each whole or not at all; nothing is written before both are known to be
+/// valid.
+///
+/// With `replace` the package that is there keeps its name, its materials and its other resources.
+/// When it was a reconstruction, its recipe.toml is kept aside as recipe-set-aside.toml (no command
+/// takes it for the folder's recipe any more; recipes of other folders may still compare with it).
+///
+/// @throws InputError for a mistake in the file, and with the name of the option for whatever only
+///   the user can know and has not said.
+ImportResult import_points(const ImportRequest& request);
+
+}  // namespace recoil

@@ -1,0 +1,130 @@
+#include "experiment/import_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.hpp"
+#include "data/text.hpp"
+
+namespace recoil {
+namespace {
+
+struct Unit {
+  ImportDimension dimension;
+  std::string_view name;
+  double factor;
+};
+
+constexpr std::array<Unit, 16> known_units = {{
+    {ImportDimension::length, "nm", 1e-9},
+    {ImportDimension::length, "um", 1e-6},
+    {ImportDimension::length, "µm", 1e-6},
+    {ImportDimension::length, "mm", 1e-3},
+    {ImportDimension::length, "cm", 1e-2},
+    {ImportDimension::length, "m", 1.0},
+    {ImportDimension::velocity, "m/s", 1.0},
+    {ImportDimension::velocity, "cm/s", 1e-2},
+    {ImportDimension::velocity, "mm/s", 1e-3},
+    {ImportDimension::time, "s", 1.0},
+    {ImportDimension::time, "ms", 1e-3},
+    {ImportDimension::time, "us", 1e-6},
+    {ImportDimension::time, "µs", 1e-6},
+    {ImportDimension::ratio, "1", 1.0},
+    {ImportDimension::ratio, "%", 1e-2},
+    {ImportDimension::number, "1", 1.0},
+}};
+
+std::string trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
+}
+
+/// The number at the start of a word and what follows it.
+std::optional<std::pair<double, std::string>> number_and_rest(const std::string& word) {
+  const std::string text = trimmed(word);
+  for (std::size_t length = text.size(); length > 0; --length) {
+    if (const auto value = parse_number(std::string_view(text).substr(0, length))) {
+      return std::pair{*value, trimmed(std::string_view(text).substr(length))};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> import_unit_factor(ImportDimension dimension, std::string_view unit) {
+  for (const Unit& known : known_units) {
+    if (known.dimension == dimension && known.name == unit) return known.factor;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> import_unit_names(ImportDimension dimension) {
+  std::vector<std::string> names;
+  for (const Unit& known : known_units) {
+    if (known.dimension == dimension) names.emplace_back(known.name);
+  }
+  return names;
+}
+
+double value_with_unit(const std::string& word, ImportDimension dimension,
+                       const std::string& option) {
+  const std::vector<std::string> names = import_unit_names(dimension);
+  if (const auto parts = number_and_rest(word)) {
+    const bool plain = dimension == ImportDimension::ratio && parts->second.empty();
+    const auto factor = plain ? 1.0 : import_unit_factor(dimension, parts->second);
+    if (factor) return parts->first * *factor;
+  }
+  throw InputError({}, fmt::format("{} {}: no number with a unit", option, quote(word)),
+                   fmt::format("units are {}", join(names)),
+                   fmt::format("write it as 4.9{}", names.front()));
+}
+
+StatedError stated_error(const std::string& word, ImportDimension dimension,
+                         const std::string& option) {
+  StatedError error;
+  if (word.empty()) return error;
+  const auto parts = number_and_rest(word);
+  if (parts && parts->second == "%") {
+    error.relative = parts->first / 100.0;
+  } else {
+    error.absolute = value_with_unit(word, dimension, option);
+  }
+  if (error.relative < 0.0 || error.absolute < 0.0 || !error.stated()) {
+    throw InputError({}, fmt::format("{} {}", option, quote(word)),
+                     "a standard deviation is positive", "leave the option out if it is unknown");
+  }
+  return error;
+}
+
+std::vector<std::string> split_list(std::string_view text) {
+  std::vector<std::string> parts;
+  std::string part;
+  bool quoted = false;
+  for (const char c : text) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      parts.push_back(trimmed(part));
+      part.clear();
+    } else {
+      part += c;
+    }
+  }
+  parts.push_back(trimmed(part));
+  std::erase(parts, "");
+  return parts;
+}
+
+std::optional<std::pair<std::string, std::string>> split_pair(const std::string& word) {
+  const std::size_t at = word.find('=');
+  if (at == std::string::npos) return std::nullopt;
+  return std::pair{trimmed(std::string_view(word).substr(0, at)),
+                   trimmed(std::string_view(word).substr(at + 1))};
+}
+
+}  // namespace recoil

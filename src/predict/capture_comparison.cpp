@@ -1,0 +1,210 @@
+#include "predict/capture_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "predict/capture_dahneke.hpp"
+#include "predict/capture_jkr.hpp"
+#include "predict/capture_thornton_ning.hpp"
+#include "predict/capture_wall.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t fewest_for_band = 39;
+constexpr double share_for_band = 0.9;  // of the replicates that have to answer at a diameter
+
+std::vector<double> spaced(double first, double last, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) {
+    values.push_back(first * std::pow(last / first, i / (count - 1.0)));
+  }
+  return values;
+}
+
+/// [m/s]; not a number where there is no answer.
+std::vector<double> fitted_velocities(const ImpactModel& model, std::span<const double> theta,
+                                      std::size_t dataset, const std::vector<double>& diameters) {
+  std::vector<CaptureQuery> queries;
+  for (const double diameter : diameters) queries.push_back({dataset, diameter, 0.0});
+  std::vector<double> velocities;
+  for (const CaptureVelocity& at : capture_velocities(model, theta, queries)) {
+    velocities.push_back(at.found ? at.value : std::nan(""));
+  }
+  return velocities;
+}
+
+CaptureCurve fitted_curve(const FitResult& fitted, std::size_t dataset,
+                          const std::vector<double>& diameters, const BootstrapResult& bootstrap,
+                          const CaptureComparisonOptions& options) {
+  CaptureCurve curve{"fit", "this fit", "with its parameters, f0 of other sizes by eq. 12",
+                     {},    {},         {}};
+  curve.velocity = fitted_velocities(fitted.model, fitted.theta, dataset, diameters);
+  const std::size_t count =
+      std::min(bootstrap.theta.size(), static_cast<std::size_t>(options.replicates));
+  if (count < fewest_for_band) return curve;
+  std::vector<std::vector<double>> values(count);
+  parallel_over(count, options.threads, [&](std::size_t i) {
+    values[i] = fitted_velocities(fitted.model, bootstrap.theta[i], dataset, diameters);
+  });
+  for (std::size_t k = 0; k < diameters.size(); ++k) {
+    std::vector<double> at;
+    for (const auto& row : values) {
+      if (std::isfinite(row[k])) at.push_back(row[k]);
+    }
+    std::sort(at.begin(), at.end());
+    const bool enough =
+        static_cast<double>(at.size()) >= share_for_band * static_cast<double>(count);
+    const double tail = (1.0 - options.level) / 2.0;
+    curve.lower.push_back(enough ? sorted_quantile(at, tail) : std::nan(""));
+    curve.upper.push_back(enough ? sorted_quantile(at, 1.0 - tail) : std::nan(""));
+  }
+  return curve;
+}
+
+/// Drops the diameters at which the fit has no capture velocity, or no band where it has one
+/// elsewhere.
+void keep_answered(CaptureComparison& comparison, CaptureCurve& fit) {
+  std::vector<double> diameters;
+  CaptureCurve kept = fit;
+  kept.velocity.clear();
+  kept.lower.clear();
+  kept.upper.clear();
+  for (std::size_t k = 0; k < comparison.diameter.size(); ++k) {
+    const bool banded = fit.lower.empty() || std::isfinite(fit.lower[k] + fit.upper[k]);
+    if (!std::isfinite(fit.velocity[k]) || !banded) continue;
+    diameters.push_back(comparison.diameter[k]);
+    kept.velocity.push_back(fit.velocity[k]);
+    if (fit.lower.empty()) continue;
+    kept.lower.push_back(fit.lower[k]);
+    kept.upper.push_back(fit.upper[k]);
+  }
+  if (diameters.size() < comparison.diameter.size()) {
+    comparison.notes.push_back(
+        fmt::format("at {} of {} diameters the fit, or more than a tenth of its replicates, has no "
+                    "capture velocity: no sphere of these sizes rebounds at any velocity",
+                    comparison.diameter.size() - diameters.size(), comparison.diameter.size()));
+  }
+  comparison.diameter = std::move(diameters);
+  fit = std::move(kept);
+}
+
+/// The largest e of the fitted curve at the reference diameter up to the fastest point [1].
+double largest_restitution(const FitResult& fitted, std::size_t dataset, double fastest) {
+  const double diameter = fitted.model.contacts[dataset].reference_diameter;
+  std::vector<PointConditions> points;
+  for (const double v : spaced(1e-3 * fastest, fastest, 60)) {
+    points.push_back({dataset, diameter, v, PointConditions::no_series});
+  }
+  PointPredictor predictor(fitted.model, std::move(points), Effects::of_nature);
+  predictor.evaluate(fitted.theta, false);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < predictor.size(); ++i) {
+    if (predictor.at(i).usable()) largest = std::max(largest, predictor.at(i).restitution_squared);
+  }
+  return std::sqrt(std::min(largest, 1.0));
+}
+
+template <class Velocity>
+CaptureCurve model_curve(const char* id, std::string label, std::string rests_on,
+                         const ContactProperties& contact, const std::vector<double>& diameters,
+                         const Velocity& velocity) {
+  CaptureCurve curve{id, std::move(label), std::move(rests_on), {}, {}, {}};
+  for (const double diameter : diameters) {
+    curve.velocity.push_back(velocity(capture_contact(contact, diameter)));
+  }
+  return curve;
+}
+
+void add_older_models(const Dataset& dataset, const ContactProperties& contact, double e,
+                      CaptureComparison& comparison) {
+  const std::vector<double>& diameters = comparison.diameter;
+  const std::string constants =
+      fmt::format("W_A = {:.3g} J/m2 and K = {:.4g} GPa", contact.adhesion_energy,
+                  contact.stiffness / units::GPa);
+  comparison.curves.push_back(model_curve(
+      "jkr", "JKR",
+      constants + ", nothing fitted; the elastic sphere of Thornton & Ning sticks alike", contact,
+      diameters, [](const CaptureContact& c) { return jkr_capture_velocity(c); }));
+  if (const auto yield = published_yield_pressure(dataset.system.particle)) {
+    comparison.curves.push_back(model_curve(
+        "thornton_ning", "Thornton & Ning, yield",
+        fmt::format("{}, yield pressure {:.3g} MPa ({}); a lower estimate, adhesion does not help "
+                    "the sphere to yield",
+                    constants, yield->pressure / 1e6, yield->source),
+        contact, diameters, [&](const CaptureContact& c) {
+          return thornton_ning_plastic_velocity(c, yield->pressure);
+        }));
+  } else {
+    comparison.notes.push_back(
+        fmt::format("Thornton & Ning with yield is not drawn: no published yield pressure of {} is "
+                    "known to this program",
+                    dataset.system.particle.name));
+  }
+  if (!(e > 0.0)) {
+    comparison.notes.emplace_back(
+        "Dahneke and Wall are not drawn: the fitted curve has no rebound to take e from");
+    return;
+  }
+  const std::string with_e = fmt::format(
+      "{}, e = {:.3g} (the largest of the fitted curve), the bond that of JKR", constants, e);
+  comparison.curves.push_back(model_curve(
+      "dahneke", "Dahneke, eq. 1", with_e, contact, diameters, [&](const CaptureContact& c) {
+        const JkrEnergies bond = jkr_energies(c);
+        return dahneke_capture_velocity(c.mass(), e, bond.incident, bond.rebound);
+      }));
+  comparison.curves.push_back(model_curve(
+      "wall", "Wall et al., eq. 4", with_e, contact, diameters, [&](const CaptureContact& c) {
+        return wall_capture_velocity(c.mass(), e, -jkr_energies(c).lost());
+      }));
+}
+
+}  // namespace
+
+std::vector<CaptureComparison> compare_captures(const FitResult& fitted, const Observations& data,
+                                                const std::vector<Dataset>& datasets,
+                                                const BootstrapResult& bootstrap,
+                                                const CaptureComparisonOptions& options) {
+  std::vector<CaptureComparison> all;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    const ContactProperties& contact = fitted.model.contacts[d];
+    if (!(contact.adhesion_energy > 0.0)) continue;
+    CaptureComparison comparison;
+    comparison.dataset = d;
+    comparison.published =
+        published_captures_for(datasets[d].system.particle, datasets[d].system.surface);
+    std::vector<double> sizes;
+    for (const auto& [of, diameter] : options.include) {
+      if (of == d) sizes.push_back(diameter);
+    }
+    for (const PublishedCapture& one : comparison.published) sizes.push_back(one.diameter);
+    double fastest = 0.0;
+    for (const Observation& point : data.points) {
+      if (point.dataset != d) continue;
+      sizes.push_back(point.diameter);
+      fastest = std::max(fastest, point.velocity);
+    }
+    if (!(fastest > 0.0)) continue;
+    const auto [smallest, largest] = std::minmax_element(sizes.begin(), sizes.end());
+    comparison.diameter =
+        spaced(*smallest / options.widened, *largest * options.widened, options.diameters);
+    CaptureCurve fit = fitted_curve(fitted, d, comparison.diameter, bootstrap, options);
+    keep_answered(comparison, fit);
+    comparison.curves.push_back(std::move(fit));
+    add_older_models(datasets[d], contact, largest_restitution(fitted, d, fastest), comparison);
+    if (comparison.published.empty()) {
+      comparison.notes.push_back(
+          fmt::format("no capture velocity of {} on {} is published as a number that is known to "
+                      "this program",
+                      datasets[d].system.particle.name, datasets[d].system.surface.name));
+    }
+    all.push_back(std::move(comparison));
+  }
+  return all;
+}
+
+}  // namespace recoil

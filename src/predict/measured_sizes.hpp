@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace recoil {
+
+/// One bin of a size distribution.
+struct SizeBin {
+  double diameter = 0.0;  ///< of the bin, its mid-point [m]
+  double weight = 0.0;    ///< particles in it, or any number in proportion [1], > 0
+  double width = 0.0;     ///< from its lower to its upper end, 0 where not stated [m]
+};
+
+/// A size distribution as read, in SI units.
+struct MeasuredSizes {
+  std::filesystem::path file;
+  std::vector<SizeBin> bins;           ///< by ascending diameter, all different
+  std::string provenance;              ///< as the package beside the file states it; may be empty
+  std::string description;             ///< the same; says what is known and what is assumed
+  std::optional<double> probe_height;  ///< of the measuring plane, where the package states it [m]
+  std::string sha256;                  ///< of the file's text
+  double smallest = 0.0;               ///< lower end of the first bin, where stated [m]
+  double largest = 0.0;                ///< upper end of the last one [m]
+
+  double total() const;          ///< sum of the weights
+  double mean_diameter() const;  ///< the arithmetic mean d10 [m]
+};
+
+/// Every bin with a width divided into `parts` equal ones that share its weight: spheres spread
+/// evenly within the bin instead of all at its mid-point. @pre parts >= 1
+std::vector<SizeBin> spread_within_bins(const std::vector<SizeBin>& bins, int parts);
+
+/// Reads a CSV file with a header: `diameter`, or `lower` and `upper` of a bin, whose mid-point is
+/// taken; and `count` (or `weight`, or `fraction`), without which every row is one particle. Rows
+/// of equal diameter are added up, those of weight 0 dropped.
+///
+/// The unit of the diameters is `unit` where that is not empty. Else a datapackage.json in the same
+/// folder is asked for a resource with this path: the `unit` of its field `diameter` (or `lower`),
+/// and beside it `description`, `provenance` and `probe_height` [m]. Else it is um.
+/// @throws InputError with file, line and column of the first mistake.
+MeasuredSizes load_sizes(const std::filesystem::path& file, const std::string& unit = "");
+
+/// The size distribution that ships with a dataset, `folder`/sizes.csv, when there is one.
+std::optional<MeasuredSizes> sizes_of_dataset(const std::filesystem::path& folder);
+
+}  // namespace recoil

@@ -1,0 +1,158 @@
+// Drop and rebound heights, and times between bounces, with their errors.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.hpp"
+#include "import_folder.hpp"
+
+namespace {
+
+using import_folder::complaint;
+using import_folder::Place;
+using recoil::Dataset;
+using recoil::ImportFormat;
+using testing::HasSubstr;
+
+TEST(Heights, RestitutionAndVelocity) {
+  const Place place;
+  auto request = place.request("h1 [cm],h2\n20,5\n", ImportFormat::heights);
+  request.map = {"drop_height=h1 [cm],rebound_height=h2:cm"};
+  request.drop_error = "2mm";
+  request.rebound_error = "1mm";
+  request.gravity = "10";
+  const Dataset made = recoil::import_points(request).dataset;
+  const recoil::ImpactPoint& point = made.points.front();
+  EXPECT_DOUBLE_EQ(point.restitution, 0.5);
+  EXPECT_DOUBLE_EQ(point.incident_velocity, 2.0);
+  // (e/2) sqrt((0.2/20)^2 + (0.1/5)^2), (V/2) (0.2/20)
+  EXPECT_NEAR(*point.restitution_sd, 0.25 * std::hypot(0.01, 0.02), 1e-9);
+  EXPECT_NEAR(*point.velocity_sd, 0.01, 1e-12);
+}
+
+TEST(Heights, ErrorsAreThoseOfASimulation) {
+  // The same formulas against the scatter of a thousand noisy drops.
+  recoil::RandomStream random(1, recoil::RandomPurpose::bootstrap, 0);
+  double sum = 0.0;
+  double square = 0.0;
+  constexpr int count = 4000;
+  for (int i = 0; i < count; ++i) {
+    const double h1 = 0.20 + 0.002 * random.normal();
+    const double h2 = 0.05 + 0.001 * random.normal();
+    const double e = std::sqrt(h2 / h1);
+    sum += e;
+    square += e * e;
+  }
+  const double sd = std::sqrt(square / count - sum / count * sum / count);
+  EXPECT_NEAR(sd, 0.25 * std::hypot(0.01, 0.02), 0.03 * sd);
+}
+
+TEST(Heights, RepeatedDropsAreAveraged) {
+  const Place place;
+  auto request = place.request("h1,h2\n1,0.64\n1,0.36\n0.5,0.32\n1,0.49\n", ImportFormat::heights);
+  request.map = {"drop_height=h1:m,rebound_height=h2:m"};
+  request.average = true;
+  request.drop_error = "1%";
+  const Dataset made = recoil::import_points(request).dataset;
+  ASSERT_EQ(made.points.size(), 2U);
+  EXPECT_EQ(made.points[0].events, 3);
+  EXPECT_NEAR(made.points[0].restitution, 0.7, 1e-12);
+  // e = 0.8, 0.6, 0.7: standard error 0.1 / sqrt(3); the drop height's error is shared.
+  EXPECT_NEAR(*made.points[0].restitution_sd, std::hypot(0.1 / std::sqrt(3.0), 0.5 * 0.7 * 0.01),
+              1e-9);
+  EXPECT_EQ(made.points[1].events, 1);
+}
+
+TEST(Intervals, OneRestitutionPerBounce) {
+  const Place place;
+  auto request =
+      place.request("run,t\na,0.4\na,0.32\na,0.24\nb,0.2\nb,0.15\n", ImportFormat::intervals);
+  request.map = {"launch=run,interval=t:s"};
+  request.time_error = "1ms";
+  request.gravity = "10";
+  const auto result = recoil::import_points(request);
+  const auto& points = result.dataset.points;
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_DOUBLE_EQ(points[0].incident_velocity, 2.0);  // g t / 2
+  EXPECT_DOUBLE_EQ(points[0].restitution, 0.8);
+  EXPECT_DOUBLE_EQ(points[1].restitution, 0.75);
+  EXPECT_DOUBLE_EQ(points[2].restitution, 0.75);
+  EXPECT_EQ(result.dataset.series, (std::vector<std::string>{"a", "b"}));
+  // Times s1, s2, s3 of bounces with independent errors: e = (s3 - s2) / (s2 - s1), so that
+  // var e = (tau / t)^2 (1 + (1 + e)^2 + e^2).
+  EXPECT_NEAR(*points[0].restitution_sd, 0.001 / 0.4 * std::sqrt(1.0 + 1.8 * 1.8 + 0.64), 1e-9);
+  EXPECT_NEAR(*points[0].velocity_sd, 5.0 * 0.001 * std::sqrt(2.0), 1e-9);
+}
+
+TEST(Intervals, TimesOfBouncesGiveTheSame) {
+  const Place place;
+  auto request = place.request("time\n10.0\n10.4\n10.72\n", ImportFormat::intervals);
+  request.map = {"time=time:s"};
+  request.gravity = "10";
+  const Dataset made = recoil::import_points(request).dataset;
+  ASSERT_EQ(made.points.size(), 1U);
+  EXPECT_NEAR(made.points[0].restitution, 0.8, 1e-9);
+  EXPECT_NEAR(made.points[0].incident_velocity, 2.0, 1e-9);
+}
+
+TEST(Intervals, AMissingBounceMakesNoRatio) {
+  const Place place;
+  auto request = place.request("n,t\n1,0.4\n2,0.36\n4,0.3\n5,0.27\n", ImportFormat::intervals);
+  request.map = {"bounce=n,interval=t:s"};
+  const auto result = recoil::import_points(request);
+  ASSERT_EQ(result.dataset.points.size(), 2U);
+  EXPECT_NEAR(result.dataset.points[1].restitution, 0.9, 1e-9);
+  EXPECT_THAT(result.notes, testing::Contains(HasSubstr("1 pairs of intervals")));
+  // The same with times: the flight over the gap is no flight.
+  const Place other;
+  auto times =
+      other.request("n,t\n1,0\n2,0.4\n3,0.76\n5,1.3\n6,1.6\n7,1.87\n", ImportFormat::intervals);
+  times.map = {"bounce=n,time=t:s"};
+  const Dataset made = recoil::import_points(times).dataset;
+  ASSERT_EQ(made.points.size(), 2U);
+  EXPECT_NEAR(made.points[0].restitution, 0.9, 1e-9);
+  EXPECT_NEAR(made.points[1].restitution, 0.9, 1e-9);
+}
+
+TEST(Intervals, TheReleaseHeightIsChecked) {
+  // Fall from 0.2 m with g = 10: V = 2. Restitution 0.8 throughout: flights 0.32, 0.256.
+  const auto note = [](const std::string& height) {
+    const Place place;
+    auto request =
+        place.request("t,h\n0.32," + height + "\n0.256," + height + "\n", ImportFormat::intervals);
+    request.map = {"interval=t:s,release_height=h:m"};
+    request.gravity = "10";
+    return recoil::import_points(request).notes.front();
+  };
+  EXPECT_THAT(note("0.2"), HasSubstr("200 mm: e = 0.800 at the first bounce, 0.800 at the second"));
+  EXPECT_THAT(note("0.2"), HasSubstr("+0.0 mm"));
+  // With 0.16 m stated e^2 of the first bounce is 0.64 x 0.2 / 0.16, and the height lacks 40 mm.
+  EXPECT_THAT(note("0.16"),
+              HasSubstr("160 mm: e = 0.894 at the first bounce, 0.800 at the second"));
+  EXPECT_THAT(note("0.16"), HasSubstr("+40.0 mm"));
+}
+
+TEST(Intervals, WhatIsAskedFor) {
+  const Place place;
+  EXPECT_THAT(complaint(place.request("x\n0.4\n0.3\n", ImportFormat::intervals)),
+              HasSubstr("--map interval=COLUMN:s"));
+  auto request = place.request("x\n0.4\n0.3\n", ImportFormat::intervals);
+  request.map = {"interval=x"};
+  EXPECT_THAT(complaint(request), HasSubstr("input.csv:1:1: the unit of 'x' is not stated"));
+  request.map = {"interval=x:s"};
+  request.gravity = "fast";
+  EXPECT_THAT(complaint(request), HasSubstr("--gravity 'fast'"));
+  request.gravity = "9.8";
+  request.time_error = "3";
+  EXPECT_THAT(complaint(request), HasSubstr("--time-error '3': no number with a unit"));
+  auto doubled = place.request("t\n0.2\n0.4\n", ImportFormat::intervals);
+  doubled.map = {"interval=t:s"};
+  EXPECT_THAT(complaint(doubled), HasSubstr("input.csv:3:1: restitution = 2"));
+  auto negative = place.request("h1,h2\n-1,2\n", ImportFormat::heights);
+  negative.map = {"drop_height=h1:m,rebound_height=h2:m"};
+  EXPECT_THAT(complaint(negative), HasSubstr("input.csv:2:1: drop_height = -1"));
+  EXPECT_FALSE(place.has("made"));
+}
+
+}  // namespace

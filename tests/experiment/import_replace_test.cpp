@@ -1,0 +1,125 @@
+// A reconstruction whose points are replaced is none any more, and says so everywhere.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "../cli/program.hpp"
+#include "import_folder.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using import_folder::complaint;
+using import_folder::Place;
+using recoil::ImportFormat;
+using recoil::ImportRequest;
+using testing::HasSubstr;
+using testing::Not;
+
+/// The shipped datasets beside each other, as their recipes want it.
+void copy_datasets(const Place& place) {
+  fs::copy(fs::path(RECOIL_SOURCE_DIR) / "datasets", place.folder() / "datasets",
+           fs::copy_options::recursive);
+}
+
+ImportRequest replacement(const Place& place, const std::string& id, const std::string& text) {
+  place.write("new.csv", text);
+  ImportRequest request;
+  request.file = place.folder() / "new.csv";
+  request.format = ImportFormat::csv;
+  request.into = place.folder() / "datasets" / id;
+  request.replace = true;
+  return request;
+}
+
+const char* const kPoints =
+    "series,diameter,incident_velocity,restitution\n"
+    "small,2.58,2.5,0.31\nsmall,2.58,20.1,0.77\nlarge,4.9,1.5,0.28\nlarge,4.9,33,0.81\n";
+
+TEST(Replace, EveryShippedReconstructionBecomesDigitisedInOneCommand) {
+  const Place place;
+  copy_datasets(place);
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(place.folder() / "datasets")) {
+    const std::string id = entry.path().filename().string();
+    const recoil::Dataset before = recoil::load_dataset(entry.path());
+    ASSERT_EQ(before.provenance, recoil::Provenance::reconstruction) << id;
+    const auto made = recoil::import_points(replacement(place, id, kPoints));
+    const recoil::Dataset after = recoil::load_dataset(entry.path());
+    EXPECT_EQ(after.provenance, recoil::Provenance::digitised) << id;
+    EXPECT_EQ(after.id, id);
+    EXPECT_EQ(after.points.size(), 4U);
+    EXPECT_EQ(after.system.particle.name, before.system.particle.name);
+    EXPECT_EQ(after.system.stiffness_K, before.system.stiffness_K);
+    EXPECT_FALSE(place.has("datasets/" + id + "/recipe.toml"));
+    EXPECT_TRUE(place.has("datasets/" + id + "/recipe-set-aside.toml"));
+    // No word of the old claim is left; a size distribution still says that it is one.
+    auto package = nlohmann::json::parse(place.read("datasets/" + id + "/datapackage.json"));
+    package["resources"].erase(package["resources"].begin() + 1, package["resources"].end());
+    for (const char* word : {"reconstruction", "recipe", "not available", "CC0"}) {
+      EXPECT_THAT(package.dump(), Not(HasSubstr(word))) << id;
+    }
+    ++count;
+  }
+  EXPECT_EQ(count, 6);
+}
+
+TEST(Replace, TheSizesOfADatasetStay) {
+  const Place place;
+  copy_datasets(place);
+  recoil::import_points(replacement(place, "li1999-sst65-silicon", kPoints));
+  const auto package =
+      nlohmann::json::parse(place.read("datasets/li1999-sst65-silicon/datapackage.json"));
+  ASSERT_EQ(package["resources"].size(), 2U);
+  EXPECT_EQ(package["resources"][1]["name"], "sizes");
+}
+
+TEST(Replace, ReconstructSaysThatItIsNoneAndSiblingsStillCompare) {
+  const Place place;
+  copy_datasets(place);
+  recoil::import_points(replacement(place, "wall1990-molybdenum", kPoints));
+  const program::Workplace at;
+  const auto folder = [&](const char* id) { return (place.folder() / "datasets" / id).string(); };
+  const program::Outcome none = at.run({"reconstruct", folder("wall1990-molybdenum"), "--check"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("this is no reconstruction (it has no recipe.toml)"));
+  EXPECT_THAT(none.err, HasSubstr("recipe-set-aside.toml"));
+  // Writing is refused as well: the new points stay.
+  EXPECT_EQ(at.run({"reconstruct", folder("wall1990-molybdenum")}).status, 2);
+  EXPECT_EQ(recoil::load_dataset(folder("wall1990-molybdenum")).points.size(), 4U);
+  const program::Outcome sibling = at.run({"reconstruct", folder("wall1990-mica"), "--check"});
+  EXPECT_EQ(sibling.status, 0) << sibling.err;
+}
+
+TEST(Replace, PointsOfTheRecipeDoNotBecomeDigitised) {
+  const Place place;
+  copy_datasets(place);
+  const std::string own = place.read("datasets/wall1990-mica/points.csv");
+  auto request = replacement(place, "wall1990-mica", own);
+  EXPECT_THAT(complaint(request), HasSubstr("60 of 60 points are those of the reconstruction"));
+  EXPECT_TRUE(place.has("datasets/wall1990-mica/recipe.toml"));
+  request.provenance = "synthetic";
+  EXPECT_EQ(complaint(request), "no complaint");
+}
+
+TEST(Replace, TheCommandLine) {
+  const Place place;
+  copy_datasets(place);
+  place.write("fig7.csv", "2.58 um,,4.90 um,\nX,Y,X,Y\n2.1,0.31,1.2,0.35\n5,0.72,4.9,0.81\n");
+  const program::Workplace at;
+  const std::string into = (place.folder() / "datasets/wall1990-molybdenum").string();
+  const program::Outcome run = at.run(
+      {"import", (place.folder() / "fig7.csv").string(), "--format", "webplotdigitizer", "--into",
+       into, "--replace", "--axis", "x=log,1,100", "--axis", "y=linear,0,1", "--reading-error",
+       "0.5%", "--source", "Wall et al. (1990), figure 7", "--title", "Wall et al. on molybdenum"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("provenance  digitised"));
+  EXPECT_THAT(run.out, HasSubstr("Wall et al. (1990), figure 7"));
+  EXPECT_EQ(at.run({"check", into}).status, 0);
+  const program::Outcome wrong = at.run({"import", "x.csv", "--format", "pictures", "--into", "d"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("known: webplotdigitizer, heights, intervals, csv"));
+}
+
+}  // namespace

@@ -1,0 +1,101 @@
+// Capture velocity against diameter, ours beside the older models.
+#include "predict/capture_comparison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../estimate/synthetic.hpp"
+
+namespace {
+
+using recoil::CaptureComparison;
+using recoil::CaptureCurve;
+
+struct Exact {
+  recoil::synthetic::Design design;
+  std::vector<recoil::Dataset> datasets{recoil::synthetic::dataset(design)};
+  recoil::Observations data = recoil::gather(datasets);
+  recoil::FitResult fitted;
+
+  Exact() {
+    fitted.model = recoil::make_model(recoil::synthetic::spec(), datasets);
+    fitted.theta = {design.C_H, design.C_A, design.f0};
+  }
+};
+
+const CaptureCurve& curve(const CaptureComparison& of, const std::string& id) {
+  const auto found = std::find_if(of.curves.begin(), of.curves.end(),
+                                  [&](const CaptureCurve& c) { return c.id == id; });
+  EXPECT_NE(found, of.curves.end()) << id;
+  return found == of.curves.end() ? of.curves.front() : *found;
+}
+
+TEST(CaptureComparison, OursIsTheCaptureOfTheOtherSimulator) {
+  const Exact exact;
+  const auto all = recoil::compare_captures(exact.fitted, exact.data, exact.datasets, {});
+  ASSERT_EQ(all.size(), 1U);
+  recoil::RingAdhesionTruth ring;
+  ring.density = 1350.0;
+  ring.stiffness = 1.789e9;
+  ring.adhesion_force = exact.design.f0;
+  ring.reference_diameter = 4.9e-6;
+  ring.C_H = exact.design.C_H;
+  ring.C_A = exact.design.C_A;
+  const CaptureCurve& ours = curve(all[0], "fit");
+  EXPECT_TRUE(ours.lower.empty());
+  for (std::size_t k = 0; k < all[0].diameter.size(); k += 6) {
+    EXPECT_NEAR(ours.velocity[k] / recoil::true_capture_velocity(ring, all[0].diameter[k]), 1.0,
+                1e-5)
+        << all[0].diameter[k];
+  }
+  // It falls more steeply than JKR, whose exponent is -5/6.
+  const CaptureCurve& jkr = curve(all[0], "jkr");
+  const double decades = std::log(all[0].diameter.back() / all[0].diameter.front());
+  EXPECT_NEAR(std::log(jkr.velocity.back() / jkr.velocity.front()) / decades, -5.0 / 6.0, 1e-9);
+  EXPECT_LT(std::log(ours.velocity.back() / ours.velocity.front()) / decades, -1.1);
+}
+
+TEST(CaptureComparison, OlderModelsLoseMoreThanJkr) {
+  const Exact exact;
+  const auto all = recoil::compare_captures(exact.fitted, exact.data, exact.datasets, {});
+  for (std::size_t k = 0; k < all[0].diameter.size(); ++k) {
+    const double jkr = curve(all[0], "jkr").velocity[k];
+    const double wall = curve(all[0], "wall").velocity[k];
+    EXPECT_GT(wall, jkr);
+    // E_r - e^2 E_i > E_r - E_i for e < 1.
+    EXPECT_GT(curve(all[0], "dahneke").velocity[k], wall);
+    EXPECT_GE(curve(all[0], "thornton_ning").velocity[k], jkr);
+  }
+  EXPECT_TRUE(all[0].published.empty());  // none for molybdenum
+  EXPECT_FALSE(all[0].notes.empty());
+}
+
+TEST(CaptureComparison, TheBandHoldsTheReplicates) {
+  const Exact exact;
+  recoil::BootstrapResult bootstrap;
+  for (int i = 0; i < 100; ++i) {
+    std::vector<double> theta = exact.fitted.theta;
+    theta[1] *= 0.95 + 0.001 * i;
+    bootstrap.theta.push_back(theta);
+  }
+  const auto all = recoil::compare_captures(exact.fitted, exact.data, exact.datasets, bootstrap);
+  const CaptureCurve& ours = curve(all[0], "fit");
+  ASSERT_EQ(ours.lower.size(), ours.velocity.size());
+  for (std::size_t k = 0; k < ours.velocity.size(); ++k) {
+    EXPECT_LT(ours.lower[k], ours.velocity[k]);
+    EXPECT_GT(ours.upper[k], ours.velocity[k]);
+    EXPECT_LT(ours.upper[k] / ours.lower[k], 1.2);
+  }
+}
+
+TEST(CaptureComparison, WithoutAdhesionThereIsNone) {
+  Exact exact;
+  exact.datasets[0].system.adhesion_energy = 0.0;
+  exact.datasets[0].system.adhesion_force_f0.reset();
+  exact.fitted.model = recoil::make_model(recoil::synthetic::spec(), exact.datasets);
+  EXPECT_TRUE(recoil::compare_captures(exact.fitted, exact.data, exact.datasets, {}).empty());
+}
+
+}  // namespace
