@@ -13,5 +13,6 @@ void add_diagnose(CLI::App& program);
 void add_coverage(CLI::App& program);
 void add_reconstruct(CLI::App& program);
 void add_report(CLI::App& program);
+void add_pair(CLI::App& program);
 
 }  // namespace recoil

@@ -80,6 +80,7 @@ int main(int argc, char** argv) {
   recoil::add_coverage(program);
   recoil::add_reconstruct(program);
   recoil::add_report(program);
+  recoil::add_pair(program);
   try {
     program.parse(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -157,6 +157,12 @@ PairResult pair_events(const std::vector<Event>& events, const PairOptions& opti
   result.returns = returns.links.size();
   result.expected_returns = returns.by_chance;
   result.returns_usable = returns.usable || returns.links.empty();
+  // Few returns say less than the flight times, which scatter by at least 1 / sqrt(2) of it.
+  result.velocity_spread = velocity_scatter(returns, options);
+  if (result.height_spread > 0.0) {
+    result.velocity_spread =
+        std::min(result.velocity_spread, std::sqrt(2.0) * result.height_spread);
+  }
   std::vector<bool> came_back(events.size(), false);
   if (returns.usable) {
     for (const Link& link : returns.links) {
@@ -164,8 +170,8 @@ PairResult pair_events(const std::vector<Event>& events, const PairOptions& opti
       chains.follow(link.to, earlier != none ? earlier : link.from);
       open_next[link.to] = false;
     }
-    const Followers unseen = find_unseen(events, options, model, open_down, open_next,
-                                         velocity_scatter(returns, options));
+    const Followers unseen =
+        find_unseen(events, options, model, open_down, open_next, result.velocity_spread);
     for (const Link& link : unseen.usable ? unseen.links : std::vector<Link>{}) {
       chains.follow(link.to, link.from);
       came_back[link.from] = true;

@@ -61,6 +61,8 @@ struct PairResult {
   double height_spread = 0.0;    ///< scatter of one pair's implied height [1]
   double diameter_spread = 0.0;  ///< scatter of ln(d_up / d_down), the middle one [1]
 
+  double velocity_spread = 0.0;  ///< relative scatter of one velocity, as the returns show it [1]
+
   double decoy_share = 0.0;  ///< share of foreign passages down that find a partner by chance [1]
   std::size_t decoys = 0;    ///< how many were tried
   double expected_false = 0.0;  ///< pairs that are chance, estimated from it

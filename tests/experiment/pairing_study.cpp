@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <string>
 
 #include "event_stream.hpp"
 #include "score.hpp"
@@ -36,7 +37,14 @@ void line(const stream::Design& design) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc == 4 && std::string(argv[1]) == "events") {
+    stream::Design design;
+    design.spheres = std::stoul(argv[2]);
+    design.rate = std::stod(argv[3]);
+    fmt::print("{}", stream::simulate(design).csv);
+    return 0;
+  }
   for (const double rate : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0}) {
     stream::Design design;
     design.rate = rate;
