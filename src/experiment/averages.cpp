@@ -106,6 +106,7 @@ Moments moments_of(const std::vector<Arrival>& all, std::size_t begin, std::size
     if (const double x = value(all[i]); x >= 0.0) squares += (x - result.mean) * (x - result.mean);
   }
   result.sd = std::sqrt(squares / (n - 1.0));
+  if (result.sd < 1e-9 * result.mean) result.sd = 0.0;  // alike but for rounding
   return result;
 }
 

@@ -75,7 +75,8 @@ TEST(Events, UnitsFromThePackageBesideTheFile) {
 
 TEST(Events, DamageIsCountedAndPlaced) {
   const EventTable table = read(
-      "time,velocity,diameter\n1,40,49\nx,40,49\n2,40\n3,40,49\n4,nan,49\n5,40,-3\n6,0,49\n7,40,49\n"
+      "time,velocity,diameter\n1,40,49\nx,40,49\n2,40\n3,40,49\n4,nan,49\n5,40,-3\n6,0,49\n7,40,"
+      "49\n"
       "8,40,49\n9,40,49\n10,40,49\n");
   EXPECT_EQ(table.rows, 11U);
   EXPECT_EQ(table.events.size(), 6U);
@@ -101,8 +102,8 @@ TEST(Events, SortsAndUnitesRepetitions) {
 }
 
 TEST(Events, RunsHaveTheirOwnTime) {
-  const EventTable table = read(
-      "series,time,velocity,diameter\na,5,40,49\nb,1,40,49\na,6,40,49\n,7,40,49\n");
+  const EventTable table =
+      read("series,time,velocity,diameter\na,5,40,49\nb,1,40,49\na,6,40,49\n,7,40,49\n");
   EXPECT_EQ(table.series, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(table.unsorted, 0U);
   EXPECT_EQ(table.damaged, 1U) << "a row without its series";

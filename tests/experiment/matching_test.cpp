@@ -54,7 +54,7 @@ TEST(Spread, FollowsAVariable) {
   std::vector<double> deviation;
   for (int i = 0; i < 1000; ++i) {
     x.push_back(i * 1e-3);
-    deviation.push_back((i % 2 == 0 ? 1.0 : -1.0) * (i < 500 ? 0.01 : 0.03));
+    deviation.push_back((i % 3 - 1) * (i < 500 ? 0.01 : 0.03));
   }
   const LocalSpread spread(x, deviation, 1e-3, 1.0);
   EXPECT_NEAR(spread.at(0.1), 0.01 * 1.4826, 1e-6);
