@@ -187,8 +187,9 @@ void add_search_options(CLI::App& app, PairCommand& command) {
                  "decide")
       ->capture_default_str()
       ->check(CLI::Range(1e-3, 2.0));
-  app.add_option("--velocity-tolerance", command.pairing.velocity_tolerance,
-                 "largest relative difference between a rebound and its return")
+  app.add_option(
+         "--velocity-tolerance", command.pairing.velocity_tolerance,
+         "largest relative difference between a rebound and its return; within it the data decide")
       ->capture_default_str()
       ->check(CLI::Range(1e-3, 0.5));
 }

@@ -69,8 +69,8 @@ std::vector<std::size_t> cuts(const std::vector<Arrival>& sorted, std::size_t pe
     const std::size_t first = parts[part];
     const std::size_t n = parts[part + 1] - first;
     // The middle nine tenths: of one velocity with normal errors they span 3.3 errors.
-    const double width =
-        std::log(sorted[first + (19 * (n - 1)) / 20].velocity / sorted[first + (n - 1) / 20].velocity);
+    const double width = std::log(sorted[first + (19 * (n - 1)) / 20].velocity /
+                                  sorted[first + (n - 1) / 20].velocity);
     const std::size_t by_number = std::max<std::size_t>((n + per_bin / 2) / per_bin, 1);
     const double by_width = error > 0.0 ? width / (narrowest_bin * error) : 1e9;
     const std::size_t bins =

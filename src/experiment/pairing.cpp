@@ -119,15 +119,24 @@ double PairResult::purity() const {
   return std::max(0.0, 1.0 - expected_false / static_cast<double>(impacts.size()));
 }
 
-PairResult pair_events(const std::vector<Event>& events, const PairOptions& options) {
+PairResult pair_events(const std::vector<Event>& events, const PairOptions& given) {
   PairResult result;
-  result.options = options;
+  result.options = given;
   for (const Event& event : events) ++(event.velocity > 0.0 ? result.down : result.up);
 
-  const std::vector<Link> candidates = pair_candidates(events, options);
+  PairOptions options = given;
+  std::vector<Link> candidates = pair_candidates(events, options);
+  Refined refined = refine_height(candidates, events, options);
+  const double reach =
+      std::abs(refined.model.log_height) + widest_agreement * refined.model.height_sd.largest();
+  if (refined.refined && reach > std::log(options.height_range)) {
+    // The height lies near an end of the range, which cuts pairs off: search again about it.
+    options.height *= std::exp(refined.model.log_height);
+    candidates = pair_candidates(events, options);
+    refined = refine_height(candidates, events, options);
+  }
   result.candidates = static_cast<double>(candidates.size()) /
                       static_cast<double>(std::max<std::size_t>(result.down, 1));
-  const Refined refined = refine_height(candidates, events, options);
   const PairModel& model = refined.model;
   result.height = options.height * std::exp(model.log_height);
   result.height_sd = result.height * refined.log_height_sd;

@@ -16,7 +16,7 @@ struct PairOptions {
   double height_range = 1.5;  ///< the true height lies within this factor of it [1]
   bool refine = true;         ///< find the height in the data; else `height` is taken as it is
   double diameter_tolerance = 0.2;   ///< largest relative difference of the two diameters [1]
-  double velocity_tolerance = 0.05;  ///< largest relative difference of rebound and return [1]
+  double velocity_tolerance = 0.15;  ///< largest relative difference of rebound and return [1]
   std::optional<double> threshold;   ///< slowest incident velocity at the plane that is used [m/s]
   std::optional<double> angle;       ///< rebounds within this of the normal are used [rad]
   bool keep_later = false;           ///< second and further impacts are used, too
