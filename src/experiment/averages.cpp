@@ -141,6 +141,9 @@ void sort_unpaired(PointMean& point, double lost_share, double height, double by
   point.lost = std::min(certain, unpaired);
   point.too_slow = std::min(point.too_slow, unpaired - point.lost);
   if (poisson_at_least(point.unpaired, explained) >= by_accident) return;
+  // Where hardly any rebound could climb to the plane, none seen says nothing of capture.
+  constexpr double most_hidden = 0.5;
+  if (point.rebounds < 5 && flight::slowest_return(height) > most_hidden * point.velocity) return;
   const double rest = std::round(unpaired - explained);
   point.captured = rest > 0.0 ? static_cast<std::size_t>(rest) : 0;
 }

@@ -46,13 +46,19 @@ std::vector<Link> chosen_of(const std::vector<Link>& links, std::size_t passages
   return result;
 }
 
+/// Relative scatter of a passage with `speed`: that of the velocities, and that of the place in the
+/// probe volume where it is taken, which at low speed changes it by g dh / v^2.
+double local_scatter(double velocity_sd, double speed, double height, const PairModel& model) {
+  const double place = height * model.height_sd.at(std::log(speed));
+  return std::hypot(velocity_sd, std::min(flight::gravity * place / (speed * speed), 0.2));
+}
+
 /// Returns with the time above the plane multiplied by `scale`; nothing when it takes too long.
 std::optional<std::vector<Link>> returns_at(const std::vector<Event>& events,
                                             const PairOptions& options, const PairModel& model,
                                             double velocity_sd, double scale,
                                             std::size_t stride = 1) {
-  const double widest =
-      std::min(options.velocity_tolerance, widest_agreement * sqrt2 * velocity_sd);
+  const double height = options.height * std::exp(model.log_height);
   std::vector<Link> links;
   SeriesEnds ends(events);
   std::size_t visits = 0;
@@ -61,6 +67,9 @@ std::optional<std::vector<Link>> returns_at(const std::vector<Event>& events,
     const std::size_t end = ends.of(j);
     if (up.velocity >= 0.0 || j % stride != 0) continue;
     const double speed = -up.velocity;
+    const double sd = local_scatter(velocity_sd, speed, height, model);
+    const double widest = std::min(std::max(options.velocity_tolerance, widest_agreement * sd),
+                                   std::min(widest_agreement * sqrt2 * sd, 0.6));
     const double middle = scale * flight::time_above(speed);
     const auto first = std::lower_bound(events.begin() + static_cast<std::ptrdiff_t>(j + 1),
                                         events.begin() + static_cast<std::ptrdiff_t>(end),
@@ -76,8 +85,8 @@ std::optional<std::vector<Link>> returns_at(const std::vector<Event>& events,
       const double lateness = std::log((down.time - up.time) /
                                        (scale * flight::time_above(0.5 * (speed + down.velocity))));
       const auto size = size_cost(up, down, model);
-      const double cost = squared(ratio / (sqrt2 * velocity_sd)) +
-                          squared(lateness * sqrt2 / velocity_sd) + size.value_or(0.0);
+      const double cost =
+          squared(ratio / (sqrt2 * sd)) + squared(lateness * sqrt2 / sd) + size.value_or(0.0);
       if (!size || cost > worst_link + 3.0) continue;  // three deviations instead of two
       links.push_back(
           {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(k), cost, lateness, ratio});
@@ -196,9 +205,10 @@ Followers find_unseen(const std::vector<Event>& events, const PairOptions& optio
         const double above = next.time - down.time - below;
         if (!(above > 0.0)) continue;
         const double lateness = std::log(above / (scale * flight::time_above(next.velocity)));
-        if (std::abs(lateness) > widest_agreement * velocity_sd) continue;
+        const double sd = local_scatter(velocity_sd, next.velocity, height, model);
+        if (std::abs(lateness) > widest_agreement * sd) continue;
         const auto size = size_cost(down, next, model);
-        const double cost = squared(lateness / velocity_sd) + size.value_or(0.0);
+        const double cost = squared(lateness / sd) + size.value_or(0.0);
         if (!size || cost > worst_link) continue;
         links.push_back(
             {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), cost, lateness, 0.0});
