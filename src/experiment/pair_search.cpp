@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "data/limits.hpp"
 #include "experiment/flight.hpp"
 
 namespace recoil {
@@ -14,8 +13,11 @@ namespace {
 
 constexpr std::size_t most_candidates = 200;  ///< per passage
 constexpr std::size_t fewest_to_refine = 12;  ///< pairs; with fewer the estimate is kept
-constexpr double lowest_sd = 2e-3;            ///< of either deviation [1]
-constexpr double highest_height_sd = 0.15;    ///< [1]
+/// Of one impact [1]. Errors bring it above 1; a limit near 1 would select by them and lower the
+/// mean.
+constexpr double largest_restitution = 1.5;
+constexpr double lowest_sd = 2e-3;          ///< of either deviation [1]
+constexpr double highest_height_sd = 0.15;  ///< [1]
 
 /// The centre of the interval of width `width` that holds most of the values.
 double densest(std::vector<double> values, double width) {
@@ -64,8 +66,7 @@ std::vector<Link> pair_candidates(const std::vector<Event>& events, const PairOp
     const Event& down = events[i];
     if (down.velocity <= 0.0) continue;
     const double latest = down.time + flight::longest_round_trip(down.velocity, highest);
-    const double fastest =
-        limits::largest_restitution * flight::surface_velocity(down.velocity, highest);
+    const double fastest = largest_restitution * flight::surface_velocity(down.velocity, highest);
     for (std::size_t j = i + 1; j < events.size(); ++j) {
       const Event& up = events[j];
       if (up.series != down.series || up.time > latest) break;
@@ -75,7 +76,7 @@ std::vector<Link> pair_candidates(const std::vector<Event>& events, const PairOp
           flight::implied_height(down.velocity, -up.velocity, up.time - down.time);
       if (!(height >= lowest && height <= highest)) continue;
       if (flight::surface_velocity(-up.velocity, height) >
-          limits::largest_restitution * flight::surface_velocity(down.velocity, height)) {
+          largest_restitution * flight::surface_velocity(down.velocity, height)) {
         continue;
       }
       links.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), 0.0,

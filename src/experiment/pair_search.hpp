@@ -24,7 +24,7 @@ struct PairModel {
 };
 
 /// All pairs that may be: a passage up within the time that the highest plane allows after one
-/// down, diameters within the tolerance, an implied height within the range, e at most 1.2.
+/// down, diameters within the tolerance, an implied height within the range, e at most 1.5.
 /// `Link::first` is ln(h_implied / options.height), costs are 0.
 /// @throws ComputationError when there are more than 200 per passage.
 std::vector<Link> pair_candidates(const std::vector<Event>& events, const PairOptions& options);

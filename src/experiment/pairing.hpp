@@ -81,7 +81,7 @@ struct PairResult {
 ///
 /// A passage down and one up belong together when the time between them is that of the flight to
 /// the surface and back, `flight::round_trip`, for one height of the plane common to all, and when
-/// their diameters agree. The restitution plays no part, except that none above 1.2 is taken.
+/// their diameters agree. The restitution plays no part, except that none above 1.5 is taken.
 /// 1. All pairs with an implied height within `height_range` of the estimate are candidates.
 /// 2. The height at which most of them agree, and the scatter about it, are refined three times.
 /// 3. Each passage is given to at most one pair, by ascending squared deviation (`choose_links`).

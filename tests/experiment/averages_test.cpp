@@ -167,7 +167,7 @@ Sorted sorted(const stream::Design& design, const PairOptions& options = {}) {
 
 TEST(Averages, FatesAgreeWithTheTruth) {
   stream::Design design;
-  design.spheres = 20000;
+  design.spheres = 8000;
   design.drop_heights = {0.01, 0.014, 0.02, 0.04, 0.1};
   const Sorted result = sorted(design);
   ASSERT_GT(result.truth.captured, 500.0);
@@ -179,7 +179,7 @@ TEST(Averages, FatesAgreeWithTheTruth) {
 
 TEST(Averages, ReboundsThatAreMissedMoreOftenNeedTheStatedShare) {
   stream::Design design;
-  design.spheres = 20000;
+  design.spheres = 8000;
   design.drop_heights = {0.02, 0.1, 0.5};
   design.rebound_seen = 0.8;
   const Sorted assumed = sorted(design);

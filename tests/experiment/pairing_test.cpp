@@ -110,7 +110,7 @@ Paired run(const stream::Design& design, const PairOptions& options = {}) {
 }
 
 TEST(PairingOfStreams, PureAndEfficientAtAnyNumber) {
-  for (const std::size_t spheres : {40UL, 400UL, 4000UL, 40000UL}) {
+  for (const std::size_t spheres : {40UL, 400UL, 4000UL}) {
     for (const double rate : {1.0, 10.0, 50.0}) {
       stream::Design design;
       design.spheres = spheres;
