@@ -12,8 +12,31 @@ namespace {
 
 constexpr double degree = M_PI / 180.0;
 
+/// `text` after its label, broken between words at 100 columns; a count at its beginning stays
+/// alone to the left.
 std::string line(const char* label, const std::string& text) {
-  return fmt::format("{:<10} {}\n", label, text);
+  constexpr std::size_t widest = 100;
+  std::string out = fmt::format("{:<10} ", label);
+  std::size_t column = out.size();
+  const std::size_t first = text.find_first_not_of(' ');
+  const bool counted = first != std::string::npos && text.find("  ", first) != std::string::npos;
+  const std::size_t indent = counted ? text.find("  ", first) + 2 : 0;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    std::size_t end = text.find(' ', std::max(at, at == 0 ? indent : at));
+    if (end == std::string::npos) end = text.size();
+    if (at > 0 && column + 1 + end - at > widest) {
+      out += '\n' + std::string(11 + indent, ' ');
+      column = 11 + indent;
+    } else if (at > 0) {
+      out += ' ';
+      ++column;
+    }
+    out += text.substr(at, end - at);
+    column += end - at;
+    at = end + 1;
+  }
+  return out + '\n';
 }
 
 double percent(double part, double whole) { return whole > 0.0 ? 100.0 * part / whole : 0.0; }
@@ -148,7 +171,7 @@ std::string threshold_text(const EventTable& table, const PairResult& pairs) {
   }
   out += line("",
               "it acts on the incident velocity only, so e above it is not selected; but slow "
-              "first impacts, where adhesion shows, are gone, and fast later ones stay");
+              "first impacts, where adhesion shows, are gone");
   return out;
 }
 

@@ -131,13 +131,19 @@ TEST(PairingOfStreams, OverlappingFlightsStayPure) {
   design.rate = 3000.0;
   const Paired crowded = run(design);
   EXPECT_GT(crowded.stream.crowding, 4.0) << "flights in the air at once";
-  EXPECT_GE(crowded.score.purity(), 0.985);
-  // The estimate without truth agrees with the truth to a third of the impurity, and counting
-  // error.
+  EXPECT_GE(crowded.score.purity(), 0.992);  // reports/pairing.md; times alone do worse
+}
+
+TEST(PairingOfStreams, PurityIsEstimatedWithoutTheTruth) {
+  stream::Design design;
+  design.spheres = 4000;
+  design.rate = 10000.0;
+  const Paired crowded = run(design);
   const double wrong = static_cast<double>(crowded.score.reported - crowded.score.right);
   const double estimated =
       (1.0 - crowded.result.purity()) * static_cast<double>(crowded.score.reported);
-  EXPECT_NEAR(estimated, wrong, wrong / 3.0 + 3.0 * std::sqrt(wrong));
+  EXPECT_GT(wrong, 25.0);
+  EXPECT_NEAR(estimated, wrong, 0.15 * wrong + 2.0 * std::sqrt(wrong));
 }
 
 TEST(PairingOfStreams, HeightIsRefinedWithinItsError) {
