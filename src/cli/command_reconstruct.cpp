@@ -4,6 +4,8 @@
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
+#include "reconstruction/passages.hpp"
 #include "reconstruction/reconstruction.hpp"
 
 namespace recoil {
@@ -15,12 +17,30 @@ void add_reconstruct(CLI::App& program) {
       "Makes points.csv of DIR from DIR/recipe.toml and verifies every published fact that the\n"
       "recipe names. With --check nothing is written: the file has to be what the recipe makes,\n"
       "byte for byte.\n\n"
-      "  recoil reconstruct datasets/wall1990-silicon --check");
+      "  recoil reconstruct datasets/wall1990-silicon --check\n\n"
+      "Where the recipe says what the instrument records, the raw events can be had as well:\n\n"
+      "  recoil reconstruct datasets/li1999-sst65-silicon --passages events.csv\n"
+      "  recoil pair events.csv --unit time=s,velocity=m/s,tangential_velocity=m/s,diameter=um");
   const auto folder = std::make_shared<std::string>();
   const auto check = std::make_shared<bool>(false);
   command->add_option("DIR", *folder, "the dataset's folder")->required();
   command->add_flag("--check", *check, "only compare, and verify the facts");
-  command->callback([folder, check] {
+  const auto passages = std::make_shared<std::string>();
+  const auto times = std::make_shared<int>(1);
+  CLI::Option* to =
+      command->add_option("--passages", *passages,
+                          "instead, write what the instrument would have recorded (CSV), for "
+                          "recoil pair; needs a table [passages] in the recipe");
+  command->add_option("--times", *times, "with so many times as many spheres")
+      ->needs(to)
+      ->check(CLI::Range(1, 10000));
+  command->callback([folder, check, passages, times] {
+    if (!passages->empty()) {
+      const Recipe recipe = load_recipe(*folder);
+      write_whole_file(*passages, draw_passages(recipe, recipe.seed, *times));
+      fmt::print("{}: passages of a reconstruction; nothing here was measured\n", *passages);
+      return;
+    }
     const ReconstructionResult result = reconstruct(*folder, *check);
     fmt::print("{}", describe(result));
     if (!result.good()) {

@@ -15,5 +15,6 @@ void add_reconstruct(CLI::App& program);
 void add_import(CLI::App& program);
 void add_predict(CLI::App& program);
 void add_report(CLI::App& program);
+void add_pair(CLI::App& program);
 
 }  // namespace recoil

@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
   recoil::add_import(program);
   recoil::add_predict(program);
   recoil::add_report(program);
+  recoil::add_pair(program);
   try {
     program.parse(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

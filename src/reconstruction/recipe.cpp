@@ -113,6 +113,20 @@ SizeDistribution read_sizes(TomlTable table) {
   return sizes;
 }
 
+PassageDesign read_passages(TomlTable table) {
+  PassageDesign design;
+  design.rate = table.positive("rate");
+  design.velocity_sd = table.not_negative("velocity_sd");
+  design.diameter_sd = table.not_negative("diameter_sd");
+  design.volume_sd = table.not_negative("volume_sd");
+  design.angle_sd = table.not_negative("angle_sd");
+  design.seen = table.positive("seen");
+  design.return_time = table.positive("return_time");
+  if (design.seen > 1.0) table.fail("seen", "it is a part of all passages", "write at most 1");
+  table.finish();
+  return design;
+}
+
 /// A value with three significant digits, as a table prints it.
 double three_digits(double value) { return std::stod(fmt::format("{:.3g}", value)); }
 
@@ -191,6 +205,7 @@ void read_root(TomlTable& root, Recipe& recipe) {
   recipe.truth = read_truth(root.table("truth"), recipe);
   recipe.noise = read_noise(root.table("noise"));
   if (auto sizes = root.optional_table("sizes")) recipe.sizes = read_sizes(*sizes);
+  if (auto passages = root.optional_table("passages")) recipe.passages = read_passages(*passages);
   for (TomlTable& table : root.tables("series")) {
     recipe.series.push_back(read_series(std::move(table)));
   }

@@ -44,6 +44,17 @@ struct SizeDistribution {
   double slowest_seen() const;
 };
 
+/// What an instrument records of each impact, see `draw_passages`.
+struct PassageDesign {
+  double rate = 0.0;         ///< spheres released per second, at random times
+  double velocity_sd = 0.0;  ///< of one passage, relative [1]
+  double diameter_sd = 0.0;  ///< of one passage, relative [1]
+  double volume_sd = 0.0;    ///< of the height at which a passage is timed [m]
+  double angle_sd = 0.0;     ///< of the rebound to the normal [rad]
+  double seen = 1.0;         ///< part of the passages that is recorded [1]
+  double return_time = 0.0;  ///< a rebound comes back through the volume with exp(-t / this) [s]
+};
+
 /// A published fact that the reconstruction has to show, with the numbers that decide.
 struct FactSpec {
   std::string id;  ///< which check of `check_facts` decides
@@ -76,6 +87,7 @@ struct Recipe {
   std::vector<RecipeSeries> series;
   EventNoise noise;
   std::optional<SizeDistribution> sizes;
+  std::optional<PassageDesign> passages;
   std::vector<FactSpec> facts;
   std::vector<std::string> assumptions;  ///< what is ours and not published, a sentence each
   std::vector<std::string> siblings;     ///< ids of recipes beside this one, for shared facts

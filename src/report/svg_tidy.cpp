@@ -165,7 +165,7 @@ void tidy_svg(std::string& svg, const std::string& name) {
   constexpr std::string_view common = " fill=\"none\" color=\"black\" stroke=\"currentColor\"";
   replace_all(svg, fmt::format("<g{} stroke-width", common), "<g stroke-width");
   replace_all(svg, "<g id=\"gnuplot_canvas\"", fmt::format("<g id=\"gnuplot_canvas\"{}", common));
-  replace_all(svg, "<rect ", "<rect stroke=\"none\" ");  // the background has no rim
+  replace_all(svg, "<rect x=", "<rect stroke=\"none\" x=");  // the background has no rim
   replace_all(svg, " class=\"gridline\" ", "");
   shorten_colours(svg);
   pack_dots(svg);

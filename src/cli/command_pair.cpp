@@ -1,0 +1,271 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/units.hpp"
+#include "data/dataset.hpp"
+#include "experiment/averages.hpp"
+#include "experiment/events.hpp"
+#include "experiment/pairing.hpp"
+#include "experiment/pairing_files.hpp"
+#include "report/experiment_figures.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double degree = M_PI / 180.0;
+
+struct PairCommand {
+  std::string events;
+  std::string out;
+  std::string into;
+  std::string like;
+  std::string provenance;
+  std::string histograms;
+  std::string impacts;
+  std::vector<std::string> units;
+  std::vector<std::string> columns;
+  std::string positive = "towards";
+  double height_mm = 1.0;
+  bool keep_height = false;
+  double threshold = -1.0;
+  double angle_degrees = -1.0;
+  double lost_share = -1.0;
+  std::vector<double> size_edges_um;
+  PairOptions pairing;
+  AverageOptions averaging;
+};
+
+/// FIELD=VALUE pairs as given on the command line.
+std::map<std::string, std::string> assignments(const std::vector<std::string>& words,
+                                               const std::string& option) {
+  std::map<std::string, std::string> result;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == word.size()) {
+      throw InputError(
+          {}, fmt::format("{} {}", option, word), "it has the form FIELD=VALUE",
+          fmt::format("for example {} velocity={}", option, option == "--unit" ? "m/s" : "LDA1"));
+    }
+    if (!result.emplace(word.substr(0, equals), word.substr(equals + 1)).second) {
+      throw InputError({}, fmt::format("{} {} is given twice", option, word.substr(0, equals)),
+                       "only one could count", "remove one");
+    }
+  }
+  return result;
+}
+
+void resolve(PairCommand& command) {
+  PairOptions& pairing = command.pairing;
+  pairing.height = command.height_mm * units::mm;
+  pairing.refine = !command.keep_height;
+  if (command.threshold >= 0.0) pairing.threshold = command.threshold;
+  if (command.angle_degrees >= 0.0) pairing.angle = command.angle_degrees * degree;
+  if (command.lost_share >= 0.0) pairing.lost_share = command.lost_share;
+  for (const double edge : command.size_edges_um) {
+    if (!command.averaging.size_edges.empty() &&
+        edge * units::um <= command.averaging.size_edges.back()) {
+      throw InputError({}, "--size-edges do not ascend", "they are the limits of classes",
+                       "write for example --size-edges 20,40,60,110");
+    }
+    command.averaging.size_edges.push_back(edge * units::um);
+  }
+  if (command.averaging.size_edges.size() == 1) {
+    throw InputError({}, "--size-edges with one value", "a class has two limits",
+                     "write for example --size-edges 20,40,60,110");
+  }
+}
+
+/// The word that goes into the dataset: what the events' own package says, or the option.
+std::string provenance_of(const PairCommand& command, const EventTable& table) {
+  if (!command.provenance.empty() && !table.provenance.empty() &&
+      command.provenance != table.provenance) {
+    throw InputError({}, fmt::format("--provenance {}", command.provenance),
+                     fmt::format("datapackage.json beside the events says {}", table.provenance),
+                     "correct one of them");
+  }
+  const std::string& word = command.provenance.empty() ? table.provenance : command.provenance;
+  if (word.empty()) {
+    throw InputError({}, "the provenance of the events is not known",
+                     "a dataset says where its points come from",
+                     "say --provenance measured, or synthetic for simulated events");
+  }
+  return word;
+}
+
+std::string remark_of(const PairCommand& command, const EventTable& table) {
+  const std::string& word = command.provenance.empty() ? table.provenance : command.provenance;
+  const std::string file = fs::path(table.file).filename().string();
+  return word.empty() || word == "measured" ? file : fmt::format("{}: {}", file, word);
+}
+
+void write_dataset(const PairCommand& command, const EventTable& table, const PairResult& pairs,
+                   const std::string& points) {
+  const fs::path like = fs::path(command.like) / "datapackage.json";
+  const std::string package = package_json(
+      read_text_file(like), like.string(), fs::absolute(command.into).lexically_normal().filename(),
+      provenance_of(command, table), fs::path(table.file).filename().string(),
+      fmt::format("{} impacts that recoil pair found in {} passages; the measuring plane {:.5g} mm "
+                  "above the surface; velocities at the surface.",
+                  pairs.impacts.size(), table.events.size(), pairs.height / units::mm));
+  parse_dataset(package, points, command.into);  // refuses what `recoil check` would refuse
+  write_whole_file(fs::path(command.into) / "points.csv", points);
+  write_whole_file(fs::path(command.into) / "datapackage.json", package);
+}
+
+void run_pair(PairCommand command) {
+  resolve(command);
+  for (const std::string& folder : {command.into, command.histograms}) {
+    if (!folder.empty()) require_writable_folder(folder);
+  }
+  for (const std::string& file : {command.out, command.impacts}) {
+    if (!file.empty()) require_writable_folder(fs::absolute(file).parent_path());
+  }
+  const EventFormat format = {assignments(command.units, "--unit"),
+                              assignments(command.columns, "--column"), command.positive == "away"};
+  const EventTable table = read_events(command.events, format);
+  if (!command.into.empty()) provenance_of(command, table);  // complain before the work
+  const PairResult pairs = pair_events(table.events, command.pairing);
+  const Averages averages = average(table.events, table.series, pairs, command.averaging);
+  fmt::print("{}", describe(table, pairs, averages));
+  if (pairs.impacts.empty()) {
+    throw ComputationError(fmt::format(
+        "{}: no impacts found (no passage up follows one down in the time that a plane {:g} mm "
+        "above the surface allows); check --height, the units and --positive",
+        command.events, command.height_mm));
+  }
+  const std::string points = points_csv(averages);
+  if (!command.into.empty()) write_dataset(command, table, pairs, points);
+  if (!command.out.empty()) write_whole_file(command.out, points);
+  if (!command.impacts.empty()) write_whole_file(command.impacts, impacts_csv(table, pairs));
+  if (command.histograms.empty()) return;
+  const Distributions shown = distributions(table, pairs);
+  for (const auto& [name, text] : histogram_files(shown)) {
+    write_whole_file(fs::path(command.histograms) / name, text);
+  }
+  for (const auto& [name, svg] : experiment_figures(shown, averages, remark_of(command, table))) {
+    write_whole_file(fs::path(command.histograms) / name, svg);
+  }
+}
+
+void add_input_options(CLI::App& app, PairCommand& command) {
+  app.add_option("EVENTS", command.events,
+                 "CSV file, one row per passage: time, velocity, diameter; optional "
+                 "tangential_velocity and series (a run; times of different runs are not compared)")
+      ->required();
+  app.add_option("--unit", command.units,
+                 "FIELD=UNIT, e.g. time=ms velocity=m/s diameter=um; not needed where "
+                 "datapackage.json beside the file states the units")
+      ->delimiter(',');
+  app.add_option("--column", command.columns,
+                 "FIELD=NAME, for files that name their columns otherwise, e.g. velocity=LDA1")
+      ->delimiter(',');
+  app.add_option("--positive", command.positive,
+                 "the direction in which velocities are positive: towards the surface or away")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"towards", "away"}));
+}
+
+void add_search_options(CLI::App& app, PairCommand& command) {
+  app.add_option("--height", command.height_mm,
+                 "first estimate of the probe plane's height above the surface [mm]")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-3, 1e3));
+  app.add_option("--height-range", command.pairing.height_range,
+                 "the true height lies within this factor of it")
+      ->capture_default_str()
+      ->check(CLI::Range(1.01, 10.0));
+  app.add_flag("--keep-height", command.keep_height, "take --height as it is");
+  app.add_option("--diameter-tolerance", command.pairing.diameter_tolerance,
+                 "largest relative difference of the diameters of one sphere; within it the data "
+                 "decide")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-3, 2.0));
+  app.add_option(
+         "--velocity-tolerance", command.pairing.velocity_tolerance,
+         "largest relative difference between a rebound and its return; within it the data decide")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-3, 0.5));
+}
+
+void add_selection_options(CLI::App& app, PairCommand& command) {
+  app.add_flag("--keep-later", command.pairing.keep_later, "use second and third impacts as well");
+  app.add_option("--threshold", command.threshold,
+                 "use no incident velocity below this [m/s, at the plane]; the paper's way to "
+                 "remove second impacts. Its selection effect is printed")
+      ->check(CLI::Range(0.0, 1e4));
+  app.add_option("--angle", command.angle_degrees,
+                 "use rebounds within this of the normal [degrees]; the paper: 8. Needs "
+                 "tangential_velocity")
+      ->check(CLI::Range(0.0, 90.0));
+  app.add_option("--lost-share", command.lost_share,
+                 "share of rebounds that the instrument misses (default: as many as lack their way "
+                 "down)")
+      ->check(CLI::Range(0.0, 0.9));
+}
+
+void add_output_options(CLI::App& app, PairCommand& command) {
+  app.add_option("--out", command.out, "write the points here (CSV)");
+  CLI::Option* into =
+      app.add_option("--into", command.into, "write a dataset folder: points and datapackage.json");
+  CLI::Option* like =
+      app.add_option("--like", command.like, "a dataset folder whose materials it takes over");
+  into->needs(like);
+  like->needs(into);
+  app.add_option("--provenance", command.provenance,
+                 "of the events, where no datapackage.json beside them states it")
+      ->check(CLI::IsMember({"measured", "digitised", "reconstruction", "synthetic"}));
+  app.add_option("--per-bin", command.averaging.per_bin, "impacts of one point, about")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1000000));
+  CLI::Option* classes = app.add_option("--size-classes", command.averaging.size_classes,
+                                        "size classes of equal number, each a series of points")
+                             ->capture_default_str()
+                             ->check(CLI::Range(1, 100));
+  app.add_option("--size-edges", command.size_edges_um,
+                 "or their limits [um], e.g. 20,40,60,110; what lies outside is left out")
+      ->delimiter(',')
+      ->excludes(classes)
+      ->check(CLI::PositiveNumber);
+  app.add_option("--impacts", command.impacts,
+                 "write every impact and every passage without one here (CSV)");
+  app.add_option(
+      "--histograms", command.histograms,
+      "write histograms and size distributions (CSV) and pictures (SVG) into this folder");
+}
+
+}  // namespace
+
+void add_pair(CLI::App& program) {
+  CLI::App* app = program.add_subcommand(
+      "pair", "from the passages that a phase Doppler instrument records to impacts and points");
+  app->footer(
+      "A sphere passes the probe plane on its way down and, if it rebounds, on its way up. The "
+      "time\n"
+      "between is that of free flight to the surface and back, which both velocities and the "
+      "height\n"
+      "of the plane determine. The height is found as the one at which most passages agree; then\n"
+      "each is given to at most one partner, by flight time and diameter. Rebounds that come down\n"
+      "again are later impacts and kept out. Velocities are corrected to the surface,\n"
+      "v_s^2 = v_p^2 + 2 g h, and averaged over about 40 impacts. Passages without a rebound are\n"
+      "divided by number into lost, too slow to return, and captured.\n\n"
+      "  recoil pair run7.csv --unit time=s,velocity=m/s,diameter=um --out points.csv\n"
+      "  recoil pair run7.csv --height 1.2 --size-edges 20,40,60,110 --angle 8 \\\n"
+      "      --into my-run --like datasets/li1999-sst65-silicon --provenance measured \\\n"
+      "      --histograms my-run/histograms\n"
+      "  recoil check my-run");
+  const auto command = std::make_shared<PairCommand>();
+  add_input_options(*app, *command);
+  add_search_options(*app, *command);
+  add_selection_options(*app, *command);
+  add_output_options(*app, *command);
+  app->callback([command] { run_pair(*command); });
+}
+
+}  // namespace recoil

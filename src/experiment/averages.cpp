@@ -1,0 +1,261 @@
+#include "experiment/averages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "experiment/flight.hpp"
+
+namespace recoil {
+namespace {
+
+/// A used impact or unpaired passage.
+struct Arrival {
+  std::uint32_t series = 0;
+  std::size_t size_class = 0;
+  double velocity = 0.0;
+  double diameter = 0.0;
+  double restitution = -1.0;  ///< negative: unpaired
+  bool came_back = false;
+};
+
+std::vector<Arrival> arrivals_of(const std::vector<Event>& events, const PairResult& pairs) {
+  std::vector<Arrival> arrivals;
+  for (const Impact& impact : pairs.impacts) {
+    if (!impact.used) continue;
+    arrivals.push_back({events[impact.down].series, 0, impact.incident, impact.diameter,
+                        impact.restitution, false});
+  }
+  for (const Unpaired& lone : pairs.unpaired) {
+    if (!lone.used) continue;
+    const Event& event = events[lone.down];
+    arrivals.push_back({event.series, 0, lone.incident, event.diameter, -1.0, lone.came_back});
+  }
+  return arrivals;
+}
+
+/// Edges of the size classes; outer ones hold everything when they were not stated.
+std::vector<double> class_edges(const std::vector<Arrival>& arrivals,
+                                const AverageOptions& options) {
+  if (!options.size_edges.empty()) return options.size_edges;
+  std::vector<double> sizes;
+  for (const Arrival& arrival : arrivals) sizes.push_back(arrival.diameter);
+  std::sort(sizes.begin(), sizes.end());
+  std::vector<double> edges = {sizes.empty() ? 0.0 : sizes.front()};
+  for (std::size_t k = 1; k < options.size_classes; ++k) {
+    const double edge = sizes.empty() ? 0.0 : sizes[k * sizes.size() / options.size_classes];
+    if (edge > edges.back()) edges.push_back(edge);
+  }
+  edges.push_back(sizes.empty() ? 1.0 : sizes.back());
+  return edges;
+}
+
+/// Where bins of sorted velocities begin, and their number at the end.
+/// @param error relative standard deviation of one velocity.
+std::vector<std::size_t> cuts(const std::vector<Arrival>& sorted, std::size_t per_bin,
+                              double error) {
+  constexpr double widest_gap = 4.0;     // errors
+  constexpr double narrowest_bin = 6.0;  // errors
+  std::vector<std::size_t> parts = {0};
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const double gap = std::log(sorted[i].velocity / sorted[i - 1].velocity);
+    if (gap > widest_gap * error && i - parts.back() >= 3) parts.push_back(i);
+  }
+  parts.push_back(sorted.size());
+  std::vector<std::size_t> begins;
+  for (std::size_t part = 0; part + 1 < parts.size(); ++part) {
+    const std::size_t first = parts[part];
+    const std::size_t n = parts[part + 1] - first;
+    // The middle nine tenths: of one velocity with normal errors they span 3.3 errors.
+    const double width = std::log(sorted[first + (19 * (n - 1)) / 20].velocity /
+                                  sorted[first + (n - 1) / 20].velocity);
+    const std::size_t by_number = std::max<std::size_t>((n + per_bin / 2) / per_bin, 1);
+    const double by_width = error > 0.0 ? width / (narrowest_bin * error) : 1e9;
+    const std::size_t bins =
+        std::clamp<std::size_t>(static_cast<std::size_t>(std::min(by_width, 1e9)), 1, by_number);
+    for (std::size_t k = 0; k < bins; ++k) begins.push_back(first + k * n / bins);
+  }
+  begins.push_back(sorted.size());
+  return begins;
+}
+
+struct Moments {
+  double mean = 0.0;
+  double sd = 0.0;
+};
+
+template <class Value>
+Moments moments_of(const std::vector<Arrival>& all, std::size_t begin, std::size_t end,
+                   const Value& value) {
+  double sum = 0.0;
+  double n = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (const double x = value(all[i]); x >= 0.0) {
+      sum += x;
+      ++n;
+    }
+  }
+  Moments result;
+  if (n == 0.0) return result;
+  result.mean = sum / n;
+  if (n < 2.0) return result;
+  double squares = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (const double x = value(all[i]); x >= 0.0) squares += (x - result.mean) * (x - result.mean);
+  }
+  result.sd = std::sqrt(squares / (n - 1.0));
+  if (result.sd < 1e-9 * result.mean) result.sd = 0.0;  // alike but for rounding
+  return result;
+}
+
+/// The probability of `count` or more of a Poisson variable with this mean.
+double poisson_at_least(std::size_t count, double mean) {
+  double term = std::exp(-mean);
+  double below = 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    below += term;
+    term *= mean / static_cast<double>(k + 1);
+  }
+  return 1.0 - below;
+}
+
+/// Divides the unpaired of a bin among lost, too slow and captured.
+/// @param by_accident how improbable an excess has to be.
+void sort_unpaired(PointMean& point, double lost_share, double height, double by_accident) {
+  const auto unpaired = static_cast<double>(point.unpaired);
+  const auto rebounds = static_cast<double>(point.rebounds);
+  const double expected = rebounds * lost_share / (1.0 - lost_share);
+  if (point.rebounds >= 5 && point.scatter > 0.0) {
+    const double slowest = flight::slowest_return(height) / point.velocity;
+    const double distance = (point.restitution - slowest) / point.scatter;
+    point.slow_known = distance >= 1.0;
+    if (point.slow_known) {
+      const double hidden = 0.5 * std::erfc(distance / std::sqrt(2.0));
+      point.too_slow = rebounds * hidden / (1.0 - hidden);
+    }
+  }
+  const double certain = std::max(expected, static_cast<double>(point.came_back));
+  const double explained = certain + point.too_slow;
+  point.lost = std::min(certain, unpaired);
+  point.too_slow = std::min(point.too_slow, unpaired - point.lost);
+  if (poisson_at_least(point.unpaired, explained) >= by_accident) return;
+  // Where hardly any rebound could climb to the plane, none seen says nothing of capture.
+  constexpr double most_hidden = 0.5;
+  if (point.rebounds < 5 && flight::slowest_return(height) > most_hidden * point.velocity) return;
+  const double rest = std::round(unpaired - explained);
+  point.captured = rest > 0.0 ? static_cast<std::size_t>(rest) : 0;
+}
+
+PointMean mean_of(const std::vector<Arrival>& sorted, std::size_t begin, std::size_t end) {
+  PointMean point;
+  for (std::size_t i = begin; i < end; ++i) {
+    point.rebounds += sorted[i].restitution >= 0.0 ? 1 : 0;
+    point.unpaired += sorted[i].restitution < 0.0 ? 1 : 0;
+    point.came_back += sorted[i].came_back ? 1 : 0;
+  }
+  const Moments velocity =
+      moments_of(sorted, begin, end, [](const Arrival& a) { return a.velocity; });
+  const Moments restitution =
+      moments_of(sorted, begin, end, [](const Arrival& a) { return a.restitution; });
+  point.velocity = velocity.mean;
+  point.velocity_sd = velocity.sd / std::sqrt(static_cast<double>(end - begin));
+  point.diameter = moments_of(sorted, begin, end, [](const Arrival& a) { return a.diameter; }).mean;
+  point.restitution = restitution.mean;
+  point.scatter = restitution.sd;
+  if (point.rebounds > 1) {
+    point.restitution_sd = restitution.sd / std::sqrt(static_cast<double>(point.rebounds));
+  }
+  return point;
+}
+
+/// The share of unpaired among the fastest quarter of each series: the lost share cannot be larger
+/// unless slow rebounds are lost less.
+void look_at_fastest(std::vector<Arrival> arrivals, Averages& result) {
+  std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
+    return a.series < b.series || (a.series == b.series && a.velocity < b.velocity);
+  });
+  std::size_t unpaired = 0;
+  for (std::size_t begin = 0; begin < arrivals.size();) {
+    std::size_t end = begin;
+    while (end < arrivals.size() && arrivals[end].series == arrivals[begin].series) ++end;
+    for (std::size_t i = begin + (end - begin) * 3 / 4; i < end; ++i) {
+      ++result.fast_impacts;
+      unpaired += arrivals[i].restitution < 0.0 ? 1 : 0;
+    }
+    begin = end;
+  }
+  if (result.fast_impacts > 0) {
+    result.fast_unpaired = static_cast<double>(unpaired) / static_cast<double>(result.fast_impacts);
+  }
+}
+
+std::string series_name(const std::string& series, const std::vector<double>& edges,
+                        std::size_t size_class) {
+  if (edges.size() <= 2) return series;
+  return fmt::format("{} {:.4g}-{:.4g} um", series, edges[size_class] / units::um,
+                     edges[size_class + 1] / units::um);
+}
+
+}  // namespace
+
+Averages average(const std::vector<Event>& events, const std::vector<std::string>& series,
+                 const PairResult& pairs, const AverageOptions& options) {
+  Averages result;
+  std::vector<Arrival> arrivals = arrivals_of(events, pairs);
+  look_at_fastest(arrivals, result);
+  result.lost_share = std::min(pairs.options.lost_share.value_or(pairs.missed_share), 0.9);
+  result.narrowest = 6.0 * pairs.velocity_spread;
+  const std::vector<double> edges = class_edges(arrivals, options);
+  const std::size_t all = arrivals.size();
+  std::erase_if(arrivals, [&](const Arrival& a) {
+    return a.diameter < edges.front() || a.diameter > edges.back();
+  });
+  result.outside_sizes = all - arrivals.size();
+  for (Arrival& arrival : arrivals) {
+    const auto above = std::upper_bound(edges.begin(), edges.end(), arrival.diameter);
+    arrival.size_class =
+        std::min(static_cast<std::size_t>(above - edges.begin()), edges.size() - 1) - 1;
+  }
+  std::stable_sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
+    if (a.series != b.series) return a.series < b.series;
+    if (a.size_class != b.size_class) return a.size_class < b.size_class;
+    return a.velocity < b.velocity;
+  });
+  for (std::size_t begin = 0; begin < arrivals.size();) {
+    std::vector<Arrival> group;
+    for (std::size_t i = begin;
+         i < arrivals.size() && arrivals[i].series == arrivals[begin].series &&
+         arrivals[i].size_class == arrivals[begin].size_class;
+         ++i) {
+      group.push_back(arrivals[i]);
+    }
+    begin += group.size();
+    const std::vector<std::size_t> begins = cuts(group, options.per_bin, pairs.velocity_spread);
+    for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
+      if (begins[k + 1] - begins[k] < std::min<std::size_t>(5, options.per_bin)) {
+        result.in_small_bins += begins[k + 1] - begins[k];
+        continue;
+      }
+      PointMean point = mean_of(group, begins[k], begins[k + 1]);
+      point.series = series_name(series[group.front().series], edges, group.front().size_class);
+      result.points.push_back(std::move(point));
+    }
+  }
+  for (PointMean& point : result.points) {
+    sort_unpaired(point, result.lost_share, pairs.height,
+                  0.01 / static_cast<double>(result.points.size()));
+    result.unpaired += point.unpaired;
+    result.came_back += point.came_back;
+    result.lost += point.lost;
+    result.too_slow += point.too_slow;
+    result.captured += point.captured;
+  }
+  std::erase_if(result.points, [](const PointMean& point) { return point.events() == 0; });
+  result.unresolved = std::max(
+      0.0, static_cast<double>(result.unpaired - result.captured) - result.lost - result.too_slow);
+  return result;
+}
+
+}  // namespace recoil

@@ -1,0 +1,226 @@
+#include "experiment/events.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <tuple>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "data/limits.hpp"
+#include "data/text.hpp"
+#include "experiment/event_columns.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::uintmax_t largest_file = 2ULL << 30;  ///< some 5 10^7 events [bytes]
+constexpr std::size_t most_columns = 200;
+
+std::string_view trimmed(std::string_view cell) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = cell.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  cell = cell.substr(first, cell.find_last_not_of(blanks) - first + 1);
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
+    cell = cell.substr(1, cell.size() - 2);
+  }
+  return cell;
+}
+
+/// The cells of one line. Instruments write plain lines: a quoted cell may not hold the delimiter.
+void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
+  cells.clear();
+  while (cells.size() <= most_columns) {
+    const std::size_t end = line.find(delimiter);
+    cells.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return;
+    line.remove_prefix(end + 1);
+  }
+}
+
+char likely_delimiter(std::string_view header) {
+  char best = ',';
+  for (const char candidate : {';', '\t'}) {
+    if (std::count(header.begin(), header.end(), candidate) >
+        std::count(header.begin(), header.end(), best)) {
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+/// Turns lines into events and counts what it cannot use.
+class EventReader {
+ public:
+  EventReader(EventTable& table, EventColumns columns, double sign)
+      : table_(table), columns_(std::move(columns)), sign_(sign) {}
+
+  void row(const std::vector<std::string_view>& cells, int line) {
+    ++table_.rows;
+    Event event;
+    event.line = line;
+    const std::string problem = understand(cells, event);
+    if (problem.empty()) {
+      latest_.resize(table_.series.size(), -INFINITY);
+      double& latest = latest_[event.series];
+      if (event.time < latest && table_.unsorted++ == 0) table_.first_unsorted = line;
+      latest = std::max(latest, event.time);
+      table_.events.push_back(event);
+      return;
+    }
+    if (table_.first_damaged.size() < most_examples)
+      table_.first_damaged.push_back({line, problem});
+    ++table_.damaged;
+  }
+
+ private:
+  std::string understand(const std::vector<std::string_view>& cells, Event& event) {
+    if (cells.size() != columns_.width) {
+      return fmt::format("{} cells, the header has {}", cells.size(), columns_.width);
+    }
+    const std::array<double*, 4> places = {&event.time, &event.velocity, &event.tangential,
+                                           &event.diameter};
+    for (std::size_t field = 0; field < places.size(); ++field) {
+      if (columns_.index[field] < 0) continue;
+      const std::string_view cell = cells[static_cast<std::size_t>(columns_.index[field])];
+      const std::optional<double> value = parse_number(cell);
+      if (!value) {
+        return fmt::format("{} is {}", event_fields()[field],
+                           cell.empty() ? std::string("empty") : quote(printable(cell)));
+      }
+      *places[field] = *value * columns_.factor[field];
+    }
+    const double speed = std::abs(event.velocity);
+    if (!(speed >= limits::slowest_velocity && speed <= limits::fastest_velocity)) {
+      return fmt::format("velocity = {:g} m/s", event.velocity);
+    }
+    if (!(std::abs(event.tangential) <= limits::fastest_velocity)) {
+      return fmt::format("tangential_velocity = {:g} m/s", event.tangential);
+    }
+    if (!(event.diameter >= limits::smallest_diameter &&
+          event.diameter <= limits::largest_diameter)) {
+      return fmt::format("diameter = {:g} m", event.diameter);
+    }
+    event.velocity *= sign_;
+    return read_series(cells, event);
+  }
+
+  std::string read_series(const std::vector<std::string_view>& cells, Event& event) {
+    const int index = columns_.index[static_cast<std::size_t>(EventField::series)];
+    const std::string_view name = index < 0 ? "all" : cells[static_cast<std::size_t>(index)];
+    if (!table_.series.empty() && table_.series[last_series_] == name) {
+      event.series = static_cast<std::uint32_t>(last_series_);
+      return "";
+    }
+    if (name.empty()) return "series is empty";
+    const std::string text(name);
+    try {
+      require_text(text, "");
+    } catch (const InputError&) {
+      return "series is not UTF-8 text";
+    }
+    if (printable(text) != text) return "series has control characters";
+    const auto found = std::find(table_.series.begin(), table_.series.end(), text);
+    last_series_ = static_cast<std::size_t>(found - table_.series.begin());
+    if (found == table_.series.end()) table_.series.push_back(text);
+    event.series = static_cast<std::uint32_t>(last_series_);
+    return "";
+  }
+
+  EventTable& table_;
+  EventColumns columns_;
+  double sign_;
+  std::vector<double> latest_;  ///< of each series
+  std::size_t last_series_ = 0;
+};
+
+void sort_and_unite(EventTable& table) {
+  std::vector<Event>& events = table.events;
+  const auto content = [](const Event& e) {
+    return std::tie(e.series, e.time, e.velocity, e.diameter, e.tangential);
+  };
+  std::sort(events.begin(), events.end(), [&](const Event& a, const Event& b) {
+    return std::tuple_cat(content(a), std::tie(a.line)) <
+           std::tuple_cat(content(b), std::tie(b.line));
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (kept > 0 && content(events[kept - 1]) == content(events[i])) {
+      table.first_duplicated.push_back(events[i].line);
+    } else {
+      events[kept++] = events[i];
+    }
+  }
+  events.resize(kept);
+  table.duplicated = table.first_duplicated.size();
+  std::sort(table.first_duplicated.begin(), table.first_duplicated.end());
+  if (table.duplicated > most_examples) table.first_duplicated.resize(most_examples);
+}
+
+/// A file of which most is damage was not understood.
+void require_sense(const EventTable& table) {
+  if (table.rows == 0) {
+    throw InputError({table.file, 1, 1}, "no events below the header", "there is nothing to pair",
+                     "one row is one passage through the probe volume");
+  }
+  if (2 * table.damaged <= table.rows) return;
+  const BadRow& first = table.first_damaged.front();
+  throw InputError(
+      {table.file, first.line, 1}, first.problem,
+      fmt::format("like this, {} of {} rows cannot be used", table.damaged, table.rows),
+      "check the delimiter, the units and that decimals have a point");
+}
+
+}  // namespace
+
+EventTable parse_events(const std::string& text, const std::string& file,
+                        const std::string& package_text, const EventFormat& format) {
+  EventTable table;
+  table.file = file;
+  std::string_view rest = text;
+  std::vector<std::string_view> cells;
+  std::optional<EventReader> reader;
+  char delimiter = ',';
+  for (int line = 1; !rest.empty(); ++line) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view content = rest.substr(0, end);
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    if (content.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    if (!reader) {
+      require_text(content, file);
+      delimiter = likely_delimiter(content);
+      split(content, delimiter, cells);
+      const std::vector<std::string> header(cells.begin(), cells.end());
+      EventColumns columns = event_columns(header, file, package_text, format);
+      table.ignored = columns.ignored;
+      table.provenance = columns.provenance;
+      table.unit_source = columns.unit_source;
+      table.has_tangential = columns.index[static_cast<std::size_t>(EventField::tangential)] >= 0;
+      reader.emplace(table, std::move(columns), format.positive_away ? -1.0 : 1.0);
+      continue;
+    }
+    split(content, delimiter, cells);
+    reader->row(cells, line);
+  }
+  if (!reader) {
+    throw InputError({file, 1, 1}, "the file is empty", "there is nothing to pair",
+                     "the first line names the columns: time,velocity,diameter");
+  }
+  require_sense(table);
+  sort_and_unite(table);
+  return table;
+}
+
+EventTable read_events(const std::filesystem::path& path, const EventFormat& format) {
+  const std::string text = read_text_file(path, largest_file);
+  const std::filesystem::path package = path.parent_path() / "datapackage.json";
+  const std::string package_text =
+      std::filesystem::is_regular_file(package) ? read_text_file(package) : std::string();
+  return parse_events(text, path.string(), package_text, format);
+}
+
+}  // namespace recoil

@@ -1,0 +1,150 @@
+#include "experiment/pair_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "experiment/flight.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_candidates = 200;  ///< per passage
+constexpr std::size_t fewest_to_refine = 12;  ///< pairs; with fewer the estimate is kept
+/// Of one impact [1]. Errors bring it above 1; a limit near 1 would select by them and lower the
+/// mean.
+constexpr double largest_restitution = 1.5;
+constexpr double lowest_sd = 2e-3;          ///< of either deviation [1]
+constexpr double highest_height_sd = 0.15;  ///< [1]
+
+/// The centre of the interval of width `width` that holds most of the values.
+double densest(std::vector<double> values, double width) {
+  std::sort(values.begin(), values.end());
+  std::size_t most = 0;
+  double centre = 0.0;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; end < values.size(); ++end) {
+    while (values[end] - values[begin] > width) ++begin;
+    if (end - begin + 1 <= most) continue;
+    most = end - begin + 1;
+    centre = values[(begin + end) / 2];
+  }
+  return centre;
+}
+
+/// The implied heights of candidates whose passages have no other candidate; of all of them when
+/// such pairs are too few to tell.
+std::vector<double> telling_heights(const std::vector<Link>& candidates, std::size_t passages) {
+  std::vector<std::uint8_t> uses(passages, 0);
+  const auto add = [&](std::uint32_t i) {
+    uses[i] = static_cast<std::uint8_t>(std::min(uses[i] + 1, 2));
+  };
+  for (const Link& link : candidates) {
+    add(link.from);
+    add(link.to);
+  }
+  std::vector<double> alone;
+  std::vector<double> all;
+  for (const Link& link : candidates) {
+    all.push_back(link.first);
+    if (uses[link.from] == 1 && uses[link.to] == 1) alone.push_back(link.first);
+  }
+  return alone.size() >= 30 ? alone : all;
+}
+
+}  // namespace
+
+std::vector<Link> pair_candidates(const std::vector<Event>& events, const PairOptions& options) {
+  const double range = options.refine ? options.height_range : 1.0 + 0.3;
+  const double lowest = options.height / range;
+  const double highest = options.height * range;
+  const double ratio = 1.0 + options.diameter_tolerance;
+  std::vector<Link> links;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const Event& down = events[i];
+    if (down.velocity <= 0.0) continue;
+    const double latest = down.time + flight::longest_round_trip(down.velocity, highest);
+    const double fastest = largest_restitution * flight::surface_velocity(down.velocity, highest);
+    for (std::size_t j = i + 1; j < events.size(); ++j) {
+      const Event& up = events[j];
+      if (up.series != down.series || up.time > latest) break;
+      if (up.velocity >= 0.0 || -up.velocity > fastest) continue;
+      if (up.diameter > ratio * down.diameter || down.diameter > ratio * up.diameter) continue;
+      const double height =
+          flight::implied_height(down.velocity, -up.velocity, up.time - down.time);
+      if (!(height >= lowest && height <= highest)) continue;
+      if (flight::surface_velocity(-up.velocity, height) >
+          largest_restitution * flight::surface_velocity(down.velocity, height)) {
+        continue;
+      }
+      links.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), 0.0,
+                       std::log(height / options.height), std::log(up.diameter / down.diameter)});
+    }
+    if (links.size() > most_candidates * (i + 1000)) {
+      throw ComputationError(fmt::format(
+          "too crowded: more than {} rebounds fit every passage down (up to line {}); narrow "
+          "--height-range or --diameter-tolerance, or measure at a lower rate",
+          most_candidates, down.line));
+    }
+  }
+  return links;
+}
+
+std::vector<Link> agreeing(const std::vector<Link>& candidates, const std::vector<Event>& events,
+                           const PairModel& model) {
+  const double widest = widest_agreement * model.height_sd.largest();
+  std::vector<Link> kept;
+  for (const Link& link : candidates) {
+    if (std::abs(link.first - model.log_height) > widest) continue;
+    const Event& up = events[link.to];
+    const double height =
+        (link.first - model.log_height) / model.height_sd.at(std::log(-up.velocity));
+    const double size = link.second / model.diameter_sd.at(std::log(events[link.from].diameter));
+    const double cost = height * height + size * size;
+    if (std::max(std::abs(height), std::abs(size)) > widest_agreement || cost > worst_link)
+      continue;
+    kept.push_back(link);
+    kept.back().cost = cost;
+  }
+  return kept;
+}
+
+Refined refine_height(const std::vector<Link>& candidates, const std::vector<Event>& events,
+                      const PairOptions& options) {
+  Refined result;
+  result.model.diameter_sd = LocalSpread(std::min(0.05, options.diameter_tolerance / 3.0));
+  if (options.refine && candidates.size() >= fewest_to_refine) {
+    result.model.log_height = densest(telling_heights(candidates, events.size()), 0.1);
+  }
+  for (int round = 0; round < 4; ++round) {
+    const std::vector<Link> links = agreeing(candidates, events, result.model);
+    const std::vector<std::size_t> chosen = choose_links(links, events.size(), worst_link);
+    if (chosen.size() < fewest_to_refine) return result;
+    std::vector<double> heights;
+    std::vector<double> sizes;
+    std::vector<double> log_up;
+    std::vector<double> log_diameter;
+    for (const std::size_t i : chosen) {
+      heights.push_back(links[i].first);
+      sizes.push_back(links[i].second);
+      log_up.push_back(std::log(-events[links[i].to].velocity));
+      log_diameter.push_back(std::log(events[links[i].from].diameter));
+    }
+    result.model.height_sd = LocalSpread(log_up, heights, lowest_sd, highest_height_sd);
+    result.model.diameter_sd =
+        LocalSpread(log_diameter, sizes, lowest_sd, options.diameter_tolerance);
+    result.height_spread = robust_sd(heights);
+    result.diameter_spread = robust_sd(sizes);
+    if (!options.refine) continue;
+    result.model.log_height = median_of(heights);
+    // of a median of normal numbers
+    result.log_height_sd = std::sqrt(M_PI / 2.0) * result.height_spread /
+                           std::sqrt(static_cast<double>(chosen.size()));
+    result.refined = true;
+  }
+  return result;
+}
+
+}  // namespace recoil

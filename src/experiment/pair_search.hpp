@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "experiment/events.hpp"
+#include "experiment/matching.hpp"
+#include "experiment/pairing.hpp"
+#include "experiment/spread.hpp"
+
+namespace recoil {
+
+/// A deviation counts as agreement up to this many standard deviations [1].
+inline constexpr double widest_agreement = 4.5;
+/// The largest sum of two squared deviations of a link: beyond it lies 1e-4 of chi2 with 2 degrees
+/// of freedom [1].
+inline constexpr double worst_link = 18.4;
+
+/// What a true pair looks like: the plane's height and the scatter of both deviations.
+struct PairModel {
+  double log_height = 0.0;        ///< ln(h / options.height)
+  LocalSpread height_sd{0.05};    ///< of ln h, against ln of the speed up
+  LocalSpread diameter_sd{0.05};  ///< of ln(d_up / d_down), against ln of the diameter
+};
+
+/// All pairs that may be: a passage up within the time that the highest plane allows after one
+/// down, diameters within the tolerance, an implied height within the range, e at most 1.5.
+/// `Link::first` is ln(h_implied / options.height), costs are 0.
+/// @throws ComputationError when there are more than 200 per passage.
+std::vector<Link> pair_candidates(const std::vector<Event>& events, const PairOptions& options);
+
+/// The candidates that agree with `model`, with their cost.
+std::vector<Link> agreeing(const std::vector<Link>& candidates, const std::vector<Event>& events,
+                           const PairModel& model);
+
+/// Finds the height at which most candidates agree, and the scatter about it.
+struct Refined {
+  PairModel model;
+  double log_height_sd = 0.0;  ///< standard error of the height, relative [1]
+  double height_spread = 0.0;
+  double diameter_spread = 0.0;
+  bool refined = false;  ///< there were enough pairs; else the estimate was kept
+};
+Refined refine_height(const std::vector<Link>& candidates, const std::vector<Event>& events,
+                      const PairOptions& options);
+
+}  // namespace recoil

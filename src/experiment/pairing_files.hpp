@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiment/averages.hpp"
+#include "experiment/events.hpp"
+#include "experiment/histogram.hpp"
+#include "experiment/pairing.hpp"
+
+namespace recoil {
+
+/// `points.csv`: series, diameter [um], incident_velocity [m/s], velocity_sd, restitution,
+/// restitution_sd, events, captured. A cell is empty where nothing is known.
+std::string points_csv(const Averages& averages);
+
+/// One row per passage down that is used or not: line numbers, velocities at plane and surface,
+/// restitution, diameter, number of the impact, what became of it.
+std::string impacts_csv(const EventTable& table, const PairResult& pairs);
+
+/// `datapackage.json` for points_csv, with materials and overrides as `like_text` has them.
+/// @param id its name; @param provenance its `recoil.provenance`.
+/// @param description what was done.
+/// @throws InputError when `like_text` is no data package with the key `recoil`.
+std::string package_json(const std::string& like_text, const std::string& like_file,
+                         const std::string& id, const std::string& provenance,
+                         const std::string& events_file, const std::string& description);
+
+/// The distributions that the paper shows, SI units.
+struct Distributions {
+  std::vector<double> raw_velocities;     ///< all passages, at the plane, towards the surface > 0
+  std::vector<double> paired_velocities;  ///< of the used impacts only
+  std::vector<double> incoming_sizes;     ///< of the first passages down, rebounded or not
+  std::vector<double> paired_sizes;       ///< of the used impacts
+};
+Distributions distributions(const EventTable& table, const PairResult& pairs);
+
+/// CSV files by name: velocities-raw, velocities-paired, sizes-incoming and sizes-paired hold the
+/// bins of both rules (rule, lower, upper, middle, count, share); sizes.csv holds `diameter` [um]
+/// and `count` of the incoming spheres, as `recoil predict --sizes` reads them.
+std::map<std::string, std::string> histogram_files(const Distributions& distributions);
+
+/// The text that `recoil pair` prints.
+std::string describe(const EventTable& table, const PairResult& pairs, const Averages& averages);
+
+}  // namespace recoil

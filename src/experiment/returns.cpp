@@ -1,0 +1,222 @@
+#include "experiment/returns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "experiment/flight.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t fewest_to_narrow = 20;
+constexpr std::size_t most_visits = 400'000'000;  ///< a few seconds; beyond, too crowded to tell
+constexpr double sqrt2 = 1.4142135623730951;
+
+/// One past the last event of the series of `events[i]`, for every i: found by stepping.
+class SeriesEnds {
+ public:
+  explicit SeriesEnds(const std::vector<Event>& events) : events_(events) {}
+  std::size_t of(std::size_t i) {
+    if (i >= end_ || end_ == 0) {
+      while (end_ < events_.size() && (end_ <= i || events_[end_].series == events_[i].series))
+        ++end_;
+    }
+    return end_;
+  }
+
+ private:
+  const std::vector<Event>& events_;
+  std::size_t end_ = 0;
+};
+
+double squared(double x) { return x * x; }
+
+/// Cost of the agreement in size, or nothing when they disagree.
+std::optional<double> size_cost(const Event& a, const Event& b, const PairModel& model) {
+  const double deviation =
+      std::log(b.diameter / a.diameter) / model.diameter_sd.at(std::log(a.diameter));
+  if (std::abs(deviation) > widest_agreement) return std::nullopt;
+  return squared(deviation);
+}
+
+std::vector<Link> chosen_of(const std::vector<Link>& links, std::size_t passages) {
+  std::vector<Link> result;
+  for (const std::size_t i : choose_links(links, passages, worst_link)) result.push_back(links[i]);
+  return result;
+}
+
+/// Relative scatter of a passage with `speed`: that of the velocities, and that of the place in the
+/// probe volume where it is taken, which at low speed changes it by g dh / v^2.
+double local_scatter(double velocity_sd, double speed, double height, const PairModel& model) {
+  const double place = height * model.height_sd.at(std::log(speed));
+  return std::hypot(velocity_sd, std::min(flight::gravity * place / (speed * speed), 0.2));
+}
+
+/// Returns with the time above the plane multiplied by `scale`; nothing when it takes too long.
+std::optional<std::vector<Link>> returns_at(const std::vector<Event>& events,
+                                            const PairOptions& options, const PairModel& model,
+                                            double velocity_sd, double scale,
+                                            std::size_t stride = 1) {
+  const double height = options.height * std::exp(model.log_height);
+  std::vector<Link> links;
+  SeriesEnds ends(events);
+  std::size_t visits = 0;
+  for (std::size_t j = 0; j < events.size(); ++j) {
+    const Event& up = events[j];
+    const std::size_t end = ends.of(j);
+    if (up.velocity >= 0.0 || j % stride != 0) continue;
+    const double speed = -up.velocity;
+    const double sd = local_scatter(velocity_sd, speed, height, model);
+    const double widest = std::min(std::max(options.velocity_tolerance, widest_agreement * sd),
+                                   std::min(widest_agreement * sqrt2 * sd, 0.6));
+    const double middle = scale * flight::time_above(speed);
+    const auto first = std::lower_bound(events.begin() + static_cast<std::ptrdiff_t>(j + 1),
+                                        events.begin() + static_cast<std::ptrdiff_t>(end),
+                                        up.time + middle * (1.0 - widest),
+                                        [](const Event& e, double time) { return e.time < time; });
+    for (auto k = static_cast<std::size_t>(first - events.begin()); k < end; ++k) {
+      const Event& down = events[k];
+      if (++visits > most_visits) return std::nullopt;
+      if (down.time > up.time + middle * (1.0 + widest)) break;
+      if (down.velocity <= 0.0) continue;
+      const double ratio = std::log(down.velocity / speed);
+      if (std::abs(ratio) > widest) continue;
+      const double lateness = std::log((down.time - up.time) /
+                                       (scale * flight::time_above(0.5 * (speed + down.velocity))));
+      const auto size = size_cost(up, down, model);
+      const double cost =
+          squared(ratio / (sqrt2 * sd)) + squared(lateness * sqrt2 / sd) + size.value_or(0.0);
+      if (!size || cost > worst_link + 3.0) continue;  // three deviations instead of two
+      links.push_back(
+          {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(k), cost, lateness, ratio});
+    }
+  }
+  return chosen_of(links, events.size());
+}
+
+std::vector<double> sorted_costs(const std::vector<Link>& links) {
+  std::vector<double> costs;
+  for (const Link& link : links) costs.push_back(link.cost);
+  std::sort(costs.begin(), costs.end());
+  return costs;
+}
+
+double count_below(const std::vector<double>& sorted, double cost) {
+  return static_cast<double>(std::upper_bound(sorted.begin(), sorted.end(), cost) - sorted.begin());
+}
+
+/// Runs `search(scale)` at the right time and at two wrong ones, and keeps the links up to the cost
+/// at which most is gained: a true follower recognised counts 1, one by chance -1.
+struct Judged {
+  Followers followers;
+  double gain = 0.0;
+};
+
+template <class Search>
+Judged judged(const Search& search) {
+  Judged result;
+  const auto links = search(1.0);
+  const auto early = links ? search(0.8) : std::nullopt;
+  const auto late = early ? search(1.25) : std::nullopt;
+  if (!late) return result;
+  const std::vector<double> right = sorted_costs(*links);
+  const std::vector<double> before = sorted_costs(*early);
+  const std::vector<double> after = sorted_costs(*late);
+  const auto by_chance = [&](double cost) {
+    return 0.5 * (count_below(before, cost) + count_below(after, cost));
+  };
+  double limit = -1.0;
+  for (double cost = 0.5; cost < worst_link + 4.0; cost += 0.5) {
+    const double gain = count_below(right, cost) - 2.0 * by_chance(cost);
+    if (gain <= result.gain) continue;
+    result.gain = gain;
+    limit = cost;
+  }
+  for (const Link& link : *links) {
+    if (link.cost <= limit) result.followers.links.push_back(link);
+  }
+  result.followers.by_chance = by_chance(limit);
+  result.followers.usable = limit > 0.0;
+  return result;
+}
+
+double scatter_of(const std::vector<Link>& links, double otherwise) {
+  if (links.size() < fewest_to_narrow) return otherwise;
+  std::vector<double> ratios;
+  std::vector<double> lateness;
+  for (const Link& link : links) {
+    lateness.push_back(link.first);
+    ratios.push_back(link.second);
+  }
+  // The ratio of two speeds scatters by sqrt(2) of one, their mean by 1 / sqrt(2).
+  const double sd = std::max(robust_sd(ratios) / sqrt2, robust_sd(lateness) * sqrt2);
+  return std::clamp(sd, 1e-3, otherwise);
+}
+
+double widest_scatter(const PairOptions& options) {
+  return options.velocity_tolerance / (widest_agreement / sqrt2);
+}
+
+}  // namespace
+
+double velocity_scatter(const Followers& returns, const PairOptions& options) {
+  return scatter_of(returns.links, widest_scatter(options));
+}
+
+Followers find_returns(const std::vector<Event>& events, const PairOptions& options,
+                       const PairModel& model) {
+  // The scatter of the velocities is the one with which most is gained, on a part of the stream.
+  constexpr std::size_t enough = 20000;
+  const std::size_t stride = events.size() / enough + 1;
+  double sd = widest_scatter(options);
+  double most = 0.0;
+  for (double trial = sd; trial > 2e-3; trial /= 1.35) {
+    const double gain = judged([&](double scale) {
+                          return returns_at(events, options, model, trial, scale, stride);
+                        }).gain;
+    if (gain <= most) continue;
+    most = gain;
+    sd = trial;
+  }
+  return judged([&](double scale) { return returns_at(events, options, model, sd, scale); })
+      .followers;
+}
+
+Followers find_unseen(const std::vector<Event>& events, const PairOptions& options,
+                      const PairModel& model, const std::vector<bool>& open_down,
+                      const std::vector<bool>& open_next, double velocity_sd) {
+  const double height = options.height * std::exp(model.log_height);
+  const auto search = [&](double scale) -> std::optional<std::vector<Link>> {
+    std::vector<Link> links;
+    SeriesEnds ends(events);
+    std::size_t visits = 0;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      if (!open_down[i]) continue;
+      const Event& down = events[i];
+      const std::size_t end = ends.of(i);
+      const double latest = down.time + flight::longest_round_trip(down.velocity, height) +
+                            1.3 * scale * flight::time_above(down.velocity);
+      for (std::size_t k = i + 1; k < end && events[k].time <= latest; ++k) {
+        if (++visits > most_visits) return std::nullopt;
+        const Event& next = events[k];
+        if (!open_next[k] || next.velocity > down.velocity) continue;
+        const double below = flight::round_trip(down.velocity, next.velocity, height);
+        const double above = next.time - down.time - below;
+        if (!(above > 0.0)) continue;
+        const double lateness = std::log(above / (scale * flight::time_above(next.velocity)));
+        const double sd = local_scatter(velocity_sd, next.velocity, height, model);
+        if (std::abs(lateness) > widest_agreement * sd) continue;
+        const auto size = size_cost(down, next, model);
+        const double cost = squared(lateness / sd) + size.value_or(0.0);
+        if (!size || cost > worst_link) continue;
+        links.push_back(
+            {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), cost, lateness, 0.0});
+      }
+    }
+    return chosen_of(links, events.size());
+  };
+  return judged(search).followers;
+}
+
+}  // namespace recoil

@@ -1,0 +1,111 @@
+// `recoil pair` as a user runs it.
+#include <gtest/gtest.h>
+
+#include "../cli/program.hpp"
+#include "event_stream.hpp"
+
+namespace {
+
+using program::Outcome;
+using program::Workplace;
+
+const std::string kUnits = "time=s,velocity=m/s,tangential_velocity=m/s,diameter=um";
+
+stream::Stream small_stream() {
+  stream::Design design;
+  design.spheres = 600;
+  design.damaged = 0.01;
+  return stream::simulate(design);
+}
+
+TEST(PairCommand, EventsToADatasetThatCheckAccepts) {
+  const Workplace place;
+  const stream::Stream events = small_stream();
+  place.write("e.csv", events.csv);
+  const Outcome pair = place.run({"pair", "e.csv", "--unit", kUnits, "--out", "points.csv",
+                                  "--into", "set", "--like", "data", "--provenance", "synthetic",
+                                  "--size-classes", "2", "--impacts", "i.csv"});
+  ASSERT_EQ(pair.status, 0) << pair.err;
+  EXPECT_NE(pair.out.find("damaged rows left out (e.csv:"), std::string::npos) << pair.out;
+  EXPECT_EQ(place.read("points.csv"), place.read("set/points.csv"));
+  EXPECT_NE(place.read("i.csv").find(",rebounded\n"), std::string::npos);
+  const Outcome check = place.run({"check", "set"});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_NE(check.out.find("synthetic"), std::string::npos);
+  EXPECT_NE(check.out.find("in 2 series"), std::string::npos) << check.out;
+}
+
+TEST(PairCommand, HistogramsAndPictures) {
+  const Workplace place;
+  place.write("e.csv", small_stream().csv);
+  ASSERT_EQ(place.run({"pair", "e.csv", "--unit", kUnits, "--histograms", "h"}).status, 0);
+  for (const char* name : {"sizes", "velocities-raw", "velocities-paired", "restitution"}) {
+    const std::string svg = place.read(std::string("h/") + name + ".svg");
+    EXPECT_EQ(svg.rfind("<svg", 0), 0U) << name;
+    EXPECT_EQ(svg.find("stroke=\"none\" id="), std::string::npos) << "stated twice: no XML";
+  }
+  EXPECT_EQ(place.read("h/sizes.csv").rfind("diameter,count\n", 0), 0U);
+  const std::string bins = place.read("h/velocities-raw.csv");
+  EXPECT_NE(bins.find("\nsturges,"), std::string::npos);
+  EXPECT_NE(bins.find("\nfreedman-diaconis,"), std::string::npos);
+}
+
+TEST(PairCommand, TheSameDigitsEveryTime) {
+  const Workplace place;
+  place.write("e.csv", small_stream().csv);
+  const Outcome first = place.run({"pair", "e.csv", "--unit", kUnits, "--out", "a.csv"});
+  const Outcome second = place.run({"pair", "e.csv", "--unit", kUnits, "--out", "b.csv"});
+  EXPECT_EQ(first.out, second.out);
+  EXPECT_EQ(place.read("a.csv"), place.read("b.csv"));
+}
+
+TEST(PairCommand, ThresholdStatesItsSelection) {
+  const Workplace place;
+  place.write("e.csv", small_stream().csv);
+  const Outcome pair =
+      place.run({"pair", "e.csv", "--unit", kUnits, "--threshold", "0.7", "--angle", "8"});
+  ASSERT_EQ(pair.status, 0) << pair.err;
+  EXPECT_NE(pair.out.find("threshold  0.7 m/s at the plane: takes away"), std::string::npos);
+  EXPECT_NE(pair.out.find("selection: among first impacts the mean e goes from"),
+            std::string::npos);
+  EXPECT_NE(pair.out.find("more than 8 degrees from the normal"), std::string::npos);
+}
+
+TEST(PairCommand, MistakesAreOneLineAndWriteNothing) {
+  const Workplace place;
+  place.write("e.csv", small_stream().csv);
+  const auto before = place.listing();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"pair", "none.csv"}, "none.csv: no such file"},
+      {{"pair", "e.csv", "--out", "p.csv"}, "the unit of 'time' is not known"},
+      {{"pair", "e.csv", "--unit", "time"}, "it has the form FIELD=VALUE"},
+      {{"pair", "e.csv", "--unit", kUnits, "--unit", "time=ms"}, "time is given twice"},
+      {{"pair", "e.csv", "--unit", kUnits, "--into", "set"}, "--like"},
+      {{"pair", "e.csv", "--unit", kUnits, "--into", "set", "--like", "data"},
+       "the provenance of the events is not known"},
+      {{"pair", "e.csv", "--unit", kUnits, "--into", "set", "--like", "set", "--provenance",
+        "measured"},
+       "set/datapackage.json: no such file"},
+      {{"pair", "e.csv", "--unit", kUnits, "--size-edges", "40,20"}, "do not ascend"},
+      {{"pair", "e.csv", "--unit", kUnits, "--size-edges", "40"}, "a class has two limits"},
+      {{"pair", "e.csv", "--unit", kUnits, "--height", "-1"}, "--height"},
+  };
+  for (const auto& [arguments, expected] : cases) {
+    const Outcome outcome = place.run(arguments);
+    EXPECT_EQ(outcome.status, 2) << expected << "\n" << outcome.err;
+    EXPECT_NE(outcome.err.find(expected), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(place.listing(), before) << expected;
+  }
+}
+
+TEST(PairCommand, NoImpactsIsNoUsableAnswer) {
+  const Workplace place;
+  place.write("e.csv", "time,velocity,diameter\n1,1,50\n2,-1,50\n");
+  const Outcome outcome = place.run(
+      {"pair", "e.csv", "--unit", "time=s,velocity=m/s,diameter=um", "--out", "points.csv"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("check --height, the units and --positive"), std::string::npos);
+}
+
+}  // namespace
