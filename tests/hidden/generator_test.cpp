@@ -132,6 +132,23 @@ TEST(Generator, FilesSayNothingOfWhatIsHidden) {
   }
 }
 
+// Its physics is its own: of recoil it knows random numbers and files.
+TEST(Generator, KnowsNothingOfTheFitter) {
+  const fs::path here = fs::path(RECOIL_SOURCE_DIR) / "tests/hidden";
+  for (const char* stem : {"case", "case_files", "design", "effects", "find_strength", "knob",
+                           "observed_mean", "purpose", "runge_kutta", "sphere", "strength"}) {
+    for (const char* ending : {".hpp", ".cpp"}) {
+      std::istringstream lines(text_of(here / (std::string(stem) + ending)));
+      for (std::string line; std::getline(lines, line);) {
+        const bool own = line.starts_with("#include \"");
+        const std::string file = own ? line.substr(10, line.size() - 11) : "";
+        EXPECT_TRUE(file.find('/') == std::string::npos || file.starts_with("core/"))
+            << stem << ending << " includes " << file;
+      }
+    }
+  }
+}
+
 // Of two effects each is as strong as it would be alone.
 TEST(Generator, PairsHoldBoth) {
   const Case made = make_case({"wall", {"plastic_yield", "capillary"}, 8.0, 0});
