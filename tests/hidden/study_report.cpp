@@ -58,7 +58,10 @@ std::string bars_table(const std::vector<Bar>& bars) {
     const double part = n == 0 ? 0.0 : static_cast<double>(k) / n;
     const bool held = n > 0 && (bar.limit >= 0.0 ? part >= bar.limit : part <= -bar.limit);
     out += fmt::format("| {} | {} {:.0f} % | {} | {} |\n", bar.what, bar.limit >= 0.0 ? "≥" : "≤",
-                       100.0 * std::abs(bar.limit), share(k, n), held ? "holds" : "**fails**");
+                       100.0 * std::abs(bar.limit), share(k, n),
+                       n == 0 ? "not studied"
+                       : held ? "holds"
+                              : "**fails**");
   }
   return out + "\n";
 }
