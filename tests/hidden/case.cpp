@@ -45,8 +45,12 @@ std::string neutral_name(const CaseOrder& order) {
 Case make_case(const CaseOrder& order) {
   Case made;
   made.order = order;
-  const std::uint64_t seed = order.experiment_seed();
+  // The first draw that somebody would measure even with nothing hidden.
+  std::uint64_t seed = order.experiment_seed();
   made.design = draw_design(order.design, seed);
+  for (int i = 0; i < 100 && expected_points(made.design, {}).empty(); ++i) {
+    made.design = draw_design(order.design, ++seed);
+  }
   made.reached = true;
   for (std::size_t k = 0; k < order.effects.size(); ++k) {
     const Knob& knob = find_knob(order.effects[k]);
