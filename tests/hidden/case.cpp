@@ -1,0 +1,87 @@
+#include "case.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "observed_mean.hpp"
+#include "purpose.hpp"
+
+namespace hidden {
+namespace {
+
+/// FNV-1a (Fowler, Noll & Vo): the same number for a text on every machine.
+std::uint64_t number_of(std::string_view text, std::uint64_t start = 14695981039346656037ULL) {
+  std::uint64_t hash = start;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
+}
+
+std::string joined(const std::vector<std::string>& effects) {
+  std::string all;
+  for (const std::string& effect : effects) all += "+" + effect;
+  return all;
+}
+
+}  // namespace
+
+std::string CaseOrder::key() const {
+  return fmt::format("{}{}@{:g}#{}", design, joined(effects), signal_to_noise, index);
+}
+
+std::uint64_t CaseOrder::experiment_seed() const {
+  return number_of(fmt::format("{}{}#{}#{}", design, joined(effects), index, seed));
+}
+
+std::string neutral_name(const CaseOrder& order) {
+  return fmt::format("impacts-{:08x}",
+                     number_of(order.key() + std::to_string(order.seed)) % 0x100000000ULL);
+}
+
+Case make_case(const CaseOrder& order) {
+  Case made;
+  made.order = order;
+  // The first draw that somebody would measure even with nothing hidden.
+  std::uint64_t seed = order.experiment_seed();
+  made.design = draw_design(order.design, seed);
+  for (int i = 0; i < 100 && expected_points(made.design, {}).empty(); ++i) {
+    made.design = draw_design(order.design, ++seed);
+  }
+  made.reached = true;
+  for (std::size_t k = 0; k < order.effects.size(); ++k) {
+    const Knob& knob = find_knob(order.effects[k]);
+    const Draws draws = draw_background(knob, made.design, seed + k);
+    const auto alone = [&](double strength) {
+      Effects effects;
+      add_effect(effects, knob, draws, made.design, strength);
+      return effects;
+    };
+    const Strength found =
+        find_strength(made.design, alone, largest_strength(knob, draws), order.signal_to_noise);
+    made.reached = made.reached && found.reached;
+    made.strengths.push_back(draws.sign * found.value);
+    add_effect(made.effects, knob, draws, made.design, found.value);
+  }
+  made.points = expected_points(made.design, made.effects);
+  if (made.points.empty()) {
+    made.reached = false;
+    return made;
+  }
+  made.refit = refit_base(made.design, made.points);
+  // Readings of different strengths have noise of their own.
+  const std::uint64_t readings_seed = number_of(order.key(), seed);
+  for (std::size_t i = 0; i < made.points.size(); ++i) {
+    recoil::RandomStream random(readings_seed, hidden_purpose, 100 + i);
+    const Point& p = made.points[i];
+    made.readings.push_back(observed_mean(made.design.base, made.effects, made.design.scatter,
+                                          p.velocity, p.diameter, p.row, made.design.events,
+                                          random));
+  }
+  return made;
+}
+
+}  // namespace hidden

@@ -1,0 +1,122 @@
+#include "judge.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/files.hpp"
+#include "program_run.hpp"
+
+namespace hidden {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+Json to_json(const Answered& a) {
+  return {{"key", a.order.key()}, {"seed", a.order.seed},
+          {"reached", a.reached}, {"signal_to_noise", a.signal_to_noise},
+          {"status", a.status},   {"complaint", a.complaint},
+          {"seconds", a.seconds}, {"verdict", a.verdict},
+          {"p_value", a.p_value}, {"named", a.named},
+          {"rivals", a.rivals}};
+}
+
+/// @return whether there was a kept answer to this order
+bool load(const fs::path& file, Answered& a) {
+  std::ifstream in(file);
+  if (!in) return false;
+  const Json kept = Json::parse(in, nullptr, false);
+  if (kept.is_discarded() || kept.value("key", "") != a.order.key() ||
+      kept.value("seed", std::uint64_t{0}) != a.order.seed) {
+    return false;
+  }
+  a.reached = kept["reached"];
+  a.signal_to_noise = kept["signal_to_noise"];
+  a.status = kept["status"];
+  a.complaint = kept["complaint"];
+  a.seconds = kept["seconds"];
+  a.verdict = kept["verdict"];
+  a.p_value = kept["p_value"];
+  a.named = kept["named"].get<std::vector<std::string>>();
+  a.rivals = kept["rivals"].get<std::vector<std::string>>();
+  return true;
+}
+
+void diagnose(const Case& made, const fs::path& binary, Answered& a) {
+  const ScratchFolder scratch;
+  const fs::path fit = write_case(made, scratch.path());
+  const fs::path out = scratch.path() / "answer";
+  const ProgramRun run = run_program({binary.string(), "diagnose", fit.string(), "--out",
+                                      out.string(), "--threads", "1", "--seed", "20260101"});
+  a.status = run.status;
+  a.seconds = run.seconds;
+  if (run.status != 0) {
+    a.complaint = run.complaint.substr(0, 400);
+    return;
+  }
+  std::ifstream in(out / "diagnosis.json");
+  const Json answer = Json::parse(in);
+  a.verdict = answer.at("verdict");
+  a.p_value = answer.at("misfit").at("p_value");
+  a.named = answer.at("named").get<std::vector<std::string>>();
+  a.rivals = answer.at("rivals").get<std::vector<std::string>>();
+}
+
+}  // namespace
+
+Mark mark_of(const Answered& a) {
+  if (a.status != 0) return Mark::failed;
+  if (a.verdict == "adequate") return Mark::nothing;
+  if (a.verdict == "unexplained") return Mark::unexplained;
+  const std::set<std::string> truth(a.order.effects.begin(), a.order.effects.end());
+  const std::set<std::string> named(a.named.begin(), a.named.end());
+  std::set<std::string> listed = named;
+  listed.insert(a.rivals.begin(), a.rivals.end());
+  const auto within = [](const std::set<std::string>& part, const std::set<std::string>& whole) {
+    return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
+  };
+  if (a.verdict == "not_separable") {
+    return !truth.empty() && within(truth, listed) ? Mark::inside : Mark::outside;
+  }
+  if (named == truth) return Mark::named;
+  return within(named, truth) ? Mark::part : Mark::wrong;
+}
+
+std::string to_string(Mark mark) {
+  switch (mark) {
+    case Mark::nothing:
+      return "adequate";
+    case Mark::unexplained:
+      return "unexplained";
+    case Mark::named:
+      return "named";
+    case Mark::part:
+      return "one of several named";
+    case Mark::wrong:
+      return "wrong cause named";
+    case Mark::inside:
+      return "not separable, listed";
+    case Mark::outside:
+      return "not separable, not listed";
+    case Mark::failed:
+      return "no answer";
+  }
+  return "";
+}
+
+Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep) {
+  Answered a;
+  a.order = order;
+  const fs::path file = keep.empty() ? fs::path() : keep / (neutral_name(order) + ".json");
+  if (!keep.empty() && load(file, a)) return a;
+  const Case made = make_case(order);
+  a.reached = made.reached;
+  a.signal_to_noise = made.refit.signal_to_noise;
+  if (made.reached) diagnose(made, binary, a);
+  if (!keep.empty()) recoil::write_whole_file(file, to_json(a).dump(2) + "\n");
+  return a;
+}
+
+}  // namespace hidden

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "case.hpp"
+
+namespace hidden {
+
+/// What the diagnosis of one case answered, beside what is true.
+struct Answered {
+  CaseOrder order;
+  bool reached = false;  ///< the wanted strength exists in nature; if not, nothing was asked
+  double signal_to_noise = 0.0;  ///< of all effects together; the largest possible if not reached
+  int status = 0;                ///< of the command
+  std::string complaint;         ///< when that is not 0
+  double seconds = 0.0;
+  std::string verdict;
+  double p_value = 1.0;
+  std::vector<std::string> named;
+  std::vector<std::string> rivals;
+};
+
+/// How an answer stands to the truth.
+enum class Mark {
+  nothing,      ///< `adequate`
+  unexplained,  ///< `unexplained`
+  named,        ///< all that is hidden is named, and nothing else
+  part,         ///< one of several is named, and nothing else
+  wrong,        ///< something is named that is not there
+  inside,       ///< `not_separable`, and all that is hidden is among what is listed
+  outside,      ///< `not_separable`, but what is hidden is not listed
+  failed,       ///< the command gave no answer
+};
+Mark mark_of(const Answered& answered);
+std::string to_string(Mark mark);
+
+/// Makes the case in a scratch folder, lets `binary` diagnose it on one thread, and keeps the
+/// answer in `keep` (when not empty), where the next run finds it.
+Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
+             const std::filesystem::path& keep);
+
+}  // namespace hidden

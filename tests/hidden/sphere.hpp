@@ -1,0 +1,69 @@
+#pragma once
+
+namespace hidden {
+
+/// One kind of sphere on one surface, and the model that the fitter has of it (Li, Dunn & Brach
+/// 1999, equation 5, adhesion damped on rebound). SI units.
+struct Base {
+  double density = 0.0;             ///< of the sphere [kg/m3]
+  double youngs_modulus = 0.0;      ///< of the sphere [Pa]
+  double poisson_ratio = 0.0;       ///< of the sphere
+  double surface_modulus = 0.0;     ///< Young's modulus of the surface [Pa]
+  double surface_ratio = 0.0;       ///< Poisson's ratio of the surface
+  double surface_density = 0.0;     ///< [kg/m3]
+  double reference_diameter = 0.0;  ///< [m]
+  double adhesion_force = 0.0;      ///< f0 there [N/m]; f0 ~ d^(1/3)
+  double C_H = 0.0;                 ///< [s/m]
+  double C_A = 0.0;                 ///< [s/m]
+
+  double stated_stiffness = 0.0;  ///< K [Pa], where it is not (4/3) E* of the moduli
+
+  double stiffness() const;  ///< K [Pa]
+};
+
+/// What else acts in the contact itself. Zero: absent.
+struct ContactExtras {
+  double yield_pressure = 0.0;     ///< p_Y [Pa]
+  double hysteresis_energy = 0.0;  ///< dW [J/m2]
+  double crack_energy = 0.0;       ///< w_1 [J/m2] at 1 m/s
+  double crack_exponent = 0.5;     ///< k
+  double bulk_relaxation = 0.0;    ///< A of Kuwabara & Kono [s]
+  double plate_mobility = 0.0;     ///< 1 / Z of a thin plate [s/kg]
+  double wave_radiation = 0.0;     ///< times what a half-space radiates
+};
+
+/// A sphere at the moment of contact.
+struct Sphere {
+  double mass = 0.0;            ///< [kg]
+  double radius = 0.0;          ///< of the curvature in contact [m]
+  double stiffness = 0.0;       ///< K [Pa]
+  double adhesion_force = 0.0;  ///< f0 at this size [N/m]
+  double C_H = 0.0;
+  double C_A = 0.0;
+};
+
+struct ContactResult {
+  bool rebounded = false;
+  double square = 0.0;   ///< v^2 on leaving; below zero: -2/m of the energy that is missing [m2/s2]
+  double deepest = 0.0;  ///< [m]
+};
+
+/// One contact at `velocity` > 0: m n'' = sum of all forces, integrated in time.
+ContactResult contact(const Sphere& sphere, const ContactExtras& extras, const Base& base,
+                      double velocity);
+
+/// Loading and unloading of a bare elastic-plastic sphere (Thornton & Ning 1998): Hertz up to the
+/// yield pressure at the centre, then dF/dn = pi p_Y R, unloading with Hertz's law for the
+/// flattened radius R_p that has the same contact area.
+struct PlasticResult {
+  double velocity = 0.0;  ///< of the rebound [m/s]
+  double radius = 0.0;    ///< R_p [m]
+};
+PlasticResult plastic_contact(double mass, double radius, double stiffness, double yield_pressure,
+                              double velocity);
+
+/// Work that a JKR contact loses between its making at zero approach and its tear at fixed grips
+/// [J]: the integral of the force over the approach, by quadrature.
+double jkr_work_lost(double work_of_adhesion, double radius, double stiffness);
+
+}  // namespace hidden
