@@ -52,6 +52,7 @@ class Reweighing {
     for (const Observation& point : data.points) {
       mixed_ = mixed_ || (point.captured > 0 && !point.censored);
     }
+    if (!mixed_) forget_scatter();
     if (mixed_ && !(data.noise.event_spread > 0.0)) data.noise.event_spread = first_spread;
   }
 
@@ -110,6 +111,15 @@ class Reweighing {
   }
 
  private:
+  /// A replicate may have no point with both rebounds and captures though its original had one.
+  void forget_scatter() {
+    data_.noise.event_spread = 0.0;
+    for (Observation& point : data_.points) {
+      point.scatter = 0.0;
+      point.shift = 0.0;
+    }
+  }
+
   void set_scatter(Observation& point, const Local& at, double spread) const {
     const double square = spread * spread;
     point.shift = 0.5 * square * at.bend;
