@@ -48,7 +48,10 @@ double error_step(double relative) {
 /// Everything is asked of the model at once, in the order in which it is needed.
 class Reweighing {
  public:
-  explicit Reweighing(Observations& data) : data_(data) {
+  enum class What { everything, event_spread };
+
+  explicit Reweighing(Observations& data, What what = What::everything)
+      : data_(data), everything_(what == What::everything) {
     for (const Observation& point : data.points) {
       mixed_ = mixed_ || (point.captured > 0 && !point.censored);
     }
@@ -67,8 +70,10 @@ class Reweighing {
     };
     for (const Observation& p : data_.points) {
       all.push_back({p.dataset, p.diameter, p.velocity, p.series});
-      if (p.velocity_sd > 0.0) beside(p, error_step(p.velocity_sd / p.velocity), true);
-      if (p.diameter_sd > 0.0) beside(p, error_step(p.diameter_sd / p.diameter), false);
+      if (everything_ && p.velocity_sd > 0.0)
+        beside(p, error_step(p.velocity_sd / p.velocity), true);
+      if (everything_ && p.diameter_sd > 0.0)
+        beside(p, error_step(p.diameter_sd / p.diameter), false);
       if (mixed_) beside(p, std::sqrt(3.0) * data_.noise.event_spread, true);
     }
     return all;
@@ -88,22 +93,7 @@ class Reweighing {
     for (Observation& point : data_.points) {
       const double m = value();
       predicted.push_back(m);
-      if (!data_.sd_stated) {
-        point.sd = function_sd(data_.noise.variance, data_.noise.scale, m,
-                               point.censored ? point.events : point.rebounds());
-      }
-      double variance = 0.0;
-      point.input_bias = 0.0;
-      for (const bool in_velocity : {true, false}) {
-        const double relative =
-            in_velocity ? point.velocity_sd / point.velocity : point.diameter_sd / point.diameter;
-        if (!(relative > 0.0)) continue;
-        const Local at = local(m, error_step(relative));
-        const double shared = in_velocity && point.rebound_measured ? 2.0 * std::max(m, 0.0) : 0.0;
-        variance += std::pow((at.slope + shared) * relative, 2);
-        point.input_bias += 0.5 * at.bend * relative * relative;
-      }
-      point.input_sd = std::sqrt(variance);
+      if (everything_) set_errors(point, m, local);
       if (mixed_) locals.push_back(local(m, std::sqrt(3.0) * data_.noise.event_spread));
     }
     if (mixed_) settle_scatter(locals);
@@ -118,6 +108,28 @@ class Reweighing {
       point.scatter = 0.0;
       point.shift = 0.0;
     }
+  }
+
+  /// The estimated sd and the effective variance of one point where e^2 is `m`; `local` gives the
+  /// next derivatives.
+  template <class NextLocal>
+  void set_errors(Observation& point, double m, const NextLocal& local) const {
+    if (!data_.sd_stated) {
+      point.sd = function_sd(data_.noise.variance, data_.noise.scale, m,
+                             point.censored ? point.events : point.rebounds());
+    }
+    double variance = 0.0;
+    point.input_bias = 0.0;
+    for (const bool in_velocity : {true, false}) {
+      const double relative =
+          in_velocity ? point.velocity_sd / point.velocity : point.diameter_sd / point.diameter;
+      if (!(relative > 0.0)) continue;
+      const Local at = local(m, error_step(relative));
+      const double shared = in_velocity && point.rebound_measured ? 2.0 * std::max(m, 0.0) : 0.0;
+      variance += std::pow((at.slope + shared) * relative, 2);
+      point.input_bias += 0.5 * at.bend * relative * relative;
+    }
+    point.input_sd = std::sqrt(variance);
   }
 
   void set_scatter(Observation& point, const Local& at, double spread) const {
@@ -212,19 +224,43 @@ class Reweighing {
   }
 
   Observations& data_;
+  bool everything_;
   bool mixed_ = false;  ///< some point has both rebounds and captures
 };
 
 }  // namespace
 
-std::optional<std::vector<double>> reweigh(const ImpactModel& model, std::span<const double> theta,
-                                           Observations& data) {
-  Reweighing reweighing(data);
+namespace {
+
+std::optional<std::vector<double>> renew(const ImpactModel& model, std::span<const double> theta,
+                                         Reweighing reweighing) {
   const std::vector<Prediction> answers = predict(model, theta, reweighing.questions(), false);
   for (const Prediction& answer : answers) {
     if (!answer.usable()) return std::nullopt;
   }
   return reweighing.learn(answers);
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> reweigh(const ImpactModel& model, std::span<const double> theta,
+                                           Observations& data) {
+  return renew(model, theta, Reweighing(data));
+}
+
+bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
+                        Observations& data) {
+  if (!(data.noise.event_spread > 0.0)) return true;
+  return renew(model, theta, Reweighing(data, Reweighing::What::event_spread)).has_value();
+}
+
+double event_spread_offset(const Observations& data) {
+  double sum = 0.0;
+  for (const Observation& point : data.points) {
+    if (!(point.scatter > 0.0) || point.censored) continue;
+    sum += point.peak.deviance + 2.0 * std::log(point.mean_sd / point.sd);
+  }
+  return sum;
 }
 
 }  // namespace recoil

@@ -16,4 +16,15 @@ namespace recoil {
 std::optional<std::vector<double>> reweigh(const ImpactModel& model, std::span<const double> theta,
                                            Observations& data);
 
+/// Renews only the scatter from impact to impact: event_spread by maximum likelihood at `theta`,
+/// and what follows from it for the points; standard deviations and effective variances stay.
+/// Nothing happens where no point has both rebounds and captures.
+/// @returns false when the model has no answer somewhere
+bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
+                        Observations& data);
+
+/// What the sum of squared residuals lacks of -2 ln likelihood while event_spread changes (and
+/// nothing else): sum over the points with scatter and rebounds of D(peak) + 2 ln mean_sd.
+double event_spread_offset(const Observations& data);
+
 }  // namespace recoil

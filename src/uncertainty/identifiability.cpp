@@ -12,7 +12,7 @@
 namespace recoil {
 namespace {
 
-constexpr double widest = 0.25;     // standard error relative to the scale of a parameter
+constexpr double widest = 0.1;       // standard error relative to the scale of a parameter
 constexpr double least_loss = 0.01;  // 1 - e^2 below which a point tells no scale
 // Two parameters this correlated trade against each other over the whole of their errors.
 constexpr double strong_correlation = 0.97;
@@ -44,21 +44,25 @@ double student_factor(int dof) {
   return dof > 0 ? gsl_cdf_tdist_Pinv(level, dof) / gsl_cdf_ugaussian_Pinv(level) : 1.0;
 }
 
-/// @param scale the size against which the error of the parameter counts
+/// The standard error of slot j or, where it rests on a bound, what its interval says of one.
+double error_of(const FitResult& fitted, std::size_t j, const Interval& interval) {
+  constexpr double one_sided = 1.96;  // of a 95 % interval that begins at the bound
+  if (fitted.std_error[j] > 0.0 || !interval.available()) return fitted.std_error[j];
+  return (*interval.upper - *interval.lower) / one_sided;
+}
+
+/// @param error of the parameter, @param scale the size against which it counts
 std::string obstacle(const FitResult& fitted, std::size_t j, const Interval& interval, double error,
                      double scale) {
   const ParameterSlot& slot = fitted.model.slots[j];
-  if (fitted.at_bound[j]) return "rests on its bound";
   if (!interval.available()) return "has no interval: " + interval.why;
-  if (*interval.lower <= slot.lower) {
-    return slot.lower == 0.0 ? "is consistent with zero" : "reaches its lower bound";
-  }
+  const bool low = *interval.lower <= slot.lower;
   if (*interval.upper >= slot.upper) return "reaches its upper bound";
-  if (error > widest * scale) {
-    return fmt::format("is known only to {:.0f} %",
-                       100.0 * fitted.std_error[j] / std::abs(fitted.theta[j]));
-  }
-  return "";
+  if (low && slot.lower != 0.0) return "reaches its lower bound";
+  if (!(error > widest * scale)) return "";
+  if (fitted.at_bound[j]) return "rests on its bound";
+  return low ? "is consistent with zero"
+             : fmt::format("is known only to {:.0f} %", 100.0 * error / std::abs(fitted.theta[j]));
 }
 
 /// "2.1 %", or "a factor of 3" where percents no longer make sense.
@@ -168,11 +172,18 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
     result.parameter.push_back(false);
     if (!slot.free) continue;
     ++free_count;
-    const std::string problem = obstacle(fitted, j, recommended_interval(intervals[j]), widened * fitted.std_error[j],
+    const Interval& interval = recommended_interval(intervals[j]);
+    const std::string problem =
+        obstacle(fitted, j, interval, widened * error_of(fitted, j, interval),
                  std::max(std::abs(fitted.theta[j]), scales[j]));
     if (problem.empty()) {
       result.parameter.back() = true;
       ++good;
+      if (*interval.lower <= slot.lower) {
+        sentences.push_back(fmt::format(
+            "{} is consistent with zero, and small: read its interval as an upper limit",
+            slot.label()));
+      }
     } else {
       sentences.push_back(fmt::format("{} {}", slot.label(), problem));
     }

@@ -4,14 +4,15 @@
 
 namespace recoil {
 
-/// A parameter counts as identifiable when its recommended interval exists, stays clear of the
-/// parameter's bounds, and its standard error (times Student's factor where the noise is estimated)
-/// is below a quarter of the parameter's scale: the larger of its value and of what alone would
-/// make up the whole loss 1 - e^2 at some point. That scale hardly depends on the luck of an
-/// estimate, while the value alone would let those data sets through in which it came out too large,
-/// of which the interval then holds the truth less often (reports/coverage-grid-*.md). At a quarter
-/// the interval is as wide as the scale, and an estimate of that size four errors clear of zero. The
-/// text names what stands in the way.
+/// A parameter counts as identifiable when its recommended interval exists and its standard error
+/// (times Student's factor where the noise is estimated) is below a tenth of the parameter's scale:
+/// the larger of its value and of what alone would make up the whole loss 1 - e^2 at the point that
+/// it moves most. That scale hardly depends on the luck of an estimate. Its value alone would, and
+/// so would asking whether the interval is clear of zero: both pick the data sets in which the
+/// parameter came out large, or in which the interval holds the truth more often than promised
+/// (reports/coverage-grid-*.md). A parameter so small that its interval begins at zero can
+/// therefore be identifiable; the text then calls it an upper limit. It names what stands in the
+/// way of others.
 Identifiability judge_identifiability(const FitResult& fitted, const Observations& data,
                                       const std::vector<IntervalSet>& intervals,
                                       const std::vector<CaptureEstimate>& capture);
