@@ -135,17 +135,17 @@ std::vector<GridDesign> designs_named(const std::vector<std::string>& words) {
     return fmt::format(" {} ", design.name()).find(fmt::format(" {} ", word)) != std::string::npos;
   };
   std::vector<GridDesign> left = coverage_grid();
-  const std::vector<std::string> known = {"n10",  "n20",    "n60",       "equal",    "near-capture",
-                                          "10 %", "stated", "estimated", "f0-fixed", "f0-free",
-                                          "captures"};
+  const std::vector<std::string> known = {"n10",          "n20",     "n60",     "equal",
+                                          "near-capture", "10 %",    "stated",  "estimated",
+                                          "f0-fixed",     "f0-free", "captures"};
   for (const std::string& word : words) {
     const std::vector<GridDesign> all = coverage_grid();
     if (std::none_of(all.begin(), all.end(), [&](const GridDesign& d) { return has(d, word); })) {
       const std::string near = nearest_word(word, known);
-      throw InputError({}, fmt::format("--designs: no design has the word '{}'", word),
-                       fmt::format("there are: {}", fmt::join(known, ", ")),
-                       near.empty() ? "take words of this list"
-                                    : fmt::format("did you mean '{}'?", near));
+      throw InputError(
+          {}, fmt::format("--designs: no design has the word '{}'", word),
+          fmt::format("there are: {}", fmt::join(known, ", ")),
+          near.empty() ? "take words of this list" : fmt::format("did you mean '{}'?", near));
     }
     std::erase_if(left, [&](const GridDesign& design) { return !has(design, word); });
   }
