@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/impact_problem.hpp"
 #include "estimate/survivors.hpp"
 
 namespace recoil {
@@ -98,6 +99,25 @@ class Reweighing {
     }
     if (mixed_) settle_scatter(locals);
     return predicted;
+  }
+
+  /// The data with event_spread times `factor` and nothing else changed.
+  Observations with_spread(const std::vector<Prediction>& answers, double factor) const {
+    Observations changed = data_;
+    changed.noise.event_spread *= factor;
+    for (std::size_t i = 0; i < changed.points.size(); ++i) {
+      const double middle = answers[3 * i].restitution_squared;
+      const double more = answers[3 * i + 1].restitution_squared;
+      const double less = answers[3 * i + 2].restitution_squared;
+      const double h = std::sqrt(3.0) * data_.noise.event_spread;
+      Observation& point = changed.points[i];
+      if (!(point.scatter > 0.0)) continue;
+      set_scatter(point,
+                  {middle, (more - less) / (2.0 * h), (more - 2.0 * middle + less) / (h * h)},
+                  changed.noise.event_spread);
+      if (point.scatter > 0.0 && !point.censored) locate_peak(point);
+    }
+    return changed;
   }
 
  private:
@@ -252,6 +272,50 @@ bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
                         Observations& data) {
   if (!(data.noise.event_spread > 0.0)) return true;
   return renew(model, theta, Reweighing(data, Reweighing::What::event_spread)).has_value();
+}
+
+std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<const double> theta,
+                                            const Observations& data, std::span<const double> C) {
+  if (!(data.noise.event_spread > 0.0) || C.empty()) return {};
+  Observations own = data;
+  const Reweighing reweighing(own, Reweighing::What::event_spread);
+  const std::vector<Prediction> answers = predict(model, theta, reweighing.questions(), false);
+  for (const Prediction& answer : answers) {
+    if (!answer.usable()) return {};
+  }
+  const std::size_t n = data.points.size();
+  const std::size_t p = theta.size();
+  constexpr double step = 0.1;
+  std::vector<double> deviance;             // T at ln omega - step, 0, + step
+  std::vector<std::vector<double>> slopes;  // half of dT / d theta there
+  for (const double by : {-step, 0.0, step}) {
+    const Observations there = reweighing.with_spread(answers, std::exp(by));
+    std::vector<double> residuals(n);
+    std::vector<double> jacobian(n * p);
+    if (!impact_problem(model, there).evaluate(theta, residuals, jacobian)) return {};
+    deviance.push_back(event_spread_offset(there));
+    slopes.emplace_back(p, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      deviance.back() += residuals[i] * residuals[i];
+      for (std::size_t j = 0; j < p; ++j) slopes.back()[j] += residuals[i] * jacobian[i * p + j];
+    }
+  }
+  double information = 0.5 * (deviance[2] - 2.0 * deviance[1] + deviance[0]) / (step * step);
+  std::vector<double> b(p, 0.0);
+  for (std::size_t j = 0; j < p; ++j) {
+    for (std::size_t k = 0; k < p; ++k) {
+      b[j] -= C[j * p + k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);
+    }
+  }
+  for (std::size_t k = 0; k < p; ++k) {
+    information += b[k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);  // - g'C g
+  }
+  const double variance = 1.0 / std::max(information, 1.0);
+  std::vector<double> added(p * p);
+  for (std::size_t j = 0; j < p; ++j) {
+    for (std::size_t k = 0; k < p; ++k) added[j * p + k] = variance * b[j] * b[k];
+  }
+  return added;
 }
 
 double event_spread_offset(const Observations& data) {

@@ -4,6 +4,7 @@
 
 #include "estimate/impact_problem.hpp"
 #include "estimate/noise.hpp"
+#include "estimate/reweigh.hpp"
 #include "uncertainty/intervals.hpp"
 
 namespace recoil {
@@ -19,13 +20,15 @@ bool uses_sandwich(Scheme scheme) {
 std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Observations& data,
                                          const FitResult& fitted, const ResamplingPlan& plan) {
   if (run.covariance.empty()) return {};
-  if (uses_sandwich(plan.scheme)) {
-    return sandwich_covariance(run.residuals, run.jacobian,
-                               scaled_covariance(data, run.covariance, 1.0));
-  }
   // Where the noise is estimated, it was so again with the parameters of this run.
   const double scale = data.sd_stated ? fitted.noise_scale : 1.0;
-  return scaled_covariance(data, run.covariance, scale);
+  std::vector<double> covariance =
+      uses_sandwich(plan.scheme) ? sandwich_covariance(run.residuals, run.jacobian,
+                                                       scaled_covariance(data, run.covariance, 1.0))
+                                 : scaled_covariance(data, run.covariance, scale);
+  const auto added = event_spread_covariance(fitted.model, run.theta, data, run.covariance);
+  for (std::size_t k = 0; k < added.size(); ++k) covariance[k] += added[k];
+  return covariance;
 }
 
 std::vector<double> reference_covariance(const FitResult& fitted, const ResamplingPlan& plan) {
@@ -37,6 +40,9 @@ std::vector<double> reference_covariance(const FitResult& fitted, const Resampli
   at_fit.jacobian.resize(problem.residual_count * fitted.theta.size());
   if (!problem.evaluate(at_fit.theta, at_fit.residuals, at_fit.jacobian)) return fitted.covariance;
   at_fit.covariance = fitted.covariance;
+  for (std::size_t k = 0; k < fitted.spread_covariance.size(); ++k) {
+    at_fit.covariance[k] -= fitted.spread_covariance[k];
+  }
   const double scaled = scaled_covariance(*plan.data, {1.0}, fitted.noise_scale).front();
   for (double& entry : at_fit.covariance) entry /= scaled;
   return replicate_covariance(at_fit, *plan.data, fitted, plan);
