@@ -63,22 +63,23 @@ std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Ob
 void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate& capture) {
   const bool at_bound =
       std::find(fitted.at_bound.begin(), fitted.at_bound.end(), true) != fitted.at_bound.end();
-  const bool replicates = sd_stated || at_bound || !capture.delta.available();
+  const bool spread = fitted.data.noise.event_spread > 0.0;
+  const bool replicates = (sd_stated && !spread) || at_bound || !capture.delta.available();
   if (capture.percentile.available() && replicates) {
     capture.recommended = "percentile";
     capture.recommended_why =
-        sd_stated
-            ? "the replicates settle what the delta method holds fixed: with captured spheres "
-              "among 20 points it held the truth in 79 to 90 %, the percentiles in 78 to 97 %"
+        !capture.delta.available() ? capture.delta.why
         : at_bound ? "a parameter rests on its bound, which the delta method does not know"
-                   : capture.delta.why;
+                   : "the noise is stated, and the replicates follow the bend of V* in the "
+                     "parameters, which the delta method takes as straight";
     capture.interval = capture.percentile;
     return;
   }
   capture.recommended = "delta";
   capture.recommended_why =
-      sd_stated ? "there are no percentiles: " + capture.percentile.why
-                : "it knows how few points estimate the noise, which percentiles do not";
+      replicates  ? "there are no percentiles: " + capture.percentile.why
+      : sd_stated ? "its error knows that the spread of the impacts is estimated, too"
+                  : "it knows how few points estimate the noise, which percentiles do not";
   capture.interval = capture.delta;
   if (!capture.delta.available() && !capture.percentile.why.empty()) {
     capture.interval = capture.percentile;

@@ -1,9 +1,17 @@
-// A small, fixed version of the coverage study: ten regenerated data sets.
+// A small, fixed version of the coverage study: ten regenerated data sets, and the errors of those
+// points of the grid that depend on the estimated spread of the impacts.
 #include "uncertainty/coverage.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "core/error.hpp"
+#include "estimate/fit.hpp"
+#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/coverage_grid.hpp"
 #include "uncertainty/coverage_truth.hpp"
+#include "uncertainty/profile.hpp"
 
 namespace recoil {
 namespace {
@@ -28,6 +36,50 @@ TEST(Coverage, DahnekeTruthLiesInTheStatedIntervals) {
     EXPECT_GE(recommended.held + 10 - recommended.offered, 8) << row.parameter;
   }
   EXPECT_GE(identifiable, 1);
+}
+
+TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
+  const std::string root = RECOIL_SOURCE_DIR;
+  const FitSpec spec = load_fit(root + "/fits/wall1990-molybdenum.toml");
+  const Dataset base = load_dataset(spec.datasets.front());
+  const GridDesign design = designs_named({"n20 near-capture stated f0-fixed captures"}).front();
+  const CoverageTruth truth = grid_truth(spec, base, design, 3);
+  constexpr int sets = 150;
+  double square = 0.0;  // of the error of ln V* over its standard error
+  int held = 0;         // C_A in its profile
+  for (std::uint64_t s = 0; s < sets; ++s) {
+    const std::vector<Dataset> datasets = truth.simulate(s);
+    const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+    ASSERT_TRUE(fitted.usable) << fitted.failure;
+    const CaptureEstimate at = capture_estimates(fitted, fitted.data, 0.95, datasets).front();
+    const double error = std::log(*at.delta.upper / *at.delta.lower) / (2.0 * 1.959964);
+    square += std::pow(std::log(at.value / truth.capture[0].velocity) / error, 2) / sets;
+    const Interval profile = profile_interval(fitted, fitted.data, 1, 0.95);
+    ASSERT_TRUE(profile.available()) << profile.why;
+    held += *profile.lower <= truth.theta[1] && truth.theta[1] <= *profile.upper ? 1 : 0;
+  }
+  // The root mean square of 150 unit normals is 1 +- 0.06. With the spread held fixed it is 1.4,
+  // and the profile holds in 130.
+  EXPECT_NEAR(std::sqrt(square), 1.0, 0.15);
+  EXPECT_GE(held, 138);
+  EXPECT_LE(held, 148);
+}
+
+TEST(Coverage, DesignsAreNamedByTheirWords) {
+  EXPECT_EQ(designs_named({}).size(), coverage_grid().size());
+  EXPECT_EQ(designs_named({"n20", "stated"}).size(), 12U);
+  EXPECT_EQ(designs_named({"10 %", "captures", "estimated"}).size(), 6U);
+  EXPECT_EQ(designs_named({"n10 equal stated f0-fixed"}).size(), 2U);  // with and without captures
+  try {
+    designs_named({"n12", "stated"});
+    FAIL() << "there are no 12 points in the grid";
+  } catch (const InputError& e) {
+    const std::string words = e.what();
+    for (const char* known : {"'n12'", "n10", "n60", "near-capture", "f0-free", "captures"}) {
+      EXPECT_NE(words.find(known), std::string::npos) << words;
+    }
+  }
+  EXPECT_THROW(designs_named({"n10", "n20"}), InputError);
 }
 
 }  // namespace
