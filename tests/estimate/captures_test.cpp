@@ -287,6 +287,28 @@ TEST(Captures, WithoutAMixedPointNothingRemainsOfTheSpread) {
   for (const Observation& point : settled.data.points) EXPECT_EQ(point.scatter, 0.0);
 }
 
+TEST(Captures, TheRoundsEndAtOnePlaceFromWhereverTheyStart) {
+  const ImpactsOfManySpheres impacts(0.03);
+  for (const std::uint64_t draw : {2, 3, 4}) {
+    const Dataset data = impacts.draw(draw);
+    const FitResult fitted = fit(make_model(synthetic::spec(true), {data}), gather({data}));
+    ASSERT_TRUE(fitted.usable) << fitted.failure;
+    ASSERT_GT(fitted.data.noise.event_spread, 0.0);
+    for (const double factor : {0.7, 1.4}) {
+      std::vector<double> start = fitted.theta;
+      for (std::size_t j = 0; j < 2; ++j) start[j] *= factor;
+      Observations again = gather({data});
+      again.noise.event_spread = 0.05 * factor;
+      const Settled settled = settle(fitted.model, again, start);
+      EXPECT_TRUE(settled.run.converged && settled.at_rest);
+      for (std::size_t j = 0; j < 3; ++j) {
+        EXPECT_NEAR((settled.run.theta[j] - fitted.theta[j]) / fitted.std_error[j], 0.0, 0.02);
+      }
+      EXPECT_NEAR(settled.data.noise.event_spread / fitted.data.noise.event_spread, 1.0, 0.02);
+    }
+  }
+}
+
 TEST(Captures, AreDrawnAsTheyAreFitted) {
   // Simulated points have the binomial count and the survivors' mean that the likelihood expects.
   Observation point = mixed_point();
