@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
@@ -42,7 +42,8 @@ void add_coverage(CLI::App& program) {
   command
       ->add_option("--designs", options->designs,
                    "of the grid, only the designs whose name has all these words, e.g. n20,stated")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->needs(grid);
   command->add_option("--keep", options->keep,
                       "a folder for the finished designs of the grid, from which a stopped study "
                       "goes on");
@@ -59,6 +60,8 @@ void add_coverage(CLI::App& program) {
     if (!options->picture.empty()) {
       require_writable_folder(std::filesystem::absolute(options->picture).parent_path());
     }
+    std::optional<std::vector<GridDesign>> designs;
+    if (options->grid) designs = designs_named(options->designs);
     const FitSpec spec = load_fit(options->fit_file);
     const std::vector<Dataset> datasets = load_datasets(spec);
     const AnalysisOptions flags = options->analysis.resolved();
@@ -67,17 +70,9 @@ void add_coverage(CLI::App& program) {
     coverage.uncertainty = uncertainty_options(spec, flags);
     require_scheme(spec, coverage.uncertainty.scheme, gather(datasets));
     std::string table;
-    if (options->grid) {
-      std::vector<GridDesign> designs = coverage_grid();
-      std::erase_if(designs, [&](const GridDesign& design) {
-        const std::string name = fmt::format(" {} ", design.name());
-        return std::any_of(options->designs.begin(), options->designs.end(),
-                           [&](const std::string& word) {
-                             return name.find(fmt::format(" {} ", word)) == std::string::npos;
-                           });
-      });
+    if (designs) {
       const std::vector<GridResult> results =
-          measure_grid(spec, datasets.front(), designs, coverage, options->keep);
+          measure_grid(spec, datasets.front(), *designs, coverage, options->keep);
       table = grid_markdown(results, spec, coverage);
       if (!options->picture.empty()) {
         const Dataset& base = datasets.front();

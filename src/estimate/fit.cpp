@@ -10,6 +10,7 @@
 #include "estimate/impact_problem.hpp"
 #include "estimate/noise.hpp"
 #include "estimate/noise_words.hpp"
+#include "estimate/reweigh.hpp"
 
 namespace recoil {
 namespace {
@@ -253,6 +254,11 @@ FitResult fit(const ImpactModel& model, const Observations& data, const FitOptio
                              static_cast<int>(free_count)));
   describe_noise(result);
   result.covariance = scaled_covariance(result.data, best.covariance, result.noise_scale);
+  result.spread_covariance =
+      event_spread_covariance(model, result.theta, result.data, best.covariance);
+  for (std::size_t k = 0; k < result.spread_covariance.size(); ++k) {
+    result.covariance[k] += result.spread_covariance[k];
+  }
   result.std_error.assign(result.theta.size(), 0.0);
   if (result.covariance.empty()) {
     result.warnings.push_back(

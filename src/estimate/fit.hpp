@@ -34,6 +34,7 @@ struct FitResult {
   std::vector<double> theta;               ///< [slots]
   std::vector<bool> at_bound;              ///< [slots]
   std::vector<double> covariance;          ///< [slots x slots]; scaled by noise_scale^2
+  std::vector<double> spread_covariance;   ///< in it, what not knowing event_spread adds; or empty
   std::vector<double> std_error;           ///< [slots]; 0 for fixed ones and those at a bound
   std::vector<double> residuals;           ///< weighted, [points]
   std::vector<double> prediction;          ///< e at each point [1]

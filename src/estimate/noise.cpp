@@ -71,6 +71,18 @@ std::vector<double> scaled_covariance(const Observations& data,
   return covariance;
 }
 
+Observation redraw_captures(const Observation& point, double restitution_squared, double uniform) {
+  const double u = (restitution_squared + point.shift) / point.scatter;
+  Observation drawn = point;
+  // Where nobody counted captures there is a mean of rebounds and nothing else to draw.
+  drawn.captured =
+      point.counted ? binomial_quantile(uniform, gsl_cdf_ugaussian_Q(u), point.events) : 0;
+  drawn.censored = drawn.rebounds() == 0;
+  drawn.sd = point.event_sd() /
+             std::sqrt(static_cast<double>(drawn.censored ? drawn.events : drawn.rebounds()));
+  return drawn;
+}
+
 Observation simulate_observation(const Observation& point, double restitution_squared,
                                  double noise_scale, RandomStream& random) {
   const double common = point.input_sd * random.normal();
@@ -89,13 +101,7 @@ Observation simulate_observation(const Observation& point, double restitution_sq
     }
     return drawn;
   }
-  const double u = (m + point.shift) / point.scatter;
-  // Where nobody counted captures there is a mean of rebounds and nothing else to draw.
-  drawn.captured =
-      point.counted ? binomial_quantile(uniform, gsl_cdf_ugaussian_Q(u), point.events) : 0;
-  drawn.censored = drawn.rebounds() == 0;
-  drawn.sd = point.event_sd() /
-             std::sqrt(static_cast<double>(drawn.censored ? drawn.events : drawn.rebounds()));
+  drawn = redraw_captures(point, m, uniform);
   drawn.restitution =
       drawn.censored
           ? 0.0

@@ -84,6 +84,11 @@ std::vector<double> scaled_covariance(const Observations& data,
                                       const std::vector<double>& inverse_information,
                                       double noise_scale);
 
+/// The captures among the impacts of a point with scatter, drawn anew by the binomial quantile of
+/// `uniform` where the truth is `restitution_squared`, with the sd that a mean of this many
+/// rebounds has; its mean is left to the caller.
+Observation redraw_captures(const Observation& point, double restitution_squared, double uniform);
+
 /// A point measured anew under the noise that weights it, where the truth is `restitution_squared`:
 /// - a mean of rebounds gets an e^2 shifted by input_sd z_1 and a mean about its root by sd
 ///   `noise_scale` z_2 (Student's t in place of z_2 where the residuals are), not below 0;

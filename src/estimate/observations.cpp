@@ -67,7 +67,7 @@ void weigh_equally(std::vector<Observation>& points) {
 
 bool Observations::weights_depend_on_fit() const {
   return !sd_stated || std::any_of(points.begin(), points.end(), [](const Observation& point) {
-    return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 ||
+    return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 || point.scatter > 0.0 ||
            (point.captured > 0 && !point.censored);
   });
 }

@@ -95,9 +95,12 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec 
 /// the bias of weights taken from noisy points. Through capture it stays smooth, and its variance
 /// is that of e^2, 4 e^2 sigma^2 + 2 sigma^4 (the floor).
 ///
-/// All n captured: the Tobit residual sqrt(-2 n ln Phi(-m / s)), which vanishes where the model
-/// captures; s^2 = 2 sigma_1^4 + tau^2, sigma_1 = sd sqrt(n) that of one impact. What the n share
-/// (tau) makes them fewer: n_eff = 1 + (n - 1) 2 sigma_1^4 / s^2.
+/// All n captured: the Tobit residual sqrt(-2 n_eff ln Phi(-m / s)), which vanishes where the model
+/// captures. Where the impacts differ (`scatter`), s^2 = scatter^2 + tau^2, and what they share
+/// (tau) makes them fewer: n_eff = 1 + (n - 1) scatter^2 / s^2. Where nothing is known of that, the
+/// point is one observation, s^2 = 2 sigma^4 + tau^2 that of the mean: errors of measuring e, of
+/// which sigma sqrt(n) may consist, let no sphere stick, and taken for impacts that differ they
+/// would hold a captured point far below the capture velocity.
 ///
 /// Impacts that differ (`scatter` > 0): every impact has its own x = m + shift + scatter z, z
 /// normal; x < 0 is captured, else e = sqrt(x). With u = (m + shift) / scatter,

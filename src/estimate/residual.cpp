@@ -20,16 +20,18 @@ double log_captured(double z) {
 }
 
 /// How the captures among the impacts of a point are spread: independent from impact to impact, and
-/// by the errors of V and d, which all impacts of the point share.
+/// by the errors of V and d, which all impacts of the point share. Where the scatter of the impacts
+/// is not known, all of them share what the mean has: they count as one.
 struct CaptureSpread {
   double scale;   ///< sd of e^2, both together
   double weight;  ///< share of the impacts that count as independent
 };
 CaptureSpread capture_spread(const Observation& point) {
-  const double sd = point.event_sd();
-  const double own = point.scatter > 0.0 ? point.scatter : std::numbers::sqrt2 * sd * sd;
-  const double square = own * own + point.input_sd * point.input_sd;
   const double n = point.events;
+  const double shared = point.input_sd * point.input_sd;
+  if (!(point.scatter > 0.0)) return {std::sqrt(2.0 * std::pow(point.sd, 4) + shared), 1.0 / n};
+  const double own = point.scatter;
+  const double square = own * own + shared;
   return {std::sqrt(square), (1.0 + (n - 1.0) * own * own / square) / n};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/impact_problem.hpp"
 #include "estimate/survivors.hpp"
 
 namespace recoil {
@@ -48,10 +49,14 @@ double error_step(double relative) {
 /// Everything is asked of the model at once, in the order in which it is needed.
 class Reweighing {
  public:
-  explicit Reweighing(Observations& data) : data_(data) {
+  enum class What { everything, event_spread };
+
+  explicit Reweighing(Observations& data, What what = What::everything)
+      : data_(data), everything_(what == What::everything) {
     for (const Observation& point : data.points) {
       mixed_ = mixed_ || (point.captured > 0 && !point.censored);
     }
+    if (!mixed_) forget_scatter();
     if (mixed_ && !(data.noise.event_spread > 0.0)) data.noise.event_spread = first_spread;
   }
 
@@ -66,8 +71,10 @@ class Reweighing {
     };
     for (const Observation& p : data_.points) {
       all.push_back({p.dataset, p.diameter, p.velocity, p.series});
-      if (p.velocity_sd > 0.0) beside(p, error_step(p.velocity_sd / p.velocity), true);
-      if (p.diameter_sd > 0.0) beside(p, error_step(p.diameter_sd / p.diameter), false);
+      if (everything_ && p.velocity_sd > 0.0)
+        beside(p, error_step(p.velocity_sd / p.velocity), true);
+      if (everything_ && p.diameter_sd > 0.0)
+        beside(p, error_step(p.diameter_sd / p.diameter), false);
       if (mixed_) beside(p, std::sqrt(3.0) * data_.noise.event_spread, true);
     }
     return all;
@@ -87,29 +94,64 @@ class Reweighing {
     for (Observation& point : data_.points) {
       const double m = value();
       predicted.push_back(m);
-      if (!data_.sd_stated) {
-        point.sd = function_sd(data_.noise.variance, data_.noise.scale, m,
-                               point.censored ? point.events : point.rebounds());
-      }
-      double variance = 0.0;
-      point.input_bias = 0.0;
-      for (const bool in_velocity : {true, false}) {
-        const double relative =
-            in_velocity ? point.velocity_sd / point.velocity : point.diameter_sd / point.diameter;
-        if (!(relative > 0.0)) continue;
-        const Local at = local(m, error_step(relative));
-        const double shared = in_velocity && point.rebound_measured ? 2.0 * std::max(m, 0.0) : 0.0;
-        variance += std::pow((at.slope + shared) * relative, 2);
-        point.input_bias += 0.5 * at.bend * relative * relative;
-      }
-      point.input_sd = std::sqrt(variance);
+      if (everything_) set_errors(point, m, local);
       if (mixed_) locals.push_back(local(m, std::sqrt(3.0) * data_.noise.event_spread));
     }
     if (mixed_) settle_scatter(locals);
     return predicted;
   }
 
+  /// The data with event_spread times `factor` and nothing else changed.
+  Observations with_spread(const std::vector<Prediction>& answers, double factor) const {
+    Observations changed = data_;
+    changed.noise.event_spread *= factor;
+    for (std::size_t i = 0; i < changed.points.size(); ++i) {
+      const double middle = answers[3 * i].restitution_squared;
+      const double more = answers[3 * i + 1].restitution_squared;
+      const double less = answers[3 * i + 2].restitution_squared;
+      const double h = std::sqrt(3.0) * data_.noise.event_spread;
+      Observation& point = changed.points[i];
+      if (!(point.scatter > 0.0)) continue;
+      set_scatter(point,
+                  {middle, (more - less) / (2.0 * h), (more - 2.0 * middle + less) / (h * h)},
+                  changed.noise.event_spread);
+      if (point.scatter > 0.0 && !point.censored) locate_peak(point);
+    }
+    return changed;
+  }
+
  private:
+  /// A replicate may have no point with both rebounds and captures though its original had one.
+  void forget_scatter() {
+    data_.noise.event_spread = 0.0;
+    for (Observation& point : data_.points) {
+      point.scatter = 0.0;
+      point.shift = 0.0;
+    }
+  }
+
+  /// The estimated sd and the effective variance of one point where e^2 is `m`; `local` gives the
+  /// next derivatives.
+  template <class NextLocal>
+  void set_errors(Observation& point, double m, const NextLocal& local) const {
+    if (!data_.sd_stated) {
+      point.sd = function_sd(data_.noise.variance, data_.noise.scale, m,
+                             point.censored ? point.events : point.rebounds());
+    }
+    double variance = 0.0;
+    point.input_bias = 0.0;
+    for (const bool in_velocity : {true, false}) {
+      const double relative =
+          in_velocity ? point.velocity_sd / point.velocity : point.diameter_sd / point.diameter;
+      if (!(relative > 0.0)) continue;
+      const Local at = local(m, error_step(relative));
+      const double shared = in_velocity && point.rebound_measured ? 2.0 * std::max(m, 0.0) : 0.0;
+      variance += std::pow((at.slope + shared) * relative, 2);
+      point.input_bias += 0.5 * at.bend * relative * relative;
+    }
+    point.input_sd = std::sqrt(variance);
+  }
+
   void set_scatter(Observation& point, const Local& at, double spread) const {
     const double square = spread * spread;
     point.shift = 0.5 * square * at.bend;
@@ -202,19 +244,87 @@ class Reweighing {
   }
 
   Observations& data_;
+  bool everything_;
   bool mixed_ = false;  ///< some point has both rebounds and captures
 };
 
 }  // namespace
 
-std::optional<std::vector<double>> reweigh(const ImpactModel& model, std::span<const double> theta,
-                                           Observations& data) {
-  Reweighing reweighing(data);
+namespace {
+
+std::optional<std::vector<double>> renew(const ImpactModel& model, std::span<const double> theta,
+                                         Reweighing reweighing) {
   const std::vector<Prediction> answers = predict(model, theta, reweighing.questions(), false);
   for (const Prediction& answer : answers) {
     if (!answer.usable()) return std::nullopt;
   }
   return reweighing.learn(answers);
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> reweigh(const ImpactModel& model, std::span<const double> theta,
+                                           Observations& data) {
+  return renew(model, theta, Reweighing(data));
+}
+
+bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
+                        Observations& data) {
+  if (!(data.noise.event_spread > 0.0)) return true;
+  return renew(model, theta, Reweighing(data, Reweighing::What::event_spread)).has_value();
+}
+
+std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<const double> theta,
+                                            const Observations& data, std::span<const double> C) {
+  if (!(data.noise.event_spread > 0.0) || C.empty()) return {};
+  Observations own = data;
+  const Reweighing reweighing(own, Reweighing::What::event_spread);
+  const std::vector<Prediction> answers = predict(model, theta, reweighing.questions(), false);
+  for (const Prediction& answer : answers) {
+    if (!answer.usable()) return {};
+  }
+  const std::size_t n = data.points.size();
+  const std::size_t p = theta.size();
+  constexpr double step = 0.1;
+  std::vector<double> deviance;             // T at ln omega - step, 0, + step
+  std::vector<std::vector<double>> slopes;  // half of dT / d theta there
+  for (const double by : {-step, 0.0, step}) {
+    const Observations there = reweighing.with_spread(answers, std::exp(by));
+    std::vector<double> residuals(n);
+    std::vector<double> jacobian(n * p);
+    if (!impact_problem(model, there).evaluate(theta, residuals, jacobian)) return {};
+    deviance.push_back(event_spread_offset(there));
+    slopes.emplace_back(p, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      deviance.back() += residuals[i] * residuals[i];
+      for (std::size_t j = 0; j < p; ++j) slopes.back()[j] += residuals[i] * jacobian[i * p + j];
+    }
+  }
+  double information = 0.5 * (deviance[2] - 2.0 * deviance[1] + deviance[0]) / (step * step);
+  std::vector<double> b(p, 0.0);
+  for (std::size_t j = 0; j < p; ++j) {
+    for (std::size_t k = 0; k < p; ++k) {
+      b[j] -= C[j * p + k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);
+    }
+  }
+  for (std::size_t k = 0; k < p; ++k) {
+    information += b[k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);  // - g'C g
+  }
+  const double variance = 1.0 / std::max(information, 1.0);
+  std::vector<double> added(p * p);
+  for (std::size_t j = 0; j < p; ++j) {
+    for (std::size_t k = 0; k < p; ++k) added[j * p + k] = variance * b[j] * b[k];
+  }
+  return added;
+}
+
+double event_spread_offset(const Observations& data) {
+  double sum = 0.0;
+  for (const Observation& point : data.points) {
+    if (!(point.scatter > 0.0) || point.censored) continue;
+    sum += point.peak.deviance + 2.0 * std::log(point.mean_sd / point.sd);
+  }
+  return sum;
 }
 
 }  // namespace recoil

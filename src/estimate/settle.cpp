@@ -18,18 +18,60 @@ int free_count(const ImpactModel& model) {
                                         [](const ParameterSlot& slot) { return slot.free; }));
 }
 
-/// The largest step of a free parameter in units of its standard error (of its value, without one).
-double largest_step(const LeastSquaresResult& run, const std::vector<double>& before) {
-  double largest = 0.0;
+/// The steps of the parameters in units of their standard errors (of their values, without one).
+std::vector<double> relative_steps(const LeastSquaresResult& run,
+                                   const std::vector<double>& before) {
   const std::size_t p = before.size();
+  std::vector<double> steps(p, 0.0);
   for (std::size_t j = 0; j < p; ++j) {
     const double error = run.covariance.empty() ? 0.0 : std::sqrt(run.covariance[j * p + j]);
     const double unit = error > 0.0 ? error : std::abs(run.theta[j]);
-    const double step = std::abs(run.theta[j] - before[j]);
-    if (step > 0.0) largest = std::max(largest, step / unit);
+    const double step = run.theta[j] - before[j];
+    if (step != 0.0) steps[j] = step / unit;
   }
-  return largest;
+  return steps;
 }
+
+double largest(const std::vector<double>& steps) {
+  double most = 0.0;
+  for (const double step : steps) most = std::max(most, std::abs(step));
+  return most;
+}
+
+/// Where the rounds lead when each of their steps is the same part of the one before (Aitken): the
+/// weights and the parameters may creep towards each other by a fifth of the way at a time.
+class Extrapolation {
+ public:
+  /// The start of the next round after one from `before` to `run.theta`.
+  std::vector<double> next(const ImpactModel& model, const LeastSquaresResult& run,
+                           const std::vector<double>& before, std::vector<double> steps) {
+    double dot = 0.0;
+    double square = 0.0;
+    for (std::size_t j = 0; j < last_.size(); ++j) {
+      dot += steps[j] * last_[j];
+      square += last_[j] * last_[j];
+    }
+    const double ratio = square > 0.0 ? dot / square : 0.0;
+    constexpr double slow = 0.3;
+    constexpr double steady = 0.95;  // beyond it the steps do not shrink, and lead nowhere
+    std::vector<double> theta = run.theta;
+    if (!(ratio > slow && ratio < steady)) {
+      last_ = std::move(steps);
+      return theta;
+    }
+    last_.clear();  // the step after a leap says nothing about the series
+    for (std::size_t j = 0; j < theta.size(); ++j) {
+      const ParameterSlot& slot = model.slots[j];
+      if (!slot.free || run.at_bound[j]) continue;
+      const double leap = theta[j] + ratio / (1.0 - ratio) * (theta[j] - before[j]);
+      if (leap > slot.lower && leap < slot.upper) theta[j] = leap;
+    }
+    return theta;
+  }
+
+ private:
+  std::vector<double> last_;
+};
 
 Settled settle_with(const ImpactModel& model, Observations data, std::span<const double> start,
                     const SettleOptions& options) {
@@ -37,6 +79,7 @@ Settled settle_with(const ImpactModel& model, Observations data, std::span<const
   settled.data = std::move(data);
   std::vector<double> theta(start.begin(), start.end());
   double& noise_scale = settled.data.noise.scale;
+  Extrapolation extrapolation;
   for (int round = 0; round < most_rounds; ++round) {
     const auto predicted = reweigh(model, theta, settled.data);
     if (!predicted) {
@@ -53,10 +96,10 @@ Settled settle_with(const ImpactModel& model, Observations data, std::span<const
       settled.at_rest = noise_scale * scale < least_scale;
       if (settled.at_rest) break;
     }
-    settled.at_rest = largest_step(settled.run, theta) < options.parameters &&
-                      std::abs(scale - 1.0) < options.scale;
+    std::vector<double> steps = relative_steps(settled.run, theta);
+    settled.at_rest = largest(steps) < options.parameters && std::abs(scale - 1.0) < options.scale;
     if (settled.at_rest) break;
-    theta = settled.run.theta;
+    theta = extrapolation.next(model, settled.run, theta, std::move(steps));
     noise_scale *= scale;
   }
   return settled;

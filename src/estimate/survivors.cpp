@@ -4,6 +4,7 @@
 #include <gsl/gsl_sf_erf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -25,11 +26,7 @@ RootMoments far_above_capture(double u) {
   return {mean, slope, u * s * (2.0 - s)};
 }
 
-}  // namespace
-
-RootMoments root_of_positive_normal(double u) {
-  constexpr double series_from = 12.0;
-  if (u > series_from) return far_above_capture(u);
+RootMoments by_quadrature(double u) {
   const double lambda = gsl_sf_hazard(-u);
   // Density of y = u + z given y > 0, in a form that does not overflow on either side.
   const double inverse_norm =
@@ -50,6 +47,53 @@ RootMoments root_of_positive_normal(double u) {
     three += t * t * t * weight;
   }
   return {half, three - (u + lambda) * half, u + lambda - half * half};
+}
+
+/// `by_quadrature` on an even grid, for interpolation through six neighbours.
+class Table {
+ public:
+  static constexpr double from = -12.0;
+  static constexpr double to = 12.0;
+
+  Table() {
+    for (int i = 0; i < count; ++i) nodes_[static_cast<std::size_t>(i)] = by_quadrature(place(i));
+  }
+
+  /// @pre from <= u <= to. Error below 1e-11.
+  RootMoments operator()(double u) const {
+    const double at = (u - from) / step + margin;
+    const int below = static_cast<int>(at);
+    const double x = at - below;  // the neighbours lie at -2, -1, 0, 1, 2, 3
+    const std::array<double, 6> d = {x + 2.0, x + 1.0, x, x - 1.0, x - 2.0, x - 3.0};
+    constexpr std::array<double, 6> norm = {-120.0, 24.0, -12.0, 12.0, -24.0, 120.0};
+    RootMoments sum;
+    for (std::size_t k = 0; k < d.size(); ++k) {
+      double weight = 1.0 / norm[k];
+      for (std::size_t j = 0; j < d.size(); ++j) weight *= j == k ? 1.0 : d[j];
+      const RootMoments& node = nodes_[static_cast<std::size_t>(below - 2) + k];
+      sum.mean += weight * node.mean;
+      sum.slope += weight * node.slope;
+      sum.variance += weight * node.variance;
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr double step = 1.0 / 32.0;
+  static constexpr int margin = 3;
+  static constexpr int count = static_cast<int>((to - from) / step) + 2 * margin + 1;
+  static double place(int i) { return from + (i - margin) * step; }
+
+  std::array<RootMoments, count> nodes_;
+};
+
+}  // namespace
+
+RootMoments root_of_positive_normal(double u) {
+  if (u > Table::to) return far_above_capture(u);
+  if (!(u > Table::from)) return by_quadrature(u);
+  static const Table table;
+  return table(u);
 }
 
 }  // namespace recoil

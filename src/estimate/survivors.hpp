@@ -8,7 +8,7 @@ namespace recoil {
 ///   G(u) = E[sqrt(u + z) | u + z > 0],  G' = E[(u + z)^(3/2) | .] - (u + lambda) G,
 ///   Var = u + lambda - G^2,  lambda = phi(u) / Phi(u).
 /// To 1e-9 relative at any u: the trapezoid rule in sqrt(u + z), whose integrand is even and
-/// analytic, and the asymptotic series above u = 12.
+/// analytic, interpolated from a table above u = -12, and the asymptotic series above u = 12.
 struct RootMoments {
   double mean = 0.0;
   double slope = 0.0;  ///< d mean / d u

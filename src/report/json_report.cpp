@@ -185,7 +185,8 @@ Json capture_json(const Analysis& a) {
     entry["interval"] = interval_json(capture.interval);
     entry["interval_mc_error"] = mc_error_json(capture.interval);
     entry["intervals"] = {{"delta", interval_json(capture.delta)},
-                          {"percentile", interval_json(capture.percentile)}};
+                          {"percentile", interval_json(capture.percentile)},
+                          {"studentized", interval_json(capture.studentized)}};
     entry["recommended"] = {{"interval", capture.recommended}, {"why", capture.recommended_why}};
     if (entry["interval"].is_null()) entry["why"] = why_none(capture.interval);
     list.push_back(entry);

@@ -14,6 +14,7 @@
 #include "core/progress.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/noise.hpp"
+#include "uncertainty/replicate_errors.hpp"
 
 namespace recoil {
 namespace {
@@ -41,45 +42,6 @@ SettleOptions settle_options() {
   options.parameters = 0.02;
   options.scale = 0.01;
   return options;
-}
-
-/// Do the points scatter unequally in a way that the covariance does not know of?
-bool uses_sandwich(Scheme scheme) {
-  return scheme == Scheme::wild || scheme == Scheme::cases || scheme == Scheme::cluster;
-}
-
-/// Standard errors of a fit to data like `data`, made in the same way for the fit and for its
-/// replicates. Zero where there is none.
-std::vector<double> standard_errors(const LeastSquaresResult& run, const Observations& data,
-                                    const FitResult& fitted, const ResamplingPlan& plan) {
-  const std::size_t p = run.theta.size();
-  if (run.covariance.empty()) return std::vector<double>(p, 0.0);
-  if (uses_sandwich(plan.scheme)) {
-    return sandwich_errors(run.residuals, run.jacobian,
-                           scaled_covariance(data, run.covariance, 1.0));
-  }
-  // Where the noise is estimated, it was so again with the parameters of this run.
-  const double scale = data.sd_stated ? fitted.noise_scale : 1.0;
-  const std::vector<double> covariance = scaled_covariance(data, run.covariance, scale);
-  std::vector<double> errors(p, 0.0);
-  for (std::size_t j = 0; j < p; ++j) errors[j] = std::sqrt(covariance[j * p + j]);
-  return errors;
-}
-
-/// The standard errors of the fit itself, as those of its replicates are made.
-std::vector<double> reference_errors(const FitResult& fitted, const ResamplingPlan& plan) {
-  if (!uses_sandwich(plan.scheme) || fitted.covariance.empty()) return fitted.std_error;
-  const LeastSquaresProblem problem = impact_problem(fitted.model, *plan.data);
-  const std::size_t p = fitted.theta.size();
-  LeastSquaresResult at_fit;
-  at_fit.theta = fitted.theta;
-  at_fit.residuals.resize(problem.residual_count);
-  at_fit.jacobian.resize(problem.residual_count * p);
-  if (!problem.evaluate(at_fit.theta, at_fit.residuals, at_fit.jacobian)) return fitted.std_error;
-  at_fit.covariance = fitted.covariance;
-  const double scaled = scaled_covariance(*plan.data, {1.0}, fitted.noise_scale).front();
-  for (double& entry : at_fit.covariance) entry /= scaled;
-  return standard_errors(at_fit, *plan.data, fitted, plan);
 }
 
 /// What one thread needs to refit samples one after the other without building anything anew: the
@@ -167,11 +129,12 @@ Bootstrap::Bootstrap(const FitResult& fitted, const Observations& data,
       capture_(capture),
       options_(options),
       plan_(plan_resampling(fitted, data, options.scheme)),
-      reference_error_(reference_errors(fitted, plan_)) {
+      reference_covariance_(reference_covariance(fitted, plan_)) {
   table_.slots = fitted.theta.size();
+  table_.derived = options.capture ? capture.size() : 0;
   if (options.keep.empty()) return;
   key_ = bootstrap_key(fitted, data, plan_, options);
-  table_ = load_replicates(options.keep, key_, fitted.theta.size());
+  table_ = load_replicates(options.keep, key_, table_.slots, table_.derived);
 }
 
 void Bootstrap::keep() const { save_replicates(options_.keep, key_, table_); }
@@ -184,16 +147,29 @@ void Bootstrap::extend(int count) {
   if (!options_.keep.empty()) guard.emplace();
   tbb::enumerable_thread_specific<std::unique_ptr<Workspace>> workspaces(
       [&] { return std::make_unique<Workspace>(plan_); });
+  std::vector<CaptureQuery> queries;
+  for (const CaptureEstimate& at : capture_) {
+    queries.push_back({at.dataset, at.diameter, at.value});
+  }
+  capture_velocity_.resize(std::max(capture_velocity_.size(), count_));
   const auto run = [&](std::size_t i) {
     if (table_.state[i] != State::not_run || (guard && stop_requested())) return;
     Workspace& workspace = *workspaces.local();
     const LeastSquaresResult found = workspace.refit(options_.seed, i);
     const bool usable = has_answer(found, fitted_);
     if (usable) {
-      const auto at = static_cast<std::ptrdiff_t>(i * table_.slots);
-      const std::vector<double> errors = standard_errors(found, workspace.data(), fitted_, plan_);
-      std::copy(found.theta.begin(), found.theta.end(), table_.theta.begin() + at);
-      std::copy(errors.begin(), errors.end(), table_.std_error.begin() + at);
+      const auto covariance = replicate_covariance(found, workspace.data(), fitted_, plan_);
+      std::vector<double> errors = roots_of_diagonal(covariance, table_.slots);
+      if (options_.capture) {
+        for (const CaptureVelocity& v : capture_velocities(fitted_.model, found.theta, queries)) {
+          capture_velocity_[i].push_back(v.found ? v.value : std::nan(""));
+          errors.push_back(logarithmic_error(v, covariance));
+        }
+      }
+      std::copy(found.theta.begin(), found.theta.end(),
+                table_.theta.begin() + static_cast<std::ptrdiff_t>(i * table_.slots));
+      std::copy(errors.begin(), errors.end(),
+                table_.std_error.begin() + static_cast<std::ptrdiff_t>(i * table_.errors()));
     }
     table_.state[i] = usable ? State::usable : State::failed;
   };
@@ -226,15 +202,9 @@ void Bootstrap::extend(int count) {
   if (guard && changed && Clock::now() - start > worth_keeping) keep();
 
   if (!options_.capture) return;
-  std::vector<CaptureQuery> queries;
-  for (const CaptureEstimate& at : capture_) {
-    queries.push_back({at.dataset, at.diameter, at.value});
-  }
-  const std::size_t known = capture_velocity_.size();
-  capture_velocity_.resize(std::max(known, count_));
-  parallel_over(capture_velocity_.size() - known, options_.threads, [&](std::size_t k) {
-    const std::size_t i = known + k;
-    if (table_.state[i] != State::usable) return;
+  // Those that an earlier run has left.
+  parallel_over(count_, options_.threads, [&](std::size_t i) {
+    if (table_.state[i] != State::usable || !capture_velocity_[i].empty()) return;
     const std::span<const double> theta(table_.theta.data() + i * table_.slots, table_.slots);
     for (const CaptureVelocity& v : capture_velocities(fitted_.model, theta, queries)) {
       capture_velocity_[i].push_back(v.found ? v.value : std::nan(""));
@@ -248,18 +218,25 @@ BootstrapResult Bootstrap::result() const {
   result.seed = options_.seed;
   result.scheme = to_string(plan_.scheme);
   result.scheme_why = plan_.why;
-  result.reference_error = reference_error_;
+  result.reference_error = roots_of_diagonal(reference_covariance_, table_.slots);
+  for (std::size_t k = 0; k < table_.derived; ++k) {
+    const CaptureVelocity v = capture_velocity(fitted_.model, fitted_.theta, capture_[k].dataset,
+                                               capture_[k].diameter, capture_[k].value);
+    result.capture_reference_error.push_back(logarithmic_error(v, reference_covariance_));
+  }
   std::vector<std::uint64_t> failed;
   for (std::size_t i = 0; i < count_; ++i) {
     if (table_.state[i] == State::failed) {
       failed.push_back(i);
       continue;
     }
-    const auto from = static_cast<std::ptrdiff_t>(i * table_.slots);
-    const auto to = from + static_cast<std::ptrdiff_t>(table_.slots);
-    result.theta.emplace_back(table_.theta.begin() + from, table_.theta.begin() + to);
-    result.std_error.emplace_back(table_.std_error.begin() + from, table_.std_error.begin() + to);
-    if (options_.capture) result.capture_velocity.push_back(capture_velocity_[i]);
+    const double* theta = table_.theta.data() + i * table_.slots;
+    const double* error = table_.std_error.data() + i * table_.errors();
+    result.theta.emplace_back(theta, theta + table_.slots);
+    result.std_error.emplace_back(error, error + table_.slots);
+    if (!options_.capture) continue;
+    result.capture_velocity.push_back(capture_velocity_[i]);
+    result.capture_error.emplace_back(error + table_.slots, error + table_.errors());
   }
   result.failed = static_cast<int>(failed.size());
   result.failures = locate_failures(plan_, options_.seed, result.replicates, std::move(failed));

@@ -48,7 +48,7 @@ class Bootstrap {
   std::vector<CaptureEstimate> capture_;
   const UncertaintyOptions& options_;
   ResamplingPlan plan_;
-  std::vector<double> reference_error_;
+  std::vector<double> reference_covariance_;
   std::string key_;
   ReplicateTable table_;
   std::size_t count_ = 0;

@@ -10,10 +10,12 @@ namespace recoil {
 std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Observations& data,
                                                double level, const std::vector<Dataset>& datasets);
 
-/// Names the interval of V* to quote. Where the noise is stated the percentiles: the replicates
-/// settle what the delta method holds fixed (reports/coverage-grid-n20-stated.md). Where it is
-/// estimated the delta interval, which knows how few points did that, unless a parameter rests on
-/// its bound, of which the covariance says nothing.
+/// Names the interval of V* to quote (reports/coverage-grid-n{10,20,60}-{stated,estimated}.md).
+/// Where the noise is stated and no spread of the impacts is estimated, the percentiles: they
+/// follow the bend of V* in the parameters. Where the spread is estimated, the delta interval,
+/// whose error knows of it, while the replicates mix data sets with and without points that show
+/// it. Where the noise is estimated the delta interval, too, which knows how few points did that.
+/// Where a parameter rests on its bound, of which the covariance says nothing, the percentiles.
 void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate& capture);
 
 }  // namespace recoil

@@ -153,6 +153,7 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
     };
     add("recommended", &CaptureEstimate::interval);
     add("percentile", &CaptureEstimate::percentile);
+    add("studentized", &CaptureEstimate::studentized);
     add("delta", &CaptureEstimate::delta);
     row.identifiable = row.cells.front().offered;
     result.rows.push_back(std::move(row));

@@ -1,6 +1,7 @@
 #include "uncertainty/coverage_grid.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gsl/gsl_spline.h>
 
 #include <algorithm>
@@ -127,6 +128,33 @@ std::vector<GridDesign> coverage_grid() {
     }
   }
   return designs;
+}
+
+std::vector<GridDesign> designs_named(const std::vector<std::string>& words) {
+  const auto has = [](const GridDesign& design, const std::string& word) {
+    return fmt::format(" {} ", design.name()).find(fmt::format(" {} ", word)) != std::string::npos;
+  };
+  std::vector<GridDesign> left = coverage_grid();
+  const std::vector<std::string> known = {"n10",          "n20",     "n60",     "equal",
+                                          "near-capture", "10 %",    "stated",  "estimated",
+                                          "f0-fixed",     "f0-free", "captures"};
+  for (const std::string& word : words) {
+    const std::vector<GridDesign> all = coverage_grid();
+    if (std::none_of(all.begin(), all.end(), [&](const GridDesign& d) { return has(d, word); })) {
+      const std::string near = nearest_word(word, known);
+      throw InputError(
+          {}, fmt::format("--designs: no design has the word '{}'", word),
+          fmt::format("there are: {}", fmt::join(known, ", ")),
+          near.empty() ? "take words of this list" : fmt::format("did you mean '{}'?", near));
+    }
+    std::erase_if(left, [&](const GridDesign& design) { return !has(design, word); });
+  }
+  if (left.empty()) {
+    throw InputError({}, fmt::format("--designs: no design is all of {}", fmt::join(words, ", ")),
+                     "a design has one number of points, one kind of scatter and so on",
+                     "leave one of them out");
+  }
+  return left;
 }
 
 FitSpec grid_spec(const FitSpec& spec, const GridDesign& design) {

@@ -35,6 +35,10 @@ struct GridDesign {
 /// captures.
 std::vector<GridDesign> coverage_grid();
 
+/// The designs of the grid whose names have all these words ("n20", "near-capture", "captures").
+/// @throws InputError for a word of no design, and where no design has all of them
+std::vector<GridDesign> designs_named(const std::vector<std::string>& words);
+
 /// Data sets of `design` with the system of `base` and the parameters `theta` as truth, simulated
 /// by the independent integrator of the reconstructions (see coverage_truth).
 CoverageTruth grid_truth(const FitSpec& spec, const Dataset& base, const GridDesign& design,

@@ -57,7 +57,7 @@ double share(int part, int whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// "holds", "warned" or "MISSES" of one parameter in one design.
+/// "holds", "warned", "TOO NARROW" or "TOO WIDE" of one parameter in one design.
 std::string judgement(const CoverageRow& row, int usable) {
   const CoverageCell& recommended = cell_of(row, "recommended");
   const double identifiable = share(row.identifiable, usable);
@@ -66,7 +66,8 @@ std::string judgement(const CoverageRow& row, int usable) {
   const double held_identifiable =
       share(recommended.held_identifiable, recommended.offered_identifiable);
   if (1.0 - identifiable >= least_warned) return within(held) ? "holds, warned" : "warned";
-  return within(held) && within(held_identifiable) ? "holds" : "MISSES";
+  if (within(held) && within(held_identifiable)) return "holds";
+  return std::min(held, held_identifiable) < least_held ? "TOO NARROW" : "TOO WIDE";
 }
 
 std::string percent(int part, int whole) {
@@ -102,11 +103,12 @@ std::vector<GridResult> measure_grid(const FitSpec& spec, const Dataset& base,
 
 std::string grid_markdown(const std::vector<GridResult>& results, const FitSpec& spec,
                           const CoverageOptions& options) {
-  int rows = 0, held = 0, warned = 0;
+  int rows = 0, held = 0, warned = 0, wide = 0;
   std::string table =
-      "| design | parameter | identifiable, % | recommended, % | where identifiable, % | profile | "
+      "| design | parameter | identifiable, % | warned, % | recommended, % | where identifiable, % "
+      "| profile | "
       "studentized | bca | percentile | wald | delta | width / truth | |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const GridResult& result : results) {
     const int usable = result.coverage.datasets - result.coverage.failed;
     for (const CoverageRow& row : result.coverage.rows) {
@@ -115,9 +117,12 @@ std::string grid_markdown(const std::vector<GridResult>& results, const FitSpec&
       ++rows;
       held += verdict.starts_with("holds") ? 1 : 0;
       warned += verdict == "warned" ? 1 : 0;
-      table += fmt::format("| {} | {} | {} | {} | {} |", result.design.name(), row.parameter,
-                           percent(row.identifiable, usable), percent(best.held, best.offered),
-                           percent(best.held_identifiable, best.offered_identifiable));
+      wide += verdict == "TOO WIDE" ? 1 : 0;
+      table +=
+          fmt::format("| {} | {} | {} | {} | {} | {} |", result.design.name(), row.parameter,
+                      percent(row.identifiable, usable), percent(usable - row.identifiable, usable),
+                      percent(best.held, best.offered),
+                      percent(best.held_identifiable, best.offered_identifiable));
       for (const char* kind : {"profile", "studentized", "bca", "percentile", "wald", "delta"}) {
         const auto found = std::find_if(row.cells.begin(), row.cells.end(),
                                         [&](const CoverageCell& c) { return c.interval == kind; });
@@ -137,13 +142,15 @@ std::string grid_markdown(const std::vector<GridResult>& results, const FitSpec&
              "coverage of 95 % is {:.1f} %.\n\n"
              "**{} of {} rows hold** ({:.0f} to {:.0f} % of the data sets, and of those in which "
              "the verdict calls the parameter identifiable); in {} more the verdict warned in at "
-             "least {:.0f} % of the data sets; {} miss both.\n\n",
+             "least {:.0f} % of the data sets; {} miss both, {} of them because the interval holds "
+             "the "
+             "truth too often.\n\n",
              spec.id, options.datasets, options.uncertainty.replicates, options.uncertainty.seed,
              100.0 * options.uncertainty.level,
              results.empty() ? "" : results.front().coverage.truth_source,
              100.0 * std::sqrt(0.95 * 0.05 / std::max(1, options.datasets)), held, rows,
              100.0 * least_held, 100.0 * most_held, warned, 100.0 * least_warned,
-             rows - held - warned) +
+             rows - held - warned, wide) +
          table;
 }
 

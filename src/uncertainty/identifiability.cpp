@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,24 +12,57 @@
 namespace recoil {
 namespace {
 
-// A parameter known to worse than a factor of two says little beyond its order of magnitude.
-constexpr double widest = 0.5;  // standard error relative to the value
+constexpr double widest = 0.1;       // standard error relative to the scale of a parameter
+constexpr double least_loss = 0.01;  // 1 - e^2 below which a point tells no scale
 // Two parameters this correlated trade against each other over the whole of their errors.
 constexpr double strong_correlation = 0.97;
 
-std::string obstacle(const FitResult& fitted, std::size_t j, const Interval& interval) {
+/// For every slot the change that alone would make up the whole loss 1 - e^2 at the point that it
+/// moves most: 1 / max_i |d ln(1 - e_i^2) / d theta_j| [slots]; 0 where nothing is moved.
+std::vector<double> loss_scales(const FitResult& fitted, const Observations& data) {
+  std::vector<PointConditions> places;
+  for (const Observation& point : data.points) {
+    if (!point.censored) {
+      places.push_back({point.dataset, point.diameter, point.velocity, point.series});
+    }
+  }
+  std::vector<double> largest(fitted.theta.size(), 0.0);
+  for (const Prediction& at : predict(fitted.model, fitted.theta, std::move(places), true)) {
+    if (!at.usable()) continue;
+    const double loss = std::max(1.0 - at.restitution_squared, least_loss);
+    for (std::size_t j = 0; j < largest.size(); ++j) {
+      largest[j] = std::max(largest[j], std::abs(at.gradient[j]) / loss);
+    }
+  }
+  for (double& entry : largest) entry = entry > 0.0 ? 1.0 / entry : 0.0;
+  return largest;
+}
+
+/// How much wider the errors are than normal ones, the noise having `dof` degrees of freedom.
+double student_factor(int dof) {
+  constexpr double level = 0.975;
+  return dof > 0 ? gsl_cdf_tdist_Pinv(level, dof) / gsl_cdf_ugaussian_Pinv(level) : 1.0;
+}
+
+/// The standard error of slot j or, where it rests on a bound, what its interval says of one.
+double error_of(const FitResult& fitted, std::size_t j, const Interval& interval) {
+  constexpr double one_sided = 1.96;  // of a 95 % interval that begins at the bound
+  if (fitted.std_error[j] > 0.0 || !interval.available()) return fitted.std_error[j];
+  return (*interval.upper - *interval.lower) / one_sided;
+}
+
+/// @param error of the parameter, @param scale the size against which it counts
+std::string obstacle(const FitResult& fitted, std::size_t j, const Interval& interval, double error,
+                     double scale) {
   const ParameterSlot& slot = fitted.model.slots[j];
-  if (fitted.at_bound[j]) return "rests on its bound";
   if (!interval.available()) return "has no interval: " + interval.why;
-  if (*interval.lower <= slot.lower) {
-    return slot.lower == 0.0 ? "is consistent with zero" : "reaches its lower bound";
-  }
+  const bool low = *interval.lower <= slot.lower;
   if (*interval.upper >= slot.upper) return "reaches its upper bound";
-  if (fitted.std_error[j] > widest * std::abs(fitted.theta[j])) {
-    return fmt::format("is known only to {:.0f} %",
-                       100.0 * fitted.std_error[j] / std::abs(fitted.theta[j]));
-  }
-  return "";
+  if (low && slot.lower != 0.0) return "reaches its lower bound";
+  if (!(error > widest * scale)) return "";
+  if (fitted.at_bound[j]) return "rests on its bound";
+  return low ? "is consistent with zero"
+             : fmt::format("is known only to {:.0f} %", 100.0 * error / std::abs(fitted.theta[j]));
 }
 
 /// "2.1 %", or "a factor of 3" where percents no longer make sense.
@@ -131,15 +165,25 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
   std::vector<std::string> sentences;
   int free_count = 0;
   int good = 0;
+  const std::vector<double> scales = loss_scales(fitted, data);
+  const double widened = student_factor(data.sd_stated ? 0 : fitted.dof);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     result.parameter.push_back(false);
     if (!slot.free) continue;
     ++free_count;
-    const std::string problem = obstacle(fitted, j, recommended_interval(intervals[j]));
+    const Interval& interval = recommended_interval(intervals[j]);
+    const std::string problem =
+        obstacle(fitted, j, interval, widened * error_of(fitted, j, interval),
+                 std::max(std::abs(fitted.theta[j]), scales[j]));
     if (problem.empty()) {
       result.parameter.back() = true;
       ++good;
+      if (*interval.lower <= slot.lower) {
+        sentences.push_back(fmt::format(
+            "{} is consistent with zero, and small: read its interval as an upper limit",
+            slot.label()));
+      }
     } else {
       sentences.push_back(fmt::format("{} {}", slot.label(), problem));
     }

@@ -4,9 +4,15 @@
 
 namespace recoil {
 
-/// A parameter counts as identifiable when its recommended interval exists, stays clear of the
-/// parameter's bounds, and is narrower than the estimate itself on the lower side (half-width below
-/// `widest` times the value). The text names what stands in the way.
+/// A parameter counts as identifiable when its recommended interval exists and its standard error
+/// (times Student's factor where the noise is estimated) is below a tenth of the parameter's scale:
+/// the larger of its value and of what alone would make up the whole loss 1 - e^2 at the point that
+/// it moves most. That scale hardly depends on the luck of an estimate. Its value alone would, and
+/// so would asking whether the interval is clear of zero: both pick the data sets in which the
+/// parameter came out large, or in which the interval holds the truth more often than promised
+/// (reports/coverage-grid-*.md). A parameter so small that its interval begins at zero can
+/// therefore be identifiable; the text then calls it an upper limit. It names what stands in the
+/// way of others.
 Identifiability judge_identifiability(const FitResult& fitted, const Observations& data,
                                       const std::vector<IntervalSet>& intervals,
                                       const std::vector<CaptureEstimate>& capture);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "estimate/impact_problem.hpp"
+#include "estimate/reweigh.hpp"
 
 namespace recoil {
 namespace {
@@ -19,27 +20,41 @@ constexpr double end_tolerance = 1e-3;  // of the rise at an interval's end
 class Profile {
  public:
   Profile(const FitResult& fitted, const Observations& data, std::size_t slot)
-      : fitted_(fitted), problem_(impact_problem(fitted.model, data)), slot_(slot) {
+      : fitted_(fitted), data_(data), slot_(slot) {
+    problem_ = impact_problem(fitted.model, data_);
     problem_.fixed[slot] = true;
     options_.covariance = false;
     options_.function_tolerance = 1e-10;
+    least_ = fitted.chi2 + event_spread_offset(data);
   }
 
-  /// chi2 minimised over the others with the slot at `value`, above the minimum; `others` is both
-  /// the start and the end of the refit. Nothing when it fails.
-  std::optional<double> rise(double value, std::vector<double>& others) const {
+  /// chi2 minimised over the others (and the spread of the impacts) with the slot at `value`, above
+  /// the minimum; `others` is both the start and the end of the refit. Nothing when it fails.
+  std::optional<double> rise(double value, std::vector<double>& others) {
     others[slot_] = value;
-    const LeastSquaresResult refit = minimise(problem_, others, options_);
-    if (!refit.converged) return std::nullopt;
-    others = refit.theta;
-    return refit.sum_of_squares - fitted_.chi2;
+    double before = INFINITY;
+    for (int round = 0; round < most_rounds; ++round) {
+      const LeastSquaresResult refit = minimise(problem_, others, options_);
+      if (!refit.converged) return std::nullopt;
+      others = refit.theta;
+      const double now = refit.sum_of_squares + event_spread_offset(data_) - least_;
+      if (!(data_.noise.event_spread > 0.0) || std::abs(before - now) < at_rest) return now;
+      before = now;
+      if (!renew_event_spread(fitted_.model, others, data_)) return std::nullopt;
+    }
+    return before;
   }
 
  private:
+  static constexpr int most_rounds = 12;
+  static constexpr double at_rest = 5e-3;  // of the rise: a thousandth of the interval's width
+
   const FitResult& fitted_;
+  Observations data_;  ///< with the spread that belongs to the last refit
   LeastSquaresProblem problem_;
   std::size_t slot_;
   LeastSquaresOptions options_;
+  double least_ = 0.0;
 };
 
 /// How far the profile may rise at a value of the slot: less near a bound, see `profile_quantile`.
@@ -105,7 +120,7 @@ struct End {
   double value;
   bool at_bound;
 };
-std::optional<End> find_end(const Profile& profile, const FitResult& fitted, std::size_t slot,
+std::optional<End> find_end(Profile& profile, const FitResult& fitted, std::size_t slot,
                             double direction, const Allowance& allowed, double stride) {
   const ParameterSlot& parameter = fitted.model.slots[slot];
   const double bound = direction < 0.0 ? parameter.lower : parameter.upper;
@@ -159,7 +174,7 @@ Interval profile_interval(const FitResult& fitted, const Observations& data, std
   Interval interval;
   const double error = free_standard_error(fitted, data, slot);
   const Allowance allowed = allowance(fitted, data, slot, level, error);
-  const Profile profile(fitted, data, slot);
+  Profile profile(fitted, data, slot);
   const double value = fitted.theta[slot];
   double stride = error > 0.0 ? error : 0.1 * std::abs(value);
   if (!(stride > 0.0)) {
@@ -183,7 +198,7 @@ Interval profile_interval(const FitResult& fitted, const Observations& data, std
 std::vector<ProfilePoint> profile_curve(const FitResult& fitted, const Observations& data,
                                         std::size_t slot, double level, const Interval& interval) {
   if (!interval.available() || !(fitted.noise_scale > 0.0)) return {};
-  const Profile profile(fitted, data, slot);
+  Profile profile(fitted, data, slot);
   const Allowance allowed =
       allowance(fitted, data, slot, level, free_standard_error(fitted, data, slot));
   const ParameterSlot& parameter = fitted.model.slots[slot];

@@ -10,7 +10,8 @@ namespace recoil {
 /// the noise is estimated from the residuals, q is the quantile of F(1, dof) (Bates & Watts 1988,
 /// Nonlinear Regression Analysis and its Applications, section 6.1.2). Within two standard errors
 /// of the parameter's bound q is smaller, see `profile_quantile`. That treats the other parameters
-/// as if they were away from their bounds.
+/// as if they were away from their bounds. The spread of the impacts (event_spread), where points
+/// have both rebounds and captures, is one of the others; other estimated weights stay as they are.
 ///
 /// An end that reaches the parameter's bound stays there: shape "one-sided" for one such end,
 /// "flat" for both, "bounded" for none. @pre the slot is free

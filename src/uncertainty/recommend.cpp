@@ -137,8 +137,8 @@ void recommend(IntervalSet& set, bool sd_stated) {
   if (set.profile.available()) {
     set.recommended = "profile";
     set.recommended_why =
-        "it follows the likelihood where that is not a parabola and stops at the bounds; in the "
-        "coverage study it did no worse than the others";
+        "it follows the likelihood where that is not a parabola, stops at the bounds and takes the "
+        "spread of the impacts along; in the coverage study it did no worse than the others";
     return;
   }
   set.recommended = set.percentile.available() ? "percentile" : "wald";

@@ -5,12 +5,13 @@
 namespace recoil {
 
 /// Names the interval to quote, and why: the one place where the rule stands. It follows the
-/// coverage study (reports/coverage-grid.md).
+/// coverage study (reports/coverage-grid-n{10,20,60}-{stated,estimated}.md).
 ///
 /// Where the standard deviations are stated: the profile, which follows the likelihood where that
-/// is not a parabola and stops at the bounds. Where the noise is estimated: the studentized
-/// interval of the wild bootstrap, which assumes nothing about where the points scatter more,
-/// unless replicates rest on a bound. Without replicates the profile, else percentile, else Wald.
+/// is not a parabola, stops at the bounds and takes the spread of the impacts along. Where the
+/// noise is estimated: the studentized interval of the wild bootstrap, which assumes nothing about
+/// where the points scatter more, unless replicates rest on a bound. Without replicates the
+/// profile, else percentile, else Wald.
 void recommend(IntervalSet& set, bool sd_stated);
 
 /// Why the intervals of one free parameter differ, in a sentence: which of them differ by how much

@@ -14,7 +14,8 @@ using Json = nlohmann::json;
 
 constexpr std::size_t most_replicates = 1000000;
 
-/// One row: [index, [theta...], [std_error...]], or [index] when the refit failed.
+/// One row: [index, [theta...], [std_error..., errors of what is derived...]], or [index] when the
+/// refit failed.
 bool read_row(const Json& row, ReplicateTable& table) {
   if (!row.is_array() || row.empty() || !row[0].is_number_unsigned()) return false;
   const std::size_t index = row[0].get<std::size_t>();
@@ -24,11 +25,18 @@ bool read_row(const Json& row, ReplicateTable& table) {
     table.state[index] = ReplicateTable::State::failed;
     return true;
   }
-  if (row.size() != 3 || row[1].size() != table.slots || row[2].size() != table.slots) return false;
-  for (std::size_t j = 0; j < table.slots; ++j) {
-    if (!row[1][j].is_number() || !row[2][j].is_number()) return false;
-    table.theta[index * table.slots + j] = row[1][j].get<double>();
-    table.std_error[index * table.slots + j] = row[2][j].get<double>();
+  const auto read = [&row](std::size_t column, std::size_t length, std::vector<double>& to,
+                           std::size_t at) {
+    if (row[column].size() != length) return false;
+    for (std::size_t j = 0; j < length; ++j) {
+      if (!row[column][j].is_number()) return false;
+      to[at + j] = row[column][j].get<double>();
+    }
+    return true;
+  };
+  if (row.size() != 3 || !read(1, table.slots, table.theta, index * table.slots) ||
+      !read(2, table.errors(), table.std_error, index * table.errors())) {
+    return false;
   }
   table.state[index] = ReplicateTable::State::usable;
   return true;
@@ -40,7 +48,7 @@ void ReplicateTable::grow(std::size_t count) {
   if (count <= state.size()) return;
   state.resize(count, State::not_run);
   theta.resize(count * slots, 0.0);
-  std_error.resize(count * slots, 0.0);
+  std_error.resize(count * errors(), 0.0);
 }
 
 std::size_t ReplicateTable::finished() const {
@@ -55,11 +63,12 @@ void save_replicates(const std::filesystem::path& file, const std::string& key,
     if (table.state[i] == ReplicateTable::State::not_run) continue;
     Json row = Json::array({i});
     if (table.state[i] == ReplicateTable::State::usable) {
-      const auto from = static_cast<std::ptrdiff_t>(i * table.slots);
-      const auto to = from + static_cast<std::ptrdiff_t>(table.slots);
-      row.push_back(std::vector<double>(table.theta.begin() + from, table.theta.begin() + to));
-      row.push_back(
-          std::vector<double>(table.std_error.begin() + from, table.std_error.begin() + to));
+      const auto part = [i](const std::vector<double>& values, std::size_t length) {
+        const auto from = values.begin() + static_cast<std::ptrdiff_t>(i * length);
+        return std::vector<double>(from, from + static_cast<std::ptrdiff_t>(length));
+      };
+      row.push_back(part(table.theta, table.slots));
+      row.push_back(part(table.std_error, table.errors()));
     }
     rows.push_back(std::move(row));
   }
@@ -72,9 +81,10 @@ void save_replicates(const std::filesystem::path& file, const std::string& key,
 }
 
 ReplicateTable load_replicates(const std::filesystem::path& file, const std::string& key,
-                               std::size_t slots) {
+                               std::size_t slots, std::size_t derived) {
   ReplicateTable none;
   none.slots = slots;
+  none.derived = derived;
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed)) return none;
   std::string text;

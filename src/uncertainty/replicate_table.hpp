@@ -12,13 +12,15 @@ struct ReplicateTable {
   enum class State : std::uint8_t { not_run, usable, failed };
 
   std::size_t slots = 0;
+  std::size_t derived = 0;        ///< further quantities of which only the error is kept
   std::vector<State> state;       ///< [count]
   std::vector<double> theta;      ///< [count x slots]
-  std::vector<double> std_error;  ///< [count x slots]
+  std::vector<double> std_error;  ///< [count x (slots + derived)]
 
   /// Makes room for `count` replicates; those that exist stay.
   void grow(std::size_t count);
   std::size_t finished() const;
+  std::size_t errors() const { return slots + derived; }
 };
 
 /// Writes the finished replicates under `key`, every digit of them, as JSON: whole or not at all.
@@ -28,6 +30,6 @@ void save_replicates(const std::filesystem::path& file, const std::string& key,
 /// Takes over what `file` holds, if it was written under `key`; a file that is missing, damaged or
 /// of another key leaves the table empty. Replicates are cheap, wrong ones are not.
 ReplicateTable load_replicates(const std::filesystem::path& file, const std::string& key,
-                               std::size_t slots);
+                               std::size_t slots, std::size_t derived = 0);
 
 }  // namespace recoil

@@ -14,12 +14,19 @@ namespace {
 
 constexpr double most_leverage = 0.99;  // a point that the fit passes through says nothing
 
-/// r_i / (1 - h_i)^power of every point; captured ones get 0.
+/// r_i / (1 - h_i)^power of every point; captured ones get 0. Where impacts differ the residual of
+/// the fit is that of the count, too, which is drawn anew: the survivors' mean has its own.
 std::vector<double> scaled_residuals(const FitResult& fitted, const Observations& data,
                                      double power) {
   std::vector<double> scaled(data.points.size(), 0.0);
   for (std::size_t i = 0; i < scaled.size(); ++i) {
-    if (data.points[i].censored) continue;
+    const Observation& point = data.points[i];
+    if (point.censored) continue;
+    if (point.scatter > 0.0) {
+      const double expected = expected_restitution(point, fitted.prediction_squared[i]);
+      scaled[i] = (point.restitution - expected) / point.mean_sd;
+      continue;
+    }
     const double h = std::min(fitted.leverage[i], most_leverage);
     scaled[i] = fitted.residuals[i] / std::pow(1.0 - h, power);
   }
@@ -49,9 +56,20 @@ std::vector<std::vector<std::size_t>> series_of(const Observations& data) {
   return clusters;
 }
 
-/// Moves point i of the sample to its predicted value and `noise` standard deviations beyond.
-void disturb(const ResamplingPlan& plan, std::size_t i, double noise, Observations& sample) {
+/// Moves point i of the sample to its predicted value and `noise` standard deviations beyond; where
+/// its impacts differ, other ones are captured.
+void disturb(const ResamplingPlan& plan, std::size_t i, double noise, RandomStream& random,
+             Observations& sample) {
   Observation& point = sample.points[i];
+  if (point.scatter > 0.0 && point.counted) {
+    const double m = plan.fitted->prediction_squared[i];
+    point = redraw_captures(point, m, random.uniform());
+    point.restitution =
+        point.censored
+            ? 0.0
+            : std::max(0.0, expected_restitution(point, m) + survivors_sd(point, m) * noise);
+    return;
+  }
   if (point.censored) return;
   const double expected = expected_restitution(point, plan.fitted->prediction_squared[i]);
   point.restitution = std::max(0.0, expected + point.sd * noise);
@@ -133,7 +151,7 @@ void resample_parametric(const ResamplingPlan& plan, RandomStream& random, Obser
 void resample_residual(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points = plan.data->points;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    disturb(plan, i, plan.residuals[random.below(plan.residuals.size())], sample);
+    disturb(plan, i, plan.residuals[random.below(plan.residuals.size())], random, sample);
   }
 }
 
@@ -141,7 +159,7 @@ void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observation
   sample.points = plan.data->points;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
-    disturb(plan, i, sign * plan.residuals[i], sample);
+    disturb(plan, i, sign * plan.residuals[i], random, sample);
   }
 }
 

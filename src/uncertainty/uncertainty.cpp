@@ -111,6 +111,28 @@ double relative_error(const Interval& interval) {
   return width > 0.0 ? error / width : 0.0;
 }
 
+/// The studentized interval of V* of the k-th size, on its logarithm.
+Interval studentized_capture(const BootstrapResult& boot, std::size_t k, double value,
+                             double level) {
+  std::vector<double> logarithms;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < boot.capture_velocity.size(); ++i) {
+    const double v = boot.capture_velocity[i][k];
+    if (!(v > 0.0)) continue;
+    logarithms.push_back(std::log(v / value));
+    errors.push_back(boot.capture_error[i][k]);
+  }
+  Interval interval = studentized_interval(logarithms, errors, 0.0, boot.capture_reference_error[k],
+                                           level, -INFINITY, INFINITY);
+  for (auto* end : {&interval.lower, &interval.upper}) {
+    if (*end) *end = value * std::exp(**end);
+  }
+  for (auto* error : {&interval.lower_error, &interval.upper_error}) {
+    if (*error) *error = value * **error;
+  }
+  return interval;
+}
+
 /// What the replicates made so far say about the intervals.
 void read_off(const FitResult& fitted, const Observations& data,
               const std::vector<std::vector<double>>& delete_one, UncertaintyResult& result) {
@@ -150,6 +172,10 @@ void read_off(const FitResult& fitted, const Observations& data,
                fmt::format("withheld: {} of {} refits failed", boot.failed, boot.replicates));
     } else {
       capture.percentile = percentile_interval(column(boot.capture_velocity, k), options.level);
+      capture.studentized = studentized_capture(boot, k, capture.value, options.level);
+    }
+    if (!capture.studentized.available() && capture.studentized.why.empty()) {
+      capture.studentized.why = capture.percentile.why;
     }
     recommend_capture(fitted, data.sd_stated, capture);
     worst = std::max(worst, relative_error(capture.interval));

@@ -64,6 +64,8 @@ struct BootstrapResult {
   std::vector<std::vector<double>> theta;             ///< usable replicates [count][slots]
   std::vector<std::vector<double>> std_error;         ///< of each replicate [count][slots], 0: none
   std::vector<std::vector<double>> capture_velocity;  ///< [count][diameters], per CaptureEstimate
+  std::vector<std::vector<double>> capture_error;     ///< of ln V* [count][diameters], 0: none
+  std::vector<double> capture_reference_error;        ///< of ln V* of the fit itself [diameters]
   int two_point_replicates = 0;  ///< the first of them also ran the two-point iteration
   std::vector<int>
       two_point_failed;  ///< [datasets] of those, replicates in which it did not converge
@@ -77,11 +79,12 @@ struct CaptureEstimate {
   double diameter = 0.0;  ///< [m]
   double value = 0.0;     ///< [m/s]
   bool found = false;
-  Interval delta;       ///< V* exp(+- q sd(ln V*)), sd by the covariance and d V* / d theta; q of
-                        ///< Student where the noise is estimated
-  Interval percentile;  ///< of the bootstrap
-  Interval interval;    ///< the recommended one of the two
-  std::string recommended;      ///< "delta" or "percentile"
+  Interval delta;        ///< V* exp(+- q sd(ln V*)), sd by the covariance and d V* / d theta; q of
+                         ///< Student where the noise is estimated
+  Interval percentile;   ///< of the bootstrap
+  Interval studentized;  ///< of ln V*, errors by its gradient in every replicate
+  Interval interval;     ///< the recommended one of the three
+  std::string recommended;      ///< "delta", "percentile" or "studentized"
   std::string recommended_why;  ///< by which rule
 };
 

@@ -110,6 +110,11 @@ TEST(Fit, ReferenceSolverAgrees) {
 TEST(Coverage, DrawsTheGridOnlyWhereThereIsOne) {
   const Workplace place;
   EXPECT_EQ(place.run({"coverage", "fit.toml", "--picture", "grid.svg"}).status, 2);
+  EXPECT_EQ(place.run({"coverage", "fit.toml", "--designs", "n10"}).status, 2);
+  const Outcome unknown = place.run({"coverage", "fit.toml", "--grid", "--designs", "n12,stated"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("n10, n20, n60"), std::string::npos) << unknown.err;
+  EXPECT_EQ(unknown.out, "");
   const Outcome run =
       place.run({"coverage", "fit.toml", "--grid", "--designs", "n10 equal stated f0-fixed",
                  "--datasets", "2", "--replicates", "39", "--picture", "grid.svg"});

@@ -40,9 +40,10 @@ TEST(Captures, CountsAloneGiveTheBinomialEstimate) {
   EXPECT_GT(r, 0.0);  // the point lies above
 }
 
-TEST(Captures, AllCapturedIsTobitToThePowerOfTheCount) {
+TEST(Captures, AllCapturedIsTobitToThePowerOfTheCountWhereImpactsDiffer) {
   Observation point;
   point.sd = 0.01;
+  point.scatter = 0.02;
   point.censored = true;
   point.events = point.captured = 7;
   // At m = 0 each impact is captured with probability 1/2.
@@ -50,6 +51,18 @@ TEST(Captures, AllCapturedIsTobitToThePowerOfTheCount) {
   // What all impacts of the point share leaves a single one: n_eff -> 1.
   point.input_sd = 100.0;
   EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(2.0 * std::log(2.0)), 1e-5);
+}
+
+TEST(Captures, AllCapturedIsOneObservationWhereNothingIsKnownOfTheImpacts) {
+  Observation point;
+  point.sd = 0.1;
+  point.censored = true;
+  point.events = point.captured = 40;
+  EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(2.0 * std::log(2.0)), 1e-12);
+  // s = sqrt(2) sd^2: one s below zero costs -2 ln Phi(1).
+  const double s = std::sqrt(2.0) * 0.01;
+  EXPECT_NEAR(weighted_residual(point, -s).value,
+              std::sqrt(-2.0 * std::log(gsl_cdf_ugaussian_P(1.0))), 1e-12);
 }
 
 TEST(Captures, ResidualIsTheSignedRootOfTheDevianceAndSmooth) {
@@ -217,6 +230,83 @@ TEST(Captures, SurvivorsMeansAreUnbiasedWhereTheyWereNot) {
   EXPECT_NEAR(after.capture, 0.0, 0.005);
   EXPECT_NEAR(after.spread, 0.1, 0.01);
   EXPECT_LT(after.C_A_scatter, 0.5 * before.C_A_scatter + 0.02);
+}
+
+/// Exact means of 40 impacts with a large stated sd, and one point below the capture velocity.
+Dataset exact_with_captured_point() {
+  const ImpactsOfManySpheres impacts(0.0);
+  synthetic::Design design;
+  design.diameters = {ImpactsOfManySpheres::diameter};
+  design.velocities.clear();
+  for (const double relative : {0.85, 1.34, 2.1, 3.3, 5.2, 8.2, 12.9, 20.2, 31.8, 50.0}) {
+    design.velocities.push_back(relative * impacts.capture_velocity());
+  }
+  Dataset data = synthetic::dataset(design);
+  for (ImpactPoint& point : data.points) {
+    point.counted = true;
+    point.events = 40;
+    if (point.captured > 0) point.captured = 40;
+    point.restitution_sd.reset();
+    if (point.captured == 0) point.restitution_sd = 0.1 * point.restitution;
+  }
+  return data;
+}
+
+TEST(Captures, ACapturedPointAtItsPlaceChangesNothing) {
+  const Dataset data = exact_with_captured_point();
+  ASSERT_TRUE(data.points[0].all_captured());
+  Dataset without = data;
+  without.points.erase(without.points.begin());
+  for (const bool f0_free : {false, true}) {
+    const FitSpec spec = synthetic::spec(f0_free);
+    const FitResult with = fit(make_model(spec, {data}), gather({data}));
+    const FitResult rest = fit(make_model(spec, {without}), gather({without}));
+    ASSERT_TRUE(with.usable && rest.usable) << with.failure << rest.failure;
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_NEAR(with.theta[j] / rest.theta[j], 1.0, 1e-3) << j << f0_free;
+    }
+  }
+}
+
+TEST(Captures, WithoutAMixedPointNothingRemainsOfTheSpread) {
+  const ImpactsOfManySpheres impacts(0.1);
+  const Dataset data = impacts.draw(1);
+  FitResult fitted = fit(make_model(synthetic::spec(), {data}), gather({data}));
+  ASSERT_TRUE(fitted.usable) << fitted.failure;
+  ASSERT_GT(fitted.data.noise.event_spread, 0.0);
+  EXPECT_FALSE(fitted.spread_covariance.empty());
+  // A replicate in which no impact of a point with rebounds was captured.
+  Observations replicate = fitted.data;
+  for (Observation& point : replicate.points) {
+    if (!point.censored) point.captured = 0;
+  }
+  EXPECT_TRUE(replicate.weights_depend_on_fit());
+  const Settled settled = settle(fitted.model, replicate, fitted.theta);
+  EXPECT_TRUE(settled.run.converged) << settled.run.message;
+  EXPECT_EQ(settled.data.noise.event_spread, 0.0);
+  for (const Observation& point : settled.data.points) EXPECT_EQ(point.scatter, 0.0);
+}
+
+TEST(Captures, TheRoundsEndAtOnePlaceFromWhereverTheyStart) {
+  const ImpactsOfManySpheres impacts(0.03);
+  for (const std::uint64_t draw : {2, 3, 4}) {
+    const Dataset data = impacts.draw(draw);
+    const FitResult fitted = fit(make_model(synthetic::spec(true), {data}), gather({data}));
+    ASSERT_TRUE(fitted.usable) << fitted.failure;
+    ASSERT_GT(fitted.data.noise.event_spread, 0.0);
+    for (const double factor : {0.7, 1.4}) {
+      std::vector<double> start = fitted.theta;
+      for (std::size_t j = 0; j < 2; ++j) start[j] *= factor;
+      Observations again = gather({data});
+      again.noise.event_spread = 0.05 * factor;
+      const Settled settled = settle(fitted.model, again, start);
+      EXPECT_TRUE(settled.run.converged && settled.at_rest);
+      for (std::size_t j = 0; j < 3; ++j) {
+        EXPECT_NEAR((settled.run.theta[j] - fitted.theta[j]) / fitted.std_error[j], 0.0, 0.02);
+      }
+      EXPECT_NEAR(settled.data.noise.event_spread / fitted.data.noise.event_spread, 1.0, 0.02);
+    }
+  }
 }
 
 TEST(Captures, AreDrawnAsTheyAreFitted) {

@@ -73,6 +73,12 @@ TEST(ReplicateTable, EveryDigitComesBackUnderItsKeyOnly) {
   EXPECT_EQ(back.finished(), 3U);
   EXPECT_EQ(load_replicates(folder.file(), "other", 2).finished(), 0U);
   EXPECT_EQ(load_replicates(folder.file(), "key", 3).finished(), 0U);
+  // Errors of what is derived come back beside them, and only together.
+  table.derived = 1;
+  table.std_error = {1, 2, 3, 0, 0, 0, 0, 0, 0, 4, 5, 6.5};
+  save_replicates(folder.file(), "key", table);
+  EXPECT_EQ(load_replicates(folder.file(), "key", 2, 1).std_error, table.std_error);
+  EXPECT_EQ(load_replicates(folder.file(), "key", 2).finished(), 0U);
 }
 
 TEST(ReplicateTable, DamagedFilesAreNotTrusted) {

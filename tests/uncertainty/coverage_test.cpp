@@ -1,9 +1,18 @@
-// A small, fixed version of the coverage study: ten regenerated data sets.
+// A small, fixed version of the coverage study: ten regenerated data sets, and the errors of those
+// points of the grid that depend on the estimated spread of the impacts.
 #include "uncertainty/coverage.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "core/error.hpp"
+#include "estimate/fit.hpp"
+#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/coverage_grid.hpp"
 #include "uncertainty/coverage_truth.hpp"
+#include "uncertainty/profile.hpp"
+#include "uncertainty/replicate_errors.hpp"
 
 namespace recoil {
 namespace {
@@ -28,6 +37,67 @@ TEST(Coverage, DahnekeTruthLiesInTheStatedIntervals) {
     EXPECT_GE(recommended.held + 10 - recommended.offered, 8) << row.parameter;
   }
   EXPECT_GE(identifiable, 1);
+}
+
+TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
+  const std::string root = RECOIL_SOURCE_DIR;
+  const FitSpec spec = load_fit(root + "/fits/wall1990-molybdenum.toml");
+  const Dataset base = load_dataset(spec.datasets.front());
+  const GridDesign design = designs_named({"n20 near-capture stated f0-fixed captures"}).front();
+  const CoverageTruth truth = grid_truth(spec, base, design, 3);
+  constexpr int sets = 150;
+  double square = 0.0;     // of the error of ln V* over its standard error
+  double unknowing = 0.0;  // the same, over what it were if the spread was known
+  int held = 0;            // C_A in its profile
+  int held_fixed = 0;      // in the profile with the spread held at its estimate
+  for (std::uint64_t s = 0; s < sets; ++s) {
+    const std::vector<Dataset> datasets = truth.simulate(s);
+    const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+    ASSERT_TRUE(fitted.usable) << fitted.failure;
+    const CaptureEstimate at = capture_estimates(fitted, fitted.data, 0.95, datasets).front();
+    const double off = std::log(at.value / truth.capture[0].velocity);
+    const double error = std::log(*at.delta.upper / *at.delta.lower) / (2.0 * 1.959964);
+    square += std::pow(off / error, 2) / sets;
+    std::vector<double> less = fitted.covariance;
+    for (std::size_t k = 0; k < fitted.spread_covariance.size(); ++k) {
+      less[k] -= fitted.spread_covariance[k];
+    }
+    const CaptureVelocity v = capture_velocity(fitted.model, fitted.theta, 0, at.diameter);
+    unknowing += std::pow(off / logarithmic_error(v, less), 2) / sets;
+    Observations fixed = fitted.data;
+    fixed.noise.event_spread = 0.0;  // the weights stay, and nothing renews them
+    for (const bool settled : {true, false}) {
+      const Interval profile = profile_interval(fitted, settled ? fitted.data : fixed, 1, 0.95);
+      ASSERT_TRUE(profile.available()) << profile.why;
+      const bool holds = *profile.lower <= truth.theta[1] && truth.theta[1] <= *profile.upper;
+      (settled ? held : held_fixed) += holds ? 1 : 0;
+    }
+  }
+  // The root mean square of 150 unit normals is 1 +- 0.06, and 142.5 +- 2.7 intervals should hold.
+  EXPECT_NEAR(std::sqrt(square), 1.0, 0.15);
+  EXPECT_GT(std::sqrt(unknowing), 1.25);
+  EXPECT_GE(held, 138);
+  EXPECT_LE(held, 148);
+  EXPECT_LT(held_fixed, held - 5);
+  RecordProperty("unknowing", std::to_string(std::sqrt(unknowing)));
+  RecordProperty("held", std::to_string(held) + " " + std::to_string(held_fixed));
+}
+
+TEST(Coverage, DesignsAreNamedByTheirWords) {
+  EXPECT_EQ(designs_named({}).size(), coverage_grid().size());
+  EXPECT_EQ(designs_named({"n20", "stated"}).size(), 12U);
+  EXPECT_EQ(designs_named({"10 %", "captures", "estimated"}).size(), 6U);
+  EXPECT_EQ(designs_named({"n10 equal stated f0-fixed"}).size(), 2U);  // with and without captures
+  try {
+    designs_named({"n12", "stated"});
+    FAIL() << "there are no 12 points in the grid";
+  } catch (const InputError& e) {
+    const std::string words = e.what();
+    for (const char* known : {"'n12'", "n10", "n60", "near-capture", "f0-free", "captures"}) {
+      EXPECT_NE(words.find(known), std::string::npos) << words;
+    }
+  }
+  EXPECT_THROW(designs_named({"n10", "n20"}), InputError);
 }
 
 }  // namespace

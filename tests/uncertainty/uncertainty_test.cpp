@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "noisy_case.hpp"
+#include "uncertainty/identifiability.hpp"
 #include "uncertainty/profile.hpp"
 
 namespace recoil {
@@ -36,6 +37,73 @@ TEST(Bootstrap, SeedChangesTheReplicatesOnly) {
   EXPECT_NE(a.bootstrap.theta, b.bootstrap.theta);
   EXPECT_EQ(a.intervals[0].wald.lower, b.intervals[0].wald.lower);
   EXPECT_EQ(a.intervals[0].profile.lower, b.intervals[0].profile.lower);
+}
+
+TEST(Capture, StudentizedAndDeltaRestOnTheSameError) {
+  const Case c = noisy_case();
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  for (std::size_t k = 0; k < result.capture.size(); ++k) {
+    const CaptureEstimate& at = result.capture[k];
+    EXPECT_NEAR(std::log(*at.delta.upper / at.value) / 1.959963985,
+                result.bootstrap.capture_reference_error[k], 1e-9);
+    // 39 replicates: the ends belong to the smallest and the largest pivot.
+    double low = INFINITY;
+    double high = -INFINITY;
+    for (std::size_t i = 0; i < result.bootstrap.capture_velocity.size(); ++i) {
+      const double pivot = std::log(result.bootstrap.capture_velocity[i][k] / at.value) /
+                           result.bootstrap.capture_error[i][k];
+      low = std::min(low, pivot);
+      high = std::max(high, pivot);
+    }
+    const double error = result.bootstrap.capture_reference_error[k];
+    ASSERT_TRUE(at.studentized.available()) << at.studentized.why;
+    EXPECT_NEAR(*at.studentized.lower, at.value * std::exp(-error * high), 1e-9 * at.value);
+    EXPECT_NEAR(*at.studentized.upper, at.value * std::exp(-error * low), 1e-9 * at.value);
+  }
+}
+
+/// The relative change of the loss 1 - e^2 per unit of a slot, largest over the points, by
+/// differences.
+double largest_effect(const Case& c, std::size_t slot) {
+  double largest = 0.0;
+  for (const Observation& point : c.data.points) {
+    const auto loss = [&](double factor) {
+      std::vector<double> theta = c.fitted.theta;
+      theta[slot] *= factor;
+      return 1.0 - predict(c.fitted.model, theta, 0, point.diameter, point.velocity, false)
+                       .restitution_squared;
+    };
+    constexpr double h = 1e-3;
+    const double slope = (loss(1.0 + h) - loss(1.0 - h)) / (2.0 * h * c.fitted.theta[slot]);
+    largest = std::max(largest, std::abs(slope) / loss(1.0));
+  }
+  return largest;
+}
+
+TEST(Identifiability, AsksForAnErrorBelowATenthOfTheLossScale) {
+  Case c = noisy_case();
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  for (const std::size_t slot : {std::size_t{0}, std::size_t{1}}) {
+    const double scale = std::max(1.0 / largest_effect(c, slot), c.fitted.theta[slot]);
+    for (const double part : {0.099, 0.101}) {
+      c.fitted.std_error[slot] = part * scale;
+      const Identifiability verdict =
+          judge_identifiability(c.fitted, c.data, result.intervals, result.capture);
+      EXPECT_EQ(verdict.parameter[slot], part < 0.1) << slot;
+    }
+  }
+}
+
+TEST(Identifiability, AKnownUpperLimitIsKnowledge) {
+  Case c = noisy_case();
+  UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  c.fitted.std_error[0] = 1e-6;
+  result.intervals[0].profile.lower = 0.0;
+  const Identifiability verdict =
+      judge_identifiability(c.fitted, c.data, result.intervals, result.capture);
+  EXPECT_TRUE(verdict.parameter[0]);
+  EXPECT_NE(verdict.text.find("C_H is consistent with zero"), std::string::npos) << verdict.text;
+  EXPECT_NE(verdict.text.find("upper limit"), std::string::npos) << verdict.text;
 }
 
 TEST(Profile, RisesByTheQuantileAtItsEnds) {

@@ -1,0 +1,71 @@
+#include "uncertainty/replicate_errors.hpp"
+
+#include <cmath>
+
+#include "estimate/impact_problem.hpp"
+#include "estimate/noise.hpp"
+#include "estimate/reweigh.hpp"
+#include "uncertainty/intervals.hpp"
+
+namespace recoil {
+namespace {
+
+/// Do the points scatter unequally in a way that the covariance does not know of?
+bool uses_sandwich(Scheme scheme) {
+  return scheme == Scheme::wild || scheme == Scheme::cases || scheme == Scheme::cluster;
+}
+
+}  // namespace
+
+std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Observations& data,
+                                         const FitResult& fitted, const ResamplingPlan& plan) {
+  if (run.covariance.empty()) return {};
+  // Where the noise is estimated, it was so again with the parameters of this run.
+  const double scale = data.sd_stated ? fitted.noise_scale : 1.0;
+  std::vector<double> covariance =
+      uses_sandwich(plan.scheme) ? sandwich_covariance(run.residuals, run.jacobian,
+                                                       scaled_covariance(data, run.covariance, 1.0))
+                                 : scaled_covariance(data, run.covariance, scale);
+  const auto added = event_spread_covariance(fitted.model, run.theta, data, run.covariance);
+  for (std::size_t k = 0; k < added.size(); ++k) covariance[k] += added[k];
+  return covariance;
+}
+
+std::vector<double> reference_covariance(const FitResult& fitted, const ResamplingPlan& plan) {
+  if (!uses_sandwich(plan.scheme) || fitted.covariance.empty()) return fitted.covariance;
+  const LeastSquaresProblem problem = impact_problem(fitted.model, *plan.data);
+  LeastSquaresResult at_fit;
+  at_fit.theta = fitted.theta;
+  at_fit.residuals.resize(problem.residual_count);
+  at_fit.jacobian.resize(problem.residual_count * fitted.theta.size());
+  if (!problem.evaluate(at_fit.theta, at_fit.residuals, at_fit.jacobian)) return fitted.covariance;
+  at_fit.covariance = fitted.covariance;
+  for (std::size_t k = 0; k < fitted.spread_covariance.size(); ++k) {
+    at_fit.covariance[k] -= fitted.spread_covariance[k];
+  }
+  const double scaled = scaled_covariance(*plan.data, {1.0}, fitted.noise_scale).front();
+  for (double& entry : at_fit.covariance) entry /= scaled;
+  return replicate_covariance(at_fit, *plan.data, fitted, plan);
+}
+
+std::vector<double> roots_of_diagonal(std::span<const double> covariance, std::size_t p) {
+  std::vector<double> roots(p, 0.0);
+  for (std::size_t j = 0; j < p && !covariance.empty(); ++j) {
+    roots[j] = std::sqrt(covariance[j * p + j]);
+  }
+  return roots;
+}
+
+double logarithmic_error(const CaptureVelocity& capture, std::span<const double> covariance) {
+  if (!capture.found || !(capture.value > 0.0) || covariance.empty()) return 0.0;
+  const std::size_t p = capture.gradient.size();
+  double variance = 0.0;
+  for (std::size_t a = 0; a < p; ++a) {
+    for (std::size_t b = 0; b < p; ++b) {
+      variance += capture.gradient[a] * covariance[a * p + b] * capture.gradient[b];
+    }
+  }
+  return variance > 0.0 ? std::sqrt(variance) / capture.value : 0.0;
+}
+
+}  // namespace recoil
