@@ -182,8 +182,11 @@ std::string warnings_html(const Diagnosis& d) {
 }  // namespace
 
 std::string diagnosis_section(const Diagnosis& d) {
+  // A page of several targets has many pictures already; the diagnosis itself shows the others.
   std::vector<Figure> figures = misfit_figures(d);
-  for (Figure& figure : before_after_figures(d)) figures.push_back(std::move(figure));
+  if (d.datasets.size() == 1) {
+    for (Figure& figure : before_after_figures(d)) figures.push_back(std::move(figure));
+  }
   return answer_html(d) + figures_html(figures) + parameters_html(d);
 }
 
