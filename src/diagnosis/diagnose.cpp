@@ -20,7 +20,6 @@ namespace {
 
 constexpr double size_factor = 1.2;         // diameters within this factor are one size
 constexpr double apart_at_one_size = 20.0;  // there nothing but the shape of one curve speaks
-constexpr double excused = 0.01;            // level at which a free form takes up the misfit
 
 bool has_one_size(const Observations& data) {
   double low = INFINITY, high = 0.0;
