@@ -105,17 +105,24 @@ std::string remark_of(const PairCommand& command, const EventTable& table) {
   return word.empty() || word == "measured" ? file : fmt::format("{}: {}", file, word);
 }
 
+/// Points of mixed sizes get the distribution of the sizes beside them; size classes need none.
 void write_dataset(const PairCommand& command, const EventTable& table, const PairResult& pairs,
                    const std::string& points) {
+  const bool mixed =
+      command.averaging.size_edges.size() <= 2 && command.averaging.size_classes == 1;
   const fs::path like = fs::path(command.like) / "datapackage.json";
   const std::string package = package_json(
       read_text_file(like), like.string(), fs::absolute(command.into).lexically_normal().filename(),
       provenance_of(command, table), fs::path(table.file).filename().string(),
       fmt::format("{} impacts that recoil pair found in {} passages; the measuring plane {:.5g} mm "
                   "above the surface; velocities at the surface.",
-                  pairs.impacts.size(), table.events.size(), pairs.height / units::mm));
+                  pairs.impacts.size(), table.events.size(), pairs.height / units::mm),
+      mixed ? pairs.height : 0.0);
   parse_dataset(package, points, command.into);  // refuses what `recoil check` would refuse
   write_whole_file(fs::path(command.into) / "points.csv", points);
+  if (mixed) {
+    write_whole_file(fs::path(command.into) / "sizes.csv", sizes_csv(distributions(table, pairs)));
+  }
   write_whole_file(fs::path(command.into) / "datapackage.json", package);
 }
 
@@ -213,7 +220,9 @@ void add_selection_options(CLI::App& app, PairCommand& command) {
 void add_output_options(CLI::App& app, PairCommand& command) {
   app.add_option("--out", command.out, "write the points here (CSV)");
   CLI::Option* into =
-      app.add_option("--into", command.into, "write a dataset folder: points and datapackage.json");
+      app.add_option("--into", command.into,
+                     "write a dataset folder: points, datapackage.json and, unless there are "
+                     "size classes, sizes.csv");
   CLI::Option* like =
       app.add_option("--like", command.like, "a dataset folder whose materials it takes over");
   into->needs(like);

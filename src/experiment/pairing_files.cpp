@@ -38,16 +38,6 @@ std::string bins_csv(const std::vector<double>& values, double unit) {
   return out;
 }
 
-std::string sizes_csv(const std::vector<double>& values) {
-  std::string out = "diameter,count\n";
-  const Histogram histogram = sturges(values);
-  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
-    if (histogram.counts[i] == 0) continue;
-    out += fmt::format("{:.5g},{}\n", histogram.middle(i) / units::um, histogram.counts[i]);
-  }
-  return out;
-}
-
 nlohmann::ordered_json field(const char* name, const char* type, const char* unit,
                              const char* description) {
   nlohmann::ordered_json object = {{"name", name}, {"type", type}};
@@ -71,6 +61,17 @@ std::string points_csv(const Averages& averages) {
                        point.diameter / units::um, point.velocity, known(point.velocity_sd),
                        rebounds ? fmt::format("{:.5g}", point.restitution) : "",
                        known(point.restitution_sd), point.events(), point.captured);
+  }
+  return out;
+}
+
+std::string sizes_csv(const Distributions& distributions) {
+  std::string out = "lower,upper,count\n";
+  const Histogram histogram = sturges(distributions.incoming_sizes);
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    if (histogram.counts[i] == 0) continue;
+    out += fmt::format("{:.5g},{:.5g},{}\n", histogram.edge(i) / units::um,
+                       histogram.edge(i + 1) / units::um, histogram.counts[i]);
   }
   return out;
 }
@@ -100,7 +101,8 @@ std::string impacts_csv(const EventTable& table, const PairResult& pairs) {
 
 std::string package_json(const std::string& like_text, const std::string& like_file,
                          const std::string& id, const std::string& provenance,
-                         const std::string& events_file, const std::string& description) {
+                         const std::string& events_file, const std::string& description,
+                         double sizes_height) {
   const JsonDocument document(like_text, like_file);
   document.root().require("recoil", "it holds the materials",
                           "name the folder of a dataset with the same materials");
@@ -122,12 +124,33 @@ std::string package_json(const std::string& like_text, const std::string& like_f
       {"name", "points"},        {"path", "points.csv"}, {"format", "csv"},
       {"mediatype", "text/csv"}, {"encoding", "utf-8"},  {"schema", {{"fields", fields}}},
   };
+  auto resources = nlohmann::ordered_json::array({resource});
+  if (sizes_height > 0.0) {
+    const auto bins = nlohmann::ordered_json::array({
+        field("lower", "number", "um", "lower end of the bin"),
+        field("upper", "number", "um", "its upper end"),
+        field("count", "integer", "1", "spheres in it"),
+    });
+    resources.push_back({
+        {"name", "sizes"},
+        {"path", "sizes.csv"},
+        {"format", "csv"},
+        {"mediatype", "text/csv"},
+        {"encoding", "utf-8"},
+        {"title", "Size distribution of the incoming spheres"},
+        {"description",
+         fmt::format("first passages towards the surface in {}, rebounded or not", events_file)},
+        {"provenance", provenance},
+        {"probe_height", sizes_height},
+        {"schema", {{"fields", bins}}},
+    });
+  }
   const nlohmann::ordered_json package = {
       {"name", id},
       {"title", fmt::format("Impacts paired from {}", events_file)},
       {"description", description},
       {"sources", nlohmann::ordered_json::array({source})},
-      {"resources", nlohmann::ordered_json::array({resource})},
+      {"resources", resources},
       {"recoil", recoil},
   };
   return package.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -155,7 +178,7 @@ std::map<std::string, std::string> histogram_files(const Distributions& distribu
       {"velocities-paired.csv", bins_csv(distributions.paired_velocities, 1.0)},
       {"sizes-incoming.csv", bins_csv(distributions.incoming_sizes, units::um)},
       {"sizes-paired.csv", bins_csv(distributions.paired_sizes, units::um)},
-      {"sizes.csv", sizes_csv(distributions.incoming_sizes)},
+      {"sizes.csv", sizes_csv(distributions)},
   };
 }
 

@@ -23,10 +23,12 @@ std::string impacts_csv(const EventTable& table, const PairResult& pairs);
 /// `datapackage.json` for points_csv, with materials and overrides as `like_text` has them.
 /// @param id its name; @param provenance its `recoil.provenance`.
 /// @param description what was done.
+/// @param sizes_height of the plane [m]: lists sizes.csv beside the points; 0 for no such file.
 /// @throws InputError when `like_text` is no data package with the key `recoil`.
 std::string package_json(const std::string& like_text, const std::string& like_file,
                          const std::string& id, const std::string& provenance,
-                         const std::string& events_file, const std::string& description);
+                         const std::string& events_file, const std::string& description,
+                         double sizes_height = 0.0);
 
 /// The distributions that the paper shows, SI units.
 struct Distributions {
@@ -37,9 +39,12 @@ struct Distributions {
 };
 Distributions distributions(const EventTable& table, const PairResult& pairs);
 
+/// Sturges' bins of the incoming spheres: lower and upper end [um] and count, as `recoil predict
+/// --sizes` and the reports read them.
+std::string sizes_csv(const Distributions& distributions);
+
 /// CSV files by name: velocities-raw, velocities-paired, sizes-incoming and sizes-paired hold the
-/// bins of both rules (rule, lower, upper, middle, count, share); sizes.csv holds `diameter` [um]
-/// and `count` of the incoming spheres, as `recoil predict --sizes` reads them.
+/// bins of both rules (rule, lower, upper, middle, count, share), and sizes.csv see `sizes_csv`.
 std::map<std::string, std::string> histogram_files(const Distributions& distributions);
 
 /// The text that `recoil pair` prints.

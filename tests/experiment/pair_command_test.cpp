@@ -3,6 +3,7 @@
 
 #include "../cli/program.hpp"
 #include "event_stream.hpp"
+#include "predict/measured_sizes.hpp"
 
 namespace {
 
@@ -44,10 +45,27 @@ TEST(PairCommand, HistogramsAndPictures) {
     EXPECT_EQ(svg.rfind("<svg", 0), 0U) << name;
     EXPECT_EQ(svg.find("stroke=\"none\" id="), std::string::npos) << "stated twice: no XML";
   }
-  EXPECT_EQ(place.read("h/sizes.csv").rfind("diameter,count\n", 0), 0U);
+  EXPECT_EQ(place.read("h/sizes.csv").rfind("lower,upper,count\n", 0), 0U);
   const std::string bins = place.read("h/velocities-raw.csv");
   EXPECT_NE(bins.find("\nsturges,"), std::string::npos);
   EXPECT_NE(bins.find("\nfreedman-diaconis,"), std::string::npos);
+}
+
+TEST(PairCommand, MixedSizesTravelWithTheirPoints) {
+  const Workplace place;
+  const stream::Stream events = small_stream();
+  place.write("e.csv", events.csv);
+  ASSERT_EQ(place
+                .run({"pair", "e.csv", "--unit", kUnits, "--into", "set", "--like", "data",
+                      "--provenance", "synthetic"})
+                .status,
+            0);
+  EXPECT_EQ(place.run({"check", "set"}).status, 0);
+  const recoil::MeasuredSizes sizes = recoil::load_sizes(place.folder() / "set/sizes.csv");
+  EXPECT_EQ(sizes.provenance, "synthetic");
+  EXPECT_NEAR(sizes.probe_height.value_or(0.0), 1.04e-3, 5e-6);
+  EXPECT_NEAR(sizes.mean_diameter(), 49e-6, 2e-6);  // d10 of the stream's distribution
+  EXPECT_NEAR(sizes.total(), 600.0, 40.0);
 }
 
 TEST(PairCommand, TheSameDigitsEveryTime) {
