@@ -147,7 +147,7 @@ std::string neighbours(const std::vector<Answered>& all) {
   };
   std::map<std::pair<std::string, double>, Row> rows;
   for (const Answered& a : all) {
-    if (!a.reached || a.closest.id.empty()) continue;
+    if (!a.reached || chapter_of(a.order) != Chapter::effect || a.closest.id.empty()) continue;
     Row& row = rows[{a.order.effects.front(), a.order.signal_to_noise}];
     ++row.ids[a.closest.id];
     row.misfits.push_back(a.closest.misfit);
