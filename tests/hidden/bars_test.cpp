@@ -43,21 +43,26 @@ TEST_P(Bar, TheAnswerIsTrue) {
 
 std::vector<Question> clear_causes() {
   std::vector<Question> all;
-  for (const char* effect : {"plastic_yield", "jkr_hysteresis", "gas_film", "asperity_loss",
-                             "capillary", "series_offset"}) {
+  for (const char* effect :
+       {"plastic_yield", "gas_film", "asperity_loss", "capillary", "series_offset"}) {
     all.push_back({{"wall", {effect}, 20.0, 0}, {Mark::named}});
   }
-  for (const char* effect : {"plastic_yield", "bulk_viscoelastic", "plate_flexure"}) {
+  for (const char* effect : {"plastic_yield", "bulk_viscoelastic"}) {
     all.push_back({{"li", {effect}, 10.0, 0}, {Mark::named}});
   }
   return all;
 }
 
-/// Nearly alike: naming the right one or listing it is true, anything else is not.
+/// Nearly alike: naming the right one or listing it is true, anything else is not. (JKR's work and
+/// hysteresis per area, deepened by adhesion, leave a misfit of 1.6 of one another where each alone
+/// leaves 20.)
 std::vector<Question> close_causes() {
-  return {{{"wall", {"survivor_bias"}, 10.0, 0}, {Mark::named, Mark::inside}},
-          {{"wall", {"outliers"}, 10.0, 0}, {Mark::named, Mark::inside}},
-          {{"wall", {"adhesion_hysteresis"}, 20.0, 0}, {Mark::named, Mark::inside}},
+  const std::vector<Mark> right = {Mark::named, Mark::inside};
+  return {{{"wall", {"jkr_hysteresis"}, 20.0, 0}, right},
+          {{"wall", {"adhesion_hysteresis"}, 20.0, 0}, right},
+          {{"wall", {"survivor_bias"}, 10.0, 0}, right},
+          {{"wall", {"outliers"}, 10.0, 0}, right},
+          {{"li", {"plate_flexure"}, 10.0, 0}, right},
           {{"wall", {"plastic_yield", "jkr_hysteresis"}, 20.0, 0},
            {Mark::named, Mark::part, Mark::inside}}};
 }

@@ -7,6 +7,7 @@
 
 #include "core/files.hpp"
 #include "program_run.hpp"
+#include "study.hpp"
 
 namespace hidden {
 namespace {
@@ -15,12 +16,19 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 Json to_json(const Answered& a) {
-  return {{"key", a.order.key()}, {"seed", a.order.seed},
-          {"reached", a.reached}, {"signal_to_noise", a.signal_to_noise},
-          {"status", a.status},   {"complaint", a.complaint},
-          {"seconds", a.seconds}, {"verdict", a.verdict},
-          {"p_value", a.p_value}, {"named", a.named},
-          {"rivals", a.rivals}};
+  return {{"key", a.order.key()},
+          {"seed", a.order.seed},
+          {"reached", a.reached},
+          {"signal_to_noise", a.signal_to_noise},
+          {"status", a.status},
+          {"complaint", a.complaint},
+          {"seconds", a.seconds},
+          {"verdict", a.verdict},
+          {"p_value", a.p_value},
+          {"named", a.named},
+          {"rivals", a.rivals},
+          {"closest", a.closest.id},
+          {"closest_misfit", a.closest.misfit}};
 }
 
 /// @return whether there was a kept answer to this order
@@ -41,6 +49,7 @@ bool load(const fs::path& file, Answered& a) {
   a.p_value = kept["p_value"];
   a.named = kept["named"].get<std::vector<std::string>>();
   a.rivals = kept["rivals"].get<std::vector<std::string>>();
+  a.closest = {kept["closest"], kept["closest_misfit"]};
   return true;
 }
 
@@ -115,6 +124,9 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   a.reached = made.reached;
   a.signal_to_noise = made.refit.signal_to_noise;
   if (made.reached) diagnose(made, binary, a);
+  if (made.reached && chapter_of(order) == Chapter::effect && order.signal_to_noise >= visible) {
+    a.closest = closest_cause(made, binary);
+  }
   if (!keep.empty()) recoil::write_whole_file(file, to_json(a).dump(2) + "\n");
   return a;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "case.hpp"
+#include "closest.hpp"
 
 namespace hidden {
 
@@ -20,6 +20,7 @@ struct Answered {
   double p_value = 1.0;
   std::vector<std::string> named;
   std::vector<std::string> rivals;
+  Closest closest;  ///< for one visible effect of the catalogue in a design of several diameters
 };
 
 /// How an answer stands to the truth.

@@ -57,13 +57,13 @@ std::string power_panel(const std::vector<Answered>& answers) {
                          recoil::gnuplot_text(curve.label));
   }
   return commands +
-         "set size 0.36,1\nset origin 0,0\nset lmargin at screen 0.055\nset rmargin at screen "
+         "set size 0.36,1\nset origin 0,0\nset lmargin at screen 0.07\nset rmargin at screen "
          "0.33\n"
-         "set tmargin at screen 0.86\nset bmargin at screen 0.22\n"
+         "set tmargin at screen 0.86\nset bmargin at screen 0.30\n"
          "set logscale x\nset xrange [4.5:45]\nset xtics (5, 10, 20, 40)\nset yrange [0:102]\n"
          "set ytics 20\nset xlabel 'signal-to-noise of the misfit left'\nset ylabel 'data sets "
          "[%]'\n"
-         "set key at screen 0.19,0.02 center bottom horizontal maxcols 2 samplen 1.2\n"
+         "set key at screen 0.2,0.01 center bottom vertical Left reverse samplen 1.4\n"
          "set label 1 'One effect, several diameters' at graph 0,1.07 left font ',14'\n" +
          plots + "\n";
 }
