@@ -127,7 +127,9 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   if (made.reached && chapter_of(order) == Chapter::effect && order.signal_to_noise >= visible) {
     a.closest = closest_cause(made, binary);
   }
-  if (!keep.empty()) recoil::write_whole_file(file, to_json(a).dump(2) + "\n");
+  // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
+  const bool answered = a.status >= 0 && a.status < 128;
+  if (!keep.empty() && answered) recoil::write_whole_file(file, to_json(a).dump(2) + "\n");
   return a;
 }
 
