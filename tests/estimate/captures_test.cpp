@@ -289,7 +289,7 @@ TEST(Captures, WithoutAMixedPointNothingRemainsOfTheSpread) {
 
 TEST(Captures, TheRoundsEndAtOnePlaceFromWhereverTheyStart) {
   const ImpactsOfManySpheres impacts(0.03);
-  for (const std::uint64_t draw : {2, 3, 4}) {
+  for (const std::uint64_t draw : {2U, 3U, 4U}) {
     const Dataset data = impacts.draw(draw);
     const FitResult fitted = fit(make_model(synthetic::spec(true), {data}), gather({data}));
     ASSERT_TRUE(fitted.usable) << fitted.failure;
