@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -47,15 +48,20 @@ int stopped_after(const Workplace& place, const std::vector<std::string>& words,
   return status;
 }
 
+std::size_t kept_replicates(const fs::path& file) {
+  std::ifstream in(file);
+  return in ? nlohmann::json::parse(in)["replicates"].size() : 0;
+}
+
 /// Stops a fit with more replicates than any machine finishes in time, by SIGINT, as soon as it is
-/// in its bootstrap: a slow machine may still be reading when it is stopped first.
+/// well in its bootstrap: a slow machine may still be reading when it is stopped first.
 int stopped_long_fit(const Workplace& place, const std::string& out) {
   int status = 0;
   for (int delay = 500; delay < 40000; delay *= 2) {
     status = stopped_after(
         place, {"fit", "fit.toml", "--out", out, "--replicates", "1000000", "--threads", "2"},
         std::chrono::milliseconds(delay), SIGINT);
-    if (fs::exists(place.folder() / out / "replicates.json")) break;
+    if (kept_replicates(place.folder() / out / "replicates.json") > 10) break;
   }
   return status;
 }
