@@ -85,9 +85,10 @@ void report(const ReportOptions& options) {
     const fs::path json = out / id / "fit.json";
     const fs::path text = out / id / "fit.txt";
     const fs::path picture = out / id / "picture.svg";
+    const fs::path diagnosed = out / id / "diagnosis.json";
     const fs::path stamp = out / id / "inputs.sha256";
     const std::string expected = fingerprint(fit_file, options.analysis);
-    if (!options.force && is_current(stamp, expected, {page, json, text, picture})) {
+    if (!options.force && is_current(stamp, expected, {page, json, text, picture, diagnosed})) {
       fmt::print("{}: current\n", page.string());
     } else {
       AnalysisOptions resolved = options.analysis.resolved();
@@ -98,7 +99,7 @@ void report(const ReportOptions& options) {
       write_whole_file(page, html_report(analysis, diagnosis_section(diagnosis) +
                                                        link_to(id + "/diagnosis.html")));
       write_whole_file(out / id / "diagnosis.html", diagnosis_html(diagnosis));
-      write_whole_file(out / id / "diagnosis.json", diagnosis_json(diagnosis));
+      write_whole_file(diagnosed, diagnosis_json(diagnosis));
       write_whole_file(out / id / "extended.toml", extended_toml(diagnosis, out / id));
       write_whole_file(text, text_report(analysis));
       write_whole_file(picture, thumbnail(analysis));
@@ -108,7 +109,8 @@ void report(const ReportOptions& options) {
       fmt::print("{}: written\n", page.string());
     }
     std::fflush(stdout);
-    entries.push_back({id + ".html", read_text_file(json), read_text_file(picture)});
+    entries.push_back({id + ".html", read_text_file(json), read_text_file(picture),
+                       read_text_file(diagnosed), id + "/diagnosis.html"});
   }
   write_whole_file(out / "index.html", html_index(entries));
   fmt::print("{}: written\n", (out / "index.html").string());

@@ -187,16 +187,17 @@ Observations simulate_base(const SearchBase& base, std::uint64_t index) {
 }
 
 std::vector<CandidateResult> try_singles(const SearchBase& base) {
-  std::vector<const Mechanism*> todo;
+  std::vector<const Mechanism*> untried;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     const auto& own = base.spec.mechanisms;
     if (std::find(own.begin(), own.end(), mechanism.info.id) == own.end()) {
-      todo.push_back(&mechanism);
+      untried.push_back(&mechanism);
     }
   }
-  std::vector<CandidateResult> results(todo.size());
-  parallel_over(todo.size(), base.options.threads, [&](std::size_t k) {
-    Candidate candidate = make_candidate(base.spec, base.datasets, {std::string(todo[k]->info.id)});
+  std::vector<CandidateResult> results(untried.size());
+  parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
+    Candidate candidate =
+        make_candidate(base.spec, base.datasets, {std::string(untried[k]->info.id)});
     if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 1) return;
     const std::vector<double> near =
         carried_over(base.candidate.model, base.refit.theta, candidate.model);
@@ -248,13 +249,13 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
     const CandidateResult* first;
     const CandidateResult* second;
   };
-  std::vector<Pair> todo;
+  std::vector<Pair> untried;
   for (std::size_t a = 0; a < causes.size(); ++a) {
-    for (std::size_t b = a + 1; b < causes.size(); ++b) todo.push_back({causes[a], causes[b]});
+    for (std::size_t b = a + 1; b < causes.size(); ++b) untried.push_back({causes[a], causes[b]});
   }
-  std::vector<CandidateResult> results(todo.size());
-  parallel_over(todo.size(), base.options.threads, [&](std::size_t k) {
-    const auto& [first, second] = todo[k];
+  std::vector<CandidateResult> results(untried.size());
+  parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
+    const auto& [first, second] = untried[k];
     tick();
     const std::vector<std::string> ids = {first->candidate.added.front(),
                                           second->candidate.added.front()};

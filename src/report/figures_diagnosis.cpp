@@ -18,10 +18,6 @@ constexpr std::size_t most_bars = 12;
 constexpr int curve_points = 80;
 constexpr double largest_z = 6.0;  // of the colour scale
 
-std::string name_of(const Diagnosis& d, const std::string& kind, std::size_t dataset) {
-  return plot_name(fmt::format("{}-{}-{}", kind, d.spec.id, dataset));
-}
-
 std::string in_dataset(const Diagnosis& d, std::size_t dataset) {
   return d.datasets.size() > 1 ? ", " + d.datasets[dataset].id : std::string();
 }
@@ -52,12 +48,28 @@ std::pair<double, double> log_range(const std::vector<double>& values, double ma
   return {*low / factor, *high * factor};
 }
 
+/// Ticks at the diameters themselves, where they are few and far enough apart to be read.
+std::string size_ticks(std::vector<double> diameters, double small, double big) {
+  constexpr std::size_t most = 8;
+  const double nearest = std::pow(big / small, 0.07);
+  std::sort(diameters.begin(), diameters.end());
+  std::vector<std::string> ticks;
+  double last = 0.0;
+  for (const double d : diameters) {
+    if (d < last * nearest) continue;
+    ticks.push_back(fmt::format("'{0:.6g}' {0:.6g}", d));
+    last = d;
+  }
+  const std::string decimal = ticks.size() > most ? log_ticks('y', small, big) : std::string();
+  return decimal.empty() ? fmt::format("set ytics ({})\n", fmt::join(ticks, ", ")) : decimal;
+}
+
 Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
   const Rows rows = rows_of(d, dataset);
   const auto [slow, fast] = log_range(rows.velocities, 0.06);
   const auto [small, big] = log_range(rows.diameters, 0.25);
   PlotScript script;
-  script.name = name_of(d, "misfit", dataset);
+  script.name = fmt::format("misfit-{}", dataset);
   script.title = "Where the base model misses, over velocity and diameter";
   script.height = 300;
   std::string& c = script.commands;
@@ -68,7 +80,7 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
           "set palette defined (-1 '{}', 0 '#EEEEEE', 1 '{}')\nset cbrange [{:.3g}:{:.3g}]\n"
           "set cblabel '(e - e_{{model}}) / sd' offset -0.5,0\nunset key\n",
           slow, fast, small, big, style::blue, style::vermillion, -largest_z, largest_z) +
-      log_ticks('x', slow, fast) + log_ticks('y', small, big);
+      log_ticks('x', slow, fast) + size_ticks(rows.diameters, small, big);
   c += data_block("misses", rows.misses);
   // The area of a disc grows with the size of the miss, and is never nothing.
   c += "plot $misses using 1:2:(0.5+0.35*sqrt(abs($4))):4 with points pt 7 ps variable lc palette, "
@@ -127,7 +139,7 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
     top = std::max(top, point.restitution + 2.0 * point.sd);
   }
   PlotScript script;
-  script.name = name_of(d, "extended", dataset);
+  script.name = fmt::format("extended-{}", dataset);
   script.title = "Restitution against velocity under the base and the extended model";
   script.width = 720;
   script.height = 420;
@@ -193,7 +205,7 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
                    [](const auto* a, const auto* b) { return a->delta_aicc < b->delta_aicc; });
   if (shown.empty()) return {};
   PlotScript script;
-  script.name = name_of(d, "ranking", 0);
+  script.name = "ranking";
   script.title = "Candidates by what they gain over the base model";
   script.width = 720;
   script.height = 70 + 24 * static_cast<int>(shown.size());

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -99,18 +101,66 @@ std::string provenance_of(const Json& fit) {
   return provenance_html(list);
 }
 
-std::string card(const IndexEntry& entry) {
-  Json fit;
+Json parsed(const IndexEntry& entry, const std::string& content, const std::string& file) {
+  const auto refuse = [&](const char* problem) {
+    throw InputError({entry.page}, fmt::format("its {} {}", file, problem),
+                     "the index is made from it", "run the fit again");
+  };
+  Json json;
   try {
-    fit = Json::parse(entry.fit_json);
+    json = Json::parse(content);
   } catch (const Json::exception&) {
-    throw InputError({entry.page}, "its fit.json is not JSON", "the index is made from it",
-                     "run the fit again");
+    refuse("is not JSON");
   }
-  if (!fit.is_object()) {
-    throw InputError({entry.page}, "its fit.json is not an object", "the index is made from it",
-                     "run the fit again");
+  if (!json.is_object()) refuse("is not an object");
+  return json;
+}
+
+/// The words of a verdict, and a mark that says the same to those who cannot see its colour.
+struct VerdictMark {
+  const char* verdict;
+  const char* mark;
+  const char* words;
+};
+constexpr VerdictMark verdict_marks[] = {
+    {"adequate", "✓", "the model describes these points"},
+    {"cause_named", "◆", "a cause is named"},
+    {"not_separable", "?", "several causes explain it"},
+    {"unexplained", "✗", "nothing in the catalogue explains what is missed"},
+};
+
+std::string causes(const Json& ids) {
+  std::vector<std::string> words;
+  for (const Json& id : ids) words.push_back(words_of(text(id)));
+  constexpr std::size_t most = 3;
+  const std::size_t more = words.size() > most ? words.size() - most : 0;
+  words.resize(words.size() - more);
+  return fmt::format("{}{}", fmt::join(words, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : std::string());
+}
+
+std::string verdict_line(const IndexEntry& entry) {
+  if (entry.diagnosis_json.empty()) return "";
+  const Json diagnosis = parsed(entry, entry.diagnosis_json, "diagnosis.json");
+  const std::string verdict = text(at(diagnosis, "/verdict"));
+  const auto* const found =
+      std::find_if(std::begin(verdict_marks), std::end(verdict_marks),
+                   [&](const VerdictMark& mark) { return verdict == mark.verdict; });
+  if (found == std::end(verdict_marks)) return "";
+  std::string words = found->words;
+  for (const char* list : {"/named", "/rivals"}) {
+    const Json ids = at(diagnosis, list);
+    if (ids.is_array() && !ids.empty()) words += ": " + causes(ids);
   }
+  return fmt::format(
+      "<p class=\"verdict {}\"><span class=\"mark\" aria-hidden=\"true\">{}</span> "
+      "<a href=\"{}\">{}</a>: {}</p>\n",
+      found->verdict, found->mark, escape_html(entry.diagnosis_page),
+      escape_html(words_of(verdict)), escape_html(words));
+}
+
+std::string card(const IndexEntry& entry) {
+  const Json fit = parsed(entry, entry.fit_json, "fit.json");
   const Json datasets = at(fit, "/datasets");
   const bool joint = datasets.is_array() && datasets.size() > 1;
   const std::string id = text(at(fit, "/fit/id"));
@@ -131,6 +181,7 @@ std::string card(const IndexEntry& entry) {
       "<article class=\"card\">\n<h2><a href=\"{}\">{}</a></h2>\n<p class=\"subtitle\">{}</p>\n",
       page, escape_html(heading), escape_html(subtitle));
   out += provenance_of(fit);
+  out += verdict_line(entry);
   if (!entry.picture.empty())
     out += fmt::format("<div class=\"picture\">{}</div>\n", entry.picture);
   out += numbers_table(fit);
@@ -146,7 +197,7 @@ std::string html_index(const std::vector<IndexEntry>& entries) {
       "<header>\n<h1>Impact of microspheres with surfaces</h1>\n"
       "<p class=\"summary\">Each card is one fit: the damping of the contact (C<sub>H</sub>) and "
       "of the adhesion (C<sub>A</sub>) from all points, beside the calibration by two "
-      "points.</p>\n</header>\n<main class=\"cards\">\n";
+      "points, and whether the model holds.</p>\n</header>\n<main class=\"cards\">\n";
   for (const IndexEntry& entry : entries) body += card(entry);
   if (entries.empty()) body += "<p>There is no fit yet.</p>\n";
   return page_html("recoil: fits", body + "</main>\n");

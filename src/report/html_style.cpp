@@ -6,11 +6,13 @@ std::string_view style_sheet() {
   return R"css(:root {
   --paper: #ffffff; --ground: #f6f7f8; --ink: #1d2329; --quiet: #59636e; --line: #d9dee3;
   --accent: #0b5c8f; --note: #fff6e0; --note-line: #c98a00; --card: #ffffff;
+  --good: #00684c; --doubt: #a04600;
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --paper: #171b20; --ground: #101317; --ink: #e6e9ec; --quiet: #a3adb8; --line: #323a43;
     --accent: #7cc4f0; --note: #2d2613; --note-line: #d9a53a; --card: #1d2228;
+    --good: #5cc9a4; --doubt: #f0a56b;
   }
 }
 * { box-sizing: border-box; }
@@ -78,6 +80,13 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
 .card h2 { border: 0; margin: 0; padding: .9rem 1rem 0; font-size: 1.12rem; }
 .card .subtitle { padding: 0 1rem; margin: .15rem 0 .5rem; font-size: .9rem; }
 .card .provenance { margin: 0; font-size: .86rem; line-height: 1.4; }
+.card .verdict { margin: 0; padding: .5rem 1rem; font-size: .9rem; line-height: 1.4;
+  border-top: 1px solid var(--line); }
+.verdict .mark { display: inline-block; min-width: 1.4em; font-weight: 700; text-align: center;
+  border: 1px solid currentColor; border-radius: .3rem; }
+.verdict.adequate .mark { color: var(--good); }
+.verdict.cause_named .mark { color: var(--accent); }
+.verdict.not_separable .mark, .verdict.unexplained .mark { color: var(--doubt); }
 .card .wide { width: 100%; border: 0; margin: 0; border-radius: 0; }
 .card table { font-size: .86rem; }
 .card tbody th, .card td:last-child { white-space: normal; }
@@ -91,7 +100,8 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
 }
 @media print {
   :root { --paper: #fff; --ground: #fff; --ink: #000; --quiet: #333; --line: #bbb;
-    --accent: #000; --note: #fff; --note-line: #000; --card: #fff; }
+    --accent: #000; --note: #fff; --note-line: #000; --card: #fff; --good: #000;
+    --doubt: #000; }
   @page { margin: 15mm; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
   nav, .more { display: none; }

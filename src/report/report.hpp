@@ -47,12 +47,15 @@ std::string thumbnail(const Analysis& analysis);
 
 /// `index.html` over all fits, given their fit.json texts in order.
 struct IndexEntry {
-  std::string page;      ///< relative address of the fit's page
-  std::string fit_json;  ///< its fit.json
-  std::string picture;   ///< an SVG thumbnail to inline, may be empty
+  std::string page;                 ///< relative address of the fit's page
+  std::string fit_json;             ///< its fit.json
+  std::string picture;              ///< an SVG thumbnail to inline, may be empty
+  std::string diagnosis_json = {};  ///< its diagnosis.json; empty: there is none
+  std::string diagnosis_page = {};  ///< relative address of the page of the diagnosis
 };
 
-/// @throws InputError when an entry's `fit_json` is not the JSON of a fit.
+/// @throws InputError when an entry's `fit_json` is not the JSON of a fit, or its `diagnosis_json`
+/// not that of a diagnosis.
 std::string html_index(const std::vector<IndexEntry>& entries);
 
 }  // namespace recoil

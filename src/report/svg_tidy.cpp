@@ -1,10 +1,12 @@
 #include "report/svg_tidy.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -44,6 +46,9 @@ void remove_empty_groups(std::string& text) {
 /// Markers and filters that are defined but not used.
 void remove_unused_definitions(std::string& text) {
   remove_between(text, "\t<filter", "</filter>\n");
+  if (text.find("href='#gpDot'") == std::string::npos) {
+    remove_between(text, "\t<circle id='gpDot'", "/>\n");
+  }
   for (int marker = 14; marker >= 0; --marker) {  // downwards: a marker may use a lower one
     if (text.find(fmt::format("href='#gpPt{}'", marker)) != std::string::npos) continue;
     const std::size_t id = text.find(fmt::format("id='gpPt{}'", marker));
@@ -156,6 +161,82 @@ void shorten_coordinates(std::string& text) {
   text = std::move(out);
 }
 
+/// x and y of "L76.0,198.2", as text.
+struct Vertex {
+  std::string_view x, y;
+};
+
+std::optional<Vertex> vertex_in(std::string_view token) {
+  const std::size_t comma = token.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const Vertex vertex{token.substr(1, comma - 1), token.substr(comma + 1)};
+  const bool plain = !vertex.x.empty() && !vertex.y.empty() &&
+                     token.substr(1).find_first_not_of("0123456789.,-") == std::string_view::npos;
+  return plain ? std::optional(vertex) : std::nullopt;
+}
+
+/// Does `middle` lie on the way from `a` to `b` along a horizontal?
+bool on_the_level(const Vertex& a, const Vertex& middle, const Vertex& b) {
+  if (a.y != middle.y || middle.y != b.y) return false;
+  const auto value = [](std::string_view text) { return std::atof(std::string(text).c_str()); };
+  return (value(middle.x) - value(a.x)) * (value(b.x) - value(middle.x)) >= 0.0;
+}
+
+/// "M1,2 L3,2 L5,2 L5,6" as "M1,2 5,2 5,6": what follows a move is a line without saying so, and a
+/// horizontal needs no points between its ends.
+std::string shortened_path(std::string_view path) {
+  std::vector<std::string> out;
+  std::vector<Vertex> line;  // of the polyline under way
+  constexpr std::string_view blank = " \t\n";
+  for (std::size_t at = path.find_first_not_of(blank); at != std::string_view::npos;) {
+    const std::size_t end = std::min(path.find_first_of(blank, at), path.size());
+    const std::string_view token = path.substr(at, end - at);
+    at = path.find_first_not_of(blank, end);
+    const std::optional<Vertex> vertex = vertex_in(token);
+    const bool goes_on = vertex && token.front() == 'L' && !line.empty();
+    if (!goes_on) line.clear();
+    if (goes_on && line.size() > 1 && on_the_level(line[line.size() - 2], line.back(), *vertex)) {
+      line.pop_back();
+      out.pop_back();
+    }
+    out.emplace_back(goes_on ? token.substr(1) : token);
+    if (goes_on || (vertex && token.front() == 'M')) line.push_back(*vertex);
+  }
+  return fmt::format("{}", fmt::join(out, " "));
+}
+
+void shorten_paths(std::string& text) {
+  constexpr std::string_view open = " d='";
+  std::string out;
+  out.reserve(text.size());
+  std::size_t done = 0;
+  for (std::size_t at = 0; (at = text.find(open, done)) != std::string::npos;) {
+    const std::size_t begin = at + open.size();
+    const std::size_t end = text.find('\'', begin);
+    if (end == std::string::npos) break;
+    out += text.substr(done, begin - done);
+    out += shortened_path(std::string_view(text).substr(begin, end - begin));
+    done = end;
+  }
+  text = out + text.substr(done);
+}
+
+/// A text in one piece as "<text>words</text>".
+void unwrap_texts(std::string& text) {
+  const auto unwrap = [&](const std::string& open, const std::string& short_open) {
+    constexpr std::string_view close = "</tspan></text>";
+    for (std::size_t at = 0; (at = text.find(open, at)) != std::string::npos; ++at) {
+      const std::size_t end = text.find('<', at + open.size());
+      if (end == std::string::npos || text.compare(end, close.size(), close) != 0) continue;
+      text.erase(end, std::strlen("</tspan>"));
+      text.replace(at, open.size(), short_open);
+    }
+  };
+  unwrap("<text><tspan>", "<text>");
+  unwrap("<text xml:space=\"preserve\"><tspan  xml:space=\"preserve\">",
+         "<text xml:space=\"preserve\">");
+}
+
 }  // namespace
 
 void tidy_svg(std::string& svg, const std::string& name) {
@@ -163,8 +244,13 @@ void tidy_svg(std::string& svg, const std::string& name) {
   remove_empty_groups(svg);
   // What every group repeats is said once, on the canvas.
   constexpr std::string_view common = " fill=\"none\" color=\"black\" stroke=\"currentColor\"";
+  constexpr std::string_view size = " font-size=\"13.00\" ";
   replace_all(svg, fmt::format("<g{} stroke-width", common), "<g stroke-width");
-  replace_all(svg, "<g id=\"gnuplot_canvas\"", fmt::format("<g id=\"gnuplot_canvas\"{}", common));
+  replace_all(svg, size, "");
+  replace_all(svg, " text-anchor=\"start\"", "");
+  replace_all(svg, "<g stroke-width=\"1.00\">", "<g>");  // the default
+  replace_all(svg, "<g id=\"gnuplot_canvas\"",
+              fmt::format("<g id=\"gnuplot_canvas\"{} font-size=\"13\"", common));
   replace_all(svg, "<rect x=", "<rect stroke=\"none\" x=");  // the background has no rim
   replace_all(svg, " class=\"gridline\" ", "");
   shorten_colours(svg);
@@ -173,6 +259,13 @@ void tidy_svg(std::string& svg, const std::string& name) {
   remove_unused_definitions(svg);
   replace_all(svg, " font-family=\"DejaVu Sans\" ", " ");
   replace_all(svg, "<tspan >", "<tspan>");
+  unwrap_texts(svg);
+  shorten_paths(svg);
+  for (const char* key : {"fill", "fill-opacity", "points"}) {
+    replace_all(svg, fmt::format(" {} = '", key), fmt::format(" {}='", key));
+  }
+  while (svg.find("\n\t") != std::string::npos) replace_all(svg, "\n\t", "\n");
+  replace_all(svg, "'  d='", "' d='");
   replace_all(svg, " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"", "");  // the defaults
   replace_all(svg, "\"gnuplot_canvas\"", fmt::format("\"{}-canvas\"", name));
   replace_all(svg, "'gp", fmt::format("'{}-gp", name));

@@ -183,10 +183,38 @@ TEST(HtmlIndex, HasACardPerFitWithNumbersAndProvenance) {
   EXPECT_THAT(html, HasSubstr(prose_html(provenance_sentence(Provenance::reconstruction))));
 }
 
+TEST(HtmlIndex, SaysTheVerdictOfTheDiagnosisInWordsAndByAMark) {
+  const std::string fit = json_report(example::four_diameters());
+  const auto index = [&](const std::string& diagnosis) {
+    const std::string html = html_index({{"a.html", fit, "", diagnosis, "a/diagnosis.html"}});
+    expect_self_contained(html);
+    return html;
+  };
+  const std::string named =
+      index(R"({"verdict": "cause_named", "named": ["plastic_yield"], "rivals": []})");
+  EXPECT_THAT(named, HasSubstr("class=\"verdict cause_named\""));
+  EXPECT_THAT(named, HasSubstr("<a href=\"a/diagnosis.html\">cause named</a>"));
+  EXPECT_THAT(named, HasSubstr("plastic yield</p>"));
+  const std::string rivals = index(
+      R"({"verdict": "not_separable", "named": [], "rivals": ["gas_film", "capillary", "a", "b"]})");
+  EXPECT_THAT(rivals, HasSubstr("gas film, capillary, a and 1 more"));
+  const std::string adequate = index(R"({"verdict": "adequate", "named": [], "rivals": []})");
+  const std::string unknown = index(R"({"verdict": "unexplained", "named": [], "rivals": []})");
+  const auto mark = [](const std::string& html) {
+    const std::size_t begin = html.find("<span class=\"mark\"");
+    return html.substr(begin, html.find("</span>", begin) - begin);
+  };
+  std::set<std::string> marks;
+  for (const auto& html : {named, rivals, adequate, unknown}) marks.insert(mark(html));
+  EXPECT_EQ(marks.size(), 4U) << "the marks differ, whatever the colours";
+  EXPECT_THAT(html_index({{"a.html", fit, ""}}), Not(HasSubstr("class=\"verdict")));
+}
+
 TEST(HtmlIndex, RefusesWhatIsNotAFit) {
   EXPECT_THROW(html_index({{"a.html", "{ not json", ""}}), InputError);
   EXPECT_THROW(html_index({{"a.html", "[1]", ""}}), InputError);
   EXPECT_NO_THROW(html_index({{"a.html", "{}", ""}}));
+  EXPECT_THROW(html_index({{"a.html", "{}", "", "[", "d"}}), InputError);
   EXPECT_NO_THROW(html_index({}));
 }
 

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "core/error.hpp"
 
@@ -105,6 +107,41 @@ TEST(SvgPlot, LeavesNoFileBehind) {
   const std::size_t before = files();
   draw_svg(line());
   EXPECT_EQ(files(), before);
+}
+
+/// The points of the path with this colour.
+std::vector<std::string> path_of(const std::string& svg, const std::string& colour) {
+  const std::size_t stroke = svg.find("<path stroke='" + colour + "'");
+  if (stroke == std::string::npos) return {};
+  const std::size_t begin = svg.find(" d='", stroke) + 4;
+  std::istringstream words(svg.substr(begin, svg.find('\'', begin) - begin));
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+TEST(SvgPlot, ALevelLineNeedsNoPointsBetweenItsEndsAndASlopeKeepsThem) {
+  PlotScript script = line();
+  script.commands =
+      "set xrange [0:4]\nset yrange [0:4]\nset samples 41\nunset key\n"
+      "plot 3 lc rgb '#112233', x lc rgb '#445566', (x < 2 ? 1 : 2) lc rgb '#778899'\n";
+  const std::string svg = draw_svg(script);
+  EXPECT_EQ(path_of(svg, "#112233").size(), 2U);
+  EXPECT_EQ(path_of(svg, "#445566").size(), 41U);
+  const std::vector<std::string> step = path_of(svg, "#778899");
+  ASSERT_EQ(step.size(), 4U) << "its corners";
+  for (const std::string& point : step) EXPECT_THAT(point, Not(StartsWith("L")));
+  EXPECT_THAT(step.front(), StartsWith("M"));
+  const auto height = [&](std::size_t i) { return step[i].substr(step[i].find(',')); };
+  EXPECT_EQ(height(0), height(1));
+  EXPECT_EQ(height(2), height(3));
+  EXPECT_NE(height(1), height(2));
+}
+
+TEST(SvgPlot, ALineThatComesBackKeepsItsTurningPoint) {
+  PlotScript script = line();
+  script.commands = "set xrange [0:4]\nset yrange [0:4]\n" +
+                    data_block("d", {{1, 2}, {3, 2}, {2, 2}}) +
+                    "plot $d using 1:2 with lines lc rgb '#112233' notitle\n";
+  EXPECT_EQ(path_of(draw_svg(script), "#112233").size(), 3U);
 }
 
 TEST(SvgPlot, NamesAreFitForIds) {
