@@ -8,10 +8,20 @@
 namespace recoil {
 namespace {
 
+/// A sphere that its dashpot stops altogether: from here on e^2 < 5e-10 (and falls as kappa^-10),
+/// while the number of steps grows with kappa^2 until the solver gives up.
+constexpr double overdamped = 12.0;
+
 /// The groups of the base impact, carrying derivatives.
 template <class T>
 struct Groups {
   T alpha, beta, gamma, kappa;
+
+  bool stops() const { return value_of(kappa) > overdamped; }
+  ImpactGroups values() const {
+    return {value_of(alpha), value_of(beta), value_of(gamma),
+            stops() ? overdamped : value_of(kappa)};
+  }
 };
 
 template <class T>
@@ -46,7 +56,7 @@ T base_square(const Groups<T>& groups, const ImpactResult& impact) {
   add_slopes(square, impact.gradient[0], groups.alpha);
   add_slopes(square, impact.gradient[1], groups.beta);
   add_slopes(square, impact.gradient[2], groups.gamma);
-  add_slopes(square, impact.gradient[3], groups.kappa);
+  if (!groups.stops()) add_slopes(square, impact.gradient[3], groups.kappa);
   return square;
 }
 
@@ -166,8 +176,7 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       e = start;
       approach<T>(chain_, own, node, nodes_, e);
       work.groups[at] = groups_at_contact(e);
-      const Groups<T>& g = work.groups[at];
-      groups_[at] = {value_of(g.alpha), value_of(g.beta), value_of(g.gamma), value_of(g.kappa)};
+      groups_[at] = work.groups[at].values();
     }
   }
   const long handed_over = simulate(groups_, options, results_);
@@ -232,8 +241,7 @@ ContactView view_contact(std::span<const Mechanism* const> chain, const Extended
   view.encounter = approaching<double>(point, values, point.velocity, point.diameter);
   approach<double>(chain, values.subspan(base_directions - 2), nodes / 2, nodes, view.encounter);
   const Encounter<double>& e = view.encounter;
-  const Groups<double> g = groups_at_contact(e);
-  view.groups = {g.alpha, g.beta, g.gamma, g.kappa};
+  view.groups = groups_at_contact(e).values();
   const double energy = e.mass() * e.velocity * e.velocity;
   view.scales = {e.scale(), e.velocity, e.scale() / e.velocity, energy / e.scale(), energy};
   return view;

@@ -211,6 +211,26 @@ TEST(PlateFlexure, FollowsZenersPlate) {
   EXPECT_NEAR(e, 1.0 - 1.7302 * lambda, 2.0 * lambda * lambda);
 }
 
+TEST(Dashpots, ThatStopASphereAreAnsweredAtOnce) {
+  const double V = 1.0;
+  const double scale = deepest(kSoft, kDiameter, V) / std::pow(1.25, 0.4);
+  const double unit = scale / (1.5 * V);  // relaxation at kappa = 1
+  const auto at = [&](double kappa) {
+    return one_point::ask(kSoft, {"bulk_viscoelastic"}, {kappa * unit}, kDiameter, V);
+  };
+  // At the border e^2 falls as kappa^-10 already, and nothing is left of it.
+  EXPECT_NEAR(at(8.0).square / at(11.9).square, std::pow(11.9 / 8.0, 10), 2.0);
+  EXPECT_LT(at(11.99).square, 5e-10);
+  const long before = reference_handovers();
+  for (const double kappa : {12.01, 100.0, 1e4, 1e8}) {
+    const one_point::Answer answer = at(kappa);
+    EXPECT_TRUE(answer.usable) << kappa;
+    EXPECT_NEAR(answer.square, at(11.99).square, 1e-11) << kappa;
+    EXPECT_EQ(answer.slopes.back(), 0.0) << kappa;
+  }
+  EXPECT_EQ(reference_handovers(), before) << "nobody waits for the reference solver";
+}
+
 TEST(ElasticWaves, RadiationOfAHalfSpace) {
   EXPECT_NEAR(half_space_radiation(0.25), 0.931, 5e-4);
   // The same integral in the wave number itself, at nu = 0.3; the pole by differences.

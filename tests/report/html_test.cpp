@@ -42,7 +42,7 @@ void expect_self_contained(const std::string& html) {
   for (const char* name : {"href", "xlink:href"}) {
     for (const std::string& target : attribute(html, name)) {
       EXPECT_THAT(target, testing::AnyOf(testing::StartsWith("#"), testing::StartsWith("data:"),
-                                         testing::MatchesRegex("[a-z0-9-]+\\.html")));
+                                         testing::MatchesRegex("[a-z0-9-]+(/[a-z0-9-]+)?\\.html")));
       const bool anchor = target.starts_with("#");
       EXPECT_TRUE(!anchor || ids.contains(target.substr(1))) << target;
     }
