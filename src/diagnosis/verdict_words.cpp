@@ -19,6 +19,11 @@ std::string p_words(double p, int simulated) {
                                : fmt::format("p = {:.2g}", p);
 }
 
+std::string diameter_words(double diameter) {
+  return diameter < 1e-3 ? fmt::format("{:.3g} um", diameter / units::um)
+                         : fmt::format("{:.3g} mm", diameter / 1e-3);
+}
+
 std::string title_of(const std::string& id) {
   const Mechanism* mechanism = find_mechanism(id);
   return mechanism == nullptr ? id : fmt::format("{} ({})", id, mechanism->info.title);
@@ -75,12 +80,14 @@ std::string next_words(const Diagnosis& d) {
   if (d.next.empty()) return "";
   const NextMeasurement& next = d.next.front();
   std::string text = fmt::format(
-      " What would tell {} from {}: spheres of {:.3g} um at {:.3g} m/s, where they differ by "
+      " What would tell {} from {}: spheres of {} at {:.3g} m/s, where they differ by "
       "{:.2g} "
       "in e",
-      next.one, next.other, next.diameter / units::um, next.velocity, std::abs(next.difference));
-  text += next.events ? fmt::format("; about {} events", *next.events)
-                      : "; a million events would not be enough";
+      next.one, next.other, diameter_words(next.diameter), next.velocity,
+      std::abs(next.difference));
+  text += !next.events        ? "; a million events would not be enough"
+          : *next.events == 1 ? "; one event may do"
+                              : fmt::format("; about {} events", *next.events);
   return text + ".";
 }
 
@@ -117,9 +124,9 @@ std::string where_text(const Diagnosis& d) {
                                       });
   if (worst == d.where.end() || std::abs(worst->standardised) < 2.0) return "";
   return fmt::format(
-      "It is furthest off for {:.3g} um at {:.3g} to {:.3g} m/s, where it is too {} by {:.2g} in e "
+      "It is furthest off for {} at {:.3g} to {:.3g} m/s, where it is too {} by {:.2g} in e "
       "({:.2g} standard errors) and by {:.2g} J in the energy of the rebound",
-      worst->diameter / units::um, worst->slowest, worst->fastest,
+      diameter_words(worst->diameter), worst->slowest, worst->fastest,
       worst->restitution > 0.0 ? "low" : "high", std::abs(worst->restitution),
       std::abs(worst->standardised), std::abs(worst->energy));
 }

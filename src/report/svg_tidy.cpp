@@ -210,7 +210,9 @@ void shorten_paths(std::string& text) {
   std::string out;
   out.reserve(text.size());
   std::size_t done = 0;
-  for (std::size_t at = 0; (at = text.find(open, done)) != std::string::npos;) {
+  for (std::size_t tag = 0; (tag = text.find("<path", tag)) != std::string::npos; ++tag) {
+    const std::size_t at = text.find(open, tag);
+    if (at == std::string::npos || at > text.find('>', tag)) continue;
     const std::size_t begin = at + open.size();
     const std::size_t end = text.find('\'', begin);
     if (end == std::string::npos) break;
@@ -237,6 +239,25 @@ void unwrap_texts(std::string& text) {
          "<text xml:space=\"preserve\">");
 }
 
+/// A group that places one text as a text that says itself where it stands; without words, as
+/// nothing.
+void place_texts(std::string& text) {
+  constexpr std::string_view open = "<g transform=";
+  constexpr std::string_view inner = ">\n<text";
+  constexpr std::string_view close = "</text>\n</g>";
+  for (std::size_t at = 0; (at = text.find(open, at)) != std::string::npos; ++at) {
+    const std::size_t end = text.find('>', at);
+    if (end == std::string::npos || text.compare(end, inner.size(), inner) != 0) continue;
+    const std::size_t words = end + inner.size();
+    const std::size_t last = text.find("</text>", words);
+    if (last == std::string::npos || text.compare(last, close.size(), close) != 0) continue;
+    const std::string attributes = text.substr(at + 2, end - at - 2);
+    const std::string content = text.substr(words, last - words);
+    text.replace(at, last + close.size() - at,
+                 content == ">" ? "" : fmt::format("<text{}{}</text>", attributes, content));
+  }
+}
+
 }  // namespace
 
 void tidy_svg(std::string& svg, const std::string& name) {
@@ -246,9 +267,9 @@ void tidy_svg(std::string& svg, const std::string& name) {
   constexpr std::string_view common = " fill=\"none\" color=\"black\" stroke=\"currentColor\"";
   constexpr std::string_view size = " font-size=\"13.00\" ";
   replace_all(svg, fmt::format("<g{} stroke-width", common), "<g stroke-width");
+  replace_all(svg, " font-family=\"DejaVu Sans\" ", " ");
   replace_all(svg, size, "");
   replace_all(svg, " text-anchor=\"start\"", "");
-  replace_all(svg, "<g stroke-width=\"1.00\">", "<g>");  // the default
   replace_all(svg, "<g id=\"gnuplot_canvas\"",
               fmt::format("<g id=\"gnuplot_canvas\"{} font-size=\"13\"", common));
   replace_all(svg, "<rect x=", "<rect stroke=\"none\" x=");  // the background has no rim
@@ -257,16 +278,18 @@ void tidy_svg(std::string& svg, const std::string& name) {
   pack_dots(svg);
   shorten_coordinates(svg);
   remove_unused_definitions(svg);
-  replace_all(svg, " font-family=\"DejaVu Sans\" ", " ");
   replace_all(svg, "<tspan >", "<tspan>");
   unwrap_texts(svg);
   shorten_paths(svg);
   for (const char* key : {"fill", "fill-opacity", "points"}) {
     replace_all(svg, fmt::format(" {} = '", key), fmt::format(" {}='", key));
   }
-  while (svg.find("\n\t") != std::string::npos) replace_all(svg, "\n\t", "\n");
+  replace_all(svg, "\t", "\n");
+  while (svg.find("\n\n") != std::string::npos) replace_all(svg, "\n\n", "\n");
   replace_all(svg, "'  d='", "' d='");
+  place_texts(svg);
   replace_all(svg, " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"", "");  // the defaults
+  replace_all(svg, "<g stroke-width=\"1.00\">", "<g>");
   replace_all(svg, "\"gnuplot_canvas\"", fmt::format("\"{}-canvas\"", name));
   replace_all(svg, "'gp", fmt::format("'{}-gp", name));
   replace_all(svg, "'#gp", fmt::format("'#{}-gp", name));
