@@ -9,21 +9,26 @@
 namespace recoil {
 namespace {
 
+/// s = n / n_max = sin^4(phi) at a Gauss-Legendre node in phi, with what is needed of it.
 struct Node {
-  double position;  ///< in (0, 1)
-  double weight;
+  double s;
+  double s_1_5, s_2_5;
+  double log_s;
+  double weight;  ///< of a sum over s
 };
 
-/// Gauss-Legendre nodes on (0, 1).
 const std::vector<Node>& nodes() {
-  constexpr std::size_t count = 20;
+  constexpr std::size_t count = 12;
   static const std::vector<Node> all = [] {
     std::vector<Node> made;
     gsl_integration_glfixed_table* const table = gsl_integration_glfixed_table_alloc(count);
     for (std::size_t i = 0; i < count; ++i) {
-      Node node{};
-      gsl_integration_glfixed_point(0.0, 1.0, i, &node.position, &node.weight, table);
-      made.push_back(node);
+      double position = 0.0, weight = 0.0;
+      gsl_integration_glfixed_point(0.0, 1.0, i, &position, &weight, table);
+      const double phi = 0.5 * std::numbers::pi * position;
+      const double s = std::pow(std::sin(phi), 4);
+      const double stretch = 2.0 * std::numbers::pi * std::pow(std::sin(phi), 3) * std::cos(phi);
+      made.push_back({s, std::pow(s, 1.5), std::pow(s, 2.5), std::log(s), weight * stretch});
     }
     gsl_integration_glfixed_table_free(table);
     return made;
@@ -35,8 +40,9 @@ const std::vector<Node>& nodes() {
 /// The first term is paid back in closing; the second costs on the way out
 ///   integral of w_1 v_c^k d(pi a^2) = pi R w_1 integral over n of (sqrt(R / n) |n'| / 2)^k.
 /// n' is that of an undamped sphere (`undamped_square`) less what the base model loses, spread
-/// evenly over the way out: n'^2 - (1 - e_0^2) V^2 (1 - n / n_max). With n = n_max sin^2(phi)
-/// twelve Gauss-Legendre nodes in phi leave an error below 1e-4.
+/// evenly over the way out: n'^2 - (1 - e_0^2) V^2 (1 - n / n_max). With n = n_max sin^4(phi)
+/// twelve Gauss-Legendre nodes in phi leave an error below 1e-5 of the loss (against 300 nodes, for
+/// k from 0.05 to 1.5, base losses up to 0.9 and adhesion up to five times the kinetic energy).
 struct CrackRate {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
@@ -47,17 +53,17 @@ struct CrackRate {
     const T width = 0.01 * speed;
     const T back = 0.5 * (e.square + sqrt(e.square * e.square + width * width));
     const T lost = speed - back;
+    // `undamped_square` at n = s deepest, its two terms as numbers times s^(3/2) and s^(5/2).
+    const T root = deepest * sqrt(e.contact_radius * deepest) / e.mass();
+    const T adhesion = root * e.adhesion_force * (8.0 / 3.0 * std::numbers::pi);
+    const T stored = root * deepest * (0.8 * e.at->stiffness);
+    const T shape = 0.5 * logarithm(0.25 * e.contact_radius / deepest);
     T sum(0.0);
-    for (const auto& [position, weight] : nodes()) {
-      const double phi = 0.5 * std::numbers::pi * position;
-      const double s = std::pow(std::sin(phi), 4);
-      const T n = deepest * s;
-      const T square = e.undamped_square(n) - lost * (1.0 - s);
+    for (const Node& node : nodes()) {
+      const T square = speed + adhesion * node.s_1_5 - stored * node.s_2_5 - lost * (1.0 - node.s);
       if (!(value_of(square) > 0.0)) continue;
-      const T crack = 0.5 * sqrt(e.contact_radius * square / n);
-      const double stretch =
-          2.0 * std::numbers::pi * std::pow(std::sin(phi), 3) * std::cos(phi);  // ds = stretch dp
-      sum += weight * stretch * exponential(k * logarithm(crack));
+      const T log_crack = shape + 0.5 * (logarithm(square) - node.log_s);
+      sum += node.weight * exponential(k * log_crack);
     }
     e.lose(std::numbers::pi * e.contact_radius * deepest * own[0] * sum);
   }
