@@ -249,13 +249,13 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
     const CandidateResult* first;
     const CandidateResult* second;
   };
-  std::vector<Pair> untried;
+  std::vector<Pair> todo;
   for (std::size_t a = 0; a < causes.size(); ++a) {
-    for (std::size_t b = a + 1; b < causes.size(); ++b) untried.push_back({causes[a], causes[b]});
+    for (std::size_t b = a + 1; b < causes.size(); ++b) todo.push_back({causes[a], causes[b]});
   }
-  std::vector<CandidateResult> results(untried.size());
-  parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
-    const auto& [first, second] = untried[k];
+  std::vector<CandidateResult> results(todo.size());
+  parallel_over(todo.size(), base.options.threads, [&](std::size_t k) {
+    const auto& [first, second] = todo[k];
     tick();
     const std::vector<std::string> ids = {first->candidate.added.front(),
                                           second->candidate.added.front()};
