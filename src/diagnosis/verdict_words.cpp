@@ -12,6 +12,7 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t most_titles = 3;  // of tests that found something
+constexpr std::size_t most_values = 8;  // of parameters
 
 std::string p_words(double p, int simulated) {
   const double smallest = 1.0 / (simulated + 1.0);
@@ -35,7 +36,15 @@ std::string titles_of(const std::vector<std::string>& ids) {
   return fmt::format("{}", fmt::join(titles, ", "));
 }
 
+/// "C_x = 3 m"; of more than `most_values`, as a parameter per series may be, the range.
 std::string parameters_words(const CandidateResult& candidate) {
+  const auto& all = candidate.parameters;
+  if (all.size() > most_values) {
+    const auto [low, high] = std::minmax_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+    return fmt::format("{} values from {} = {:.3g} to {} = {:.3g}", all.size(), low->label,
+                       low->value, high->label, high->value);
+  }
   std::vector<std::string> words;
   for (const FoundParameter& p : candidate.parameters) {
     words.push_back(
