@@ -55,7 +55,7 @@ TEST(Diagnose, IsSilentWhereTheModelIsRight) {
     const Diagnosis found = diagnose(synthetic::spec(), {noisy(seed, 0.01, undisturbed)}, quick());
     accused += found.verdict == Verdict::adequate ? 0 : 1;
   }
-  // 3 % of 12: more than two would be one chance in two hundred.
+  // 2 % of 12: more than two would be one chance in seven hundred.
   EXPECT_LE(accused, 2);
 }
 
