@@ -188,7 +188,7 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   if (found.empty() && more_than_chance(diagnosis)) {
     diagnosis.pairs = try_pairs(base, diagnosis.candidates, [] {});
     judge(base, diagnosis.pairs, folds, base_folds);
-    found = explanations(diagnosis.pairs, apart, one_size);
+    found = explanations(diagnosis.pairs, std::max(apart, options.apart_in_pairs), one_size);
   }
   decide(found, one_size, diagnosis);
   if (diagnosis.verdict == Verdict::not_separable) {

@@ -27,6 +27,7 @@ struct DiagnosisOptions {
   /// many parameters. From a difference of 4 on, a model has "considerably less support" (Burnham &
   /// Anderson 2002, Model Selection and Multimodel Inference, section 2.6).
   double apart = 4.0;
+  double apart_in_pairs = 6.0;  ///< the same for two at once, where more rivals crowd: 0.7 % each
   std::uint64_t seed = 20260101;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
 };

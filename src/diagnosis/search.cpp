@@ -316,7 +316,7 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
     const double better = std::min(first->delta_aicc, second->delta_aicc);
     const bool possible =
         first->delta_aicc < second->delta_aicc ? first->plausible : second->plausible;
-    if (possible && !(results[k].delta_aicc < better - base.options.apart)) {
+    if (possible && !(results[k].delta_aicc < better - base.options.apart_in_pairs)) {
       results[k].aside = one_would_do;
     }
     if (rests_on_the_edge(results[k])) {
