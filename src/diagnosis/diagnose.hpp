@@ -16,8 +16,8 @@ struct DiagnosisOptions {
   int simulated = 999;  ///< data sets of the base model that calibrate the tests of the residuals
   int compared = 39;    ///< of these, how many are fitted with every candidate
   /// A correct model is accused in this part of all data, if the stated deviations are right. 5 %
-  /// are promised: the rest is room for what they do not cover. Velocities rounded to three digits
-  /// in a table are enough to make small p-values half as frequent again, as e is steep at capture.
+  /// are promised: the rest is room for what they do not cover, such as velocities that a table
+  /// rounds to three digits where e is steep, close to capture.
   double level = 0.02;
   double chance = 0.05;  ///< what a cause gains, chance gives in no more than this part
   /// Two causes whose criteria differ by less cannot be told apart. For a false rival R and the
