@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "estimate/impact_problem.hpp"
 #include "uncertainty/bootstrap.hpp"
@@ -86,6 +87,34 @@ void keep_possible(const ParameterEntry& entry, ParameterSpec& spec) {
   }
 }
 
+/// Relative scatter of single impacts among the slowest rebounds [1], as their points state it,
+/// sd sqrt(n) / e: the root mean square of the slowest twentieth, of three at least. Empty where
+/// less is stated.
+std::optional<double> scatter_of_slow_rebounds(const std::vector<Dataset>& datasets) {
+  constexpr std::size_t fewest = 3;
+  std::vector<std::pair<double, double>> stated;  // rebound velocity, square of the scatter
+  for (const Dataset& dataset : datasets) {
+    for (const ImpactPoint& point : dataset.points) {
+      if (!point.restitution_sd || !(point.restitution > 0.0)) continue;
+      const double relative = *point.restitution_sd / point.restitution;
+      stated.emplace_back(point.restitution * point.incident_velocity,
+                          relative * relative * (point.events - point.captured));
+    }
+  }
+  if (stated.size() < fewest) return {};
+  std::sort(stated.begin(), stated.end());
+  stated.resize(std::max(fewest, stated.size() / 20));
+  double sum = 0.0;
+  for (const auto& [velocity, square] : stated) sum += square;
+  return std::sqrt(sum / static_cast<double>(stated.size()));
+}
+
+/// Which rebounds are too slow to be seen depends on how they scatter, and the points say so.
+void take_stated_scatter(const std::vector<Dataset>& datasets, ParameterSpec& spec) {
+  const std::optional<double> stated = scatter_of_slow_rebounds(datasets);
+  if (stated) spec.initial = std::clamp(*stated, spec.lower, spec.upper);
+}
+
 }  // namespace
 
 std::string Candidate::name() const { return fmt::format("{}", fmt::join(added, " + ")); }
@@ -110,6 +139,7 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
       ParameterSpec own{entry.name, entry.initial, entry.lower, entry.upper, entry.free || release,
                         false,      false};
       if (possible && own.free) keep_possible(entry, own);
+      if (own.name == "event_scatter") take_stated_scatter(datasets, own);
       candidate.spec.parameters.push_back(own);
     }
   }

@@ -166,6 +166,12 @@ void extend(const SearchBase& base, Diagnosis& diagnosis) {
   compare_capture(diagnosis);
 }
 
+/// Does the best of all single candidates gain more than chance gives it?
+bool more_than_chance(const Diagnosis& diagnosis) {
+  return !diagnosis.candidates.empty() &&
+         diagnosis.candidates.front().p_value <= diagnosis.options.chance;
+}
+
 /// Steps 2 to 4.
 void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const DiagnosisOptions& options = diagnosis.options;
@@ -179,10 +185,10 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const bool one_size = has_one_size(base.fitted.data);
   const double apart = one_size ? apart_at_one_size : options.apart;
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, apart, one_size);
-  if (found.empty()) {
+  if (found.empty() && more_than_chance(diagnosis)) {
     diagnosis.pairs = try_pairs(base, diagnosis.candidates, [] {});
     judge(base, diagnosis.pairs, folds, base_folds);
-    found = explanations(diagnosis.pairs, apart, one_size);
+    found = explanations(diagnosis.pairs, std::max(apart, options.apart_in_pairs), one_size);
   }
   decide(found, one_size, diagnosis);
   if (diagnosis.verdict == Verdict::not_separable) {

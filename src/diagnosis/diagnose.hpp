@@ -15,12 +15,19 @@ namespace recoil {
 struct DiagnosisOptions {
   int simulated = 999;  ///< data sets of the base model that calibrate the tests of the residuals
   int compared = 39;    ///< of these, how many are fitted with every candidate
-  double level = 0.05;  ///< a correct model is accused in no more than this part of all data
+  /// A correct model is accused in this part of all data, if the stated deviations are right. 5 %
+  /// are promised: the rest is room for what they do not cover, such as velocities that a table
+  /// rounds to three digits where e is steep, close to capture.
+  double level = 0.02;
+  double chance = 0.05;  ///< what a cause gains, chance gives in no more than this part
   /// Two causes whose criteria differ by less cannot be told apart. For a false rival R and the
   /// truth T, with delta^2 the misfit that R would leave, the difference of their deviances is
   /// about normal with mean delta^2 and standard deviation 2 delta, so that R leads by c with a
-  /// probability of at most Phi(-sqrt(c)): 0.7 % at 6.
-  double apart = 6.0;
+  /// probability of at most Phi(-sqrt(c)), attained at delta^2 = c: 2.3 % at 4, for rivals of as
+  /// many parameters. From a difference of 4 on, a model has "considerably less support" (Burnham &
+  /// Anderson 2002, Model Selection and Multimodel Inference, section 2.6).
+  double apart = 4.0;
+  double apart_in_pairs = 6.0;  ///< the same for two at once, where more rivals crowd: 0.7 % each
   std::uint64_t seed = 20260101;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
 };
@@ -121,12 +128,14 @@ struct Diagnosis {
 /// 2. Unless the model is adequate, every mechanism of the catalogue is added and the whole model
 ///    refitted, with the weights of the base fit. The p-value of a candidate is the part of data
 ///    sets simulated by the base model in which the best of all candidates gains as much.
-/// 3. A candidate explains the data when that p-value is below the level, it leaves no structure
-///    (or none to speak of beside what it took), its parameters are possible, and it predicts
-///    blocks that were held out better than the base does. A description never explains.
+/// 3. A candidate explains the data when that p-value is no more than `chance`, it leaves no
+///    structure (or none to speak of beside what it took), its parameters are possible, and it
+///    predicts blocks that were held out better than the base does. A description never explains.
 /// 4. Explanations within `apart` of the best are rivals. One alone is named; several are not
-///    separable; none sends the search to pairs; if they fail too the structure is unexplained.
-///    One diameter names nothing: the size dependence, which tells causes apart, was not seen.
+///    separable; none sends the search to pairs, unless even the best single one gains no more than
+///    chance gives, as chance gives more to the best of so many pairs; if they fail too the
+///    structure is unexplained. One diameter names nothing: the size dependence, which tells causes
+///    apart, was not seen.
 /// @throws ComputationError when the base model has no usable fit.
 Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
                    const DiagnosisOptions& options);

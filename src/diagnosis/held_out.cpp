@@ -128,6 +128,7 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
         predict(candidate.model, refit.theta, std::move(conditions), false);
     FoldPrediction& out = predictions[f];
     out.usable = true;
+    out.criterion = corrected_criterion(seen, refit.chi2, candidate.free_count);
     for (std::size_t k = 0; k < residuals.size(); ++k) {
       const Observation& point = unseen.points[k];
       out.deviance += residuals[k] * residuals[k];
@@ -139,7 +140,10 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
 }
 
 HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base,
-                          const std::vector<FoldPrediction>& extended, std::uint64_t seed) {
+                          std::vector<FoldPrediction> extended, std::uint64_t seed) {
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    if (extended[f].usable && extended[f].criterion > base[f].criterion) extended[f] = base[f];
+  }
   HeldOutGain gain;
   std::vector<std::size_t> used;
   std::vector<double> all_base, all_extended;

@@ -24,6 +24,7 @@ std::vector<Fold> held_out_folds(const Observations& data, const std::vector<Dat
 /// How one model predicts the points of one fold from all others.
 struct FoldPrediction {
   bool usable = false;
+  double criterion = 0.0;     ///< of the fit to the other points, `corrected_criterion`
   double deviance = 0.0;      ///< sum of r^2 over the fold
   std::vector<double> error;  ///< e - e_model of each point of the fold [1]
 };
@@ -53,8 +54,11 @@ struct HeldOutGain {
   std::optional<double> lower, upper;
 };
 
+/// A fold is predicted by the model that the other points choose: by the base again where its
+/// criterion on them is the smaller one. What they do not show they cannot predict, and a parameter
+/// that nothing holds predicts anything (a slowest rebound, without the sphere that was so slow).
 /// Folds in which either model has no answer are left out.
 HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base,
-                          const std::vector<FoldPrediction>& extended, std::uint64_t seed);
+                          std::vector<FoldPrediction> extended, std::uint64_t seed);
 
 }  // namespace recoil

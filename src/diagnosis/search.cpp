@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "diagnosis/plausibility.hpp"
@@ -15,6 +16,9 @@ namespace {
 
 constexpr int tries_alone = 4;
 constexpr int tries_in_pairs = 2;
+constexpr std::size_t pairs_followed = 24;  // after one descent each
+constexpr std::size_t batch = 13;           // of data sets, between two looks at how many gain more
+constexpr std::ptrdiff_t often_enough = 5;  // to say that chance gives as much
 constexpr int quick_samples = 999;
 constexpr double worth_releasing = 2.0;  // gain of the criterion by a released parameter
 // What a cause may leave: structure at this level, or this part of what it took. The laws of the
@@ -145,10 +149,33 @@ double part_left(const SearchBase& base, const CandidateResult& candidate) {
   return before > 0.0 ? after / before : 1.0;
 }
 
+double criterion_of(const SearchBase& base, const Candidate& candidate, const Refit& refit) {
+  return corrected_criterion(base.fitted.data, refit.chi2, candidate.free_count);
+}
+
+bool spreads(const CandidateResult& single) {
+  return find_mechanism(single.candidate.added.front())->spreads();
+}
+
+/// Both at once by one descent from the fit of either.
+void fit_quickly(const SearchBase& base, const CandidateResult* first,
+                 const CandidateResult* second, Candidate& both, Refit& best) {
+  both = make_candidate(base.spec, base.datasets,
+                        {first->candidate.added.front(), second->candidate.added.front()}, false,
+                        true);
+  if (both.free_count >= static_cast<int>(base.fitted.data.points.size()) - 2) return;
+  for (const CandidateResult* from : {first, second}) {
+    const std::vector<double> near = within_bounds(
+        both.model, carried_over(from->candidate.model, from->refit.theta, both.model));
+    Refit refit = refit_candidate(both, base.fitted.data, near, 1);
+    if (refit.usable && !(best.usable && best.chi2 <= refit.chi2)) best = std::move(refit);
+  }
+}
+
 std::string reason_aside(const SearchBase& base, const CandidateResult& c) {
   if (c.kind == MechanismKind::description) return "a description explains nothing";
   if (!(c.delta_aicc < 0.0)) return "it gains less than its parameters cost";
-  if (c.p_value && *c.p_value > base.options.level) {
+  if (c.p_value && *c.p_value > base.options.chance) {
     return fmt::format("chance gives the best of all candidates as much in {:.0f} % of data sets",
                        100.0 * *c.p_value);
   }
@@ -212,13 +239,16 @@ void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
                const std::function<void()>& tick) {
   const auto count = static_cast<std::size_t>(base.options.compared);
   std::vector<double> most(count, -INFINITY);
-  parallel_over(count, base.options.threads, [&](std::size_t b) {
+  const auto gains_more = [&](std::size_t b) {
     const Observations sample = simulate_base(base, b);
     const Refit alone = refit_candidate(base.candidate, sample, base.refit.theta, 1);
     tick();
     if (!alone.usable) return;
     const double criterion = corrected_criterion(sample, alone.chi2, base.candidate.free_count);
+    bool spread = false;
     for (const CandidateResult& c : candidates) {
+      // One spread looks like the other, and takes nine times as long as anything else.
+      if (spreads(c) && std::exchange(spread, true)) continue;
       const std::vector<double> near =
           carried_over(base.candidate.model, alone.theta, c.candidate.model);
       const Refit refit = refit_candidate(c.candidate, sample, near, 1);
@@ -227,11 +257,20 @@ void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
           criterion - corrected_criterion(sample, refit.chi2, c.candidate.free_count);
       most[b] = std::max(most[b], gain);
     }
-  });
+  };
+  std::size_t done = 0;
+  const auto as_much = [&](const CandidateResult& c) {
+    return std::count_if(most.begin(), most.begin() + static_cast<std::ptrdiff_t>(done),
+                         [&](double gain) { return gain >= -c.delta_aicc; });
+  };
+  while (done < count && !candidates.empty() && as_much(candidates.front()) < often_enough) {
+    const std::size_t now = std::min(batch, count - done);
+    parallel_over(now, base.options.threads, [&](std::size_t k) { gains_more(done + k); });
+    done += now;
+  }
+  for (std::size_t b = done; b < count; ++b) tick();
   for (CandidateResult& c : candidates) {
-    const auto as_much =
-        std::count_if(most.begin(), most.end(), [&](double gain) { return gain >= -c.delta_aicc; });
-    c.p_value = (1.0 + static_cast<double>(as_much)) / (1.0 + static_cast<double>(count));
+    c.p_value = (1.0 + static_cast<double>(as_much(c))) / (1.0 + static_cast<double>(done));
   }
 }
 
@@ -248,28 +287,37 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
   struct Pair {
     const CandidateResult* first;
     const CandidateResult* second;
+    Candidate candidate{};
+    Refit quick{};
   };
   std::vector<Pair> todo;
   for (std::size_t a = 0; a < causes.size(); ++a) {
-    for (std::size_t b = a + 1; b < causes.size(); ++b) todo.push_back({causes[a], causes[b]});
+    for (std::size_t b = a + 1; b < causes.size(); ++b) {
+      if (spreads(*causes[a]) && spreads(*causes[b])) continue;
+      todo.push_back({causes[a], causes[b]});
+    }
   }
+  parallel_over(todo.size(), base.options.threads, [&](std::size_t k) {
+    tick();
+    fit_quickly(base, todo[k].first, todo[k].second, todo[k].candidate, todo[k].quick);
+  });
+  std::erase_if(todo, [](const Pair& pair) { return !pair.quick.usable; });
+  std::stable_sort(todo.begin(), todo.end(), [&](const Pair& one, const Pair& other) {
+    return criterion_of(base, one.candidate, one.quick) <
+           criterion_of(base, other.candidate, other.quick);
+  });
+  if (todo.size() > pairs_followed) todo.erase(todo.begin() + pairs_followed, todo.end());
   std::vector<CandidateResult> results(todo.size());
   parallel_over(todo.size(), base.options.threads, [&](std::size_t k) {
-    const auto& [first, second] = todo[k];
-    tick();
-    const std::vector<std::string> ids = {first->candidate.added.front(),
-                                          second->candidate.added.front()};
-    Candidate candidate = make_candidate(base.spec, base.datasets, ids, false, true);
-    if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 2) return;
-    const std::vector<double> near = within_bounds(
-        candidate.model, carried_over(first->candidate.model, first->refit.theta, candidate.model));
-    results[k] = try_one(base, std::move(candidate), near);
+    const CandidateResult* first = todo[k].first;
+    const CandidateResult* second = todo[k].second;
+    results[k] = try_one(base, todo[k].candidate, todo[k].quick.theta);
     try_released(base, results[k]);
     // Both have to carry their part.
     const double better = std::min(first->delta_aicc, second->delta_aicc);
     const bool possible =
         first->delta_aicc < second->delta_aicc ? first->plausible : second->plausible;
-    if (possible && !(results[k].delta_aicc < better - base.options.apart)) {
+    if (possible && !(results[k].delta_aicc < better - base.options.apart_in_pairs)) {
       results[k].aside = one_would_do;
     }
     if (rests_on_the_edge(results[k])) {

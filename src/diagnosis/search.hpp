@@ -30,12 +30,16 @@ Observations simulate_base(const SearchBase& base, std::uint64_t index);
 std::vector<CandidateResult> try_singles(const SearchBase& base);
 
 /// Fills the p-values of `candidates`: (1 + number of simulated data sets in which the best of all
-/// candidates gains as much) / (1 + number of data sets).
+/// candidates gains as much) / (1 + number of data sets). The data sets end early once chance has
+/// given the best candidate as much five times (Besag & Clifford 1991, Biometrika 78, 301-304).
 /// @param tick called once per data set
 void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
                const std::function<void()>& tick);
 
-/// Every two of `singles` that could be causes, within their plausible ranges; the best first.
+/// Every two of `singles` that could be causes, within their plausible ranges; the best first. All
+/// are fitted by one descent from the fit of either member; the best of them are then searched as
+/// widely as single ones, the others left out. Two spreads at once are not tried: one looks like
+/// the other.
 /// @param tick called once per pair
 std::vector<CandidateResult> try_pairs(const SearchBase& base,
                                        const std::vector<CandidateResult>& singles,

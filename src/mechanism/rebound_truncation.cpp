@@ -61,8 +61,8 @@ Mechanism rebound_truncation() {
             .null_value = 0.1,
             .initial = 0.1,
             .lower = 0.005,
-            .upper = 0.12,
-            .plausible = {0.01, 0.12, "5 to 10 % is usual"},
+            .upper = 0.3,
+            .plausible = {0.01, 0.3, "5 to 10 % is usual, more just above capture"},
             .free = false}},
   });
 }

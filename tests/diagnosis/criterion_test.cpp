@@ -41,6 +41,23 @@ TEST(Candidate, CarriesFreeParametersOverAndLeavesFixedOnesAlone) {
   EXPECT_EQ(make_candidate(synthetic::spec(), data, {"crack_rate"}, true).free_count, 4);
 }
 
+TEST(Candidate, TakesTheScatterOfSlowReboundsFromThePoints) {
+  Dataset data = synthetic::dataset({});
+  for (ImpactPoint& point : data.points) {
+    point.events = 25;
+    const double relative = point.restitution * point.incident_velocity < 3.0 ? 0.15 : 0.05;
+    point.restitution_sd = relative * point.restitution / 5.0;
+  }
+  const auto scatter = [](const Dataset& points) {
+    const Candidate candidate =
+        make_candidate(synthetic::spec(), {points}, {"rebound_truncation"}, false, true);
+    return candidate.spec.parameters.back().initial;
+  };
+  EXPECT_NEAR(scatter(data), 0.15, 1e-12);
+  for (ImpactPoint& point : data.points) point.restitution_sd.reset();
+  EXPECT_EQ(scatter(data), 0.1);  // what the catalogue assumes
+}
+
 TEST(Candidate, FindsTheParametersThatMadeThePoints) {
   synthetic::Design design;
   const std::vector<Dataset> data = {synthetic::dataset(design)};

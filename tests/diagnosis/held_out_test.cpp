@@ -36,8 +36,8 @@ Fold fold(const std::string& kind) { return {kind, kind, {0, 1}}; }
 
 TEST(HeldOut, GainIsWorkedByHand) {
   // rms 0.05 against 0.025: half; ln likelihood (40 - 10) / 2.
-  const std::vector<FoldPrediction> base = {{true, 40.0, {0.05, -0.05}}};
-  const std::vector<FoldPrediction> extended = {{true, 10.0, {0.025, -0.025}}};
+  const std::vector<FoldPrediction> base = {{true, 0.0, 40.0, {0.05, -0.05}}};
+  const std::vector<FoldPrediction> extended = {{true, 0.0, 10.0, {0.025, -0.025}}};
   const HeldOutGain gain = held_out_gain({fold("size")}, base, extended, 1);
   EXPECT_NEAR(gain.rmse_base, 0.05, 1e-15);
   EXPECT_NEAR(gain.rmse_extended, 0.025, 1e-15);
@@ -48,8 +48,9 @@ TEST(HeldOut, GainIsWorkedByHand) {
 }
 
 TEST(HeldOut, VelocitiesDecideOnlyWhereThereAreNoSizes) {
-  const std::vector<FoldPrediction> base = {{true, 40.0, {0.1}}, {true, 4.0, {0.01}}};
-  const std::vector<FoldPrediction> extended = {{true, 10.0, {0.05}}, {true, 400.0, {0.1}}};
+  const std::vector<FoldPrediction> base = {{true, 0.0, 40.0, {0.1}}, {true, 0.0, 4.0, {0.01}}};
+  const std::vector<FoldPrediction> extended = {{true, 0.0, 10.0, {0.05}},
+                                                {true, 0.0, 400.0, {0.1}}};
   const HeldOutGain both = held_out_gain({fold("size"), fold("velocity")}, base, extended, 1);
   EXPECT_TRUE(both.decisive);
   EXPECT_NEAR(both.log_score, 15.0, 1e-12);
@@ -59,9 +60,19 @@ TEST(HeldOut, VelocitiesDecideOnlyWhereThereAreNoSizes) {
   EXPECT_NEAR(one.log_score, 15.0 - 198.0, 1e-12);
 }
 
+TEST(HeldOut, WhatTheOtherPointsDoNotShowIsPredictedByTheBase) {
+  // The second fold would be far off, but without it the criterion is for the base: 3 against 5.
+  const std::vector<FoldPrediction> base = {{true, 9.0, 40.0, {0.1}}, {true, 3.0, 4.0, {0.01}}};
+  const std::vector<FoldPrediction> extended = {{true, 2.0, 10.0, {0.05}},
+                                                {true, 5.0, 400.0, {0.1}}};
+  const HeldOutGain gain = held_out_gain({fold("size"), fold("size")}, base, extended, 1);
+  EXPECT_NEAR(gain.log_score, 15.0, 1e-12);
+  EXPECT_EQ(gain.folds[1].rmse_extended, gain.folds[1].rmse_base);
+}
+
 TEST(HeldOut, FoldsWithoutAnAnswerAreLeftOut) {
-  const std::vector<FoldPrediction> base = {{true, 40.0, {0.1}}, {false, 0.0, {}}};
-  const std::vector<FoldPrediction> extended = {{true, 10.0, {0.05}}, {true, 1.0, {0.1}}};
+  const std::vector<FoldPrediction> base = {{true, 0.0, 40.0, {0.1}}, {false, 0.0, 0.0, {}}};
+  const std::vector<FoldPrediction> extended = {{true, 0.0, 10.0, {0.05}}, {true, 0.0, 1.0, {0.1}}};
   EXPECT_EQ(held_out_gain({fold("size"), fold("size")}, base, extended, 1).folds.size(), 1U);
 }
 

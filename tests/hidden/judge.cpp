@@ -31,6 +31,10 @@ Json to_json(const Answered& a) {
           {"closest_misfit", a.closest.misfit}};
 }
 
+fs::path kept_file(const CaseOrder& order, const fs::path& keep) {
+  return keep / (neutral_name(order) + ".json");
+}
+
 /// @return whether there was a kept answer to this order
 bool load(const fs::path& file, Answered& a) {
   std::ifstream in(file);
@@ -115,11 +119,17 @@ std::string to_string(Mark mark) {
   return "";
 }
 
-Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep) {
+std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep) {
   Answered a;
   a.order = order;
-  const fs::path file = keep.empty() ? fs::path() : keep / (neutral_name(order) + ".json");
-  if (!keep.empty() && load(file, a)) return a;
+  if (keep.empty() || !load(kept_file(order, keep), a)) return {};
+  return a;
+}
+
+Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep) {
+  if (const std::optional<Answered> kept = kept_answer(order, keep)) return *kept;
+  Answered a;
+  a.order = order;
   const Case made = make_case(order);
   a.reached = made.reached;
   a.signal_to_noise = made.refit.signal_to_noise;
@@ -129,7 +139,9 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   }
   // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
   const bool answered = a.status >= 0 && a.status < 128;
-  if (!keep.empty() && answered) recoil::write_whole_file(file, to_json(a).dump(2) + "\n");
+  if (!keep.empty() && answered) {
+    recoil::write_whole_file(kept_file(order, keep), to_json(a).dump(2) + "\n");
+  }
   return a;
 }
 

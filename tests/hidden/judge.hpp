@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ enum class Mark {
 };
 Mark mark_of(const Answered& answered);
 std::string to_string(Mark mark);
+
+/// The answer that an earlier run left in `keep`.
+std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesystem::path& keep);
 
 /// Makes the case in a scratch folder, lets `binary` diagnose it on one thread, and keeps the
 /// answer in `keep` (when not empty), where the next run finds it.

@@ -2,8 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -26,6 +30,7 @@ int run(int argc, char** argv) {
   std::string picture;
   std::string only;
   int threads = 0;
+  double minutes = std::numeric_limits<double>::infinity();
   // The command that was built together with this program.
   std::string binary = (fs::read_symlink("/proc/self/exe").parent_path() / "recoil").string();
   app.add_option("--datasets", size.per_cell, "data sets of each effect, design and strength");
@@ -38,6 +43,9 @@ int run(int argc, char** argv) {
   app.add_option("--picture", picture, "write the picture here (SVG)");
   app.add_option("--recoil", binary, "the command to be judged");
   app.add_option("--threads", threads, "diagnoses at the same time (default: all cores)");
+  app.add_option("--at-most-minutes", minutes,
+                 "begin no further diagnosis after this time and report what is done (0: what is "
+                 "kept)");
   app.add_option("--seed", size.seed, "of the data sets");
   CLI11_PARSE(app, argc, argv);
 
@@ -45,15 +53,27 @@ int run(int argc, char** argv) {
   for (const hidden::CaseOrder& order : hidden::plan_study(size)) {
     if (order.key().find(only) != std::string::npos) orders.push_back(order);
   }
-  std::vector<hidden::Answered> answers(orders.size());
+  std::vector<std::optional<hidden::Answered>> asked(orders.size());
   {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    const auto late = [&] {
+      return std::chrono::duration<double>(Clock::now() - begin).count() >= 60.0 * minutes;
+    };
     const recoil::InterruptGuard guard;
     recoil::Progress progress("hidden effects", orders.size());
-    recoil::parallel_over(orders.size(), threads, [&](std::size_t i) {
+    std::atomic<std::size_t> next = 0;  // in the order of the plan, whoever is free
+    recoil::parallel_over(orders.size(), threads, [&](std::size_t) {
+      const std::size_t i = next++;
       if (recoil::stop_requested()) return;
-      answers[i] = hidden::ask(orders[i], binary, keep);
+      asked[i] =
+          late() ? hidden::kept_answer(orders[i], keep) : hidden::ask(orders[i], binary, keep);
       progress.advance();
     });
+  }
+  std::vector<hidden::Answered> answers;
+  for (const auto& answer : asked) {
+    if (answer) answers.push_back(*answer);
   }
   if (recoil::stop_requested()) {
     fmt::print(stderr, "stopped; what is finished is kept{}\n",
@@ -69,7 +89,7 @@ int run(int argc, char** argv) {
       command += " " + word;
     }
   }
-  fmt::print("{}", hidden::study_report(answers, size, command));
+  fmt::print("{}", hidden::study_report(answers, orders.size(), size, command));
   if (!picture.empty()) recoil::write_whole_file(picture, hidden::study_picture(answers));
   return 0;
 }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "study.hpp"
 
 namespace hidden {
@@ -62,6 +64,10 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
   plan.add("li", {}, 0.0, size.correct / 4);
   plan.add("wall-batches", {}, 0.0, size.correct - (size.correct + 1) / 2 - size.correct / 4);
   for (const char* design : {"wall-one", "dahneke"}) plan.add(design, {}, 0.0, 5 * size.single);
+  // By names that say nothing.
+  std::sort(plan.orders.begin(), plan.orders.end(), [](const CaseOrder& a, const CaseOrder& b) {
+    return std::pair(neutral_name(a), a.key()) < std::pair(neutral_name(b), b.key());
+  });
   return plan.orders;
 }
 

@@ -27,12 +27,15 @@ inline constexpr double visible = 10.0;  ///< signal-to-noise from which on the 
 enum class Chapter { effect, correct, pair, outside, single };
 Chapter chapter_of(const CaseOrder& order);
 
+/// Shuffled, the same way for equal sizes and seeds: what is done of a study that ends early is a
+/// fair sample of all of it.
 std::vector<CaseOrder> plan_study(const StudySize& size);
 
 /// The whole report in Markdown.
+/// @param planned how many data sets `answers` would have if all were done
 /// @param command the line that makes it again
-std::string study_report(const std::vector<Answered>& answers, const StudySize& size,
-                         const std::string& command);
+std::string study_report(const std::vector<Answered>& answers, std::size_t planned,
+                         const StudySize& size, const std::string& command);
 
 /// Power against strength, and the confusion matrix, as one picture (SVG).
 std::string study_picture(const std::vector<Answered>& answers);

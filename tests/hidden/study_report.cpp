@@ -247,8 +247,8 @@ std::string complaints(const std::vector<Answered>& all) {
 
 }  // namespace
 
-std::string study_report(const std::vector<Answered>& all, const StudySize& size,
-                         const std::string& command) {
+std::string study_report(const std::vector<Answered>& all, std::size_t planned,
+                         const StudySize& size, const std::string& command) {
   std::string out = "# Hidden effects: what the diagnosis finds\n\n";
   out +=
       "Data in which an effect is hidden, made by physics of their own (`tests/hidden`: the "
@@ -263,8 +263,15 @@ std::string study_report(const std::vector<Answered>& all, const StudySize& size
       "Every strength lies within what nature or a careful experimenter has; what would need more "
       "is "
       "not made, and listed at the end.\n\n";
-  out += fmt::format("Seed {}; {} data sets, {} of them made.\n\nMade by `{}`.\n\n", size.seed,
-                     all.size(), those(all, [](const Answered&) { return true; }).size(), command);
+  out += fmt::format("Seed {}; {} data sets, {} of them made.", size.seed, all.size(),
+                     those(all, [](const Answered&) { return true; }).size());
+  if (all.size() < planned) {
+    out += fmt::format(
+        " **{} were planned**: the study was ended before the others were tried. They stood in "
+        "shuffled order, so that those that were tried are a fair sample of all.",
+        planned);
+  }
+  out += fmt::format("\n\nMade by `{}`.\n\n", command);
   out +=
       "## The bars\n\nDesigns with several diameters, snr 10 and more, unless said "
       "otherwise.\n\n" +
