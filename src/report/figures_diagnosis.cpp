@@ -24,19 +24,32 @@ std::string in_dataset(const Diagnosis& d, std::size_t dataset) {
 
 struct Rows {
   std::vector<double> velocities, diameters;
-  std::vector<std::vector<double>> misses;  // V, d [um], e - e_model, standardised, sd
+  std::vector<std::vector<double>> misses;  // V, d [size_unit], e - e_model, standardised, sd
 };
+
+/// Spheres are told in um, balls in mm.
+struct SizeUnit {
+  double metres;
+  const char* name;
+};
+SizeUnit size_unit(const Diagnosis& d) {
+  const auto& points = d.base.data.points;
+  const bool balls = std::all_of(points.begin(), points.end(),
+                                 [](const Observation& point) { return point.diameter >= 1e-3; });
+  return balls ? SizeUnit{1e-3, "mm"} : SizeUnit{units::um, "µm"};
+}
 
 Rows rows_of(const Diagnosis& d, std::size_t dataset) {
   Rows rows;
+  const double unit = size_unit(d).metres;
   for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
     const Observation& point = d.base.data.points[i];
     if (point.dataset != dataset) continue;
     const double miss = (point.censored ? 0.0 : point.restitution) -
                         expected_restitution(point, d.base.prediction_squared[i]);
     rows.velocities.push_back(point.velocity);
-    rows.diameters.push_back(point.diameter / units::um);
-    rows.misses.push_back({point.velocity, point.diameter / units::um, miss,
+    rows.diameters.push_back(point.diameter / unit);
+    rows.misses.push_back({point.velocity, rows.diameters.back(), miss,
                            point.sd > 0.0 ? miss / point.sd : 0.0, point.sd});
   }
   return rows;
@@ -64,10 +77,32 @@ std::string size_ticks(std::vector<double> diameters, double small, double big) 
   return decimal.empty() ? fmt::format("set ytics ({})\n", fmt::join(ticks, ", ")) : decimal;
 }
 
+/// The axis of the diameters; of one diameter alone, that of the misses themselves.
+std::string vertical_axis(const Diagnosis& d, const Rows& rows, bool one_size) {
+  const char* unit = size_unit(d).name;
+  if (!one_size) {
+    const auto [small, big] = log_range(rows.diameters, 0.25);
+    return fmt::format(
+               "set logscale y\nset yrange [{:.6g}:{:.6g}]\nset ylabel 'd  [{}]' offset 1,0\n",
+               small, big, unit) +
+           size_ticks(rows.diameters, small, big);
+  }
+  std::vector<double> misses = {0.0};
+  for (const std::vector<double>& row : rows.misses) misses.push_back(row[2]);
+  const style::Range range = style::range_of(misses, 0.12);
+  return fmt::format(
+             "set yrange [{:.6g}:{:.6g}]\nset ylabel 'e - e_{{model}}' offset 1,0\n"
+             "set xzeroaxis lt 1 lc rgb '{}' lw 1\n"
+             "set label 1 'd = {:.4g} {}' at graph 0.03, graph 0.94 left\n",
+             range.lower, range.upper, style::ink, rows.diameters.front(), unit) +
+         style::few_ticks('y', range, 5);
+}
+
 Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
   const Rows rows = rows_of(d, dataset);
   const auto [slow, fast] = log_range(rows.velocities, 0.06);
-  const auto [small, big] = log_range(rows.diameters, 0.25);
+  const bool one_size = std::all_of(rows.diameters.begin(), rows.diameters.end(),
+                                    [&](double size) { return size == rows.diameters.front(); });
   PlotScript script;
   script.name = fmt::format("misfit-{}", dataset);
   script.title = "Where the base model misses, over velocity and diameter";
@@ -75,23 +110,26 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
   std::string& c = script.commands;
   c = style::preamble() +
       fmt::format(
-          "set logscale xy\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n"
-          "set xlabel 'V  [m/s]' offset 0,0.4\nset ylabel 'd  [µm]' offset 1,0\n"
+          "set logscale x\nset xrange [{:.6g}:{:.6g}]\nset xlabel 'V  [m/s]' offset 0,0.4\n"
           "set palette defined (-1 '{}', 0 '#EEEEEE', 1 '{}')\nset cbrange [{:.3g}:{:.3g}]\n"
           "set cblabel '(e - e_{{model}}) / sd' offset -0.5,0\nunset key\n",
-          slow, fast, small, big, style::blue, style::vermillion, -largest_z, largest_z) +
-      log_ticks('x', slow, fast) + size_ticks(rows.diameters, small, big);
+          slow, fast, style::blue, style::vermillion, -largest_z, largest_z) +
+      log_ticks('x', slow, fast) + vertical_axis(d, rows, one_size);
   c += data_block("misses", rows.misses);
   // The area of a disc grows with the size of the miss, and is never nothing.
-  c += "plot $misses using 1:2:(0.5+0.35*sqrt(abs($4))):4 with points pt 7 ps variable lc palette, "
-       "$misses using 1:2:(0.5+0.35*sqrt(abs($4))) with points pt 6 ps variable lc rgb '#777777' "
-       "lw 0.5\n";
+  c += fmt::format(
+      "plot $misses using 1:{0}:(0.5+0.35*sqrt(abs($4))):4 with points pt 7 ps variable lc "
+      "palette, "
+      "$misses using 1:{0}:(0.5+0.35*sqrt(abs($4))) with points pt 6 ps variable lc rgb '#777777' "
+      "lw 0.5\n",
+      one_size ? 3 : 2);
   return {
       "misfit-" + std::to_string(dataset),
       "Where the model is too low or too high" + in_dataset(d, dataset),
-      "Every disc is a point. Orange: the measured e is higher than the fitted base model; blue: "
-      "lower. The larger, the more standard deviations. Patches of one colour are structure; "
-      "a mixture is noise.",
+      std::string("Every disc is a point. Orange: the measured e is higher than the fitted base "
+                  "model; blue: lower. The larger, the more standard deviations. Patches of one "
+                  "colour are structure; a mixture is noise.") +
+          (one_size ? " There is one diameter: the height of a disc is its miss." : ""),
       draw_svg(script), false};
 }
 
