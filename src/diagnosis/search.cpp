@@ -17,7 +17,7 @@ namespace {
 constexpr int tries_alone = 4;
 constexpr int tries_in_pairs = 2;
 constexpr std::size_t pairs_followed = 24;  // after one descent each
-constexpr std::size_t batch = 13;           // of data sets, between two looks at how many gain more
+constexpr std::size_t sets_at_once = 13;    // between two looks at how many gain more
 constexpr std::ptrdiff_t often_enough = 5;  // to say that chance gives as much
 constexpr int quick_samples = 999;
 constexpr double worth_releasing = 2.0;  // gain of the criterion by a released parameter
@@ -264,7 +264,7 @@ void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
                          [&](double gain) { return gain >= -c.delta_aicc; });
   };
   while (done < count && !candidates.empty() && as_much(candidates.front()) < often_enough) {
-    const std::size_t now = std::min(batch, count - done);
+    const std::size_t now = std::min(sets_at_once, count - done);
     parallel_over(now, base.options.threads, [&](std::size_t k) { gains_more(done + k); });
     done += now;
   }
