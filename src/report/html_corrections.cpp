@@ -61,7 +61,7 @@ std::string change_of_e(const CorrectionRow& base, const CorrectionRow& row) {
 /// How the fit's answer lies to the truth, without an error of its own when it rests on a bound.
 std::string change_of_fit(const CorrectionRow& base, const CorrectionRow& row) {
   if (!base.usable || !row.usable) return "the fit has no usable answer";
-  const std::string bound = row.C_A_sd > 0.0 ? "" : ", its bound";
+  const std::string bound = row.C_A_sd > 0.0 ? "" : ", its bound,";
   const double sd = base.C_A_sd;
   return fmt::format(
       "C_A becomes {:.4f} s/m{} instead of {:.4f}{}, the capture velocity {:.3f} "

@@ -153,7 +153,7 @@ std::vector<Section> plot_sections(const Analysis& a) {
        figures_html(joined(two_point_figures(a), pair_figures(a))) + pair_paragraphs(a)},
       {"forces", "Adhesion and contact forces",
        figures_html(joined(adhesion_force_figures(a), force_history_figures(a)))},
-      {"corrections", "From events to points: what each correction does", corrections_section(a)},
+      {"corrections", "From events to points", corrections_section(a)},
       {"mixture", "A mixture of sizes", mixture_section(a)},
       {"capture-models", "Capture velocity by this and other models",
        capture_comparison_section(a)},

@@ -48,15 +48,16 @@ struct Bar {
     return fmt::format(
         "**The bar**: at the paper's rates at least {:.0f} % pure and {:.0f} % efficient. The "
         "paper "
-        "states no rate. Its spheres fall one by\none from a dispenser and about 40 make a mean; "
-        "here its rates are the rows of {:g} per second and less, where hardly any\nflights "
-        "overlap: the first three of the first table, all of the second, and those marked {:g}/s "
-        "in "
-        "the third. The bar {}\nin all {} of them: the lowest purity is {:.2f} %, the lowest "
-        "efficiency {:.2f} % ({}). With second impacts\nthat were not recognised counted as wrong, "
-        "which the bar does not ask, the lowest is {:.2f} %. Faster rows show where it ends.\n\n",
+        "states no rate, only that about 40 events\nmake a mean. Taken as its rates are the rows "
+        "of "
+        "{:g} per second and less, where hardly any flights overlap: the first three of\nthe first "
+        "table, all of the second, and those marked {:g}/s in the third. The bar {} in all {} of "
+        "them: the lowest purity\nis {:.2f} %, the lowest efficiency {:.2f} % ({}). Counting "
+        "second "
+        "impacts that were not recognised as\nwrong, which the bar does not ask, the lowest is "
+        "{:.2f} %. Faster rows show where it ends.\n\n",
         100.0 * pure, 100.0 * efficient, highest_rate, highest_rate,
-        worst_purity >= pure && worst_efficiency >= efficient ? "holds" : "DOES NOT HOLD", rows,
+        worst_purity >= pure && worst_efficiency >= efficient ? "holds" : "does NOT hold", rows,
         100.0 * worst_purity, 100.0 * worst_efficiency, least_efficient,
         100.0 * worst_first_purity);
   }
