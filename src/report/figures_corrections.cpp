@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 #include "report/corrections.hpp"
 #include "report/figure_style.hpp"
@@ -19,19 +18,18 @@ constexpr std::array<style::Marker, 5> markers = {{{style::blue, 7},
 constexpr std::array<const char*, 5> names = {
     "all corrections", "at the plane", "second impacts in", "captures not counted", "none of them"};
 
-PlotScript script_of(const CorrectionStudy& study, const std::string& name,
-                     const std::string& title) {
+PlotScript script_of(const std::string& name, const std::string& title, const std::string& remark) {
   PlotScript script;
   script.name = name;
   script.title = title;
   script.height = 390;
-  script.commands = style::preamble() + style::title(title, study_words(study));
+  script.commands = style::preamble() + style::title(title, remark);
   return script;
 }
 
 Figure error_figure(const CorrectionStudy& study, std::size_t index) {
-  PlotScript script =
-      script_of(study, fmt::format("corrections-e-{}", index), "Mean restitution less the truth");
+  PlotScript script = script_of(fmt::format("corrections-e-{}", index),
+                                "Mean restitution less the truth", study_words(study));
   const double lower = study.velocities.front() / 1.15;
   const double upper = study.velocities.back() * 1.15;
   std::string& c = script.commands;
@@ -39,13 +37,16 @@ Figure error_figure(const CorrectionStudy& study, std::size_t index) {
        log_ticks('x', lower, upper) +
        "set xlabel 'incident velocity V  [m/s]' offset 0,0.4\n"
        "set ylabel 'e - truth' offset 1.2,0\n" +
-       style::key_below(3);
+       style::key_below(2);
   std::vector<std::string> layers = {
       fmt::format("0 with lines lc rgb '{}' lw 1 notitle", style::ink)};
   for (std::size_t k = 0; k < study.rows.size(); ++k) {
+    // The mean of the rebounds is the same whether the captured are counted or not.
+    if (study.rows[k].left_out == Correction::survivors) continue;
     std::vector<std::vector<double>> rows;
     for (std::size_t i = 0; i < study.velocities.size(); ++i) {
-      rows.push_back({study.velocities[i], study.rows[k].error[i].value_or(std::nan(""))});
+      const auto& error = study.rows[k].error[i];
+      if (error) rows.push_back({study.velocities[i], *error});
     }
     c += data_block(fmt::format("row{}", k), rows);
     layers.push_back(
@@ -57,14 +58,14 @@ Figure error_figure(const CorrectionStudy& study, std::size_t index) {
       "{}. Mean over the rebounds of each velocity of e less the recipe's truth at the point's own "
       "diameter and velocity; zero is right. All lines rest on the same events, so what they "
       "differ "
-      "by is no chance. Not counting captures leaves e as it is and lies on the first line.",
+      "by is no chance. Not counting captures leaves e as it is.",
       study_words(study));
   return {script.name, script.title, caption, draw_svg(script)};
 }
 
 Figure damping_figure(const CorrectionStudy& study, std::size_t index) {
-  PlotScript script = script_of(study, fmt::format("corrections-damping-{}", index),
-                                "What the fit makes of it: C_A");
+  PlotScript script = script_of(fmt::format("corrections-damping-{}", index),
+                                "The fitted damping of the adhesion", "");
   std::vector<double> values = {0.0, study.C_A};
   for (const CorrectionRow& row : study.rows) {
     if (row.usable) values.insert(values.end(), {row.C_A + row.C_A_sd, row.C_A - row.C_A_sd});
@@ -96,8 +97,8 @@ Figure damping_figure(const CorrectionStudy& study, std::size_t index) {
   }
   c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
   return {script.name, script.title,
-          "The fitted damping of the adhesion with one standard error (none where it rests on its "
-          "bound), for the points of each way. The line is what the recipe put into the events.",
+          "C_A with one standard error (none where it rests on its bound), for the points of each "
+          "way. The line is what the recipe put into the events.",
           draw_svg(script)};
 }
 
