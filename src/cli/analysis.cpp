@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/event_points.hpp"
 #include "core/error.hpp"
 #include "uncertainty/resample.hpp"
 
@@ -88,6 +89,14 @@ void add_predictions(Analysis& analysis) {
   }
   analysis.captures = compare_captures(analysis.fitted, analysis.data, analysis.datasets,
                                        assessed.bootstrap, compare);
+}
+
+void add_corrections(Analysis& analysis) {
+  if (analysis.datasets.size() != 1) return;
+  const Dataset& dataset = analysis.datasets.front();
+  if (dataset.provenance != Provenance::reconstruction) return;
+  if (!std::filesystem::exists(dataset.folder / recipe_name)) return;
+  analysis.corrections = study_recipe(analysis.spec, load_recipe(dataset.folder), dataset);
 }
 
 Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& options) {

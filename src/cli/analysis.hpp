@@ -45,6 +45,10 @@ Analysis analyse_fit(const std::filesystem::path& fit_file, const AnalysisOption
 /// older capture models.
 void add_predictions(Analysis& analysis);
 
+/// And for the fit of one reconstruction whose points come from simulated events: what each
+/// correction on the way does.
+void add_corrections(Analysis& analysis);
+
 /// The whole pipeline for one fit: data, fit, uncertainty.
 /// @throws Interrupted when the user stops it and `options.folder` keeps what was finished.
 /// @throws ComputationError when the fit has no usable answer.

@@ -244,6 +244,10 @@ void add_output_options(CLI::App& app, PairCommand& command) {
       ->check(CLI::PositiveNumber);
   app.add_option("--impacts", command.impacts,
                  "write every impact and every passage without one here (CSV)");
+  app.add_flag(
+      "--mean-diameter", command.averaging.mean_diameter,
+      "give every point the mean diameter of all spheres of its series and size class (d10, "
+      "as the paper's points) instead of that of its own impacts");
   app.add_option(
       "--histograms", command.histograms,
       "write histograms and size distributions (CSV) and pictures (SVG) into this folder");

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/event_points.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "reconstruction/passages.hpp"
@@ -16,7 +17,8 @@ void add_reconstruct(CLI::App& program) {
   command->footer(
       "Makes points.csv of DIR from DIR/recipe.toml and verifies every published fact that the\n"
       "recipe names. With --check nothing is written: the file has to be what the recipe makes,\n"
-      "byte for byte.\n\n"
+      "byte for byte. A recipe with a table [pairing] makes events, and its points by recoil "
+      "pair.\n\n"
       "  recoil reconstruct datasets/wall1990-silicon --check\n\n"
       "Where the recipe says what the instrument records, the raw events can be had as well:\n\n"
       "  recoil reconstruct datasets/li1999-sst65-silicon --passages events.csv\n"
@@ -41,8 +43,9 @@ void add_reconstruct(CLI::App& program) {
       fmt::print("{}: passages of a reconstruction; nothing here was measured\n", *passages);
       return;
     }
-    const ReconstructionResult result = reconstruct(*folder, *check);
+    const ReconstructionResult result = reconstruct(*folder, *check, pair_passages);
     fmt::print("{}", describe(result));
+    if (result.from_events) fmt::print("\n{}", pair_command_words(load_recipe(*folder)));
     if (!result.good()) {
       throw ComputationError(
           fmt::format("{}: {}", *folder,

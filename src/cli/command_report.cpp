@@ -9,6 +9,7 @@
 #include "cli/recipe_words.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "data/folder_names.hpp"
 #include "diagnosis/extended_toml.hpp"
 #include "report/diagnosis_report.hpp"
 
@@ -45,6 +46,9 @@ std::string fingerprint(const fs::path& fit_file, const AnalysisFlags& flags) {
   std::string text = spec.sha256;
   for (const Dataset& dataset : load_datasets(spec)) {
     text += dataset.sha256;
+    if (fs::exists(dataset.folder / recipe_name)) {
+      text += sha256_hex(read_text_file(dataset.folder / recipe_name));
+    }
     if (const auto sizes = sizes_of_dataset(dataset.folder)) text += sizes->sha256;
   }
   text += fmt::format("|{}|{}|{}|{}|{}", flags.replicates, flags.scheme, flags.seed, flags.solver,
@@ -95,6 +99,7 @@ void report(const ReportOptions& options) {
       resolved.folder = out / id;
       Analysis analysis = analyse(fit_file, resolved);
       add_predictions(analysis);
+      add_corrections(analysis);
       const Diagnosis diagnosis = diagnose_for_report(analysis, options.analysis);
       write_whole_file(page, html_report(analysis, diagnosis_section(diagnosis) +
                                                        link_to(id + "/diagnosis.html")));

@@ -47,6 +47,9 @@ std::vector<std::string> recipe_remarks(const std::vector<Dataset>& datasets) {
     const Recipe recipe = load_recipe(dataset.folder);
     std::string made = truth_words(recipe.truth);
     if (recipe.sizes) made += sizes_words(*recipe.sizes);
+    if (recipe.pairing) {
+      made += "; its points come from simulated events through the tool's own pairing";
+    }
     remarks.push_back(fmt::format(
         "{} is a reconstruction, and its recipe made the points with {}. Whatever a diagnosis "
         "finds in them, the recipe put there: it shows that the method works, and says nothing "

@@ -232,6 +232,8 @@ Averages average(const std::vector<Event>& events, const std::vector<std::string
       group.push_back(arrivals[i]);
     }
     begin += group.size();
+    const double all_sizes =
+        moments_of(group, 0, group.size(), [](const Arrival& a) { return a.diameter; }).mean;
     const std::vector<std::size_t> begins = cuts(group, options.per_bin, pairs.velocity_spread);
     for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
       if (begins[k + 1] - begins[k] < std::min<std::size_t>(5, options.per_bin)) {
@@ -239,6 +241,7 @@ Averages average(const std::vector<Event>& events, const std::vector<std::string
         continue;
       }
       PointMean point = mean_of(group, begins[k], begins[k + 1]);
+      if (options.mean_diameter) point.diameter = all_sizes;
       point.series = series_name(series[group.front().series], edges, group.front().size_class);
       result.points.push_back(std::move(point));
     }

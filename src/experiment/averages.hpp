@@ -13,6 +13,7 @@ struct AverageOptions {
   std::size_t per_bin = 40;        ///< impacts of one point, about
   std::size_t size_classes = 1;    ///< classes of equal number, unless `size_edges` are given
   std::vector<double> size_edges;  ///< ascending [m]; impacts outside are left out
+  bool mean_diameter = false;  ///< every point has the mean diameter of its series and size class
 };
 
 /// The mean of the impacts of one bin of incident velocity, one size class and one series.

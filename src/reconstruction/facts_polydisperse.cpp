@@ -29,9 +29,14 @@ FactOutcome velocity_range(const FactContext& context, const FactLimits& limits)
 }
 
 FactOutcome events_per_point(const FactContext& context, const FactLimits& limits) {
-  const int events = context.recipe.noise.events;
-  return {within(events, limits.at("from"), limits.at("to")),
-          fmt::format("{} rebounds per mean", events)};
+  int fewest = context.points.front().events;
+  int most = fewest;
+  for (const GeneratedPoint& point : context.points) {
+    fewest = std::min(fewest, point.events);
+    most = std::max(most, point.events);
+  }
+  return {fewest >= limits.at("from") && most <= limits.at("to"),
+          fmt::format("{} to {} rebounds per mean", fewest, most)};
 }
 
 FactOutcome event_uncertainty(const FactContext& context, const FactLimits& limits) {

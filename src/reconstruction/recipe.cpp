@@ -127,6 +127,15 @@ PassageDesign read_passages(TomlTable table) {
   return design;
 }
 
+PairingDesign read_pairing(TomlTable table) {
+  PairingDesign design;
+  design.height = table.positive("height");
+  design.angle = table.positive("angle");
+  design.per_bin = static_cast<int>(table.whole("per_bin", 2));
+  table.finish();
+  return design;
+}
+
 /// A value with three significant digits, as a table prints it.
 double three_digits(double value) { return std::stod(fmt::format("{:.3g}", value)); }
 
@@ -206,6 +215,12 @@ void read_root(TomlTable& root, Recipe& recipe) {
   recipe.noise = read_noise(root.table("noise"));
   if (auto sizes = root.optional_table("sizes")) recipe.sizes = read_sizes(*sizes);
   if (auto passages = root.optional_table("passages")) recipe.passages = read_passages(*passages);
+  if (auto pairing = root.optional_table("pairing")) {
+    if (!recipe.passages || !recipe.sizes) {
+      root.fail("pairing", "it needs the passages that it pairs", "add [passages] and [sizes]");
+    }
+    recipe.pairing = read_pairing(*pairing);
+  }
   for (TomlTable& table : root.tables("series")) {
     recipe.series.push_back(read_series(std::move(table)));
   }

@@ -55,6 +55,13 @@ struct PassageDesign {
   double return_time = 0.0;  ///< a rebound comes back through the volume with exp(-t / this) [s]
 };
 
+/// How points are made from these passages, as `recoil pair` understands it.
+struct PairingDesign {
+  double height = 0.0;  ///< first estimate of the measuring plane's height [m]
+  double angle = 0.0;   ///< rebounds within this of the normal are used [rad]
+  int per_bin = 0;      ///< impacts of one point, about
+};
+
 /// A published fact that the reconstruction has to show, with the numbers that decide.
 struct FactSpec {
   std::string id;  ///< which check of `check_facts` decides
@@ -88,6 +95,7 @@ struct Recipe {
   EventNoise noise;
   std::optional<SizeDistribution> sizes;
   std::optional<PassageDesign> passages;
+  std::optional<PairingDesign> pairing;  ///< points come from the passages; else means are drawn
   std::vector<FactSpec> facts;
   std::vector<std::string> assumptions;  ///< what is ours and not published, a sentence each
   std::vector<std::string> siblings;     ///< ids of recipes beside this one, for shared facts

@@ -48,6 +48,13 @@ void require_recipe(const std::filesystem::path& folder) {
                                           "has one"));
 }
 
+PairedPoints make_points(const Recipe& recipe, const PairPassages& pair) {
+  if (recipe.pairing) return pair(recipe);
+  std::vector<GeneratedPoint> points = draw_points(recipe, recipe.seed);
+  std::string csv = to_csv(recipe, points);
+  return {std::move(csv), std::move(points)};
+}
+
 /// The first line that differs, for people.
 std::string first_difference(const std::string& there, const std::string& made) {
   std::istringstream a(there);
@@ -99,11 +106,11 @@ bool ReconstructionResult::good() const {
          std::all_of(facts.begin(), facts.end(), [](const FactCheck& f) { return f.holds; });
 }
 
-ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only) {
+ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only,
+                                 const PairPassages& pair) {
   require_recipe(folder);
   const Recipe recipe = load_recipe(folder);
-  const std::vector<GeneratedPoint> points = draw_points(recipe, recipe.seed);
-  const std::string made = to_csv(recipe, points);
+  const auto [made, points] = make_points(recipe, pair);
   const std::filesystem::path file = folder / "points.csv";
 
   ReconstructionResult result;
@@ -111,6 +118,7 @@ ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check
   result.folder = folder;
   result.seed = recipe.seed;
   result.points = points.size();
+  result.from_events = recipe.pairing.has_value();
   result.assumptions = recipe.assumptions;
   if (check_only) {
     const std::string there = read_text_file(file);
@@ -129,6 +137,9 @@ std::string describe(const ReconstructionResult& result) {
   std::string text = fmt::format("{}: a reconstruction, {} points, seed {}\n", result.id,
                                  result.points, result.seed);
   text += "  No point of it was measured: a committed recipe makes them from the facts below.\n";
+  if (result.from_events) {
+    text += "  The points come from simulated events through the tool's own pairing.\n";
+  }
   if (result.written) {
     text += "  points.csv: written\n";
   } else if (result.identical) {

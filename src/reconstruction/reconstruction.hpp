@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,6 +22,16 @@ std::string generate_points(const Recipe& recipe, std::uint64_t seed);
 /// @throws InputError when `original` does not have the design of the recipe.
 Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t seed);
 
+/// Points made from the passages of a recipe.
+struct PairedPoints {
+  std::string csv;                     ///< points.csv
+  std::vector<GeneratedPoint> points;  ///< the same, for the facts
+};
+
+/// Draws the passages of a recipe and pairs them. It comes from outside: what makes a truth does
+/// not use what is tried on it.
+using PairPassages = std::function<PairedPoints(const Recipe&)>;
+
 /// C_H [s/m], C_A [s/m] and f0 [N/m] at `reference_diameter` [m] of a truth made by the
 /// ring-adhesion model, by these names; empty when the truth is another model.
 std::map<std::string, double> true_parameters(const Recipe& recipe);
@@ -34,6 +45,7 @@ struct ReconstructionResult {
   bool identical = false;  ///< points.csv is byte for byte what the recipe makes
   std::string difference;  ///< where it is not
   std::size_t points = 0;
+  bool from_events = false;  ///< made by pairing simulated events; else means were drawn
   std::vector<FactCheck> facts;
   std::vector<std::string> assumptions;
 
@@ -43,8 +55,10 @@ struct ReconstructionResult {
 
 /// Makes points.csv of `folder` from its recipe, or with `check_only` compares the file that is
 /// there; then checks every fact of the recipe.
+/// @param pair makes the points of recipes with a table [pairing].
 /// @throws InputError for a mistake in the recipe, or a missing points.csv when only checking.
-ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only);
+ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only,
+                                 const PairPassages& pair);
 
 /// The facts as a table, with what is assumed and a verdict, for the terminal.
 std::string describe(const ReconstructionResult& result);

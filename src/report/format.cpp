@@ -244,6 +244,12 @@ const TwoPointComparison* two_point_of(const Analysis& analysis, std::size_t dat
   return nullptr;
 }
 
+bool without_adhesion(const Analysis& analysis, std::size_t dataset) {
+  const ImpactModel& model = analysis.fitted.model;
+  if (dataset >= model.contacts.size() || !model.chain.empty()) return false;
+  return model.contacts[dataset].adhesion_force == 0.0 && !model.slots[model.slot_f0[dataset]].free;
+}
+
 ImpactConditions reference_conditions(const Analysis& analysis, std::size_t dataset,
                                       double velocity) {
   const FitResult& fitted = analysis.fitted;

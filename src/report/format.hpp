@@ -82,6 +82,13 @@ const TwoPointComparison* two_point_of(const Analysis& analysis, std::size_t dat
 ImpactConditions reference_conditions(const Analysis& analysis, std::size_t dataset,
                                       double velocity);
 
+/// Nothing holds the spheres of `dataset`: no adhesion is stated, none is fitted, no mechanism adds
+/// one. A capture velocity is then nothing but the smallest f0 that the solver takes.
+bool without_adhesion(const Analysis& analysis, std::size_t dataset);
+
+/// What stands in the place of a capture velocity then.
+inline constexpr const char* no_capture_words = "none (no adhesion)";
+
 /// How the residuals are scaled for display: 1, or the noise level when no deviation was stated.
 double residual_unit(const Analysis& analysis);
 

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "report/corrections.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/html_page.hpp"
@@ -152,6 +153,7 @@ std::vector<Section> plot_sections(const Analysis& a) {
        figures_html(joined(two_point_figures(a), pair_figures(a))) + pair_paragraphs(a)},
       {"forces", "Adhesion and contact forces",
        figures_html(joined(adhesion_force_figures(a), force_history_figures(a)))},
+      {"corrections", "From events to points", corrections_section(a)},
       {"mixture", "A mixture of sizes", mixture_section(a)},
       {"capture-models", "Capture velocity by this and other models",
        capture_comparison_section(a)},

@@ -174,6 +174,11 @@ std::string capture_table(const Analysis& a) {
                 percent(a.uncertainty.options.level) + " interval", "remark"};
   table.words = {4};
   for (const CaptureEstimate& capture : a.uncertainty.capture) {
+    if (without_adhesion(a, capture.dataset)) {
+      table.rows.push_back({escape_html(a.datasets[capture.dataset].id),
+                            diameter_text(capture.diameter), no_capture_words, "", ""});
+      continue;
+    }
     table.rows.push_back(
         {escape_html(a.datasets[capture.dataset].id), diameter_text(capture.diameter),
          capture.found ? digits(capture.value, 4) : "none found", interval_cell(capture.interval),

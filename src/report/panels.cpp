@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/format.hpp"
+
 namespace recoil {
 namespace {
 
@@ -48,6 +50,7 @@ std::vector<Panel> panels_of(const Analysis& analysis) {
   for (Panel& panel : panels) {
     for (const CaptureEstimate& capture : analysis.uncertainty.capture) {
       if (capture.dataset == panel.dataset && capture.found &&
+          !without_adhesion(analysis, capture.dataset) &&
           std::abs(std::log(capture.diameter / panel.diameter)) < 1e-6) {
         panel.capture = &capture;
       }

@@ -6,6 +6,7 @@
 
 #include "estimate/fit.hpp"
 #include "predict/capture_comparison.hpp"
+#include "predict/correction_study.hpp"
 #include "predict/polydisperse.hpp"
 #include "uncertainty/uncertainty.hpp"
 
@@ -20,6 +21,7 @@ struct Analysis {
   UncertaintyResult uncertainty;
   std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
   std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
+  std::vector<CorrectionStudy> corrections;      ///< of a reconstruction that goes by way of events
 };
 
 /// This program's version, "0.1.0".

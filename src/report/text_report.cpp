@@ -163,7 +163,9 @@ void write_capture(Blocks& out, const Analysis& a) {
   out.open("Capture Velocity");
   for (const CaptureEstimate& capture : a.uncertainty.capture) {
     std::string content = fmt::format("d = {:>6} um   ", diameter_text(capture.diameter));
-    if (!capture.found) {
+    if (without_adhesion(a, capture.dataset)) {
+      content += fmt::format("V* = {}", no_capture_words);
+    } else if (!capture.found) {
       content += "none found";
     } else {
       content += fmt::format("V* = {:>7} m/s", digits(capture.value, 4));

@@ -61,6 +61,27 @@ TEST(Averages, MeansByHand) {
   EXPECT_EQ(point.captured, 0U);
 }
 
+TEST(Averages, OneDiameterForASeriesCountsEverySphere) {
+  Made made;
+  for (int i = 0; i < 6; ++i) {
+    made.rebound(1.0, i % 2 == 0 ? 0.7 : 0.8, 40e-6);
+    made.rebound(2.0, i % 2 == 0 ? 0.8 : 0.9, 60e-6);
+  }
+  for (int i = 0; i < 3; ++i) made.stay(1.0, 100e-6);
+  AverageOptions by;
+  const Averages own = average(made.events, {"run"}, made.pairs, by);
+  ASSERT_EQ(own.points.size(), 2U);
+  EXPECT_NEAR(own.points[0].diameter, (6 * 40e-6 + 3 * 100e-6) / 9, 1e-15);
+  EXPECT_NEAR(own.points[1].diameter, 60e-6, 1e-15);
+  by.mean_diameter = true;
+  const Averages one = average(made.events, {"run"}, made.pairs, by);
+  ASSERT_EQ(one.points.size(), 2U);
+  for (const PointMean& point : one.points) {
+    EXPECT_NEAR(point.diameter, (6 * 40e-6 + 6 * 60e-6 + 3 * 100e-6) / 15, 1e-15);
+  }
+  EXPECT_EQ(one.points[0].restitution, own.points[0].restitution);
+}
+
 TEST(Averages, CapturedIsWhatTheLostCannotExplain) {
   Made made;
   for (int i = 0; i < 30; ++i) made.rebound(1.0, i % 2 == 0 ? 0.78 : 0.82);

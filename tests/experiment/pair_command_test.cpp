@@ -1,7 +1,11 @@
 // `recoil pair` as a user runs it.
 #include <gtest/gtest.h>
 
+#include <set>
+#include <sstream>
+
 #include "../cli/program.hpp"
+#include "core/files.hpp"
 #include "event_stream.hpp"
 #include "predict/measured_sizes.hpp"
 
@@ -66,6 +70,50 @@ TEST(PairCommand, MixedSizesTravelWithTheirPoints) {
   EXPECT_NEAR(sizes.probe_height.value_or(0.0), 1.04e-3, 5e-6);
   EXPECT_NEAR(sizes.mean_diameter(), 49e-6, 2e-6);  // d10 of the stream's distribution
   EXPECT_NEAR(sizes.total(), 600.0, 40.0);
+}
+
+TEST(PairCommand, MeanDiameterIsOneForAllPoints) {
+  const Workplace place;
+  place.write("e.csv", small_stream().csv);
+  const auto sizes_with = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"pair", "e.csv", "--unit", kUnits, "--out", "p.csv"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(place.run(arguments).status, 0);
+    std::istringstream lines(place.read("p.csv"));
+    std::set<std::string> sizes;
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      const std::size_t from = line.find(',') + 1;
+      sizes.insert(line.substr(from, line.find(',', from) - from));
+    }
+    return sizes;
+  };
+  EXPECT_GT(sizes_with({}).size(), 5U);
+  const std::set<std::string> one = sizes_with({"--mean-diameter"});
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_NEAR(std::stod(*one.begin()), 49.0, 2.0);  // d10 of the stream's distribution [um]
+  EXPECT_EQ(sizes_with({"--mean-diameter", "--size-classes", "3"}).size(), 3U);
+}
+
+/// The committed points of the steel reconstructions are what the two commands of README make.
+TEST(PairCommand, TheShippedPointsComeFromEvents) {
+  for (const std::string id : {"li1999-sst65-silicon", "li1999-sst125-silicon"}) {
+    const std::filesystem::path folder = std::filesystem::path(RECOIL_SOURCE_DIR) / "datasets" / id;
+    const Workplace place;
+    ASSERT_EQ(place.run({"reconstruct", folder.string(), "--passages", "e.csv"}).status, 0);
+    const Outcome pair =
+        place.run({"pair", "e.csv", "--unit", kUnits, "--height", "1", "--angle", "8", "--per-bin",
+                   "40", "--mean-diameter", "--out", "points.csv"});
+    ASSERT_EQ(pair.status, 0) << pair.err;
+    EXPECT_EQ(place.read("points.csv"), recoil::read_text_file(folder / "points.csv")) << id;
+    const Outcome check = place.run({"reconstruct", folder.string(), "--check"});
+    EXPECT_EQ(check.status, 0) << check.err;
+    EXPECT_NE(check.out.find("simulated events through the tool's own pairing"), std::string::npos);
+    EXPECT_NE(check.out.find("--height 1 --angle 8 --per-bin 40 --mean-diameter"),
+              std::string::npos)
+        << check.out;
+  }
 }
 
 TEST(PairCommand, TheSameDigitsEveryTime) {

@@ -1,9 +1,10 @@
 // Efficiency and purity of the pairing on simulated streams of which the truth is known: against
 // crowding, against the number of events, and with worse instruments. Prints Markdown.
-//   pairing_study > reports/pairing.md
+//   pairing_study                                       the report; ./run study pairing
 //   pairing_study events SPHERES RATE > events.csv      one such stream, to try `recoil pair` on
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 
@@ -22,6 +23,48 @@ const char* const kHead =
     "as estimated | later impacts recognised | height [um] |\n"
     "|---|---|---|---|---|---|---|---|---|\n";
 
+/// The worst of the rows at the paper's rates, against what is asked of the pairing there.
+struct Bar {
+  static constexpr double highest_rate = 10.0;  ///< [1/s]
+  static constexpr double pure = 0.99;
+  static constexpr double efficient = 0.95;
+  double worst_purity = 1.0;
+  double worst_first_purity = 1.0;
+  double worst_efficiency = 1.0;
+  std::string least_efficient;
+  int rows = 0;
+
+  void count(const std::string& label, const stream::Design& design, const stream::Score& score) {
+    if (design.rate > highest_rate) return;
+    ++rows;
+    worst_purity = std::min(worst_purity, score.purity());
+    worst_first_purity = std::min(worst_first_purity, score.first_purity());
+    if (score.efficiency() < worst_efficiency) {
+      worst_efficiency = score.efficiency();
+      least_efficient = label;
+    }
+  }
+  std::string words() const {
+    return fmt::format(
+        "**The bar**: at the paper's rates at least {:.0f} % pure and {:.0f} % efficient. The "
+        "paper "
+        "states no rate, only that about 40 events\nmake a mean. Taken as its rates are the rows "
+        "of "
+        "{:g} per second and less, where hardly any flights overlap: the first three of\nthe first "
+        "table, all of the second, and those marked {:g}/s in the third. The bar {} in all {} of "
+        "them: the lowest purity\nis {:.2f} %, the lowest efficiency {:.2f} % ({}). Counting "
+        "second "
+        "impacts that were not recognised as\nwrong, which the bar does not ask, the lowest is "
+        "{:.2f} %. Faster rows show where it ends.\n\n",
+        100.0 * pure, 100.0 * efficient, highest_rate, highest_rate,
+        worst_purity >= pure && worst_efficiency >= efficient ? "holds" : "does NOT hold", rows,
+        100.0 * worst_purity, 100.0 * worst_efficiency, least_efficient,
+        100.0 * worst_first_purity);
+  }
+};
+
+Bar bar;
+
 std::string line(const std::string& label, const stream::Design& design, bool timed = false,
                  const recoil::PairOptions& options = {}) {
   const stream::Stream events = stream::simulate(design);
@@ -30,6 +73,7 @@ std::string line(const std::string& label, const stream::Design& design, bool ti
   const recoil::PairResult result = recoil::pair_events(table.events, options);
   const double seconds = seconds_since(start);
   const stream::Score score = stream::score(events, table, result);
+  bar.count(label, design, score);
   return fmt::format(
       "| {} | {} | {} | {} | {:.2f} % | {:.2f} % | {:.2f} % | {:.2f} % | {} | {:.2f} +- {:.2f} "
       "|{}\n",
@@ -148,8 +192,10 @@ int main(int argc, char** argv) {
     fmt::print("{}", stream::simulate(design).csv);
     return 0;
   }
-  fmt::print(
-      "{}{}{}{}\nMade by `build/release/tests/experiment/pairing_study > "
-      "reports/pairing.md`.\n",
-      introduction(usual()), against_crowding(), against_number(), worse_instruments());
+  const std::string tables = [] {
+    std::string all = against_crowding();
+    all += against_number();
+    return all + worse_instruments();
+  }();
+  fmt::print("{}{}{}", introduction(usual()), bar.words(), tables);
 }

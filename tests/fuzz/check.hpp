@@ -15,13 +15,18 @@ inline void require(bool condition, const char* what) {
   std::abort();
 }
 
-/// A complaint is one line, says where, and is short enough to be read.
-inline void require_grammar(const recoil::InputError& error) {
+/// A complaint is one line and short enough to be read.
+inline void require_one_line(const std::exception& error) {
   const std::string text = error.what();
   for (const char c : text) {
     require(static_cast<unsigned char>(c) >= 0x20 && c != '\x7f', "one line of printable text");
   }
   require(text.size() < 1000, "a short message");
+}
+
+/// And it says where.
+inline void require_grammar(const recoil::InputError& error) {
+  require_one_line(error);
   require(!error.where().file.empty(), "the file is named");
   require(error.where().line >= 1 && error.where().column >= 1, "the place is named");
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/event_points.hpp"
 #include "core/error.hpp"
 #include "recipe_folder.hpp"
 #include "reconstruction/plan.hpp"
@@ -16,6 +17,12 @@ using testing::CopiedDatasets;
 using testing::dataset_folder;
 using testing::text_of;
 
+/// The points as the recipe says that they are made: from events where it has a table [pairing].
+PairedPoints made_by(const Recipe& recipe) {
+  if (recipe.pairing) return pair_passages(recipe);
+  return {generate_points(recipe, recipe.seed), draw_points(recipe, recipe.seed)};
+}
+
 class Committed : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Datasets, Committed, ::testing::ValuesIn(testing::reconstruction_ids()),
                          [](const auto& instance) {
@@ -25,14 +32,15 @@ INSTANTIATE_TEST_SUITE_P(Datasets, Committed, ::testing::ValuesIn(testing::recon
                          });
 
 TEST_P(Committed, PointsAreByteForByteWhatTheRecipeMakes) {
-  const Recipe recipe = load_recipe(dataset_folder(GetParam()));
-  EXPECT_EQ(generate_points(recipe, recipe.seed),
-            text_of(dataset_folder(GetParam()) / "points.csv"));
-  EXPECT_NE(generate_points(recipe, recipe.seed + 1), generate_points(recipe, recipe.seed));
+  Recipe recipe = load_recipe(dataset_folder(GetParam()));
+  const std::string made = made_by(recipe).csv;
+  EXPECT_EQ(made, text_of(dataset_folder(GetParam()) / "points.csv"));
+  ++recipe.seed;
+  EXPECT_NE(made_by(recipe).csv, made);
 }
 
 TEST_P(Committed, EveryFactHolds) {
-  const ReconstructionResult result = reconstruct(dataset_folder(GetParam()), true);
+  const ReconstructionResult result = reconstruct(dataset_folder(GetParam()), true, pair_passages);
   EXPECT_FALSE(result.facts.empty());
   for (const FactCheck& fact : result.facts)
     EXPECT_TRUE(fact.holds) << fact.id << ": " << fact.found;
@@ -45,7 +53,7 @@ TEST_P(Committed, EveryFactHolds) {
 
 TEST_P(Committed, EveryFactWithALimitCanFail) {
   const Recipe recipe = load_recipe(dataset_folder(GetParam()));
-  const std::vector<GeneratedPoint> points = draw_points(recipe, recipe.seed);
+  const std::vector<GeneratedPoint> points = made_by(recipe).points;
   for (std::size_t i = 0; i < recipe.facts.size(); ++i) {
     if (recipe.facts[i].limits.empty()) continue;
     bool failed = false;
@@ -84,33 +92,33 @@ TEST_P(Committed, DatasetStatesTheMaterialsOfTheRecipe) {
 TEST(Reconstruction, TamperedPointsAreFound) {
   const CopiedDatasets copies;
   const std::string id = "wall1990-silicon";
-  EXPECT_TRUE(reconstruct(copies.folder(id), true).good());
+  EXPECT_TRUE(reconstruct(copies.folder(id), true, pair_passages).good());
   const std::string text = text_of(copies.folder(id) / "points.csv");
   const std::string line =
       text.substr(text.find('\n') + 1, text.find('\n', text.find('\n') + 1) - text.find('\n') - 1);
   copies.replace(id, "points.csv", line, line + "0");
-  const ReconstructionResult result = reconstruct(copies.folder(id), true);
+  const ReconstructionResult result = reconstruct(copies.folder(id), true, pair_passages);
   EXPECT_FALSE(result.good());
   EXPECT_FALSE(result.identical);
   EXPECT_NE(result.difference.find("line 2"), std::string::npos) << result.difference;
   EXPECT_NE(describe(result).find("NOT what the recipe makes"), std::string::npos);
   // Making it anew puts it right.
-  EXPECT_TRUE(reconstruct(copies.folder(id), false).good());
+  EXPECT_TRUE(reconstruct(copies.folder(id), false, pair_passages).good());
   EXPECT_EQ(text_of(copies.folder(id) / "points.csv"), text);
 }
 
 TEST(Reconstruction, TamperedRecipesAreFound) {
   const CopiedDatasets copies;
   copies.replace("wall1990-mica", "recipe.toml", "seed = 199003", "seed = 199004");
-  EXPECT_FALSE(reconstruct(copies.folder("wall1990-mica"), true).identical);
+  EXPECT_FALSE(reconstruct(copies.folder("wall1990-mica"), true, pair_passages).identical);
   copies.replace("dahneke1975-quartz", "recipe.toml", "C_A = 3.8e-3  ", "C_A = 4.8e-3  ");
-  EXPECT_FALSE(reconstruct(copies.folder("dahneke1975-quartz"), true).identical);
+  EXPECT_FALSE(reconstruct(copies.folder("dahneke1975-quartz"), true, pair_passages).identical);
 }
 
 TEST(Reconstruction, ATruthThatContradictsAFactIsFound) {
   const auto fails = [](const CopiedDatasets& copies, const std::string& id,
                         const std::string& fact) {
-    const ReconstructionResult result = reconstruct(copies.folder(id), false);
+    const ReconstructionResult result = reconstruct(copies.folder(id), false, pair_passages);
     const auto found = std::find_if(result.facts.begin(), result.facts.end(),
                                     [&](const FactCheck& f) { return f.id == fact; });
     return found != result.facts.end() && !found->holds;

@@ -69,6 +69,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "diameter = 1.27e-6\ndrop_heights = [1.0]\nvelocity", "one of the two"},
         Mistake{"comma_in_name", ring_adhesion_made, "\"1.27 um\"", "\"1,27 um\"", "cell"},
         Mistake{"sizes_upside_down", mixed, "upper = 110e-6", "upper = 10e-6", "whole micrometres"},
+        Mistake{"bad_angle", mixed, "angle = 0.13962634", "angle = -8", "above zero"},
+        Mistake{"pairing_without_passages", ring_adhesion_made, "[[series]]",
+                "[pairing]\nheight = 1e-3\nangle = 0.1\nper_bin = 40\n[[series]]", "passages"},
         Mistake{"bad_height", mixed, "[0.01, ", "[-0.01, ", "above zero"}),
     [](const auto& instance) { return instance.param.name; });
 
@@ -76,9 +79,9 @@ TEST(Recipe, MissingOnesAreSaid) {
   const CopiedDatasets copies;
   EXPECT_THROW(load_recipe(copies.folder("nothing")), InputError);
   std::filesystem::remove(copies.folder(wall) / "points.csv");
-  EXPECT_THROW(reconstruct(copies.folder(wall), true), InputError);
+  EXPECT_THROW(reconstruct(copies.folder(wall), true, {}), InputError);
   std::filesystem::remove_all(copies.folder("wall1990-silicon"));
-  EXPECT_THROW(reconstruct(copies.folder(wall), false), InputError);  // a sibling of it
+  EXPECT_THROW(reconstruct(copies.folder(wall), false, {}), InputError);  // a sibling of it
 }
 
 TEST(Recipe, ImpactsThatAreHardlyEverSeenAreRefused) {

@@ -1,9 +1,10 @@
-// The noise of regenerated data sets is the noise that the points state.
+// The noise of drawn points is the noise that they state.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "recipe_folder.hpp"
+#include "reconstruction/plan.hpp"
 #include "reconstruction/reconstruction.hpp"
 
 namespace recoil {
@@ -23,20 +24,19 @@ INSTANTIATE_TEST_SUITE_P(Datasets, Scatter,
 
 TEST_P(Scatter, RegenerationsScatterAboutTheTruthAsStated) {
   const Recipe recipe = load_recipe(dataset_folder(GetParam()));
-  const Dataset original = load_dataset(dataset_folder(GetParam()));
   constexpr int replicates = 500;
   double sum = 0.0;
   double chi2 = 0.0;
   for (int k = 0; k < replicates; ++k) {
-    const Dataset fresh = regenerate(original, recipe, 1000 + static_cast<std::uint64_t>(k));
-    for (std::size_t i = 0; i < fresh.points.size(); ++i) {
-      const double z = (fresh.points[i].restitution - recipe.plan[i].restitution) /
-                       fresh.points[i].restitution_sd.value();
+    const auto fresh = draw_points(recipe, 1000 + static_cast<std::uint64_t>(k));
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      const double z =
+          (fresh[i].restitution - recipe.plan[i].restitution) / fresh[i].restitution_sd;
       sum += z;
       chi2 += z * z;
     }
   }
-  const double n = static_cast<double>(replicates) * static_cast<double>(original.points.size());
+  const double n = static_cast<double>(replicates) * static_cast<double>(recipe.plan.size());
   EXPECT_NEAR(sum / n, 0.0, 4.5 / std::sqrt(n));
   // The sampling error of chi2 / n, and 1.5 % for the rounding of e and of its standard deviation.
   EXPECT_NEAR(chi2 / n, 1.0, 4.5 * std::sqrt(2.0 / n) + 0.015);

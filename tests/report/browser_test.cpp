@@ -5,11 +5,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "core/files.hpp"
 #include "example_analysis.hpp"
+#include "report/experiment_figures.hpp"
+#include "report/html_page.hpp"
+#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
@@ -56,6 +60,37 @@ class Browser : public testing::Test {
 };
 
 TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 15), 0); }
+
+TEST_F(Browser, ShowsWhatCorrectionsDo) {
+  Analysis analysis = example::four_diameters();
+  analysis.corrections = {example::corrections(1), example::corrections(4)};
+  EXPECT_EQ(open(html_report(analysis), 19), 0);  // two pictures of each
+}
+
+TEST_F(Browser, ShowsThePicturesOfAnExperiment) {
+  Distributions shown;
+  for (int i = 0; i < 200; ++i) {
+    shown.raw_velocities.push_back(std::sin(i));
+    shown.paired_velocities.push_back(std::cos(i));
+    shown.incoming_sizes.push_back((40.0 + 10.0 * std::sin(7 * i)) * 1e-6);
+  }
+  PointMean point;
+  point.series = "run";
+  point.velocity = 1.0;
+  point.restitution = 0.8;
+  point.restitution_sd = 0.01;
+  point.rebounds = 40;
+  Averages averages;
+  averages.points = {point, point};
+  averages.points.back().velocity = 2.0;
+  std::vector<Figure> figures;
+  for (const auto& [name, svg] : experiment_figures(shown, averages, "a synthetic run")) {
+    figures.push_back({"figure-" + plot_name(name), name, "a caption", svg});
+  }
+  const std::string page = page_html(
+      "An experiment", "<main>" + section_html("all", "All", figures_html(figures)) + "</main>");
+  EXPECT_EQ(open(page, 4), 0);
+}
 
 TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(html_report(example::two_datasets()), 28), 0); }
 

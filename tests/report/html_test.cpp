@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "example_analysis.hpp"
+#include "report/corrections.hpp"
 #include "report/html_page.hpp"
 
 namespace recoil {
@@ -250,6 +251,27 @@ TEST(HtmlReport, ShowsReplicatesOfPairsOnlyWhereThereAreAny) {
   analysis = example::four_diameters();
   for (auto& replicate : analysis.uncertainty.bootstrap.theta) replicate[0] = 0.0;  // at a bound
   EXPECT_NE(picture_of(html_report(analysis), "corner-1"), "");
+}
+
+TEST(HtmlReport, SaysWhatEachCorrectionDoes) {
+  Analysis analysis = example::four_diameters();
+  EXPECT_THAT(html_report(analysis), Not(HasSubstr("id=\"corrections\"")));
+  analysis.corrections = {example::corrections(1), example::corrections(4)};
+  const std::string html = html_report(analysis);
+  expect_self_contained(html);
+  EXPECT_THAT(html, HasSubstr("come from simulated events through the tool&#39;s own pairing"));
+  EXPECT_THAT(html, HasSubstr("all sizes in one point"));
+  EXPECT_THAT(html, HasSubstr("in 4 classes of size"));
+  EXPECT_EQ(occurrences(html, "no usable fit"), 2U);
+  EXPECT_EQ(occurrences(html, "(at its bound)"), 2U);
+  const std::vector<std::string> words = correction_words(analysis.corrections.front());
+  ASSERT_EQ(words.size(), 4U);
+  EXPECT_EQ(words[0],
+            "with velocities taken at the measuring plane, e changes by -0.0100 below 0.7 m/s and "
+            "by +0.0000 above; C_A becomes 0.0240 s/m instead of 0.0200 (+0.5 of its standard "
+            "errors), the capture velocity 0.280 instead of 0.280 m/s");
+  EXPECT_THAT(words[1], HasSubstr("the fit has no usable answer"));
+  EXPECT_THAT(words[3], HasSubstr("C_A becomes 0.0000 s/m, its bound, instead of 0.0200"));
 }
 
 TEST(HtmlReport, LeavesPairsOutWhereTheyWereNotStudied) {

@@ -111,5 +111,20 @@ TEST(Format, WrapCountsCharactersAndKeepsThemWhole) {
   EXPECT_EQ(wrap("", 80, 4), "");
 }
 
+TEST(TextReport, WithoutAdhesionThereIsNoCaptureVelocity) {
+  Analysis analysis = example::four_diameters();
+  ASSERT_FALSE(analysis.uncertainty.capture.empty());
+  EXPECT_EQ(text_report(analysis).find("none (no adhesion)"), std::string::npos);
+  analysis.fitted.model.contacts[0].adhesion_force = 0.0;
+  analysis.fitted.model.slots[analysis.fitted.model.slot_f0[0]].free = false;
+  const std::string text = text_report(analysis);
+  EXPECT_NE(text.find("V* = none (no adhesion)"), std::string::npos) << text;
+  EXPECT_EQ(text.find("V* =  "), std::string::npos);
+  EXPECT_NE(html_report(analysis).find("none (no adhesion)"), std::string::npos);
+  // A fitted f0 is an adhesion.
+  analysis.fitted.model.slots[analysis.fitted.model.slot_f0[0]].free = true;
+  EXPECT_EQ(text_report(analysis).find("none (no adhesion)"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace recoil
