@@ -1,9 +1,20 @@
+#include <algorithm>
 #include <cmath>
 
 #include "estimate/model.hpp"
 
 namespace recoil {
 namespace {
+
+/// Small damping: V*^2 = 2 J (C_A + 2 C_H) V_a^3 with J = 0.827350 (rebound), twice C_A (both).
+double weakly_damped_square(const ImpactModel& model, const ImpactConditions& c) {
+  const double damping =
+      (model.phase == AdhesionDampingPhase::both ? 2.0 : 1.0) * c.adhesion_damping +
+      2.0 * c.hertz_damping;
+  constexpr double J = 0.827350;
+  const double scale = adhesion_velocity(c);
+  return 2.0 * J * damping * scale * scale * scale;
+}
 
 /// The search for one capture velocity, one evaluation of e^2 at a time.
 ///
@@ -26,13 +37,7 @@ class CaptureSearch {
       done_ = true;
       return;
     }
-    // Small damping: V*^2 = 2 J (C_A + 2 C_H) V_a^3 with J = 0.827350 (rebound), twice C_A (both).
-    const double damping =
-        (model.phase == AdhesionDampingPhase::both ? 2.0 : 1.0) * c.adhesion_damping +
-        2.0 * c.hertz_damping;
-    constexpr double J = 0.827350;
-    square_ = query.guess > 0.0 ? query.guess * query.guess
-                                : 2.0 * J * damping * scale_ * scale_ * scale_;
+    square_ = query.guess > 0.0 ? query.guess * query.guess : weakly_damped_square(model, c);
     if (extended_ && !(square_ > lowest * scale_ * scale_)) square_ = scale_ * scale_;
     rebounds_ = 1e6 * scale_ * scale_;
   }
@@ -95,6 +100,13 @@ class CaptureSearch {
 };
 
 }  // namespace
+
+double weakly_damped_capture(const ImpactModel& model, std::span<const double> theta,
+                             std::size_t dataset, double diameter) {
+  const double square =
+      weakly_damped_square(model, conditions_at(model, theta, dataset, diameter, 1.0));
+  return std::sqrt(std::max(0.0, square));
+}
 
 std::vector<CaptureVelocity> capture_velocities(const ImpactModel& model,
                                                 std::span<const double> theta,

@@ -160,6 +160,11 @@ std::vector<CaptureVelocity> capture_velocities(const ImpactModel& model,
                                                 std::span<const double> theta,
                                                 std::span<const CaptureQuery> queries);
 
+/// V* to the first order in the damping, without solving an impact (see `settle`): for weights.
+/// 0 where nothing is captured.
+double weakly_damped_capture(const ImpactModel& model, std::span<const double> theta,
+                             std::size_t dataset, double diameter);
+
 /// The same for one sphere.
 CaptureVelocity capture_velocity(const ImpactModel& model, std::span<const double> theta,
                                  std::size_t dataset, double diameter, double guess = 0.0);

@@ -19,7 +19,7 @@ void read_variance(const TomlReader& reader, const toml::node& node, NoiseSpec& 
   std::vector<std::string> names = {"auto"};
   for (const VarianceFunction function :
        {VarianceFunction::stated, VarianceFunction::constant, VarianceFunction::proportional,
-        VarianceFunction::capture}) {
+        VarianceFunction::capture, VarianceFunction::steep}) {
     names.push_back(to_string(function));
     if (word == names.back()) spec.variance = function;
   }

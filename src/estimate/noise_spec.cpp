@@ -12,6 +12,8 @@ std::string to_string(VarianceFunction function) {
       return "proportional";
     case VarianceFunction::capture:
       return "capture";
+    case VarianceFunction::steep:
+      return "steep";
   }
   return "";
 }

@@ -14,9 +14,12 @@ namespace recoil {
 ///                  point close to capture weighs without limit
 ///   capture        sd(e^2) = s / sqrt(n), that is sd = s / (2 e) far from capture and larger close
 ///                  to it: what comes of impacts that differ in the energy they lose
-/// Constant, proportional and capture are the powers 0, 1 and -1 of the power-of-the-mean family
-/// (Carroll & Ruppert 1988, Transformation and Weighting in Regression).
-enum class VarianceFunction { stated, constant, proportional, capture };
+///   steep          sd = s exp(2 (V* / V)^2) / sqrt(n): sevenfold at capture, 7 % more at 5 V*, and
+///                  so over a wider range than `capture`; V* to the first order in the damping
+/// Constant, proportional and capture are the powers 0, 1 and -1 of the power-of-the-mean family,
+/// steep an exponential of a variable of the design (both: Carroll & Ruppert 1988, Transformation
+/// and Weighting in Regression, chapter 3).
+enum class VarianceFunction { stated, constant, proportional, capture, steep };
 
 /// The word used in files and on the screen.
 std::string to_string(VarianceFunction function);

@@ -72,6 +72,11 @@ std::string scale_in_words(VarianceFunction function, double scale) {
     case VarianceFunction::capture:
       return fmt::format(
           "sd(e^2) = {:.3g} for every impact, so that e scatters more close to capture", scale);
+    case VarianceFunction::steep:
+      return fmt::format(
+          "sd(e) = {:.3g} exp(2 (V* / V)^2) for every impact, so that e scatters sevenfold at "
+          "capture",
+          scale);
     case VarianceFunction::constant:
       return fmt::format("sd(e) = {:.3g} for every impact", scale);
     case VarianceFunction::stated:

@@ -37,6 +37,7 @@ struct Observation {
   double diameter_sd = 0.0;       ///< [m]; 0: none
 
   // Settled round by round at the parameters of the round before, see `reweigh`.
+  double nearness = 0.0;    ///< (V* / V)^2, at most 1; only where the noise is estimated
   double input_sd = 0.0;    ///< sd of e^2 that the errors of V and d cause [1]
   double input_bias = 0.0;  ///< what the curvature of e^2 over these errors amounts to [1]
   double scatter = 0.0;     ///< sd of e^2 from impact to impact [1]; 0: not in use

@@ -10,6 +10,7 @@ namespace recoil {
 namespace {
 
 constexpr double proportional_floor = 0.1;  // e below which relative noise stays as it is
+constexpr double steepness = 2.0;           // of ln sd in (V* / V)^2
 constexpr double first_spread = 0.05;       // omega of the first round
 constexpr double near_reach = 0.7;          // in ln omega: a factor of two
 constexpr double least_spread = 2e-3;
@@ -26,7 +27,8 @@ struct Local {
 };
 
 /// sd of a mean of `rebounds` impacts at predicted e^2 = m.
-double function_sd(VarianceFunction function, double scale, double m, int rebounds) {
+double function_sd(VarianceFunction function, double scale, double m, double nearness,
+                   int rebounds) {
   const double s = scale / std::sqrt(static_cast<double>(std::max(1, rebounds)));
   const double square = std::max(m, 0.0);
   if (function == VarianceFunction::proportional) {
@@ -36,6 +38,7 @@ double function_sd(VarianceFunction function, double scale, double m, int reboun
     // 4 e^2 sd^2 + 2 sd^4 = s^2, the variance of e^2 for a normal e.
     return s * std::sqrt(0.5 / (square + std::sqrt(square * square + 0.5 * s * s)));
   }
+  if (function == VarianceFunction::steep) return s * std::exp(steepness * nearness);
   return s;
 }
 
@@ -135,7 +138,7 @@ class Reweighing {
   template <class NextLocal>
   void set_errors(Observation& point, double m, const NextLocal& local) const {
     if (!data_.sd_stated) {
-      point.sd = function_sd(data_.noise.variance, data_.noise.scale, m,
+      point.sd = function_sd(data_.noise.variance, data_.noise.scale, m, point.nearness,
                              point.censored ? point.events : point.rebounds());
     }
     double variance = 0.0;
@@ -265,6 +268,13 @@ std::optional<std::vector<double>> renew(const ImpactModel& model, std::span<con
 
 std::optional<std::vector<double>> reweigh(const ImpactModel& model, std::span<const double> theta,
                                            Observations& data) {
+  if (!data.sd_stated) {
+    for (Observation& point : data.points) {
+      const double ratio =
+          weakly_damped_capture(model, theta, point.dataset, point.diameter) / point.velocity;
+      point.nearness = std::min(1.0, ratio * ratio);
+    }
+  }
   return renew(model, theta, Reweighing(data));
 }
 

@@ -114,6 +114,7 @@ double restricted_criterion(const ImpactModel& model, const Settled& settled) {
   double criterion = run.sum_of_squares / unit;
   for (const Observation& point : points) {
     if (point.censored) continue;
+    if (point.scatter > 0.0) criterion += point.peak.deviance;  // the residual is what lies above
     criterion += 2.0 * std::log(point.scatter > 0.0 ? point.mean_sd : point.sd);
   }
   const std::size_t p = run.theta.size();
@@ -141,10 +142,11 @@ double restricted_criterion(const ImpactModel& model, const Settled& settled) {
 double handicap(VarianceFunction function) {
   switch (function) {
     case VarianceFunction::constant:
-      return 1.0;
-    case VarianceFunction::proportional:
-      return 3.0;
     case VarianceFunction::capture:
+      return 2.0;
+    case VarianceFunction::proportional:
+      return 4.0;
+    case VarianceFunction::steep:
     case VarianceFunction::stated:
       break;
   }
@@ -165,7 +167,8 @@ Settled settle(const ImpactModel& model, Observations data, std::span<const doub
   double best_criterion = INFINITY;
   std::vector<VarianceCandidate> candidates;
   for (const VarianceFunction function :
-       {VarianceFunction::constant, VarianceFunction::proportional, VarianceFunction::capture}) {
+       {VarianceFunction::constant, VarianceFunction::proportional, VarianceFunction::capture,
+        VarianceFunction::steep}) {
     Observations own = data;
     own.noise.variance = function;
     Settled settled = settle_with(model, std::move(own), start, options);

@@ -217,6 +217,16 @@ std::string coverage_colour(double held, double level) {
 
 std::string coverage_picture(const std::vector<GridResult>& results, const FitSpec& spec,
                              const CoverageOptions& options, const std::string& remark) {
+  const double level = options.uncertainty.level;
+  const std::string title = fmt::format(
+      "Coverage of {} intervals by kind of data, {}: {} data sets per design, {} "
+      "bootstrap replicates each",
+      percent(level), spec.id, options.datasets, options.uncertainty.replicates);
+  return coverage_picture(results, level, title, remark);
+}
+
+std::string coverage_picture(const std::vector<GridResult>& results, double level,
+                             const std::string& title, const std::string& remark) {
   std::vector<Group> groups = groups_of(results);
   double x = margin;
   for (const DesignColumn& column : design_columns) x += column.width;
@@ -224,15 +234,10 @@ std::string coverage_picture(const std::vector<GridResult>& results, const FitSp
     group.x = x;
     x += group.width() + group_gap;
   }
-  const double level = options.uncertainty.level;
   constexpr double narrowest = 980.0;  // of the legend
   const double width = std::max(x + margin, narrowest);
   const double bottom = head_height + cell_height * static_cast<double>(results.size());
   const double height = bottom + foot_height;
-  const std::string title = fmt::format(
-      "Coverage of {} intervals by kind of data, {}: {} data sets per design, {} "
-      "bootstrap replicates each",
-      percent(level), spec.id, options.datasets, options.uncertainty.replicates);
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
       "height=\"{1:.0f}\" role=\"img\" font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, "

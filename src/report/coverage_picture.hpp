@@ -16,6 +16,11 @@ namespace recoil {
 std::string coverage_picture(const std::vector<GridResult>& results, const FitSpec& spec,
                              const CoverageOptions& options, const std::string& remark);
 
+/// The same under another title.
+/// @param level of the intervals [1]
+std::string coverage_picture(const std::vector<GridResult>& results, double level,
+                             const std::string& title, const std::string& remark);
+
 /// The colour of a cell [#rrggbb]: `held` and `level` are shares [1].
 std::string coverage_colour(double held, double level);
 

@@ -8,41 +8,46 @@
 namespace recoil {
 namespace {
 
-/// The covariance that the delta method works on: the fit's, where the noise is stated; else one
-/// that needs no noise model (HC3).
-std::vector<double> trusted_covariance(const FitResult& fitted, const Observations& data) {
-  if (data.sd_stated || fitted.covariance.empty()) return fitted.covariance;
-  ResamplingPlan plan;
-  plan.fitted = &fitted;
-  plan.data = &data;
-  plan.scheme = Scheme::wild;
-  return reference_covariance(fitted, plan);
-}
-
-/// The interval of V* by the delta method on its logarithm.
-/// @param dof of an estimated noise; 0: the noise is known
-Interval delta_interval(const std::vector<double>& covariance, const CaptureVelocity& capture,
-                        int dof, double level) {
+/// The interval of V* by the delta method on its logarithm, averaged over the ways to see the
+/// noise.
+Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
+                        const CaptureVelocity& capture, std::size_t dataset, double diameter,
+                        double level) {
   Interval interval;
-  const double error = logarithmic_error(capture, covariance);
+  const FitResult& fitted = alternatives.front().fitted;
+  const double error = logarithmic_error(capture, fitted.covariance);
   if (!capture.found || !(capture.value > 0.0) || !(error > 0.0)) {
     interval.why = !capture.found           ? "spheres of this size never rebound under the fit"
                    : !(capture.value > 0.0) ? "nothing is captured under the fit"
                                             : "the fit has no standard errors";
     return interval;
   }
-  const Interval logarithm = wald_interval(0.0, error, level, dof, -INFINITY, INFINITY);
+  std::vector<WaldTerm> terms;
+  for (const NoiseAlternative& alternative : alternatives) {
+    const FitResult& other = alternative.fitted;
+    const bool own = &other == &fitted;
+    const CaptureVelocity v =
+        own ? capture
+            : capture_velocity(other.model, other.theta, dataset, diameter, capture.value);
+    if (!v.found || !(v.value > 0.0)) continue;
+    terms.push_back({alternative.weight, std::log(v.value / capture.value),
+                     own ? error : logarithmic_error(v, other.covariance),
+                     other.data.sd_stated ? 0 : other.dof});
+  }
+  const Interval logarithm = averaged_wald_interval(terms, level, -INFINITY, INFINITY);
   if (!logarithm.available()) return logarithm;
   interval.lower = capture.value * std::exp(*logarithm.lower);
   interval.upper = capture.value * std::exp(*logarithm.upper);
+  const double factor = undecided_factor(terms);
+  if (factor > undecided) interval.note = undecided_words("the capture velocity", factor);
   return interval;
 }
 
 }  // namespace
 
-std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Observations& data,
+std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternative>& alternatives,
                                                double level, const std::vector<Dataset>& datasets) {
-  const std::vector<double> covariance = trusted_covariance(fitted, data);
+  const FitResult& fitted = alternatives.front().fitted;
   std::vector<CaptureEstimate> estimates;
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     for (const double diameter : distinct_diameters(datasets[d])) {
@@ -52,7 +57,7 @@ std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Ob
       estimate.diameter = diameter;
       estimate.value = v.value;
       estimate.found = v.found;
-      estimate.delta = delta_interval(covariance, v, data.sd_stated ? 0 : fitted.dof, level);
+      estimate.delta = delta_interval(alternatives, v, d, diameter, level);
       if (!v.found) estimate.interval.why = "spheres of this size never rebound under the fit";
       estimates.push_back(std::move(estimate));
     }
@@ -73,13 +78,15 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
                    : "the noise is stated, and the replicates follow the bend of V* in the "
                      "parameters, which the delta method takes as straight";
     capture.interval = capture.percentile;
+    capture.interval.note = capture.delta.note;
     return;
   }
   capture.recommended = "delta";
   capture.recommended_why =
-      replicates  ? "there are no percentiles: " + capture.percentile.why
-      : sd_stated ? "its error knows that the spread of the impacts is estimated, too"
-                  : "it knows how few points estimate the noise, which percentiles do not";
+      replicates ? "there are no percentiles: " + capture.percentile.why
+      : sd_stated
+          ? "its error knows that the spread of the impacts is estimated, too"
+          : "it knows how few points estimate the noise, and is averaged over the ways to see it";
   capture.interval = capture.delta;
   if (!capture.delta.available() && !capture.percentile.why.empty()) {
     capture.interval = capture.percentile;

@@ -2,20 +2,23 @@
 
 #include <vector>
 
+#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 
 /// The capture velocity of every (dataset, diameter) of a fit with its delta interval.
-std::vector<CaptureEstimate> capture_estimates(const FitResult& fitted, const Observations& data,
+/// @param alternatives of `noise_alternatives`; the first is the fit
+std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternative>& alternatives,
                                                double level, const std::vector<Dataset>& datasets);
 
 /// Names the interval of V* to quote (reports/coverage-grid-n{10,20,60}-{stated,estimated}.md).
 /// Where the noise is stated and no spread of the impacts is estimated, the percentiles: they
 /// follow the bend of V* in the parameters. Where the spread is estimated, the delta interval,
 /// whose error knows of it, while the replicates mix data sets with and without points that show
-/// it. Where the noise is estimated the delta interval, too, which knows how few points did that.
-/// Where a parameter rests on its bound, of which the covariance says nothing, the percentiles.
+/// it. Where the noise is estimated the delta interval, too, which knows how few points did that
+/// and is averaged over the variance functions. Where a parameter rests on its bound, of which the
+/// covariance says nothing, the percentiles.
 void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate& capture);
 
 }  // namespace recoil

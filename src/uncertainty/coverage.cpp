@@ -149,13 +149,14 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
       row.cells.push_back(count(
           trials, name, row.truth,
           [&](const Trial& t) -> const Interval& { return t.capture[k].*kind; },
-          [](const Trial&) { return true; }));
+          // V* has no verdict of its own but what stands beside its interval.
+          [&](const Trial& t) { return t.capture[k].interval.note.empty(); }));
     };
     add("recommended", &CaptureEstimate::interval);
     add("percentile", &CaptureEstimate::percentile);
     add("studentized", &CaptureEstimate::studentized);
     add("delta", &CaptureEstimate::delta);
-    row.identifiable = row.cells.front().offered;
+    row.identifiable = row.cells.front().offered_identifiable;
     result.rows.push_back(std::move(row));
   }
   return result;

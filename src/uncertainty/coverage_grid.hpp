@@ -63,4 +63,18 @@ std::vector<GridResult> measure_grid(const FitSpec& spec, const Dataset& base,
 std::string grid_markdown(const std::vector<GridResult>& results, const FitSpec& spec,
                           const CoverageOptions& options);
 
+/// The coverage in the design of one fit.
+struct DesignResult {
+  std::string id;  ///< of the fit
+  CoverageResult coverage;
+};
+
+/// Measures the design of a fit (see coverage_truth); kept as those of the grid.
+DesignResult measure_design(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                            const CoverageOptions& options, const std::filesystem::path& kept);
+
+/// The designs of several fits as one Markdown table like that of the grid.
+std::string designs_markdown(const std::vector<DesignResult>& results,
+                             const CoverageOptions& options);
+
 }  // namespace recoil

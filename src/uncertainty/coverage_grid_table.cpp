@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "uncertainty/coverage_grid.hpp"
+#include "uncertainty/coverage_truth.hpp"
 
 namespace recoil {
 namespace {
@@ -74,6 +75,79 @@ std::string percent(int part, int whole) {
   return whole == 0 ? "-" : fmt::format("{:.1f}", 100.0 * share(part, whole));
 }
 
+/// Rows of several designs, and how many of them hold what is promised.
+class CoverageTableWriter {
+ public:
+  void add(const std::string& design, const CoverageResult& coverage) {
+    const int usable = coverage.datasets - coverage.failed;
+    for (const CoverageRow& row : coverage.rows) {
+      const CoverageCell& best = cell_of(row, "recommended");
+      const std::string verdict = judgement(row, usable);
+      ++rows_;
+      held_ += verdict.starts_with("holds") ? 1 : 0;
+      warned_ += verdict == "warned" ? 1 : 0;
+      wide_ += verdict == "TOO WIDE" ? 1 : 0;
+      table_ +=
+          fmt::format("| {} | {} | {} | {} | {} | {} |", design, row.parameter,
+                      percent(row.identifiable, usable), percent(usable - row.identifiable, usable),
+                      percent(best.held, best.offered),
+                      percent(best.held_identifiable, best.offered_identifiable));
+      for (const char* kind : {"profile", "studentized", "bca", "percentile", "wald", "delta"}) {
+        const auto found = std::find_if(row.cells.begin(), row.cells.end(),
+                                        [&](const CoverageCell& c) { return c.interval == kind; });
+        table_ += found == row.cells.end()
+                      ? " |"
+                      : fmt::format(" {} |", percent(found->held, found->offered));
+      }
+      table_ += fmt::format(
+          " {} | {} |\n",
+          row.truth > 0.0 ? fmt::format("{:.3g}", best.median_width / row.truth) : "-", verdict);
+    }
+  }
+
+  std::string summary() const {
+    return fmt::format(
+        "**{} of {} rows hold** ({:.0f} to {:.0f} % of the data sets, and of those in which "
+        "the verdict calls the parameter identifiable); in {} more the verdict warned in at "
+        "least {:.0f} % of the data sets; {} miss both, {} of them because the interval holds "
+        "the truth too often.\n\n",
+        held_, rows_, 100.0 * least_held, 100.0 * most_held, warned_, 100.0 * least_warned,
+        rows_ - held_ - warned_, wide_);
+  }
+  const std::string& table() const { return table_; }
+
+ private:
+  int rows_ = 0, held_ = 0, warned_ = 0, wide_ = 0;
+  std::string table_ =
+      "| design | parameter | identifiable, % | warned, % | recommended, % | where identifiable, % "
+      "| profile | studentized | bca | percentile | wald | delta | width / truth | |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+};
+
+std::string chance_words(const CoverageOptions& options) {
+  return fmt::format("One standard error of a coverage of 95 % is {:.1f} %.",
+                     100.0 * std::sqrt(0.95 * 0.05 / std::max(1, options.datasets)));
+}
+
+std::string key_words(const FitSpec& spec, const CoverageOptions& options) {
+  return fmt::format("{} {} {} {} {}", spec.sha256, options.datasets,
+                     options.uncertainty.replicates, options.uncertainty.seed,
+                     options.uncertainty.level);
+}
+
+/// The result kept under `key`, or `measure` and keep it.
+template <class Measure>
+CoverageResult kept_or_measured(const std::filesystem::path& folder, const std::string& key,
+                                const Measure& measure) {
+  if (folder.empty()) return measure();
+  const std::filesystem::path file = kept_file(folder, key);
+  if (std::filesystem::exists(file)) return from_json(Json::parse(read_text_file(file)));
+  CoverageResult result = measure();
+  std::filesystem::create_directories(folder);
+  write_whole_file(file, to_json(result).dump() + "\n");
+  return result;
+}
+
 }  // namespace
 
 std::vector<GridResult> measure_grid(const FitSpec& spec, const Dataset& base,
@@ -85,73 +159,57 @@ std::vector<GridResult> measure_grid(const FitSpec& spec, const Dataset& base,
     const std::string key = fmt::format(
         "{} {} {} {} {} {} {}", design.name(), spec.sha256, base.sha256, options.datasets,
         options.uncertainty.replicates, options.uncertainty.seed, options.uncertainty.level);
-    const std::filesystem::path file = kept.empty() ? kept : kept_file(kept, key);
-    if (!file.empty() && std::filesystem::exists(file)) {
-      results.push_back({design, from_json(Json::parse(read_text_file(file)))});
-      continue;
-    }
-    const FitSpec own = grid_spec(spec, design);
-    const CoverageTruth truth = grid_truth(own, base, design, options.uncertainty.seed);
-    results.push_back({design, measure_coverage(own, truth, options)});
-    if (!file.empty()) {
-      std::filesystem::create_directories(kept);
-      write_whole_file(file, to_json(results.back().coverage).dump() + "\n");
-    }
+    results.push_back({design, kept_or_measured(kept, key, [&] {
+                         const FitSpec own = grid_spec(spec, design);
+                         return measure_coverage(
+                             own, grid_truth(own, base, design, options.uncertainty.seed), options);
+                       })});
   }
   return results;
 }
 
 std::string grid_markdown(const std::vector<GridResult>& results, const FitSpec& spec,
                           const CoverageOptions& options) {
-  int rows = 0, held = 0, warned = 0, wide = 0;
-  std::string table =
-      "| design | parameter | identifiable, % | warned, % | recommended, % | where identifiable, % "
-      "| profile | "
-      "studentized | bca | percentile | wald | delta | width / truth | |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const GridResult& result : results) {
-    const int usable = result.coverage.datasets - result.coverage.failed;
-    for (const CoverageRow& row : result.coverage.rows) {
-      const CoverageCell& best = cell_of(row, "recommended");
-      const std::string verdict = judgement(row, usable);
-      ++rows;
-      held += verdict.starts_with("holds") ? 1 : 0;
-      warned += verdict == "warned" ? 1 : 0;
-      wide += verdict == "TOO WIDE" ? 1 : 0;
-      table +=
-          fmt::format("| {} | {} | {} | {} | {} | {} |", result.design.name(), row.parameter,
-                      percent(row.identifiable, usable), percent(usable - row.identifiable, usable),
-                      percent(best.held, best.offered),
-                      percent(best.held_identifiable, best.offered_identifiable));
-      for (const char* kind : {"profile", "studentized", "bca", "percentile", "wald", "delta"}) {
-        const auto found = std::find_if(row.cells.begin(), row.cells.end(),
-                                        [&](const CoverageCell& c) { return c.interval == kind; });
-        table += found == row.cells.end()
-                     ? " |"
-                     : fmt::format(" {} |", percent(found->held, found->offered));
-      }
-      table += fmt::format(" {:.3g} | {} |\n", best.median_width / row.truth, verdict);
-    }
-  }
+  CoverageTableWriter writer;
+  for (const GridResult& result : results) writer.add(result.design.name(), result.coverage);
   return fmt::format(
              "## Coverage by kind of data: `{}`\n\n{} simulated data sets per design, {} bootstrap "
              "replicates each, seed {}, level {:.0f} %; {}. One diameter, n points evenly in log V "
              "from 1.05 (with captures 0.85) to 50 times the capture velocity. Scatter: equal "
              "(0.02), near-capture (0.01 far above capture, five times that at it), 10 % of e; its "
-             "size is stated with the points or has to be estimated. One standard error of a "
-             "coverage of 95 % is {:.1f} %.\n\n"
-             "**{} of {} rows hold** ({:.0f} to {:.0f} % of the data sets, and of those in which "
-             "the verdict calls the parameter identifiable); in {} more the verdict warned in at "
-             "least {:.0f} % of the data sets; {} miss both, {} of them because the interval holds "
-             "the "
-             "truth too often.\n\n",
+             "size is stated with the points or has to be estimated. {}\n\n",
              spec.id, options.datasets, options.uncertainty.replicates, options.uncertainty.seed,
              100.0 * options.uncertainty.level,
-             results.empty() ? "" : results.front().coverage.truth_source,
-             100.0 * std::sqrt(0.95 * 0.05 / std::max(1, options.datasets)), held, rows,
-             100.0 * least_held, 100.0 * most_held, warned, 100.0 * least_warned,
-             rows - held - warned, wide) +
-         table;
+             results.empty() ? "" : results.front().coverage.truth_source, chance_words(options)) +
+         writer.summary() + writer.table();
+}
+
+DesignResult measure_design(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                            const CoverageOptions& options, const std::filesystem::path& kept) {
+  std::string key = key_words(spec, options);
+  for (const Dataset& dataset : datasets) key += " " + dataset.sha256;
+  return {spec.id, kept_or_measured(kept, key, [&] {
+            return measure_coverage(spec, coverage_truth(spec, datasets, options.uncertainty.seed),
+                                    options);
+          })};
+}
+
+std::string designs_markdown(const std::vector<DesignResult>& results,
+                             const CoverageOptions& options) {
+  CoverageTableWriter writer;
+  std::string sources;
+  for (const DesignResult& result : results) {
+    writer.add(result.id, result.coverage);
+    sources += fmt::format("- `{}`: {}; {} fits and {} refits failed\n", result.id,
+                           result.coverage.truth_source, result.coverage.failed,
+                           result.coverage.refits_failed);
+  }
+  return fmt::format(
+             "## Coverage for the designs of the fits\n\n{} simulated data sets per design, {} "
+             "bootstrap replicates each, seed {}, level {:.0f} %. {}\n\n",
+             options.datasets, options.uncertainty.replicates, options.uncertainty.seed,
+             100.0 * options.uncertainty.level, chance_words(options)) +
+         writer.summary() + sources + "\n" + writer.table();
 }
 
 }  // namespace recoil

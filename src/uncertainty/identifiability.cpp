@@ -160,7 +160,8 @@ const Interval& recommended_interval(const IntervalSet& set) {
 
 Identifiability judge_identifiability(const FitResult& fitted, const Observations& data,
                                       const std::vector<IntervalSet>& intervals,
-                                      const std::vector<CaptureEstimate>& capture) {
+                                      const std::vector<CaptureEstimate>& capture,
+                                      const std::vector<NoiseAlternative>& alternatives) {
   Identifiability result;
   std::vector<std::string> sentences;
   int free_count = 0;
@@ -176,7 +177,11 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
     const std::string problem =
         obstacle(fitted, j, interval, widened * error_of(fitted, j, interval),
                  std::max(std::abs(fitted.theta[j]), scales[j]));
-    if (problem.empty()) {
+    const double factor =
+        alternatives.empty() ? 1.0 : undecided_factor(terms_of_slot(alternatives, j));
+    if (problem.empty() && factor > undecided) {
+      sentences.push_back(undecided_words(slot.label(), factor));
+    } else if (problem.empty()) {
       result.parameter.back() = true;
       ++good;
       if (*interval.lower <= slot.lower) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
@@ -13,9 +14,15 @@ namespace recoil {
 /// (reports/coverage-grid-*.md). A parameter so small that its interval begins at zero can
 /// therefore be identifiable; the text then calls it an upper limit. It names what stands in the
 /// way of others.
+///
+/// Where the noise is estimated, its error must not depend on how the noise is seen, either: by
+/// more than `undecided` between variance functions that the points cannot decide between, the
+/// interval may be too narrow or too wide.
+/// @param alternatives of `noise_alternatives`; may be left out where the noise is stated
 Identifiability judge_identifiability(const FitResult& fitted, const Observations& data,
                                       const std::vector<IntervalSet>& intervals,
-                                      const std::vector<CaptureEstimate>& capture);
+                                      const std::vector<CaptureEstimate>& capture,
+                                      const std::vector<NoiseAlternative>& alternatives = {});
 
 /// The interval that `set.recommended` names.
 const Interval& recommended_interval(const IntervalSet& set);

@@ -178,6 +178,41 @@ Interval wald_interval(double estimate, double std_error, double level, int dof,
   return interval;
 }
 
+Interval averaged_wald_interval(std::span<const WaldTerm> terms, double level, double lower,
+                                double upper) {
+  const WaldTerm& chosen = terms.front();
+  Interval interval =
+      wald_interval(chosen.estimate, chosen.std_error, level, chosen.dof, lower, upper);
+  if (!interval.available() || terms.size() == 1) return interval;
+  double total = 0.0;
+  for (const WaldTerm& term : terms) total += term.std_error > 0.0 ? term.weight : 0.0;
+  const auto end = [&](double p) {
+    double low = INFINITY;
+    double high = -INFINITY;
+    for (const WaldTerm& term : terms) {
+      if (!(term.std_error > 0.0)) continue;
+      const double own = term.estimate + distribution_inverse(p, term.dof) * term.std_error;
+      low = std::min(low, own);
+      high = std::max(high, own);
+    }
+    constexpr int halvings = 60;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      double below = 0.0;
+      for (const WaldTerm& term : terms) {
+        if (!(term.std_error > 0.0)) continue;
+        below +=
+            term.weight / total * distribution((middle - term.estimate) / term.std_error, term.dof);
+      }
+      (below < p ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  };
+  interval.lower = std::max(lower, end(0.5 - level / 2.0));
+  interval.upper = std::min(upper, end(0.5 + level / 2.0));
+  return interval;
+}
+
 double profile_quantile(double level, int dof, double distance) {
   const double far = std::pow(distribution_inverse(0.5 + level / 2.0, dof), 2);
   if (distance * distance >= far) return far;

@@ -67,6 +67,22 @@ Interval studentized_interval(std::span<const double> replicates,
 Interval wald_interval(double estimate, double std_error, double level, int dof, double lower,
                        double upper);
 
+/// One of several descriptions of the same data, in `averaged_wald_interval`.
+struct WaldTerm {
+  double weight = 1.0;
+  double estimate = 0.0;
+  double std_error = 0.0;  ///< 0: at a bound, and left out unless it comes first
+  int dof = 0;             ///< as in `wald_interval`
+};
+
+/// The Wald interval where the description of the data is uncertain: its ends solve
+///   sum_k w_k P_k((x - estimate_k) / std_error_k) = (1 -+ level) / 2,  sum_k w_k = 1,
+/// P_k Student's distribution (normal for dof 0), so that the tail areas are averaged, not the
+/// ends (Turek & Fletcher 2012, Comput. Stat. Data Anal. 56, 2809-2815). One term: `wald_interval`.
+/// @param terms the first is the one that was chosen: without its error there is no interval
+Interval averaged_wald_interval(std::span<const WaldTerm> terms, double level, double lower,
+                                double upper);
+
 /// The rise of chi2 / s^2 that a profile interval allows at a value which lies `distance` standard
 /// errors inside the parameter's bound.
 ///

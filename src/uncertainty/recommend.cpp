@@ -128,10 +128,11 @@ std::string few_reason(const FitResult& fitted, bool sd_stated, double level) {
 
 void recommend(IntervalSet& set, bool sd_stated) {
   const bool bound_is_felt = set.bound_share.value_or(0.0) > many_at_bound;
-  if (!sd_stated && !bound_is_felt && set.studentized.available()) {
-    set.recommended = "studentized";
+  if (!sd_stated && !bound_is_felt && set.wald.available()) {
+    set.recommended = "wald";
     set.recommended_why =
-        "the noise is estimated, and it rests on no assumption about where the points scatter more";
+        "the noise is estimated: it is averaged over the ways in which the scatter may depend on e "
+        "and V, and knows how few points tell them";
     return;
   }
   if (set.profile.available()) {

@@ -12,6 +12,7 @@
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/intervals.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/profile.hpp"
 #include "uncertainty/recommend.hpp"
 
@@ -48,8 +49,10 @@ void withhold(Interval& interval, const std::string& why) {
 }
 
 /// The intervals that need no replicates: profile and Wald.
-std::vector<IntervalSet> likelihood_intervals(const FitResult& fitted, const Observations& data,
+std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative>& alternatives,
+                                              const Observations& data,
                                               const UncertaintyOptions& options) {
+  const FitResult& fitted = alternatives.front().fitted;
   std::vector<IntervalSet> sets(fitted.theta.size());
   parallel_over(sets.size(), options.threads, [&](std::size_t j) {
     const ParameterSlot& slot = fitted.model.slots[j];
@@ -61,8 +64,7 @@ std::vector<IntervalSet> likelihood_intervals(const FitResult& fitted, const Obs
       }
       return;
     }
-    set.wald = wald_interval(fitted.theta[j], fitted.std_error[j], options.level,
-                             data.sd_stated ? 0 : fitted.dof, slot.lower, slot.upper);
+    set.wald = wald_over_noise(alternatives, j, options.level);
     if (options.profile) {
       set.profile = profile_interval(fitted, data, j, options.level);
       if (options.curves) {
@@ -279,6 +281,10 @@ void add_warnings(UncertaintyResult& result, const std::vector<Dataset>& dataset
                                           datasets[comparison.dataset].id, comparison.result.text));
   }
   for (const CaptureEstimate& capture : result.capture) {
+    if (capture.found && !capture.interval.note.empty()) {
+      result.warnings.push_back(
+          fmt::format("d = {:.4g} um: {}", capture.diameter / units::um, capture.interval.note));
+    }
     if (capture.found) continue;
     result.warnings.push_back(fmt::format("no capture velocity at d = {:.4g} um: {}",
                                           capture.diameter / units::um, capture.interval.why));
@@ -292,13 +298,14 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations
                                      const UncertaintyOptions& options) {
   UncertaintyResult result;
   result.options = options;
-  result.capture = capture_estimates(fitted, data, options.level, datasets);
+  const std::vector<NoiseAlternative> alternatives = noise_alternatives(fitted);
+  result.capture = capture_estimates(alternatives, options.level, datasets);
   std::vector<TwoPointResult> two_points;
   for (std::size_t d = 0; options.two_point && d < datasets.size(); ++d) {
     result.two_point.push_back(compare_two_point(fitted, data, d));
     two_points.push_back(result.two_point.back().result);
   }
-  result.intervals = likelihood_intervals(fitted, data, options);
+  result.intervals = likelihood_intervals(alternatives, data, options);
   Bootstrap boot(fitted, data, result.capture, options);
   const auto delete_one = jackknife(boot.plan(), options.threads);
   for (int count = options.replicates_auto ? fewest_automatic : options.replicates;;) {
@@ -319,7 +326,8 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations
       study_two_point_pairs(fitted, data, series,
                             {std::min(options.pair_simulations, result.bootstrap.replicates),
                              options.seed, options.threads});
-  result.identifiability = judge_identifiability(fitted, data, result.intervals, result.capture);
+  result.identifiability =
+      judge_identifiability(fitted, data, result.intervals, result.capture, alternatives);
   if (options.curves) result.curves = restitution_curves(fitted, data, datasets, result);
   add_warnings(result, datasets);
   return result;

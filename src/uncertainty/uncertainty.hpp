@@ -80,7 +80,8 @@ struct CaptureEstimate {
   double value = 0.0;     ///< [m/s]
   bool found = false;
   Interval delta;        ///< V* exp(+- q sd(ln V*)), sd by the covariance and d V* / d theta; q of
-                         ///< Student where the noise is estimated
+                         ///< Student, averaged over the variance functions, where the noise is
+                         ///< estimated
   Interval percentile;   ///< of the bootstrap
   Interval studentized;  ///< of ln V*, errors by its gradient in every replicate
   Interval interval;     ///< the recommended one of the three

@@ -21,6 +21,7 @@ using one_size::fit_to;
 double event_sd(VarianceFunction function, double s, double e) {
   if (function == VarianceFunction::proportional) return s * std::hypot(e, 0.1);
   if (function == VarianceFunction::capture) return s / (2.0 * e);
+  if (function == VarianceFunction::steep) return s * std::exp(2.0 - 2.0 * e * e);
   return s;
 }
 
@@ -69,7 +70,7 @@ TEST_P(EstimatedVariance, ScaleAndParametersAreUnbiased) {
 
 INSTANTIATE_TEST_SUITE_P(Noise, EstimatedVariance,
                          testing::Values(VarianceFunction::constant, VarianceFunction::proportional,
-                                         VarianceFunction::capture),
+                                         VarianceFunction::capture, VarianceFunction::steep),
                          [](const auto& at) { return to_string(at.param); });
 
 TEST(Noise, SixtyPointsTellTheVarianceFunction) {
@@ -86,7 +87,7 @@ TEST(Noise, SixtyPointsTellTheVarianceFunction) {
       }
       const FitResult result = fit_to(data);
       ASSERT_TRUE(result.usable);
-      ASSERT_EQ(result.data.noise.candidates.size(), 3U);
+      ASSERT_EQ(result.data.noise.candidates.size(), 4U);
       right += result.data.noise.variance == function ? 1 : 0;
       const bool opposite = function == VarianceFunction::proportional
                                 ? result.data.noise.variance == VarianceFunction::capture

@@ -54,7 +54,8 @@ TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
     const std::vector<Dataset> datasets = truth.simulate(s);
     const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
     ASSERT_TRUE(fitted.usable) << fitted.failure;
-    const CaptureEstimate at = capture_estimates(fitted, fitted.data, 0.95, datasets).front();
+    const CaptureEstimate at =
+        capture_estimates(noise_alternatives(fitted), 0.95, datasets).front();
     const double off = std::log(at.value / truth.capture[0].velocity);
     const double error = std::log(*at.delta.upper / *at.delta.lower) / (2.0 * 1.959964);
     square += std::pow(off / error, 2) / sets;

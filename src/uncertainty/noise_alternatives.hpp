@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "estimate/fit.hpp"
+#include "uncertainty/intervals.hpp"
+
+namespace recoil {
+
+/// The fit under one of the variance functions that its points allow.
+struct NoiseAlternative {
+  double weight = 1.0;  ///< share of it in the averaged intervals; all add up to 1
+  FitResult fitted;
+};
+
+/// The fit itself and, where its variance function was chosen among several, the fits with the
+/// others, weighted by exp(-(c - c_min) / 2), c being the restricted criterion with its handicap
+/// (see `settle`). Functions that weigh less than a thousandth are left out; a fit with stated or
+/// prescribed noise stands alone.
+std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted);
+
+/// One quantity under every alternative: slot j.
+std::vector<WaldTerm> terms_of_slot(const std::vector<NoiseAlternative>& alternatives,
+                                    std::size_t j);
+
+/// By what factor the errors differ that the data cannot decide between: the largest over the
+/// smallest of those that weigh at least a twentieth. 1 without a choice.
+double undecided_factor(const std::vector<WaldTerm>& terms);
+
+/// Beyond this factor an error depends on how the noise is seen, and the verdict says so.
+constexpr double undecided = 1.5;
+
+/// What it says of "C_A" or "the capture velocity".
+std::string undecided_words(const std::string& what, double factor);
+
+/// The Wald interval of slot j, averaged over the alternatives (`averaged_wald_interval`), cut at
+/// the slot's bounds; the plain one where there is a single alternative.
+Interval wald_over_noise(const std::vector<NoiseAlternative>& alternatives, std::size_t j,
+                         double level);
+
+}  // namespace recoil
