@@ -39,6 +39,11 @@ SizeUnit size_unit(const Diagnosis& d) {
   return balls ? SizeUnit{1e-3, "mm"} : SizeUnit{units::um, "µm"};
 }
 
+std::string size_text(const Diagnosis& d, double diameter) {
+  const SizeUnit unit = size_unit(d);
+  return diameter_text(diameter * units::um / unit.metres) + " " + unit.name;
+}
+
 Rows rows_of(const Diagnosis& d, std::size_t dataset) {
   Rows rows;
   const double unit = size_unit(d).metres;
@@ -168,14 +173,20 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
   const auto [slow, fast] = log_range(rows.velocities, 0.04);
   std::map<double, std::vector<std::vector<double>>> points;
   std::map<double, std::size_t> series;
-  double top = 1.0;
+  double top = 0.0;
+  double bottom = 1.0;
   for (const Observation& point : d.base.data.points) {
     if (point.dataset != dataset) continue;
     points[point.diameter].push_back(
         {point.velocity, point.censored ? 0.0 : point.restitution, point.sd});
     series[point.diameter] = point.series;
     top = std::max(top, point.restitution + 2.0 * point.sd);
+    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * point.sd);
   }
+  // The axis begins at nothing, unless all points lie high above.
+  const bool high = bottom > 0.7;
+  top = high ? top + 0.3 * (top - bottom) : 1.03 * std::max(top, 1.0);
+  bottom = high ? bottom - 0.3 * (top - bottom) : 0.0;
   PlotScript script;
   script.name = fmt::format("extended-{}", dataset);
   script.title = "Restitution against velocity under the base and the extended model";
@@ -184,9 +195,9 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
   std::string& c = script.commands;
   c = style::preamble() +
       fmt::format(
-          "set logscale x\nset xrange [{:.6g}:{:.6g}]\nset yrange [0:{:.4g}]\n"
+          "set logscale x\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.4g}:{:.4g}]\n"
           "set xlabel 'V  [m/s]' offset 0,0.4\nset ylabel 'e' offset 1,0\n",
-          slow, fast, 1.03 * top) +
+          slow, fast, bottom, top) +
       style::key_above() + log_ticks('x', slow, fast);
   std::vector<std::string> layers;
   std::size_t k = 0;
@@ -202,7 +213,7 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
     layers.push_back(
         fmt::format("$points{} using 1:2:3 with yerrorbars lc rgb '{}' pt {} ps 0.7 lw 1 {}", k,
                     marker.colour, marker.point,
-                    points.size() <= 7 ? "title " + gnuplot_text(diameter_text(diameter) + " µm")
+                    points.size() <= 7 ? "title " + gnuplot_text(size_text(d, diameter))
                                        : std::string("notitle")));
     ++k;
   }
