@@ -290,28 +290,29 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
     Candidate candidate{};
     Refit quick{};
   };
-  std::vector<Pair> todo;
+  std::vector<Pair> untried;
   for (std::size_t a = 0; a < causes.size(); ++a) {
     for (std::size_t b = a + 1; b < causes.size(); ++b) {
       if (spreads(*causes[a]) && spreads(*causes[b])) continue;
-      todo.push_back({causes[a], causes[b]});
+      untried.push_back({causes[a], causes[b]});
     }
   }
-  parallel_over(todo.size(), base.options.threads, [&](std::size_t k) {
+  parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
     tick();
-    fit_quickly(base, todo[k].first, todo[k].second, todo[k].candidate, todo[k].quick);
+    fit_quickly(base, untried[k].first, untried[k].second, untried[k].candidate, untried[k].quick);
   });
-  std::erase_if(todo, [](const Pair& pair) { return !pair.quick.usable; });
-  std::stable_sort(todo.begin(), todo.end(), [&](const Pair& one, const Pair& other) {
+  std::erase_if(untried, [](const Pair& pair) { return !pair.quick.usable; });
+  std::stable_sort(untried.begin(), untried.end(), [&](const Pair& one, const Pair& other) {
     return criterion_of(base, one.candidate, one.quick) <
            criterion_of(base, other.candidate, other.quick);
   });
-  if (todo.size() > pairs_followed) todo.erase(todo.begin() + pairs_followed, todo.end());
-  std::vector<CandidateResult> results(todo.size());
-  parallel_over(todo.size(), base.options.threads, [&](std::size_t k) {
-    const CandidateResult* first = todo[k].first;
-    const CandidateResult* second = todo[k].second;
-    results[k] = try_one(base, todo[k].candidate, todo[k].quick.theta);
+  if (untried.size() > pairs_followed)
+    untried.erase(untried.begin() + pairs_followed, untried.end());
+  std::vector<CandidateResult> results(untried.size());
+  parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
+    const CandidateResult* first = untried[k].first;
+    const CandidateResult* second = untried[k].second;
+    results[k] = try_one(base, untried[k].candidate, untried[k].quick.theta);
     try_released(base, results[k]);
     // Both have to carry their part.
     const double better = std::min(first->delta_aicc, second->delta_aicc);
