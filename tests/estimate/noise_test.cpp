@@ -33,7 +33,8 @@ class EstimatedVariance : public testing::TestWithParam<VarianceFunction> {};
 
 TEST_P(EstimatedVariance, ScaleAndParametersAreUnbiased) {
   constexpr int sets = 120;
-  constexpr double s = 0.04;
+  // Small enough for first-order errors where steep makes it sevenfold.
+  const double s = GetParam() == VarianceFunction::steep ? 0.01 : 0.04;
   const Dataset clean = design(16);
   NoiseSpec spec;
   spec.variance = GetParam();
@@ -102,7 +103,10 @@ TEST(Noise, SixtyPointsTellTheVarianceFunction) {
       EXPECT_FALSE(opposite && choice_margin(result.data.noise) > 4.0);
       EXPECT_GE(choice_margin(result.data.noise), 0.0);
     }
-    EXPECT_GE(right, function == VarianceFunction::proportional ? 2 : 8) << to_string(function);
+    const int least = function == VarianceFunction::steep     ? 8
+                      : function == VarianceFunction::capture ? 5
+                                                              : 2;
+    EXPECT_GE(right, least) << to_string(function);
   }
 }
 
