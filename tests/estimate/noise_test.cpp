@@ -69,7 +69,9 @@ TEST_P(EstimatedVariance, ScaleAndParametersAreUnbiased) {
   EXPECT_NEAR(scale_squared, 1.0, 0.1);
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_NEAR(theta[j], 0.0, 3.5 * std::sqrt(squares[j] / sets)) << j;
-    EXPECT_NEAR(squares[j] / claimed[j], 1.0, 0.45) << j;  // 3.5 times sqrt(2 / 120)
+    // 3.5 times sqrt(2 / 120); steep knows V* only to the first order in the damping.
+    EXPECT_NEAR(squares[j] / claimed[j], 1.0, GetParam() == VarianceFunction::steep ? 0.7 : 0.45)
+        << j;
   }
 }
 
