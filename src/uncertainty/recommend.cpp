@@ -127,19 +127,16 @@ std::string few_reason(const FitResult& fitted, bool sd_stated, double level) {
 }  // namespace
 
 void recommend(IntervalSet& set, bool sd_stated) {
-  const bool bound_is_felt = set.bound_share.value_or(0.0) > many_at_bound;
-  if (!sd_stated && !bound_is_felt && set.wald.available()) {
-    set.recommended = "wald";
-    set.recommended_why =
-        "the noise is estimated: it is averaged over the ways in which the scatter may depend on e "
-        "and V, and knows how few points tell them";
-    return;
-  }
   if (set.profile.available()) {
     set.recommended = "profile";
     set.recommended_why =
-        "it follows the likelihood where that is not a parabola, stops at the bounds and takes the "
-        "spread of the impacts along; in the coverage study it did no worse than the others";
+        sd_stated
+            ? "it follows the likelihood where that is not a parabola, stops at the bounds and "
+              "takes the spread of the impacts along; in the coverage study it did no worse than "
+              "the others"
+            : "it follows the likelihood where that is not a parabola, stops at the bounds and "
+              "knows by Student's factor how few points estimate the noise; intervals from "
+              "replicates hold less often where two or three points near capture decide";
     return;
   }
   set.recommended = set.percentile.available() ? "percentile" : "wald";

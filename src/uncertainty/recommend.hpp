@@ -7,13 +7,12 @@ namespace recoil {
 /// Names the interval to quote, and why: the one place where the rule stands. It follows the
 /// coverage study (reports/coverage-grid-n{10,20,60}-{stated,estimated}.md).
 ///
-/// Where the standard deviations are stated: the profile, which follows the likelihood where that
-/// is not a parabola, stops at the bounds and takes the spread of the impacts along. Where the
-/// noise is estimated: the Wald interval, which is averaged over the variance functions
-/// (`wald_over_noise`), unless replicates rest on a bound. The studentized interval of the wild
-/// bootstrap assumes nothing about where the points scatter more, but a parameter that hangs on two
-/// or three points near capture has only their own residuals for its noise, and it held the truth
-/// less often. Where there is no Wald interval the profile, else percentile.
+/// The profile, which follows the likelihood where that is not a parabola, stops at the bounds and
+/// takes the spread of the impacts along; where the noise is estimated, under the variance function
+/// that the points choose and with Student's factor. The studentized interval of the wild bootstrap
+/// assumes nothing about where the points scatter more, but a parameter that hangs on two or three
+/// points near capture has only their own residuals for its noise, and it held the truth less
+/// often. Without a profile percentile, else Wald.
 void recommend(IntervalSet& set, bool sd_stated);
 
 /// Why the intervals of one free parameter differ, in a sentence: which of them differ by how much

@@ -106,5 +106,23 @@ TEST(Wald, NormalAndStudentQuantilesAndBounds) {
   EXPECT_FALSE(wald_interval(0.0, 0.0, 0.95, 0, 0.0, 10.0).available());
 }
 
+TEST(Wald, TailAreasAreAveragedOverDescriptions) {
+  // (P(x - 1) + P(x + 1)) / 2 = 0.975 at x = 2.64614554821531 (bisection in another program).
+  const std::vector<WaldTerm> apart = {{0.5, -1.0, 1.0, 0}, {0.5, 1.0, 1.0, 0}};
+  const Interval both = averaged_wald_interval(apart, 0.95, -9.0, 9.0);
+  EXPECT_NEAR(*both.upper, 2.64614554821531, 1e-9);
+  EXPECT_NEAR(*both.lower, -2.64614554821531, 1e-9);
+  EXPECT_EQ(*averaged_wald_interval(apart, 0.95, -2.0, 9.0).lower, -2.0) << "the bound";
+  const std::vector<WaldTerm> one = {{1.0, 1.0, 0.1, 10}};
+  EXPECT_EQ(*averaged_wald_interval(one, 0.95, 0.0, 10.0).upper,
+            *wald_interval(1.0, 0.1, 0.95, 10, 0.0, 10.0).upper);
+  // A description without an error is left out, unless it is the one that was chosen.
+  const std::vector<WaldTerm> second = {{0.6, 1.0, 0.1, 10}, {0.4, 5.0, 0.0, 10}};
+  EXPECT_NEAR(*averaged_wald_interval(second, 0.95, 0.0, 10.0).upper, 1.0 + 0.1 * 2.228138852,
+              1e-8);
+  const std::vector<WaldTerm> first = {{0.4, 5.0, 0.0, 10}, {0.6, 1.0, 0.1, 10}};
+  EXPECT_FALSE(averaged_wald_interval(first, 0.95, 0.0, 10.0).available());
+}
+
 }  // namespace
 }  // namespace recoil
