@@ -101,7 +101,7 @@ std::string corrections_section(const Analysis& analysis) {
           "this way can be left out to see what it does, with the same events. Where all sizes "
           "stand "
           "in one point their mixture is a further error, which no correction takes away; the "
-          "second table, with more spheres in narrow classes of size, is free of it.") +
+          "second table, with more spheres in narrow classes of size, is nearly free of it.") +
       "</p>\n";
   std::size_t index = 0;
   for (const CorrectionStudy& study : analysis.corrections) {
