@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "core/error.hpp"
@@ -81,6 +82,16 @@ std::vector<Launch> gather_launches(const ImportTable& table, const ImportReques
   for (Launch& launch : launches) {
     std::stable_sort(launch.flights.begin(), launch.flights.end(),
                      [](const Flight& a, const Flight& b) { return a.bounce < b.bounce; });
+    const auto twice =
+        std::adjacent_find(launch.flights.begin(), launch.flights.end(),
+                           [](const Flight& a, const Flight& b) { return a.bounce == b.bounce; });
+    if (twice != launch.flights.end()) {
+      table.fail(std::next(twice)->row, "bounce",
+                 fmt::format("bounce {:g} of launch '{}' stands here and on line {}", twice->bounce,
+                             launch.name, table.line(twice->row)),
+                 "the ratio of two launches' intervals is no restitution",
+                 "if several columns name a launch, join them: --map launch=COLUMN+COLUMN");
+    }
   }
   return launches;
 }

@@ -115,6 +115,19 @@ TEST(Intervals, AMissingBounceMakesNoRatio) {
   EXPECT_NEAR(made.points[1].restitution, 0.9, 1e-9);
 }
 
+TEST(Intervals, TwoLaunchesOfOneNameAreNotMixed) {
+  const Place place;
+  auto request = place.request("h,run,n,t\n8,1,1,0.25\n8,1,2,0.2\n16,1,1,0.36\n16,1,2,0.3\n",
+                               ImportFormat::intervals);
+  request.map = {"launch=run,bounce=n,interval=t:s"};
+  EXPECT_THAT(complaint(request),
+              HasSubstr("input.csv:4:3: bounce 1 of launch '1' stands here and on line 2"));
+  request.map = {"launch=h+run,bounce=n,interval=t:s"};
+  const auto points = recoil::import_points(request).dataset.points;
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_DOUBLE_EQ(points[0].restitution, 0.8);
+}
+
 TEST(Intervals, TheReleaseHeightIsChecked) {
   // Fall from 0.2 m with g = 10: V = 2. Restitution 0.8 throughout: flights 0.32, 0.256.
   const auto note = [](const std::string& height) {
