@@ -85,6 +85,17 @@ std::vector<const CandidateResult*> explanations(const std::vector<CandidateResu
   return found;
 }
 
+/// What all of them are laws of, each being a single mechanism; empty where there is no such thing.
+std::string shared_cause(const std::vector<const CandidateResult*>& found) {
+  std::set<std::string> causes;
+  for (const CandidateResult* c : found) {
+    const Mechanism* const only =
+        c->candidate.added.size() == 1 ? find_mechanism(c->candidate.added.front()) : nullptr;
+    causes.emplace(only == nullptr ? "" : only->info.cause);
+  }
+  return causes.size() == 1 ? *causes.begin() : std::string();
+}
+
 /// Step 4.
 void decide(const std::vector<const CandidateResult*>& found, bool one_size, Diagnosis& diagnosis) {
   if (found.empty()) {
@@ -111,6 +122,7 @@ void decide(const std::vector<const CandidateResult*>& found, bool one_size, Dia
     });
     if (everywhere && found.size() > 1) diagnosis.common.push_back(id);
   }
+  if (!one_size) diagnosis.shared_cause = shared_cause(found);
 }
 
 void compare_capture(Diagnosis& diagnosis) {

@@ -108,6 +108,7 @@ struct Diagnosis {
   std::vector<std::string> named;
   std::vector<std::string> rivals;
   std::vector<std::string> common;          ///< of the rivals, those that every explanation has
+  std::string shared_cause;                 ///< of which all rivals are laws; empty: none
   std::optional<CandidateResult> extended;  ///< the model of `extended.toml`
   std::optional<FitResult> extended_fit;
   /// Intervals of the parameters [slots] of the base fit and of the extended one: the profile

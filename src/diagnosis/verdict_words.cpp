@@ -159,8 +159,11 @@ std::string verdict_text(const Diagnosis& d) {
       text += gain_words(d);
       break;
     case Verdict::not_separable:
-      text += fmt::format("These data cannot tell which of these causes it is: {}.",
-                          titles_of(d.rivals));
+      text += d.shared_cause.empty()
+                  ? fmt::format("These data cannot tell which of these causes it is: {}.",
+                                titles_of(d.rivals))
+                  : fmt::format("The cause is {}; by which of its laws these data cannot tell: {}.",
+                                d.shared_cause, titles_of(d.rivals));
       text += common_words(d) + one_size_words(d);
       text += fmt::format(" The extended model takes {}: {}.", d.extended->candidate.name(),
                           parameters_words(*d.extended));

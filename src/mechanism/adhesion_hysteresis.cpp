@@ -17,6 +17,7 @@ Mechanism adhesion_hysteresis() {
   return make_mechanism<AdhesionHysteresis>({
       .id = "adhesion_hysteresis",
       .title = "parting takes more work per area than meeting gave",
+      .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
       .formula = "loss pi a_max^2 dW, with a_max of the undamped impact",

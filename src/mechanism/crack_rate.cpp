@@ -75,6 +75,7 @@ Mechanism crack_rate() {
   return make_mechanism<CrackRate>({
       .id = "crack_rate",
       .title = "adhesion that grows with the speed of the opening crack",
+      .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
       .formula =

@@ -22,6 +22,7 @@ Mechanism jkr_hysteresis() {
   return make_mechanism<JkrHysteresis>({
       .id = "jkr_hysteresis",
       .title = "adhesive contact that tears later than it forms (JKR)",
+      .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
       .formula =

@@ -57,6 +57,7 @@ struct MechanismParameter {
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;
+  std::string_view cause = {};  ///< shared with other laws of the same; empty where it stands alone
   MechanismKind kind = MechanismKind::physics;
   MechanismPlace place = MechanismPlace::contact;
   std::string_view formula;

@@ -19,6 +19,7 @@ Mechanism polydispersity() {
   return make_mechanism<Polydispersity>({
       .id = "polydispersity",
       .title = "spheres of many sizes in one point",
+      .cause = "unequal impacts averaged in one point",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::spread,
       .formula = "diameters are lognormal about the stated one; a point is the mean e of those "

@@ -16,6 +16,7 @@ Mechanism survivor_bias() {
   return make_mechanism<SurvivorBias>({
       .id = "survivor_bias",
       .title = "adhesion differs from impact to impact, and only survivors are averaged",
+      .cause = "unequal impacts averaged in one point",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::spread,
       .formula =

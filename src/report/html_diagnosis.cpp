@@ -22,7 +22,10 @@ std::string headline(const Diagnosis& d) {
     case Verdict::cause_named:
       return "What the model misses: " + with_spaces(d.named);
     case Verdict::not_separable:
-      return "Something is missed, and these data cannot tell what: " + with_spaces(d.rivals);
+      return d.shared_cause.empty()
+                 ? "Something is missed, and these data cannot tell what: " + with_spaces(d.rivals)
+                 : fmt::format("What the model misses: {}, by one of several laws ({})",
+                               d.shared_cause, with_spaces(d.rivals));
     case Verdict::unexplained:
       return "Something is missed that nothing in the catalogue explains";
   }

@@ -155,6 +155,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   out["named"] = d.named;
   out["rivals"] = d.rivals;
   out["in_every_explanation"] = d.common;
+  out["shared_cause"] = d.shared_cause.empty() ? Json(nullptr) : Json(d.shared_cause);
   out["candidates"] = candidates_json(d.candidates, d.candidates.size());
   constexpr std::size_t most_pairs = 20;
   out["pairs"] = candidates_json(d.pairs, most_pairs);
@@ -164,10 +165,9 @@ std::string diagnosis_json(const Diagnosis& d) {
       d.extended_fit ? fit_json(*d.extended_fit, d.extended_intervals) : Json(nullptr);
   out["capture_velocity"] = capture_json(d);
   out["next_measurement"] = next_json(d);
-  out["settings"] = {{"level", d.options.level},
-                     {"apart", d.options.apart},
-                     {"compared", d.options.compared},
-                     {"seed", d.options.seed}};
+  out["settings"] = {{"level", d.options.level},       {"chance", d.options.chance},
+                     {"apart", d.options.apart},       {"apart_in_pairs", d.options.apart_in_pairs},
+                     {"compared", d.options.compared}, {"seed", d.options.seed}};
   out["warnings"] = d.warnings;
   out["remarks"] = d.remarks;
   return out.dump(2) + "\n";

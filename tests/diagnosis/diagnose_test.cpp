@@ -85,6 +85,7 @@ TEST(Diagnose, NamesNothingAtOneSize) {
   std::erase_if(data.points, [](const ImpactPoint& point) { return point.series != 2; });
   const Diagnosis found = diagnose(synthetic::spec(), {data}, quick());
   EXPECT_NE(found.verdict, Verdict::cause_named) << found.text;
+  EXPECT_EQ(found.shared_cause, "");
 }
 
 TEST(Diagnose, DoesNotDependOnTheNumberOfThreads) {

@@ -14,6 +14,7 @@ using namespace hidden;
 struct Question {
   CaseOrder order;
   std::vector<Mark> right;  ///< answers that are true
+  std::string cause = {};   ///< of which all rivals are laws when it is listed among them
 };
 
 void PrintTo(const Question& question, std::ostream* out) { *out << question.order.key(); }
@@ -39,6 +40,9 @@ TEST_P(Bar, TheAnswerIsTrue) {
   const Mark mark = mark_of(answer);
   EXPECT_NE(std::find(question.right.begin(), question.right.end(), mark), question.right.end())
       << answer.verdict << listed << ", p = " << answer.p_value;
+  if (mark == Mark::inside) {
+    EXPECT_EQ(answer.shared_cause, question.cause) << listed;
+  }
 }
 
 std::vector<Question> clear_causes() {
@@ -56,8 +60,8 @@ std::vector<Question> clear_causes() {
 /// leaves 20.)
 std::vector<Question> close_causes() {
   const std::vector<Mark> right = {Mark::named, Mark::inside};
-  return {{{"wall", {"jkr_hysteresis"}, 20.0, 0}, right},
-          {{"wall", {"survivor_bias"}, 10.0, 0}, right},
+  return {{{"wall", {"jkr_hysteresis"}, 20.0, 0}, right, "adhesion hysteresis"},
+          {{"wall", {"survivor_bias"}, 10.0, 0}, right, "unequal impacts averaged in one point"},
           {{"li", {"plate_flexure"}, 10.0, 0}, right},
           {{"wall", {"plastic_yield", "jkr_hysteresis"}, 20.0, 0},
            {Mark::named, Mark::part, Mark::inside}}};

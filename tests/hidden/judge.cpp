@@ -16,19 +16,13 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 Json to_json(const Answered& a) {
-  return {{"key", a.order.key()},
-          {"seed", a.order.seed},
-          {"reached", a.reached},
-          {"signal_to_noise", a.signal_to_noise},
-          {"status", a.status},
-          {"complaint", a.complaint},
-          {"seconds", a.seconds},
-          {"verdict", a.verdict},
-          {"p_value", a.p_value},
-          {"named", a.named},
-          {"rivals", a.rivals},
-          {"closest", a.closest.id},
-          {"closest_misfit", a.closest.misfit}};
+  return {{"key", a.order.key()},    {"seed", a.order.seed},
+          {"reached", a.reached},    {"signal_to_noise", a.signal_to_noise},
+          {"status", a.status},      {"complaint", a.complaint},
+          {"seconds", a.seconds},    {"verdict", a.verdict},
+          {"p_value", a.p_value},    {"named", a.named},
+          {"rivals", a.rivals},      {"shared_cause", a.shared_cause},
+          {"closest", a.closest.id}, {"closest_misfit", a.closest.misfit}};
 }
 
 fs::path kept_file(const CaseOrder& order, const fs::path& keep) {
@@ -53,6 +47,7 @@ bool load(const fs::path& file, Answered& a) {
   a.p_value = kept["p_value"];
   a.named = kept["named"].get<std::vector<std::string>>();
   a.rivals = kept["rivals"].get<std::vector<std::string>>();
+  a.shared_cause = kept["shared_cause"];
   a.closest = {kept["closest"], kept["closest_misfit"]};
   return true;
 }
@@ -75,6 +70,7 @@ void diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.p_value = answer.at("misfit").at("p_value");
   a.named = answer.at("named").get<std::vector<std::string>>();
   a.rivals = answer.at("rivals").get<std::vector<std::string>>();
+  if (answer.at("shared_cause").is_string()) a.shared_cause = answer["shared_cause"];
 }
 
 }  // namespace

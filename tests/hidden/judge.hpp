@@ -21,6 +21,7 @@ struct Answered {
   double p_value = 1.0;
   std::vector<std::string> named;
   std::vector<std::string> rivals;
+  std::string shared_cause;  ///< of which all rivals are laws
   Closest closest;  ///< for one visible effect of the catalogue in a design of several diameters
 };
 

@@ -84,13 +84,21 @@ std::string bars(const std::vector<Answered>& all) {
   }
   const Test found = marked({Mark::named});
   const Test inside = marked({Mark::named, Mark::inside});
+  const Test told = [](const Answered& a) {
+    return mark_of(a) == Mark::named || (mark_of(a) == Mark::inside && !a.shared_cause.empty());
+  };
+  const Test wrong = [](const Answered& a) {
+    return mark_of(a) == Mark::wrong || (mark_of(a) == Mark::outside && !a.shared_cause.empty());
+  };
   const Test not_adequate = [](const Answered& a) { return mark_of(a) != Mark::nothing; };
   return bars_table({
       {"visible effect named outright", 0.80, effects, found},
       {"the same, where the closest other cause leaves a misfit of 4 or more", 0.80, nameable,
        found},
+      {"visible effect named, or the cause of which it and all its rivals are laws", 0.80, effects,
+       told},
       {"visible effect among named and rivals", 0.95, effects, inside},
-      {"wrong cause named", -0.05, effects, marked({Mark::wrong})},
+      {"wrong cause named, or one shared by laws among which it is not", -0.05, effects, wrong},
       {"false alarms, nothing hidden", -0.05, those(all, in(Chapter::correct)), not_adequate},
       {"outside effect called unexplained", 0.80, seen(Chapter::outside),
        marked({Mark::unexplained})},
@@ -101,6 +109,27 @@ std::string bars(const std::vector<Answered>& all) {
              }),
        marked({Mark::inside, Mark::outside})},
   });
+}
+
+/// How many of those that were not named nobody could have named.
+std::string why_not_named(const std::vector<Answered>& all) {
+  int missed = 0, alike = 0, shared = 0;
+  for (const Answered& a : all) {
+    if (!a.reached || chapter_of(a.order) != Chapter::effect || !is_visible(a)) continue;
+    if (mark_of(a) == Mark::named) continue;
+    ++missed;
+    if (can_be_named(a)) continue;
+    ++alike;
+    shared += mark_of(a) == Mark::inside && !a.shared_cause.empty() ? 1 : 0;
+  }
+  return fmt::format(
+      "Of the {} visible effects that were not named outright, {} have a neighbour in the "
+      "catalogue "
+      "that leaves a misfit below {:g} with all its parameters fitted (a table follows); in {} of "
+      "these all that is listed are laws of one cause (`shared_cause`: JKR's work, hysteresis per "
+      "area and crack rate are adhesion hysteresis; spreads of size and of adhesion are unequal "
+      "impacts averaged in one point), which is then told by name.\n\n",
+      missed, alike, separable, shared);
 }
 
 std::string per_effect(const std::vector<Answered>& all, Chapter chapter) {
@@ -276,7 +305,7 @@ std::string study_report(const std::vector<Answered>& all, std::size_t planned,
       "## The bars\n\nDesigns with several diameters, snr 10 and more, unless said "
       "otherwise.\n\n" +
       bars(all);
-  out += "![Power and confusion](hidden-effects.svg)\n\n";
+  out += why_not_named(all) + "![Power and confusion](hidden-effects.svg)\n\n";
   out +=
       "Whether an effect can be named at all depends on its neighbours in the catalogue: "
       "`probe_plane` and `electrostatic_image` (a charge that grows as d²) take the same from v² "
