@@ -15,6 +15,7 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
                         double level) {
   Interval interval;
   const FitResult& fitted = alternatives.front().fitted;
+  interval.note = wide_spread_words("the capture velocity", fitted.data.noise.event_spread);
   const double error = logarithmic_error(capture, fitted.covariance);
   if (!capture.found || !(capture.value > 0.0) || !(error > 0.0)) {
     interval.why = !capture.found           ? "spheres of this size never rebound under the fit"
@@ -35,11 +36,16 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
                      other.data.sd_stated ? 0 : other.dof});
   }
   const Interval logarithm = averaged_wald_interval(terms, level, -INFINITY, INFINITY);
-  if (!logarithm.available()) return logarithm;
+  if (!logarithm.available()) {
+    interval.why = logarithm.why;
+    return interval;
+  }
   interval.lower = capture.value * std::exp(*logarithm.lower);
   interval.upper = capture.value * std::exp(*logarithm.upper);
   const double factor = undecided_factor(terms);
-  if (factor > undecided) interval.note = undecided_words("the capture velocity", factor);
+  if (interval.note.empty() && factor > undecided) {
+    interval.note = undecided_words("the capture velocity", factor);
+  }
   return interval;
 }
 
@@ -90,6 +96,7 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
   capture.interval = capture.delta;
   if (!capture.delta.available() && !capture.percentile.why.empty()) {
     capture.interval = capture.percentile;
+    capture.interval.note = capture.delta.note;
   }
 }
 

@@ -179,7 +179,10 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
                  std::max(std::abs(fitted.theta[j]), scales[j]));
     const double factor =
         alternatives.empty() ? 1.0 : undecided_factor(terms_of_slot(alternatives, j));
-    if (problem.empty() && factor > undecided) {
+    const std::string wide = wide_spread_words(slot.label(), data.noise.event_spread);
+    if (problem.empty() && !wide.empty()) {
+      sentences.push_back(wide);
+    } else if (problem.empty() && factor > undecided) {
       sentences.push_back(undecided_words(slot.label(), factor));
     } else if (problem.empty()) {
       result.parameter.back() = true;

@@ -18,6 +18,7 @@ namespace recoil {
 /// Where the noise is estimated, its error must not depend on how the noise is seen, either: by
 /// more than `undecided` between variance functions that the points cannot decide between, the
 /// interval may be too narrow or too wide.
+/// Nor may the capture velocity scatter by more than `widest_spread` from impact to impact.
 /// @param alternatives of `noise_alternatives`; may be left out where the noise is stated
 Identifiability judge_identifiability(const FitResult& fitted, const Observations& data,
                                       const std::vector<IntervalSet>& intervals,

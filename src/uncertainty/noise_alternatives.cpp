@@ -78,6 +78,17 @@ std::string undecided_words(const std::string& what, double factor) {
       what, factor);
 }
 
+std::string wide_spread_words(const std::string& what, double event_spread) {
+  if (event_spread <= widest_spread) return "";
+  return fmt::format(
+      "the interval of {} is not to be trusted: from impact to impact the capture velocity "
+      "scatters "
+      "by {:.0f} %, and what is assumed of the survivors holds up to {:.0f} %; if spheres of "
+      "several "
+      "sizes stand in one point, put them into classes of size (recoil pair --size-edges)",
+      what, 100.0 * event_spread, 100.0 * widest_spread);
+}
+
 Interval wald_over_noise(const std::vector<NoiseAlternative>& alternatives, std::size_t j,
                          double level) {
   const ParameterSlot& slot = alternatives.front().fitted.model.slots[j];

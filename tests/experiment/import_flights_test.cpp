@@ -121,7 +121,7 @@ TEST(Intervals, TwoLaunchesOfOneNameAreNotMixed) {
                                ImportFormat::intervals);
   request.map = {"launch=run,bounce=n,interval=t:s"};
   EXPECT_THAT(complaint(request),
-              HasSubstr("input.csv:4:3: bounce 1 of launch '1' stands here and on line 2"));
+              HasSubstr("input.csv:4:6: bounce 1 of launch '1' stands here and on line 2"));
   request.map = {"launch=h+run,bounce=n,interval=t:s"};
   const auto points = recoil::import_points(request).dataset.points;
   ASSERT_EQ(points.size(), 2U);

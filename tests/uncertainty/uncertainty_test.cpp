@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "noisy_case.hpp"
+#include "uncertainty/capture_interval.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/profile.hpp"
 
@@ -104,6 +105,21 @@ TEST(Identifiability, AKnownUpperLimitIsKnowledge) {
   EXPECT_TRUE(verdict.parameter[0]);
   EXPECT_NE(verdict.text.find("C_H is consistent with zero"), std::string::npos) << verdict.text;
   EXPECT_NE(verdict.text.find("upper limit"), std::string::npos) << verdict.text;
+}
+
+TEST(Identifiability, DoesNotTrustSurvivorsOfImpactsThatDifferMuch) {
+  Case c = noisy_case();
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  for (const double spread : {0.15, 0.3}) {
+    c.data.noise.event_spread = c.fitted.data.noise.event_spread = spread;
+    const Identifiability verdict =
+        judge_identifiability(c.fitted, c.data, result.intervals, result.capture);
+    EXPECT_EQ(verdict.parameter[0], spread < 0.2) << verdict.text;
+    EXPECT_EQ(verdict.text.find("scatters by 30 %") != std::string::npos, spread > 0.2);
+    const std::string note =
+        capture_estimates(noise_alternatives(c.fitted), 0.95, c.datasets).front().delta.note;
+    EXPECT_EQ(note.find("not to be trusted") != std::string::npos, spread > 0.2) << note;
+  }
 }
 
 TEST(Profile, RisesByTheQuantileAtItsEnds) {
