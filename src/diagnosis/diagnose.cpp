@@ -57,9 +57,9 @@ void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress)
     for (std::size_t i = 0; i < without.residuals.size(); ++i) {
       without.residuals[i] -= diagnosis.free_form[i];
     }
-    diagnosis.free_form_p =
-        quick_structure(rest, without, base.fitted.prediction_squared, 999, diagnosis.options.seed)
-            .p_value;
+    diagnosis.free_form_p = quick_structure(rest, without, base.fitted.prediction_squared,
+                                            quick_samples, diagnosis.options.seed)
+                                .p_value;
   } else {
     diagnosis.free_form_p = diagnosis.structure.p_value;
   }

@@ -60,9 +60,11 @@ struct CandidateResult {
   Refit refit;
   MechanismKind kind = MechanismKind::physics;
   std::vector<FoundParameter> parameters;
-  double delta_aicc = 0.0;          ///< criterion less that of the base model: negative is better
-  std::optional<double> p_value;    ///< see `diagnose`; none for several at once
-  double remaining_p = 0.0;         ///< of the structure that it leaves, `quick_structure`
+  double delta_aicc = 0.0;        ///< criterion less that of the base model: negative is better
+  std::optional<double> p_value;  ///< see `diagnose`; none for several at once
+  double remaining_p = 0.0;       ///< of the structure that it leaves, `quick_structure`
+  /// Of the base model's misfit beyond the noise, what is left [1]; 1 where no errors are stated.
+  double remaining_part = 1.0;
   std::optional<HeldOutGain> gain;  ///< where worth computing
   bool plausible = true;
   std::string aside;  ///< why it is not taken for a cause; empty otherwise

@@ -16,15 +16,13 @@ namespace {
 
 constexpr int tries_alone = 4;
 constexpr int tries_in_pairs = 2;
-constexpr std::size_t pairs_followed = 24;  // after one descent each
 constexpr std::size_t sets_at_once = 13;    // between two looks at how many gain more
 constexpr std::ptrdiff_t often_enough = 5;  // to say that chance gives as much
-constexpr int quick_samples = 999;
-constexpr double worth_releasing = 2.0;  // gain of the criterion by a released parameter
+constexpr double worth_releasing = 2.0;     // gain of the criterion by a released parameter
 // What a cause may leave: structure at this level, or this part of what it took. The laws of the
 // catalogue are good to some per cent of the loss that they describe.
-constexpr double remaining_level = 0.01;
-constexpr double remaining_part = 0.03;
+constexpr double tolerated_level = 0.01;
+constexpr double tolerated_part = 0.03;
 constexpr double shown_as_lead = 30.0;  // candidates this far behind the best are not held out
 
 constexpr const char* one_would_do = "one of the two does as well alone";
@@ -51,6 +49,15 @@ std::vector<double> predicted_squares(const Candidate& candidate, const Refit& r
   return squares;
 }
 
+/// See `CandidateResult::remaining_part`.
+double part_left(const SearchBase& base, const CandidateResult& candidate) {
+  if (!base.fitted.data.sd_stated) return 1.0;  // nobody knows how much misfit there is
+  const auto n = static_cast<double>(base.fitted.data.points.size());
+  const double before = base.refit.chi2 - (n - base.candidate.free_count);
+  const double after = candidate.refit.chi2 - (n - candidate.candidate.free_count);
+  return before > 0.0 ? after / before : 1.0;
+}
+
 /// Fits one candidate and looks at what it leaves.
 CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near) {
   const Observations& data = base.fitted.data;
@@ -68,6 +75,7 @@ CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<c
   const std::vector<double> squares = predicted_squares(result.candidate, result.refit, data);
   result.remaining_p =
       quick_structure(data, result.refit, squares, quick_samples, base.options.seed).p_value;
+  result.remaining_part = part_left(base, result);
   return result;
 }
 
@@ -140,36 +148,38 @@ void sort_by_criterion(std::vector<CandidateResult>& candidates) {
                    });
 }
 
-/// The part of the base model's misfit that a candidate leaves [1].
-double part_left(const SearchBase& base, const CandidateResult& candidate) {
-  if (!base.fitted.data.sd_stated) return 1.0;  // nobody knows how much misfit there is
-  const auto n = static_cast<double>(base.fitted.data.points.size());
-  const double before = base.refit.chi2 - (n - base.candidate.free_count);
-  const double after = candidate.refit.chi2 - (n - candidate.candidate.free_count);
-  return before > 0.0 ? after / before : 1.0;
-}
-
-double criterion_of(const SearchBase& base, const Candidate& candidate, const Refit& refit) {
-  return corrected_criterion(base.fitted.data, refit.chi2, candidate.free_count);
-}
-
 bool spreads(const CandidateResult& single) {
   return find_mechanism(single.candidate.added.front())->spreads();
 }
 
-/// Both at once by one descent from the fit of either.
-void fit_quickly(const SearchBase& base, const CandidateResult* first,
-                 const CandidateResult* second, Candidate& both, Refit& best) {
-  both = make_candidate(base.spec, base.datasets,
-                        {first->candidate.added.front(), second->candidate.added.front()}, false,
-                        true);
-  if (both.free_count >= static_cast<int>(base.fitted.data.points.size()) - 2) return;
-  for (const CandidateResult* from : {first, second}) {
+/// Both at once, from where the better of two single descents, one from either alone, ends. A
+/// descent alone is no measure of a pair: yielding, say, is often found by the whole search only.
+CandidateResult try_both(const SearchBase& base, const CandidateResult& first,
+                         const CandidateResult& second) {
+  Candidate both =
+      make_candidate(base.spec, base.datasets,
+                     {first.candidate.added.front(), second.candidate.added.front()}, false, true);
+  if (both.free_count >= static_cast<int>(base.fitted.data.points.size()) - 2) return {};
+  Refit best;
+  for (const CandidateResult* from : {&first, &second}) {
     const std::vector<double> near = within_bounds(
         both.model, carried_over(from->candidate.model, from->refit.theta, both.model));
     Refit refit = refit_candidate(both, base.fitted.data, near, 1);
     if (refit.usable && !(best.usable && best.chi2 <= refit.chi2)) best = std::move(refit);
   }
+  if (!best.usable) return {};
+  CandidateResult result = try_one(base, std::move(both), best.theta);
+  try_released(base, result);
+  // Each has to carry its part.
+  const double better = std::min(first.delta_aicc, second.delta_aicc);
+  const bool possible = first.delta_aicc < second.delta_aicc ? first.plausible : second.plausible;
+  if (possible && !(result.delta_aicc < better - base.options.apart_in_pairs)) {
+    result.aside = one_would_do;
+  }
+  if (rests_on_the_edge(result)) {
+    result.aside = "a parameter rests on the edge of what is possible";
+  }
+  return result;
 }
 
 std::string reason_aside(const SearchBase& base, const CandidateResult& c) {
@@ -182,7 +192,7 @@ std::string reason_aside(const SearchBase& base, const CandidateResult& c) {
   for (const FoundParameter& parameter : c.parameters) {
     if (!parameter.plausible) return "not possible: " + parameter.why_not;
   }
-  if (c.remaining_p < remaining_level && part_left(base, c) > remaining_part) {
+  if (c.remaining_p < tolerated_level && c.remaining_part > tolerated_part) {
     return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
   }
   return "";
@@ -284,46 +294,17 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
     if (batch && series_are_sizes(base.fitted.data)) continue;
     causes.push_back(&single);
   }
-  struct Pair {
-    const CandidateResult* first;
-    const CandidateResult* second;
-    Candidate candidate{};
-    Refit quick{};
-  };
-  std::vector<Pair> untried;
+  std::vector<std::pair<const CandidateResult*, const CandidateResult*>> untried;
   for (std::size_t a = 0; a < causes.size(); ++a) {
     for (std::size_t b = a + 1; b < causes.size(); ++b) {
       if (spreads(*causes[a]) && spreads(*causes[b])) continue;
-      untried.push_back({causes[a], causes[b]});
+      untried.emplace_back(causes[a], causes[b]);
     }
   }
-  parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
-    tick();
-    fit_quickly(base, untried[k].first, untried[k].second, untried[k].candidate, untried[k].quick);
-  });
-  std::erase_if(untried, [](const Pair& pair) { return !pair.quick.usable; });
-  std::stable_sort(untried.begin(), untried.end(), [&](const Pair& one, const Pair& other) {
-    return criterion_of(base, one.candidate, one.quick) <
-           criterion_of(base, other.candidate, other.quick);
-  });
-  if (untried.size() > pairs_followed)
-    untried.erase(untried.begin() + pairs_followed, untried.end());
   std::vector<CandidateResult> results(untried.size());
   parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
-    const CandidateResult* first = untried[k].first;
-    const CandidateResult* second = untried[k].second;
-    results[k] = try_one(base, untried[k].candidate, untried[k].quick.theta);
-    try_released(base, results[k]);
-    // Both have to carry their part.
-    const double better = std::min(first->delta_aicc, second->delta_aicc);
-    const bool possible =
-        first->delta_aicc < second->delta_aicc ? first->plausible : second->plausible;
-    if (possible && !(results[k].delta_aicc < better - base.options.apart_in_pairs)) {
-      results[k].aside = one_would_do;
-    }
-    if (rests_on_the_edge(results[k])) {
-      results[k].aside = "a parameter rests on the edge of what is possible";
-    }
+    tick();
+    results[k] = try_both(base, *untried[k].first, *untried[k].second);
   });
   sort_by_criterion(results);
   return results;

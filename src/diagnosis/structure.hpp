@@ -85,6 +85,8 @@ class StructureStatistics {
 Structure judge_structure(const StructureStatistics& statistics, std::span<const double> observed,
                           const std::vector<std::vector<double>>& simulated);
 
+inline constexpr int quick_samples = 999;  ///< as many as all callers of `quick_structure` take
+
 /// The structure in the residuals of `fitted`, beside `count` samples of white noise that go
 /// through the same projection: no refits, exact for a model that is linear over its errors.
 Structure quick_structure(const Observations& data, const Refit& fitted,

@@ -30,10 +30,10 @@ std::string title_of(const std::string& id) {
   return mechanism == nullptr ? id : fmt::format("{} ({})", id, mechanism->info.title);
 }
 
-std::string titles_of(const std::vector<std::string>& ids) {
+std::string titles_of(const std::vector<std::string>& ids, const char* between = ", ") {
   std::vector<std::string> titles;
   for (const std::string& id : ids) titles.push_back(title_of(id));
-  return fmt::format("{}", fmt::join(titles, ", "));
+  return fmt::format("{}", fmt::join(titles, between));
 }
 
 /// "C_x = 3 m"; of more than `most_values`, as a parameter per series may be, the range.
@@ -63,6 +63,15 @@ std::string gain_words(const Diagnosis& d) {
                         100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper);
   }
   return text + ".";
+}
+
+/// What an explanation leaves and is forgiven, being small beside what it takes.
+std::string rest_words(const Diagnosis& d) {
+  if (d.extended->remaining_p >= 0.01) return "";
+  return fmt::format(
+      " {:.1f} % of the misfit stay, more than noise ({}): the laws are good to some per cent, or "
+      "something smaller acts beside them.",
+      100.0 * d.extended->remaining_part, p_words(d.extended->remaining_p, quick_samples));
 }
 
 /// Those that would have gained as much as the answer, but are not possible.
@@ -154,9 +163,12 @@ std::string verdict_text(const Diagnosis& d) {
   if (!where.empty()) text += where + ". ";
   switch (d.verdict) {
     case Verdict::cause_named:
-      text += fmt::format("Of all that the catalogue offers, only {} explains it: {}.",
-                          titles_of(d.named), parameters_words(*d.extended));
-      text += gain_words(d);
+      text += fmt::format("Of all that the catalogue offers, only {} it: {}.",
+                          d.named.size() == 1
+                              ? title_of(d.named.front()) + " explains"
+                              : fmt::format("{} together explain", titles_of(d.named, " and ")),
+                          parameters_words(*d.extended));
+      text += gain_words(d) + rest_words(d);
       break;
     case Verdict::not_separable:
       text += d.shared_cause.empty()
@@ -167,7 +179,7 @@ std::string verdict_text(const Diagnosis& d) {
       text += common_words(d) + one_size_words(d);
       text += fmt::format(" The extended model takes {}: {}.", d.extended->candidate.name(),
                           parameters_words(*d.extended));
-      text += gain_words(d) + next_words(d);
+      text += gain_words(d) + rest_words(d) + next_words(d);
       break;
     case Verdict::unexplained:
       text += "Nothing in the catalogue explains it, alone or in pairs.";

@@ -17,7 +17,8 @@ constexpr double cell_width = 37.0;
 constexpr double cell_height = 17.0;
 constexpr double margin = 14.0;
 constexpr double head_height = 92.0;
-constexpr double foot_height = 62.0;
+constexpr double foot_height = 84.0;
+constexpr double line_height = 22.0;  // below the cells
 constexpr double group_gap = 10.0;
 constexpr double tolerated = 0.02;       // about the level: white
 constexpr double deepest = 0.15;         // below it the colour gets no deeper
@@ -203,7 +204,7 @@ std::string legend(double y, double level) {
                                white_letters(held, level) ? " fill=\"#ffffff\"" : ""));
     x += cell_width + 6.0;
   }
-  return out + text_at(x + 10.0, y,
+  return out + text_at(margin, y + line_height,
                        "% of data sets whose interval holds the truth; identif.: % in which the "
                        "verdict calls the parameter identifiable; pale: 10 % or fewer",
                        " fill=\"#555555\"");
@@ -268,7 +269,7 @@ std::string coverage_picture(const std::vector<GridResult>& results, double leve
     }
   }
   out += legend(bottom + 26.0, level);
-  out += text_at(margin, bottom + 48.0, remark, " fill=\"#555555\"");
+  out += text_at(margin, bottom + 26.0 + 2.0 * line_height, remark, " fill=\"#555555\"");
   return out + "</svg>\n";
 }
 

@@ -53,6 +53,7 @@ Json candidate_json(const CandidateResult& c) {
               {"p_value", optional_number(c.p_value)},
               {"delta_aicc", number_or_null(c.delta_aicc)},
               {"remaining_p", c.remaining_p},
+              {"remaining_part", c.remaining_part},
               {"held_out_gain", c.gain ? number_or_null(c.gain->relative) : Json(nullptr)},
               {"held_out_log_score", c.gain ? number_or_null(c.gain->log_score) : Json(nullptr)},
               {"plausible", c.plausible}};

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 namespace {
 
@@ -65,6 +67,32 @@ TEST(ShippedFits, ReportsOpenInABrowserAndSayReconstruction) {
   EXPECT_EQ(log.find(".html: written"), log.find("index.html: written") + 5) << log;
   fs::remove_all(out);
   fs::remove(out.string() + ".log");
+}
+
+// Its recipe put yielding and adhesion hysteresis there: no single mechanism explains it, and the
+// search for two has to find them.
+TEST(ShippedFits, DiagnosisFindsTheYieldingThatTheRecipeHid) {
+  const fs::path out =
+      fs::temp_directory_path() / ("recoil-shipped-diagnosis-" + std::to_string(getpid()));
+  fs::create_directories(out);
+  ASSERT_EQ(run("cd '" RECOIL_SOURCE_DIR "' && '" RECOIL_BINARY
+                "' diagnose fits/wall1990-molybdenum.toml --out '" +
+                out.string() + "' > '" + (out / "log").string() + "' 2>&1"),
+            0)
+      << read(out / "log");
+  const auto answer = nlohmann::json::parse(read(out / "diagnosis.json"));
+  std::set<std::string> listed;
+  for (const char* key : {"named", "rivals"}) {
+    for (const std::string id : answer[key]) listed.insert(id);
+  }
+  EXPECT_TRUE(listed.count("plastic_yield")) << answer["text"];
+  EXPECT_TRUE(listed.count("crack_rate") || listed.count("adhesion_hysteresis")) << answer["text"];
+  // What took no part in making the points is not accused.
+  for (const char* id : {"jkr_hysteresis", "plastic_yield", "crack_rate", "adhesion_hysteresis"}) {
+    listed.erase(id);
+  }
+  EXPECT_TRUE(listed.empty()) << answer["text"];
+  fs::remove_all(out);
 }
 
 }  // namespace

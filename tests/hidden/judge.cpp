@@ -16,13 +16,23 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 Json to_json(const Answered& a) {
-  return {{"key", a.order.key()},    {"seed", a.order.seed},
-          {"reached", a.reached},    {"signal_to_noise", a.signal_to_noise},
-          {"status", a.status},      {"complaint", a.complaint},
-          {"seconds", a.seconds},    {"verdict", a.verdict},
-          {"p_value", a.p_value},    {"named", a.named},
-          {"rivals", a.rivals},      {"shared_cause", a.shared_cause},
-          {"closest", a.closest.id}, {"closest_misfit", a.closest.misfit}};
+  Json contenders = Json::array();
+  for (const Contender& c : a.contenders) contenders.push_back({c.id, c.behind});
+  return {{"key", a.order.key()},
+          {"seed", a.order.seed},
+          {"reached", a.reached},
+          {"signal_to_noise", a.signal_to_noise},
+          {"status", a.status},
+          {"complaint", a.complaint},
+          {"seconds", a.seconds},
+          {"verdict", a.verdict},
+          {"p_value", a.p_value},
+          {"named", a.named},
+          {"rivals", a.rivals},
+          {"shared_cause", a.shared_cause},
+          {"contenders", contenders},
+          {"closest", a.closest.id},
+          {"closest_misfit", a.closest.misfit}};
 }
 
 fs::path kept_file(const CaseOrder& order, const fs::path& keep) {
@@ -48,8 +58,26 @@ bool load(const fs::path& file, Answered& a) {
   a.named = kept["named"].get<std::vector<std::string>>();
   a.rivals = kept["rivals"].get<std::vector<std::string>>();
   a.shared_cause = kept["shared_cause"];
+  for (const Json& c : kept["contenders"]) a.contenders.push_back({c[0], c[1]});
   a.closest = {kept["closest"], kept["closest_misfit"]};
   return true;
+}
+
+/// Of `candidates` (the best first), the first that explains the data and those behind it that are
+/// possible.
+std::vector<Contender> contenders_of(const Json& candidates) {
+  constexpr double far_behind = 30.0;
+  std::vector<Contender> found;
+  double best = 0.0;
+  for (const Json& c : candidates) {
+    const double criterion = c.at("delta_aicc");
+    const bool possible = c.at("plausible") && c.at("kind") != "description" && criterion < 0.0;
+    if (found.empty() && c.at("aside").is_null()) best = criterion;
+    if (found.empty() ? c.at("aside").is_null() : possible && criterion < best + far_behind) {
+      found.push_back({c.at("id"), criterion - best});
+    }
+  }
+  return found;
 }
 
 void diagnose(const Case& made, const fs::path& binary, Answered& a) {
@@ -71,6 +99,7 @@ void diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.named = answer.at("named").get<std::vector<std::string>>();
   a.rivals = answer.at("rivals").get<std::vector<std::string>>();
   if (answer.at("shared_cause").is_string()) a.shared_cause = answer["shared_cause"];
+  a.contenders = contenders_of(answer.at("candidates"));
 }
 
 }  // namespace
@@ -91,6 +120,19 @@ Mark mark_of(const Answered& a) {
   }
   if (named == truth) return Mark::named;
   return within(named, truth) ? Mark::part : Mark::wrong;
+}
+
+Mark mark_if_apart(const Answered& answered, double apart) {
+  if (answered.contenders.empty()) return mark_of(answered);
+  Answered other = answered;
+  other.named.clear();
+  other.rivals.clear();
+  for (const Contender& c : answered.contenders) {
+    if (c.behind <= apart) other.rivals.push_back(c.id);
+  }
+  other.verdict = other.rivals.size() == 1 ? "cause_named" : "not_separable";
+  if (other.rivals.size() == 1) std::swap(other.named, other.rivals);
+  return mark_of(other);
 }
 
 std::string to_string(Mark mark) {

@@ -9,6 +9,12 @@
 
 namespace hidden {
 
+/// A single mechanism that could be the answer.
+struct Contender {
+  std::string id;
+  double behind = 0.0;  ///< the best explanation, in AICc
+};
+
 /// What the diagnosis of one case answered, beside what is true.
 struct Answered {
   CaseOrder order;
@@ -22,6 +28,8 @@ struct Answered {
   std::vector<std::string> named;
   std::vector<std::string> rivals;
   std::string shared_cause;  ///< of which all rivals are laws
+  /// The best explanation by one mechanism and what comes within 30 of it; empty without one.
+  std::vector<Contender> contenders;
   Closest closest;  ///< for one visible effect of the catalogue in a design of several diameters
 };
 
@@ -38,6 +46,10 @@ enum class Mark {
 };
 Mark mark_of(const Answered& answered);
 std::string to_string(Mark mark);
+
+/// The same had the diagnosis taken all causes within `apart` of the best for its rivals: for one
+/// hidden effect in a design of several diameters.
+Mark mark_if_apart(const Answered& answered, double apart);
 
 /// The answer that an earlier run left in `keep`.
 std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesystem::path& keep);
