@@ -198,7 +198,7 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const double apart = one_size ? apart_at_one_size : options.apart;
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, apart, one_size);
   if (found.empty() && more_than_chance(diagnosis)) {
-    diagnosis.pairs = try_pairs(base, diagnosis.candidates, [] {});
+    diagnosis.pairs = try_pairs(base, diagnosis.candidates);
     judge(base, diagnosis.pairs, folds, base_folds);
     found = explanations(diagnosis.pairs, std::max(apart, options.apart_in_pairs), one_size);
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 #include "diagnosis/plausibility.hpp"
 #include "estimate/noise.hpp"
 
@@ -58,14 +59,13 @@ double part_left(const SearchBase& base, const CandidateResult& candidate) {
   return before > 0.0 ? after / before : 1.0;
 }
 
-/// Fits one candidate and looks at what it leaves.
-CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near) {
+/// What a fitted candidate gains and leaves.
+CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit) {
   const Observations& data = base.fitted.data;
   CandidateResult result;
   result.candidate = std::move(candidate);
   result.kind = kind_of(result.candidate.added);
-  result.refit = refit_candidate(result.candidate, data, near,
-                                 result.candidate.added.size() > 1 ? tries_in_pairs : tries_alone);
+  result.refit = std::move(refit);
   if (!result.refit.usable) return result;
   result.delta_aicc =
       corrected_criterion(data, result.refit.chi2, result.candidate.free_count) - base.criterion;
@@ -77,6 +77,12 @@ CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<c
       quick_structure(data, result.refit, squares, quick_samples, base.options.seed).p_value;
   result.remaining_part = part_left(base, result);
   return result;
+}
+
+CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
+                        int tries) {
+  Refit refit = refit_candidate(candidate, base.fitted.data, near, tries);
+  return examine(base, std::move(candidate), std::move(refit));
 }
 
 std::vector<double> within_bounds(const ImpactModel& model, std::vector<double> theta) {
@@ -129,12 +135,12 @@ bool can_be_released(const Candidate& candidate) {
 }
 
 /// The same with released parameters, if that is worth it.
-void try_released(const SearchBase& base, CandidateResult& result) {
+void try_released(const SearchBase& base, CandidateResult& result, int tries) {
   if (!result.refit.usable || !can_be_released(result.candidate)) return;
   Candidate released = make_candidate(base.spec, base.datasets, result.candidate.added, true, true);
   const std::vector<double> near = within_bounds(
       released.model, carried_over(result.candidate.model, result.refit.theta, released.model));
-  CandidateResult other = try_one(base, std::move(released), near);
+  CandidateResult other = try_one(base, std::move(released), near, tries);
   if (other.refit.usable && other.delta_aicc < result.delta_aicc - worth_releasing) {
     result = std::move(other);
   }
@@ -152,8 +158,8 @@ bool spreads(const CandidateResult& single) {
   return find_mechanism(single.candidate.added.front())->spreads();
 }
 
-/// Both at once, from where the better of two single descents, one from either alone, ends. A
-/// descent alone is no measure of a pair: yielding, say, is often found by the whole search only.
+/// Both at once, by a descent from the fit of either alone. More starts were never seen to find a
+/// better minimum; released parameters often do, so that no pair can be left out before.
 CandidateResult try_both(const SearchBase& base, const CandidateResult& first,
                          const CandidateResult& second) {
   Candidate both =
@@ -167,9 +173,8 @@ CandidateResult try_both(const SearchBase& base, const CandidateResult& first,
     Refit refit = refit_candidate(both, base.fitted.data, near, 1);
     if (refit.usable && !(best.usable && best.chi2 <= refit.chi2)) best = std::move(refit);
   }
-  if (!best.usable) return {};
-  CandidateResult result = try_one(base, std::move(both), best.theta);
-  try_released(base, result);
+  CandidateResult result = examine(base, std::move(both), std::move(best));
+  try_released(base, result, tries_in_pairs);
   // Each has to carry its part.
   const double better = std::min(first.delta_aicc, second.delta_aicc);
   const bool possible = first.delta_aicc < second.delta_aicc ? first.plausible : second.plausible;
@@ -231,6 +236,7 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
       untried.push_back(&mechanism);
     }
   }
+  Progress progress("pairs of causes", untried.size());
   std::vector<CandidateResult> results(untried.size());
   parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
     Candidate candidate =
@@ -238,8 +244,8 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
     if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 1) return;
     const std::vector<double> near =
         carried_over(base.candidate.model, base.refit.theta, candidate.model);
-    results[k] = try_one(base, std::move(candidate), near);
-    try_released(base, results[k]);
+    results[k] = try_one(base, std::move(candidate), near, tries_alone);
+    try_released(base, results[k], tries_alone);
   });
   sort_by_criterion(results);
   return results;
@@ -285,8 +291,7 @@ void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
 }
 
 std::vector<CandidateResult> try_pairs(const SearchBase& base,
-                                       const std::vector<CandidateResult>& singles,
-                                       const std::function<void()>& tick) {
+                                       const std::vector<CandidateResult>& singles) {
   std::vector<const CandidateResult*> causes;
   for (const CandidateResult& single : singles) {
     const bool batch = single.candidate.added.front() == "series_offset";
@@ -301,10 +306,11 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
       untried.emplace_back(causes[a], causes[b]);
     }
   }
+  Progress progress("pairs of causes", untried.size());
   std::vector<CandidateResult> results(untried.size());
   parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
-    tick();
     results[k] = try_both(base, *untried[k].first, *untried[k].second);
+    progress.advance();
   });
   sort_by_criterion(results);
   return results;

@@ -36,14 +36,10 @@ std::vector<CandidateResult> try_singles(const SearchBase& base);
 void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
                const std::function<void()>& tick);
 
-/// Every two of `singles` that could be causes, within their plausible ranges; the best first. All
-/// are fitted by one descent from the fit of either member; the best of them are then searched as
-/// widely as single ones, the others left out. Two spreads at once are not tried: one looks like
-/// the other.
-/// @param tick called once per pair
+/// Every two of `singles` that could be causes, within their plausible ranges, fitted from the fit
+/// of either; the best first. Two spreads at once are not tried: one looks like the other.
 std::vector<CandidateResult> try_pairs(const SearchBase& base,
-                                       const std::vector<CandidateResult>& singles,
-                                       const std::function<void()>& tick);
+                                       const std::vector<CandidateResult>& singles);
 
 /// Says of every candidate why it is not a cause, or nothing; held-out gains are computed for those
 /// that pass everything else.

@@ -128,7 +128,7 @@ std::string bootstrap_name(int threads) { return fmt::format("bootstrap/threads:
 void register_bootstrap(const FitResult& fitted, const Observations& data) {
   // A first run says how long it takes, and wakes the threads.
   const double pilot = seconds_of([&] { refit_all(fitted, data, 0); });
-  const int repetitions = std::clamp(static_cast<int>(4.0 / pilot), 3, 9);
+  const int repetitions = std::clamp(static_cast<int>(4.0 / pilot), 3, 25);
   for (const int threads : thread_counts()) {
     benchmark::RegisterBenchmark(bootstrap_name(threads).c_str(),
                                  [&fitted, &data, threads](benchmark::State& state) {
