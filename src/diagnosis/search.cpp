@@ -232,6 +232,8 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
   std::vector<const Mechanism*> untried;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     const auto& own = base.spec.mechanisms;
+    // Counts of captures have told the base model already how the impacts differ.
+    if (mechanism.spreads() && base.fitted.data.noise.event_spread > 0.0) continue;
     if (std::find(own.begin(), own.end(), mechanism.info.id) == own.end()) {
       untried.push_back(&mechanism);
     }

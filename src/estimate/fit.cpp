@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/units.hpp"
 #include "estimate/impact_problem.hpp"
@@ -190,13 +191,37 @@ Observations without_mixed_points(const Observations& data, std::ptrdiff_t free_
   return rebounds > free_count ? rest : data;
 }
 
+/// Where a mechanism of the model says how the impacts of a point differ, its survivors are what
+/// the mean e is of: their spread must not be estimated a second time from the counts.
+void leave_counts_to_mechanism(const ImpactModel& model, FitResult& result) {
+  const auto spreads = [](const ParameterSlot& slot) {
+    return !slot.mechanism.empty() && find_mechanism(slot.mechanism)->spreads();
+  };
+  const auto found = std::find_if(model.slots.begin(), model.slots.end(), spreads);
+  if (found == model.slots.end()) return;
+  int counts = 0;
+  for (Observation& point : result.data.points) {
+    if (point.censored || !point.counted) continue;
+    point.events -= std::exchange(point.captured, 0);
+    point.counted = false;
+    ++counts;
+  }
+  if (counts == 0) return;
+  result.warnings.push_back(fmt::format(
+      "{} says how the impacts of a point differ: the counts of captured spheres at {} points "
+      "with rebounds are not used beside it",
+      found->mechanism, counts));
+}
+
 }  // namespace
 
-FitResult fit(const ImpactModel& model, const Observations& data, const FitOptions& options) {
+FitResult fit(const ImpactModel& model, const Observations& observed, const FitOptions& options) {
   FitResult result;
   result.model = model;
-  result.data = data;
-  result.warnings = data.warnings;
+  result.data = observed;
+  result.warnings = observed.warnings;
+  leave_counts_to_mechanism(model, result);
+  const Observations data = result.data;
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
   const auto free_count = std::count_if(model.slots.begin(), model.slots.end(),
                                         [](const ParameterSlot& slot) { return slot.free; });

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gsl/gsl_spline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "core/random.hpp"
 #include "reconstruction/truth.hpp"
 #include "uncertainty/coverage_truth.hpp"
+#include "uncertainty/simulated_impacts.hpp"
 
 namespace recoil {
 namespace {
@@ -34,36 +34,6 @@ double standard_deviation(GridNoise noise, double e, double velocity_ratio) {
   return 0.0;
 }
 
-/// e(V) of the truth, tabulated: e^2 V^2 against V^2 is nearly straight, so that Steffen's
-/// monotone cubic is good to 1e-5 here.
-class TrueCurve {
- public:
-  TrueCurve(const Truth& truth, double diameter, double capture)
-      : capture_(capture), spline_(gsl_spline_alloc(gsl_interp_steffen, nodes), gsl_spline_free) {
-    std::vector<double> x, y;
-    const double last = 1.3 * highest * capture;
-    for (std::size_t i = 0; i < nodes; ++i) {
-      const double part = static_cast<double>(i) / (nodes - 1.0);
-      const double v = capture * std::pow(last / capture, part * part);  // denser near capture
-      const double back = i == 0 ? 0.0 : v * true_restitution(truth, diameter, v);
-      x.push_back(v * v);
-      y.push_back(back * back);
-    }
-    gsl_spline_init(spline_.get(), x.data(), y.data(), nodes);
-  }
-
-  /// 0 when captured.
-  double operator()(double v) const {
-    if (v <= capture_) return 0.0;
-    return std::sqrt(std::max(0.0, gsl_spline_eval(spline_.get(), v * v, nullptr))) / v;
-  }
-
- private:
-  static constexpr std::size_t nodes = 400;
-  double capture_;
-  std::unique_ptr<gsl_spline, void (*)(gsl_spline*)> spline_;
-};
-
 /// One point as an experiment would find it.
 ImpactPoint measured_point(const TrueCurve& curve, const GridDesign& design, double diameter,
                            double velocity, double capture, RandomStream& random) {
@@ -73,20 +43,14 @@ ImpactPoint measured_point(const TrueCurve& curve, const GridDesign& design, dou
   double e = curve(velocity);
   double variance_of_mean = 0.0;
   if (design.captures) {
+    const CountedImpacts found = count_impacts(
+        curve, events, [&] { return velocity * (1.0 + velocity_scatter * random.normal()); });
     point.events = events;
     point.counted = true;
-    double sum = 0.0;
-    double squares = 0.0;
-    for (int k = 0; k < events; ++k) {
-      const double single = curve(velocity * (1.0 + velocity_scatter * random.normal()));
-      if (single == 0.0) ++point.captured;
-      sum += single;
-      squares += single * single;
-    }
-    const int back = events - point.captured;
-    if (back == 0) return point;
-    e = sum / back;
-    if (back > 1) variance_of_mean = std::max(0.0, squares - sum * e) / (back - 1.0) / back;
+    point.captured = found.captured;
+    if (found.captured == events) return point;
+    e = found.restitution;
+    variance_of_mean = found.variance_of_mean;
   }
   const double sd = standard_deviation(design.noise, e, velocity / capture);
   point.restitution = std::clamp(e + sd * random.normal(), 0.0, 1.2);
@@ -185,7 +149,8 @@ CoverageTruth grid_truth(const FitSpec& spec, const Dataset& base, const GridDes
   Dataset empty = base;
   empty.points.clear();
   empty.series = {"simulated"};
-  const auto curve = std::make_shared<const TrueCurve>(truth, diameter, capture);
+  const auto curve =
+      std::make_shared<const TrueCurve>(truth, diameter, capture, 1.3 * highest * capture);
   study.simulate = [empty, design, seed, diameter, capture, curve](std::uint64_t index) {
     RandomStream random(seed, RandomPurpose::coverage, index);
     Dataset made = empty;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "reconstruction/reconstruction.hpp"
+#include "uncertainty/simulated_impacts.hpp"
 
 namespace recoil {
 namespace {
@@ -77,6 +79,87 @@ Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::siz
   return truth;
 }
 
+/// A point of the design, to be simulated at the estimate.
+struct DesignPoint {
+  double restitution = 0.0;                ///< of the typical impact [1]
+  double sd = 0.0;                         ///< that the point states or the fit found [1]
+  double own_sd = 0.0;                     ///< of that, what the differing impacts do not make [1]
+  std::shared_ptr<const TrueCurve> curve;  ///< where impacts differ and captures were counted
+};
+
+/// Impacts that differ by the capture velocity: V / V* is what counts.
+double differing_velocity(double velocity, double spread, RandomStream& random) {
+  return velocity * std::exp(spread * random.normal());
+}
+
+/// Variance of the mean that differing impacts make, on average over many such points.
+double mean_variance(const TrueCurve& curve, const Observation& point, double spread,
+                     RandomStream& random) {
+  constexpr int points = 400;
+  double sum = 0.0;
+  for (int k = 0; k < points; ++k) {
+    sum += count_impacts(curve, point.events, [&] {
+             return differing_velocity(point.velocity, spread, random);
+           }).variance_of_mean;
+  }
+  return sum / points;
+}
+
+std::vector<DesignPoint> design_points(const FitResult& fitted, const std::vector<Truth>& truths,
+                                       RandomStream& random) {
+  const double spread = fitted.data.noise.event_spread;
+  const double reach = std::exp(6.0 * spread);
+  std::map<std::pair<std::size_t, double>, double> fastest;
+  for (const Observation& point : fitted.data.points) {
+    double& most = fastest[{point.dataset, point.diameter}];
+    most = std::max(most, point.velocity * reach);
+  }
+  std::map<std::pair<std::size_t, double>, std::shared_ptr<const TrueCurve>> curves;
+  std::vector<DesignPoint> design;
+  for (const Observation& point : fitted.data.points) {
+    const Truth& truth = truths[point.dataset];
+    DesignPoint made{true_restitution(truth, point.diameter, point.velocity), point.sd, point.sd,
+                     nullptr};
+    if (spread > 0.0 && point.counted) {
+      auto& curve = curves[{point.dataset, point.diameter}];
+      if (!curve) {
+        curve = std::make_shared<const TrueCurve>(truth, point.diameter,
+                                                  true_capture_velocity(truth, point.diameter),
+                                                  fastest[{point.dataset, point.diameter}]);
+      }
+      made.curve = curve;
+      made.own_sd = std::sqrt(
+          std::max(0.0, point.sd * point.sd - mean_variance(*curve, point, spread, random)));
+    }
+    design.push_back(std::move(made));
+  }
+  return design;
+}
+
+/// The point as an experiment at the truth would find it another time.
+void simulate_point(const DesignPoint& design, double spread, RandomStream& random,
+                    ImpactPoint& point) {
+  const double noise = random.normal();
+  if (!design.curve) {
+    if (!point.all_captured()) {
+      point.restitution = std::max(0.0, design.restitution + design.sd * noise);
+    }
+    return;
+  }
+  const CountedImpacts found = count_impacts(*design.curve, point.events, [&] {
+    return differing_velocity(point.incident_velocity, spread, random);
+  });
+  const bool stated = point.restitution_sd.has_value();
+  point.captured = found.captured;
+  point.restitution = 0.0;
+  point.restitution_sd.reset();
+  if (point.all_captured()) return;
+  point.restitution = std::max(0.0, found.restitution + design.own_sd * noise);
+  if (stated) {
+    point.restitution_sd = std::sqrt(design.own_sd * design.own_sd + found.variance_of_mean);
+  }
+}
+
 CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        std::uint64_t seed) {
   const auto [fitted, truths] = truth_at_estimate(spec, datasets, gather(datasets, spec.noise));
@@ -84,27 +167,15 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
   truth.source = "the fit's own estimate as truth, simulated independently of the fitter";
   truth.theta = fitted.theta;
   add_capture_velocities(truth, datasets, truths);
-  std::vector<std::vector<double>> clean;
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    clean.emplace_back();
-    for (const ImpactPoint& point : datasets[d].points) {
-      clean[d].push_back(true_restitution(truths[d], point.diameter, point.incident_velocity));
-    }
-  }
-  // Without stated standard deviations the scatter is what the fit found for each point.
-  std::vector<double> scatter;
-  for (const Observation& point : fitted.data.points) scatter.push_back(point.sd);
-  truth.simulate = [datasets, clean, seed, scatter](std::uint64_t index) {
-    std::size_t row = 0;
-    RandomStream random(seed, RandomPurpose::coverage, index);
+  RandomStream random(seed, RandomPurpose::coverage, ~std::uint64_t{0});
+  const double spread = fitted.data.noise.event_spread;
+  truth.simulate = [datasets, seed, spread,
+                    design = design_points(fitted, truths, random)](std::uint64_t index) {
+    auto next = design.begin();
+    RandomStream noise(seed, RandomPurpose::coverage, index);
     std::vector<Dataset> made = datasets;
-    for (std::size_t d = 0; d < made.size(); ++d) {
-      for (std::size_t i = 0; i < made[d].points.size(); ++i) {
-        ImpactPoint& point = made[d].points[i];
-        const double sd = scatter[row++];
-        const double noise = random.normal();
-        if (!point.all_captured()) point.restitution = std::max(0.0, clean[d][i] + sd * noise);
-      }
+    for (Dataset& dataset : made) {
+      for (ImpactPoint& point : dataset.points) simulate_point(*next++, spread, noise, point);
     }
     return made;
   };
@@ -115,6 +186,12 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
 
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed) {
+  if (!spec.mechanisms.empty()) {
+    throw InputError({spec.file.string()}, "coverage knows no truth with mechanisms",
+                     "its simulator shares no code with the fitter and has the base model only, so "
+                     "that it would blame the intervals for what the mechanisms do",
+                     "leave `mechanisms` out");
+  }
   std::vector<KnownRecipe> recipes = known_recipes(datasets);
   if (!recipes.empty()) return from_recipes(spec, datasets, std::move(recipes), seed);
   return from_fit(spec, datasets, seed);

@@ -10,8 +10,11 @@ namespace recoil {
 /// Where every dataset is a reconstruction whose recipe uses the model of the fit, it is the
 /// recipe's: its parameters, its simulator and its noise, with another seed for every data set.
 /// Otherwise the fit's own estimate becomes the truth; the points are simulated at it by the
-/// independent simulator of the reconstructions, with the noise that the points state.
+/// independent simulator of the reconstructions, with the noise that the points state. Where
+/// captures were counted, every impact is simulated, at a velocity that differs from the stated one
+/// as much as the estimated spread says (log-normal), and counted again.
 /// @throws ComputationError when that fit has no usable answer.
+/// @throws InputError when the fit has mechanisms, of which the simulator knows nothing.
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed);
 

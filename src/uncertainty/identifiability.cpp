@@ -163,7 +163,7 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
                                       const std::vector<CaptureEstimate>& capture,
                                       const std::vector<NoiseAlternative>& alternatives) {
   Identifiability result;
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences, not_trusted;
   int free_count = 0;
   int good = 0;
   const std::vector<double> scales = loss_scales(fitted, data);
@@ -179,9 +179,8 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
                  std::max(std::abs(fitted.theta[j]), scales[j]));
     const double factor =
         alternatives.empty() ? 1.0 : undecided_factor(terms_of_slot(alternatives, j));
-    const std::string wide = wide_spread_words(slot.label(), data.noise.event_spread);
-    if (problem.empty() && !wide.empty()) {
-      sentences.push_back(wide);
+    if (problem.empty() && data.noise.event_spread > widest_spread) {
+      not_trusted.push_back(slot.label());
     } else if (problem.empty() && factor > undecided) {
       sentences.push_back(undecided_words(slot.label(), factor));
     } else if (problem.empty()) {
@@ -195,6 +194,10 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
     } else {
       sentences.push_back(fmt::format("{} {}", slot.label(), problem));
     }
+  }
+  if (!not_trusted.empty()) {
+    sentences.push_back(wide_spread_words(fmt::format("{}", fmt::join(not_trusted, " and of ")),
+                                          data.noise.event_spread));
   }
   result.verdict = good == free_count ? "identifiable" : good > 0 ? "partly" : "not_identifiable";
   if (free_count == 0) result.verdict = "identifiable";

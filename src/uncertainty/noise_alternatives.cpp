@@ -82,10 +82,9 @@ std::string wide_spread_words(const std::string& what, double event_spread) {
   if (event_spread <= widest_spread) return "";
   return fmt::format(
       "the interval of {} is not to be trusted: from impact to impact the capture velocity "
-      "scatters "
-      "by {:.0f} %, and what is assumed of the survivors holds up to {:.0f} %; if spheres of "
-      "several "
-      "sizes stand in one point, put them into classes of size (recoil pair --size-edges)",
+      "scatters by {:.0f} %, and what is assumed of the survivors holds up to {:.0f} %; if spheres "
+      "of several sizes stand in one point, put them into classes of size (recoil pair "
+      "--size-edges), or fit their spread (mechanisms = [\"polydispersity\"])",
       what, 100.0 * event_spread, 100.0 * widest_spread);
 }
 

@@ -2,11 +2,13 @@
 // integrators that the fitter does not use.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "../impact/independent_impact.hpp"
 #include "core/error.hpp"
+#include "data/dataset.hpp"
 #include "estimate/fit.hpp"
 #include "reconstruction/elastoplastic_truth.hpp"
 #include "synthetic.hpp"
@@ -219,6 +221,25 @@ TEST(MechanismSpec, ParametersMayBelongToEachDataset) {
                                              "series_offset[other/0]",
                                              "series_offset[other/1]"};
   EXPECT_EQ(labels, expected);
+}
+
+// Simulated spheres of many sizes, one by one, in every point (log-normal with 0.35; C_A + 2 C_H =
+// 0.035 s/m): either the mechanism says how they differ, or the counts of captures do, not both.
+TEST(MechanismFit, SizesInOnePointAreNotCountedTwice) {
+  FitSpec spec = load_fit(RECOIL_SOURCE_DIR "/fits/li1999-sst65-silicon.toml");
+  spec.mechanisms = {"polydispersity"};
+  spec.parameters.push_back({"size_spread", 0.2, 0.0, 1.0, true});
+  const std::vector<Dataset> datasets = {load_dataset(spec.datasets.front())};
+  const FitResult result = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+  ASSERT_TRUE(result.usable) << result.failure;
+  EXPECT_EQ(result.data.noise.event_spread, 0.0);
+  EXPECT_NEAR(value_of_slot(result, "size_spread"), 0.35, 0.12);  // two standard errors
+  EXPECT_NEAR(value_of_slot(result, "C_A") + 2.0 * value_of_slot(result, "C_H"), 0.035, 0.003);
+  EXPECT_LT(result.chi2, 22.4);  // 11 degrees of freedom: 2 % of correct models exceed it
+  const auto says = [](const std::string& warning) {
+    return warning.find("polydispersity") == 0 && warning.find("counts") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(), says), 1);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,10 +30,14 @@ bool is_visible(const Answered& a) { return a.order.signal_to_noise >= visible; 
 
 std::string share(int k, int n) {
   if (n == 0) return "none";
-  const double low = k == 0 ? 0.0 : gsl_cdf_beta_Pinv(0.025, k, n - k + 1.0);
-  const double high = k == n ? 1.0 : gsl_cdf_beta_Pinv(0.975, k + 1.0, n - k);
-  return fmt::format("{:.0f} % ({:.0f} to {:.0f}), {} of {}", 100.0 * k / n, 100.0 * low,
-                     100.0 * high, k, n);
+  constexpr double z = 1.959964;
+  const double part = static_cast<double>(k) / n;
+  const double middle = (part + 0.5 * z * z / n) / (1.0 + z * z / n);
+  const double reach =
+      z * std::sqrt(part * (1.0 - part) / n + 0.25 * z * z / n / n) / (1.0 + z * z / n);
+  return fmt::format("{:.0f} % ({:.0f} to {:.0f}), {} of {}", 100.0 * part,
+                     100.0 * std::max(0.0, middle - reach), 100.0 * std::min(1.0, middle + reach),
+                     k, n);
 }
 
 namespace {

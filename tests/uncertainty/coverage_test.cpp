@@ -84,6 +84,41 @@ TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
   RecordProperty("held", std::to_string(held) + " " + std::to_string(held_fixed));
 }
 
+// Means of survivors lie above what the typical sphere does, and counts scatter: a data set that
+// has the counts of one and the means of the other belongs to no experiment.
+TEST(Coverage, SimulatedCountsAndMeansBelongToTheSameImpacts) {
+  const std::string root = RECOIL_SOURCE_DIR;
+  const FitSpec spec = load_fit(root + "/fits/li1999-sst65-silicon.toml");
+  const std::vector<Dataset> measured = {load_dataset(spec.datasets.front())};
+  const CoverageTruth truth = coverage_truth(spec, measured, 5);
+  constexpr int sets = 60;
+  std::vector<double> captured(measured[0].points.size(), 0.0);
+  std::vector<double> restitution(captured.size(), 0.0);
+  for (std::uint64_t s = 0; s < sets; ++s) {
+    const std::vector<Dataset> made = truth.simulate(s);
+    for (std::size_t i = 0; i < captured.size(); ++i) {
+      captured[i] += made[0].points[i].captured / static_cast<double>(sets);
+      restitution[i] += made[0].points[i].restitution / sets;
+    }
+  }
+  // The three slowest points have counts worth comparing: 13 of 51, 12 of 52 and 6 of 49.
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ImpactPoint& point = measured[0].points[i];
+    const double share = static_cast<double>(point.captured) / point.events;
+    EXPECT_NEAR(captured[i] / point.events, share, 3.0 * std::sqrt(share / point.events)) << i;
+    EXPECT_NEAR(restitution[i], point.restitution, 3.0 * *point.restitution_sd) << i;
+  }
+  EXPECT_EQ(captured.back(), 0.0);
+}
+
+TEST(Coverage, RefusesMechanismsThatItsTruthDoesNotHave) {
+  const std::string root = RECOIL_SOURCE_DIR;
+  FitSpec spec = load_fit(root + "/fits/dahneke1975-quartz.toml");
+  spec.mechanisms = {"gas_film"};
+  const std::vector<Dataset> datasets = {load_dataset(spec.datasets.front())};
+  EXPECT_THROW(coverage_truth(spec, datasets, 1), InputError);
+}
+
 TEST(Coverage, DesignsAreNamedByTheirWords) {
   EXPECT_EQ(designs_named({}).size(), coverage_grid().size());
   EXPECT_EQ(designs_named({"n20", "stated"}).size(), 12U);

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <gsl/gsl_spline.h>
+
+#include <functional>
+#include <memory>
+
+#include "reconstruction/truth.hpp"
+
+namespace recoil {
+
+/// e(V) of the truth for one diameter, tabulated: e^2 V^2 against V^2 is nearly straight, so that
+/// Steffen's monotone cubic is good to 1e-5 here.
+class TrueCurve {
+ public:
+  /// @param capture the capture velocity [m/s]
+  /// @param fastest up to which it is asked [m/s]; faster impacts return as this one does
+  TrueCurve(const Truth& truth, double diameter, double capture, double fastest);
+
+  /// e at `v` [m/s]; 0 when captured.
+  double operator()(double v) const;
+
+ private:
+  double capture_;
+  double fastest_;
+  std::shared_ptr<const gsl_spline> spline_;
+};
+
+/// What one point keeps of impacts that differ from one another.
+struct CountedImpacts {
+  int captured = 0;
+  double restitution = 0.0;       ///< mean e of those that rebounded [1]
+  double variance_of_mean = 0.0;  ///< of that mean, by the scatter of the impacts [1]
+};
+
+/// `events` impacts, each at a velocity [m/s] of its own.
+CountedImpacts count_impacts(const TrueCurve& curve, int events,
+                             const std::function<double()>& velocity);
+
+}  // namespace recoil
