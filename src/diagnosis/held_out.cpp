@@ -18,6 +18,9 @@ namespace {
 constexpr std::size_t most_size_folds = 6;
 constexpr std::size_t velocity_bands = 3;
 constexpr int resamplings = 1999;
+// Beyond it a miss counts as this [standard deviations]: where a model has a cut-off, one point on
+// its wrong side would outweigh all others.
+constexpr double worst_miss = 5.0;
 
 Observations subset(const Observations& data, const std::vector<std::size_t>& points, bool inside) {
   std::vector<bool> chosen(data.points.size(), false);
@@ -131,7 +134,7 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
     out.criterion = corrected_criterion(seen, refit.chi2, candidate.free_count);
     for (std::size_t k = 0; k < residuals.size(); ++k) {
       const Observation& point = unseen.points[k];
-      out.deviance += residuals[k] * residuals[k];
+      out.deviance += std::min(residuals[k] * residuals[k], worst_miss * worst_miss);
       out.error.push_back((point.censored ? 0.0 : point.restitution) -
                           expected_restitution(point, at[k].restitution_squared));
     }

@@ -25,7 +25,7 @@ std::vector<Fold> held_out_folds(const Observations& data, const std::vector<Dat
 struct FoldPrediction {
   bool usable = false;
   double criterion = 0.0;     ///< of the fit to the other points, `corrected_criterion`
-  double deviance = 0.0;      ///< sum of r^2 over the fold
+  double deviance = 0.0;      ///< sum of r^2 over the fold, of each no more than 25
   std::vector<double> error;  ///< e - e_model of each point of the fold [1]
 };
 
@@ -41,8 +41,8 @@ struct HeldOutGain {
   struct PerFold {
     Fold fold;
     double rmse_base = 0.0, rmse_extended = 0.0;  ///< of e [1]
-    double log_score = 0.0;                       ///< gain of ln likelihood [nat]
-    bool counted = true;                          ///< in the sums below
+    double log_score = 0.0;  ///< gain of ln likelihood, no miss taken for more than 5 sd [nat]
+    bool counted = true;     ///< in the sums below
   };
   bool decisive = false;  ///< are the sums those of sizes and targets?
   std::vector<PerFold> folds;
