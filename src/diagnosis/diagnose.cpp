@@ -65,22 +65,22 @@ void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress)
   }
 }
 
-/// Those of `candidates` (the best first) that cannot be told from the best explanation, which is
-/// the first of them; none without an explanation.
+/// The best explanation among `candidates` (the best first), and what cannot be told from it; none
+/// without an explanation.
 std::vector<const CandidateResult*> explanations(const std::vector<CandidateResult>& candidates,
                                                  double apart, bool one_size) {
-  std::vector<const CandidateResult*> found;
+  const auto best = std::find_if(candidates.begin(), candidates.end(),
+                                 [](const CandidateResult& c) { return c.explains(); });
+  if (best == candidates.end()) return {};
+  std::vector<const CandidateResult*> found = {&*best};
   for (const CandidateResult& c : candidates) {
-    if (found.empty()) {
-      if (c.explains()) found.push_back(&c);
-      continue;
-    }
-    if (c.delta_aicc > found.front()->delta_aicc + apart) break;
-    // So close to the best one the other reasons to set something aside are as doubtful as it.
-    const bool possible = c.plausible && c.kind != MechanismKind::description &&
-                          c.delta_aicc < 0.0 && c.candidate.added.size() == 1;
-    const bool counts = one_size || c.candidate.added.size() > 1 ? c.explains() : possible;
-    if (counts) found.push_back(&c);
+    if (c.delta_aicc > best->delta_aicc + apart) break;
+    if (&c == &*best) continue;
+    // So close to the best one, or before it, the other reasons to set something aside are as
+    // doubtful as it.
+    const bool possible = c.nearly && c.kind != MechanismKind::description && c.delta_aicc < 0.0;
+    const bool pair = c.candidate.added.size() > 1;
+    if (one_size || pair ? c.explains() : possible) found.push_back(&c);
   }
   return found;
 }

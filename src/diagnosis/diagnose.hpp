@@ -51,7 +51,8 @@ struct FoundParameter {
   double value = 0.0;
   double null_value = 0.0;
   bool plausible = true;
-  std::string why_not;  ///< when it is not
+  bool nearly = true;  ///< plausible, or no further outside than half the range, or a factor of two
+  std::string why_not;  ///< when it is not plausible
 };
 
 /// One mechanism, or several at once, tried as an explanation.
@@ -67,7 +68,8 @@ struct CandidateResult {
   double remaining_part = 1.0;
   std::optional<HeldOutGain> gain;  ///< where worth computing
   bool plausible = true;
-  std::string aside;  ///< why it is not taken for a cause; empty otherwise
+  bool nearly = true;  ///< see `FoundParameter`; limits of what is possible are no sharper
+  std::string aside;   ///< why it is not taken for a cause; empty otherwise
 
   bool explains() const { return aside.empty(); }
 };
@@ -134,7 +136,9 @@ struct Diagnosis {
 /// 3. A candidate explains the data when that p-value is no more than `chance`, it leaves no
 ///    structure (or none to speak of beside what it took), its parameters are possible, and it
 ///    predicts blocks that were held out better than the base does. A description never explains.
-/// 4. Explanations within `apart` of the best are rivals. One alone is named; several are not
+/// 4. What is possible and fits no worse than the best explanation, but for `apart`, is its rival,
+///    also where its parameters lie somewhat beyond the range of what is plausible, as such limits
+///    are not sharp. One explanation alone is named; several are not
 ///    separable; none sends the search to pairs, unless even the best single one gains no more than
 ///    chance gives, as chance gives more to the best of so many pairs; if they fail too the
 ///    structure is unexplained. One diameter names nothing: the size dependence, which tells causes

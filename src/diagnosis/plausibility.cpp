@@ -29,6 +29,13 @@ double softest(const ImpactModel& model) {
   return modulus;
 }
 
+/// Beyond the range by no more than half of it, or a factor of two.
+bool is_near(const ParameterSlot& slot, double value, double lower, double upper) {
+  if (slot.log_scale) return value >= 0.5 * lower && value <= 2.0 * upper;
+  const double half = 0.5 * (upper - lower);
+  return value >= lower - half && value <= upper + half;
+}
+
 /// `value` by `errors` standard errors `sd` towards the range; for a logarithmic slot in ln.
 double nearest_to_range(const ParameterSlot& slot, double value, double sd, double lower,
                         double upper) {
@@ -87,7 +94,8 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
       continue;
     }
     const MechanismParameter* entry = catalogue_entry(slot);
-    FoundParameter parameter{slot.label(), slot.unit, refit.theta[j], slot.null_value, true, ""};
+    FoundParameter parameter{slot.label(), slot.unit, refit.theta[j], slot.null_value, true,
+                             true,         ""};
     const bool vanishes =
         std::abs(parameter.value - slot.null_value) <= at_null * (slot.upper - slot.lower);
     if (slot.free && entry != nullptr && !vanishes) {
@@ -95,6 +103,7 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
       const double value = nearest_to_range(slot, parameter.value, errors[j], lower, upper);
       if (value < lower || value > upper) {
         parameter.plausible = false;
+        parameter.nearly = is_near(slot, value, lower, upper);
         parameter.why_not = fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}",
                                         parameter.label, parameter.value,
                                         slot.unit == "1" ? "" : " " + slot.unit, lower, upper, why);
@@ -102,7 +111,7 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
       const double limit = firmest * softest(candidate.model);
       if (slot.name == "yield_pressure" &&
           nearest_to_range(slot, parameter.value, errors[j], lower, limit) > limit) {
-        parameter.plausible = false;
+        parameter.plausible = parameter.nearly = false;
         parameter.why_not = fmt::format(
             "a yield pressure of {:.3g} Pa is {:.2g} times the reduced modulus: no solid resists "
             "more than about 0.3 of it",

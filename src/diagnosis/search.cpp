@@ -24,6 +24,8 @@ constexpr double worth_releasing = 2.0;     // gain of the criterion by a releas
 // catalogue are good to some per cent of the loss that they describe.
 constexpr double tolerated_level = 0.01;
 constexpr double tolerated_part = 0.03;
+constexpr double carried_part =
+    0.1;  // that each of two takes beside the other, to be forgiven that
 constexpr double shown_as_lead = 30.0;  // candidates this far behind the best are not held out
 
 constexpr const char* one_would_do = "one of the two does as well alone";
@@ -72,6 +74,8 @@ CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit
   result.parameters = found_parameters(result.candidate, result.refit, base.noise_scale);
   result.plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
                                  [](const FoundParameter& p) { return p.plausible; });
+  result.nearly = std::all_of(result.parameters.begin(), result.parameters.end(),
+                              [](const FoundParameter& p) { return p.nearly; });
   const std::vector<double> squares = predicted_squares(result.candidate, result.refit, data);
   result.remaining_p =
       quick_structure(data, result.refit, squares, quick_samples, base.options.seed).p_value;
@@ -180,6 +184,13 @@ CandidateResult try_both(const SearchBase& base, const CandidateResult& first,
   const bool possible = first.delta_aicc < second.delta_aicc ? first.plausible : second.plausible;
   if (possible && !(result.delta_aicc < better - base.options.apart_in_pairs)) {
     result.aside = one_would_do;
+  }
+  const double better_part = std::min(first.remaining_part, second.remaining_part);
+  if (result.remaining_p < tolerated_level && better_part - result.remaining_part < carried_part) {
+    result.aside = fmt::format(
+        "it leaves structure behind (p = {:.2g}), and one of the two takes no more of the misfit "
+        "than the law of the other may be wrong",
+        result.remaining_p);
   }
   if (rests_on_the_edge(result)) {
     result.aside = "a parameter rests on the edge of what is possible";

@@ -58,7 +58,10 @@ std::string gain_words(const Diagnosis& d) {
   std::string text = fmt::format(
       " Points that were held out are predicted with an error of {:.3g} in e instead of {:.3g}",
       d.gain->rmse_extended, d.gain->rmse_base);
-  if (d.gain->lower && d.gain->upper) {
+  if (d.gain->relative < 0.0) {
+    text += fmt::format(" ({:.0f} % more: what was seen elsewhere does not hold there)",
+                        -100.0 * d.gain->relative);
+  } else if (d.gain->lower && d.gain->upper) {
     text += fmt::format(" ({:.0f} % less, 95 % interval {:.0f} to {:.0f} %)",
                         100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper);
   }
@@ -80,7 +83,11 @@ std::string aside_words(const Diagnosis& d) {
   const double answer = d.extended ? d.extended->delta_aicc + d.options.apart : 0.0;
   for (const CandidateResult& c : d.candidates) {
     if (!c.plausible && c.delta_aicc < answer && words.size() < 2) {
-      words.push_back(fmt::format("{} is set aside, {}", c.candidate.name(), c.aside));
+      const bool listed =
+          std::find(d.rivals.begin(), d.rivals.end(), c.candidate.name()) != d.rivals.end();
+      words.push_back(listed ? fmt::format("{} is listed though hardly plausible ({})",
+                                           c.candidate.name(), c.aside)
+                             : fmt::format("{} is set aside, {}", c.candidate.name(), c.aside));
     }
   }
   return words.empty() ? "" : fmt::format(" {}.", fmt::join(words, "; "));
@@ -96,7 +103,11 @@ std::string common_words(const Diagnosis& d) {
 
 std::string next_words(const Diagnosis& d) {
   if (d.next.empty()) return "";
-  const NextMeasurement& next = d.next.front();
+  const std::string taken = d.extended->candidate.name();
+  const auto about = std::find_if(d.next.begin(), d.next.end(), [&](const NextMeasurement& next) {
+    return next.one == taken || next.other == taken;
+  });
+  const NextMeasurement& next = about == d.next.end() ? d.next.front() : *about;
   std::string text = fmt::format(
       " What would tell {} from {}: spheres of {} at {:.3g} m/s, where they differ by "
       "{:.2g} "
@@ -118,6 +129,52 @@ std::string one_size_words(const Diagnosis& d) {
   return high < 1.2 * low ? " One diameter cannot show how the effect depends on size, which is "
                             "what tells causes apart: none is named."
                           : "";
+}
+
+/// An adequate model that nothing could have shown wrong.
+std::string evidence_words(const Diagnosis& d) {
+  constexpr int few = 3;
+  const auto& points = d.base.data.points;
+  const auto rebounds =
+      std::count_if(points.begin(), points.end(), [](const Observation& p) { return !p.censored; });
+  const auto free = std::count_if(d.base.model.slots.begin(), d.base.model.slots.end(),
+                                  [](const ParameterSlot& slot) { return slot.free; });
+  if (rebounds - free >= few) return "";
+  return fmt::format(
+      " With {} points that rebounded and {} free parameters hardly anything else could have been "
+      "seen: that is no evidence for the model.",
+      rebounds, free);
+}
+
+/// The point that makes most of the misfit, if one does.
+std::string single_point_words(const Diagnosis& d) {
+  constexpr double most = 0.5;
+  const auto& residuals = d.base.residuals;
+  const auto worst = std::max_element(residuals.begin(), residuals.end(),
+                                      [](double a, double b) { return std::abs(a) < std::abs(b); });
+  if (worst == residuals.end() || *worst * *worst < most * d.base.chi2) return "";
+  const Observation& point =
+      d.base.data.points[static_cast<std::size_t>(worst - residuals.begin())];
+  return fmt::format(
+      " Most of it is one point, of {} at {:.3g} m/s (e = {:.3g}): look at that first.",
+      diameter_words(point.diameter), point.velocity, point.restitution);
+}
+
+/// What takes nearly all of the misfit and is not named, because structure is left.
+std::string lead_words(const Diagnosis& d) {
+  constexpr double nearly_all = 0.2;
+  const auto lead =
+      std::find_if(d.candidates.begin(), d.candidates.end(), [](const CandidateResult& c) {
+        return c.plausible && c.kind != MechanismKind::description && c.delta_aicc < 0.0 &&
+               c.remaining_part < nearly_all;
+      });
+  if (lead == d.candidates.end()) return "";
+  return fmt::format(
+      " Closest comes {}, which takes {:.0f} % of the misfit: it may be the cause with a law other "
+      "than the catalogue's, or one of two; what it leaves is more than noise ({}), and it is not "
+      "named.",
+      title_of(lead->candidate.name()), 100.0 * (1.0 - lead->remaining_part),
+      p_words(lead->remaining_p, quick_samples));
 }
 
 std::string found_words(const Diagnosis& d) {
@@ -153,9 +210,10 @@ std::string verdict_text(const Diagnosis& d) {
   const std::string p = p_words(d.structure.p_value, d.structure.simulated);
   if (d.verdict == Verdict::adequate) {
     return fmt::format(
-        "The model describes these points: nothing systematic is left in its residuals ({}; of "
-        "data sets that the model itself makes, so many look as systematic).",
-        p);
+               "The model describes these points: nothing systematic is left in its residuals ({}; "
+               "of data sets that the model itself makes, so many look as systematic).",
+               p) +
+           evidence_words(d);
   }
   std::string text =
       fmt::format("The fitted model leaves structure in its residuals ({}){}. ", p, found_words(d));
@@ -171,7 +229,10 @@ std::string verdict_text(const Diagnosis& d) {
       text += gain_words(d) + rest_words(d);
       break;
     case Verdict::not_separable:
-      text += d.shared_cause.empty()
+      text += d.rivals.size() == 1
+                  ? fmt::format("Of all that the catalogue offers, only {} would explain it.",
+                                titles_of(d.rivals))
+              : d.shared_cause.empty()
                   ? fmt::format("These data cannot tell which of these causes it is: {}.",
                                 titles_of(d.rivals))
                   : fmt::format("The cause is {}; by which of its laws these data cannot tell: {}.",
@@ -182,7 +243,8 @@ std::string verdict_text(const Diagnosis& d) {
       text += gain_words(d) + rest_words(d) + next_words(d);
       break;
     case Verdict::unexplained:
-      text += "Nothing in the catalogue explains it, alone or in pairs.";
+      text += "Nothing in the catalogue explains it, alone or in pairs." + single_point_words(d) +
+              lead_words(d);
       if (!d.structure.smooth) {
         text +=
             " It has no shape in velocity and size: the points scatter more than their stated "

@@ -40,8 +40,9 @@ Mechanism jkr_hysteresis() {
             .initial = 0.1,
             .lower = 0.0,
             .upper = 50.0,
-            .plausible = {0.0, 1.0,
-                          "van der Waals contacts have 0.01 to 0.3 J/m2, clean polar ones up to 1"},
+            .plausible = {0.0, 3.0,
+                          "van der Waals contacts have 0.01 to 0.3 J/m2, clean metals and "
+                          "semiconductors up to 3"},
             .starts = {0.02, 0.5}}},
   });
 }
