@@ -88,6 +88,35 @@ TEST(Diagnose, NamesNothingAtOneSize) {
   EXPECT_EQ(found.shared_cause, "");
 }
 
+TEST(Diagnose, PointsAtTheOnePointThatIsOff) {
+  const Diagnosis found =
+      diagnose(synthetic::spec(),
+               {noisy(6, 0.008,
+                      [](const ImpactPoint& point, double e) {
+                        const bool off =
+                            point.series == 1 && std::abs(point.incident_velocity - 13.0) < 1e-9;
+                        return off ? e - 0.2 : e;
+                      })},
+               quick());
+  ASSERT_NE(found.verdict, Verdict::adequate);
+  if (found.verdict == Verdict::unexplained) {
+    EXPECT_NE(found.text.find("one point, of 3.42 um at 13 m/s"), std::string::npos) << found.text;
+  } else {
+    EXPECT_EQ(found.named, std::vector<std::string>{"outliers"}) << found.text;
+  }
+}
+
+TEST(Diagnose, SaysThatFewPointsAreNoEvidence) {
+  Dataset data = noisy(7, 0.008, undisturbed);
+  for (const bool few : {true, false}) {
+    if (few) data.points.resize(4);
+    const Diagnosis found = diagnose(synthetic::spec(), {data}, quick());
+    EXPECT_EQ(found.verdict, Verdict::adequate);
+    EXPECT_EQ(found.text.find("no evidence") != std::string::npos, few) << found.text;
+    data = noisy(7, 0.008, undisturbed);
+  }
+}
+
 TEST(Diagnose, DoesNotDependOnTheNumberOfThreads) {
   DiagnosisOptions one = quick();
   one.threads = 1;

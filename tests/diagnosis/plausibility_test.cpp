@@ -44,6 +44,12 @@ TEST(Plausibility, AllowsTwoStandardErrors) {
   EXPECT_FALSE(found("electrostatic_image", 3.02e6).front().plausible);
 }
 
+TEST(Plausibility, KnowsWhatLiesJustBeyond) {
+  EXPECT_TRUE(found("electrostatic_image", 4e6).front().nearly);  // half of 0 to 3e6 beyond
+  EXPECT_FALSE(found("electrostatic_image", 5e6).front().nearly);
+  EXPECT_FALSE(found("plastic_yield", 3e9).front().nearly);  // no solid: that limit is sharp
+}
+
 TEST(Plausibility, StandardErrorsAreThoseOfTheJacobian) {
   Refit refit;
   refit.theta = {1.0, 2.0};
