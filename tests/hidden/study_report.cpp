@@ -195,7 +195,10 @@ std::string study_report(const std::vector<Answered>& all, std::size_t planned,
   out +=
       "## The threshold\n\nCauses whose criteria (AICc) differ by less than 4 are called rivals. "
       "The same answers under other rules, visible effects in designs of several diameters; at 0 "
-      "the best explanation is always named:\n\n" +
+      "the best explanation is always named. Here the limits of what is possible are taken as "
+      "sharp; "
+      "the bars above are those of the diagnosis, where what lies just beyond them blocks a "
+      "name:\n\n" +
       other_thresholds(all);
   out += "## Power against strength, effect by effect\n\n" + per_effect(all, Chapter::effect);
   out +=
