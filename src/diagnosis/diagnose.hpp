@@ -55,6 +55,8 @@ struct FoundParameter {
   std::string why_not;  ///< when it is not plausible
 };
 
+inline constexpr double tolerated_level = 0.01;  ///< structure below this p-value is left behind
+
 /// One mechanism, or several at once, tried as an explanation.
 struct CandidateResult {
   Candidate candidate;

@@ -94,8 +94,11 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
       continue;
     }
     const MechanismParameter* entry = catalogue_entry(slot);
-    FoundParameter parameter{slot.label(), slot.unit, refit.theta[j], slot.null_value, true,
-                             true,         ""};
+    FoundParameter parameter;
+    parameter.label = slot.label();
+    parameter.unit = slot.unit;
+    parameter.value = refit.theta[j];
+    parameter.null_value = slot.null_value;
     const bool vanishes =
         std::abs(parameter.value - slot.null_value) <= at_null * (slot.upper - slot.lower);
     if (slot.free && entry != nullptr && !vanishes) {

@@ -20,12 +20,10 @@ constexpr int tries_in_pairs = 2;
 constexpr std::size_t sets_at_once = 13;    // between two looks at how many gain more
 constexpr std::ptrdiff_t often_enough = 5;  // to say that chance gives as much
 constexpr double worth_releasing = 2.0;     // gain of the criterion by a released parameter
-// What a cause may leave: structure at this level, or this part of what it took. The laws of the
+// What a cause may leave, though it is structure: this part of what it took. The laws of the
 // catalogue are good to some per cent of the loss that they describe.
-constexpr double tolerated_level = 0.01;
 constexpr double tolerated_part = 0.03;
-constexpr double carried_part =
-    0.1;  // that each of two takes beside the other, to be forgiven that
+constexpr double carried_part = 0.1;    // what each of two has to take, for the two to be forgiven
 constexpr double shown_as_lead = 30.0;  // candidates this far behind the best are not held out
 
 constexpr const char* one_would_do = "one of the two does as well alone";
@@ -249,7 +247,6 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
       untried.push_back(&mechanism);
     }
   }
-  Progress progress("pairs of causes", untried.size());
   std::vector<CandidateResult> results(untried.size());
   parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
     Candidate candidate =

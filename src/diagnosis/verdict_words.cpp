@@ -70,7 +70,7 @@ std::string gain_words(const Diagnosis& d) {
 
 /// What an explanation leaves and is forgiven, being small beside what it takes.
 std::string rest_words(const Diagnosis& d) {
-  if (d.extended->remaining_p >= 0.01) return "";
+  if (d.extended->remaining_p >= tolerated_level) return "";
   return fmt::format(
       " {:.1f} % of the misfit stay, more than noise ({}): the laws are good to some per cent, or "
       "something smaller acts beside them.",
@@ -166,7 +166,7 @@ std::string lead_words(const Diagnosis& d) {
   const auto lead =
       std::find_if(d.candidates.begin(), d.candidates.end(), [](const CandidateResult& c) {
         return c.plausible && c.kind != MechanismKind::description && c.delta_aicc < 0.0 &&
-               c.remaining_part < nearly_all;
+               c.remaining_part < nearly_all && c.remaining_p < tolerated_level;
       });
   if (lead == d.candidates.end()) return "";
   return fmt::format(

@@ -221,7 +221,7 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
   result.data = observed;
   result.warnings = observed.warnings;
   leave_counts_to_mechanism(model, result);
-  const Observations data = result.data;
+  const Observations& data = result.data;  // until `settle` has weighed them
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
   const auto free_count = std::count_if(model.slots.begin(), model.slots.end(),
                                         [](const ParameterSlot& slot) { return slot.free; });

@@ -295,13 +295,15 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
   layer("taken", taken, style::blue);
   layer("aside", aside, "#BBBBBB");
   c += fmt::format("plot {}\n", fmt::join(layers, ", "));
-  return {{"ranking", "What could explain it",
-           fmt::format(
-               "The longer the bar, the better the whole model fits with this added, its "
-               "parameters paid for. Blue: the answer. Grey: further behind, or set aside "
-               "for the reason beside it. Bars within {:.0f} of each other cannot be told apart.",
-               d.options.apart),
-           draw_svg(script), true}};
+  return {
+      {"ranking", "What could explain it",
+       fmt::format(
+           "The longer the bar, the better the whole model fits with this added, its "
+           "parameters paid for. Blue: the answer. Grey: further behind, or set aside "
+           "for the reason beside it. Bars within {:.0f} of each other ({:.0f} where two act at "
+           "once) cannot be told apart.",
+           d.options.apart, d.options.apart_in_pairs),
+       draw_svg(script), true}};
 }
 
 }  // namespace recoil

@@ -1,7 +1,6 @@
 #include "uncertainty/coverage.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "core/progress.hpp"
 #include "core/units.hpp"
 #include "uncertainty/identifiability.hpp"
+#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {
@@ -89,18 +89,12 @@ CoverageCell count(const std::vector<Trial>& trials, const char* name, double tr
   return cell;
 }
 
-/// "95.0 % [92.1, 97.0]": the share with its 95 % limits by the score of Wilson (1927), J. Am.
-/// Stat. Assoc. 22, 209-212.
+/// "95.0 % [92.1, 97.0]": the share with `share_limits`.
 std::string percentage(int part, int whole) {
   if (whole == 0) return "-";
-  const double n = whole;
-  const double share = part / n;
-  const double z = gsl_cdf_ugaussian_Pinv(0.975);
-  const double middle = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
-  const double half =
-      z / (1.0 + z * z / n) * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
-  return fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100.0 * share,
-                     100.0 * std::max(0.0, middle - half), 100.0 * std::min(1.0, middle + half));
+  const ShareLimits limits = share_limits(part, whole);
+  return fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100.0 * part / whole, 100.0 * limits.lower,
+                     100.0 * limits.upper);
 }
 
 }  // namespace

@@ -45,6 +45,16 @@ double sorted_quantile(std::span<const double> ascending, double p) {
   return at_rank(ascending, clamped_rank(rank, ascending.size()));
 }
 
+ShareLimits share_limits(int part, int whole) {
+  const double n = whole;
+  const double share = part / n;
+  const double z = gsl_cdf_ugaussian_Pinv(0.975);
+  const double middle = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
+  const double half =
+      z / (1.0 + z * z / n) * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
+  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
+}
+
 double quantile_error(std::span<const double> ascending, double p, double rank_sd) {
   const double count = static_cast<double>(ascending.size());
   const double sd = rank_sd < 0.0 ? std::sqrt(count * p * (1.0 - p)) : rank_sd;

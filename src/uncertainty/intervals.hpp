@@ -25,6 +25,14 @@ struct Interval {
 /// Hinkley 1997, section 5.2.1), clamped to the sample.
 double sorted_quantile(std::span<const double> ascending, double p);
 
+/// 95 % limits of a share, by the score of Wilson (1927), J. Am. Stat. Assoc. 22, 209-212.
+/// @pre whole > 0
+struct ShareLimits {
+  double lower = 0.0;
+  double upper = 1.0;
+};
+ShareLimits share_limits(int part, int whole);
+
 /// Monte-Carlo error of `sorted_quantile(ascending, p)`: half the distance between the order
 /// statistics one standard deviation of rank on either side (Woodruff 1952, J. Am. Stat. Assoc. 47,
 /// 635-646), the rank being binomial, sd = sqrt(B p (1 - p)).

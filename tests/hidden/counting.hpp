@@ -17,8 +17,7 @@ int count(const Answers& answers, const Test& test);
 Test marked(std::vector<Mark> marks);
 bool is_visible(const Answered& a);
 
-/// "83 % (73 to 91), 58 of 70": with the 95 % limits by the score of Wilson (1927), J. Am. Stat.
-/// Assoc. 22.
+/// "83 % (73 to 91), 58 of 70": with `recoil::share_limits`.
 std::string share(int k, int n);
 
 /// The bars, how many of those that were not named nobody could have named, and what other

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "counting.hpp"
+#include "uncertainty/intervals.hpp"
 
 namespace hidden {
 
@@ -30,14 +31,9 @@ bool is_visible(const Answered& a) { return a.order.signal_to_noise >= visible; 
 
 std::string share(int k, int n) {
   if (n == 0) return "none";
-  constexpr double z = 1.959964;
-  const double part = static_cast<double>(k) / n;
-  const double middle = (part + 0.5 * z * z / n) / (1.0 + z * z / n);
-  const double reach =
-      z * std::sqrt(part * (1.0 - part) / n + 0.25 * z * z / n / n) / (1.0 + z * z / n);
-  return fmt::format("{:.0f} % ({:.0f} to {:.0f}), {} of {}", 100.0 * part,
-                     100.0 * std::max(0.0, middle - reach), 100.0 * std::min(1.0, middle + reach),
-                     k, n);
+  const recoil::ShareLimits limits = recoil::share_limits(k, n);
+  return fmt::format("{:.0f} % ({:.0f} to {:.0f}), {} of {}", 100.0 * k / n, 100.0 * limits.lower,
+                     100.0 * limits.upper, k, n);
 }
 
 namespace {

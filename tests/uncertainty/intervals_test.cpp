@@ -124,5 +124,21 @@ TEST(Wald, TailAreasAreAveragedOverDescriptions) {
   EXPECT_FALSE(averaged_wald_interval(first, 0.95, 0.0, 10.0).available());
 }
 
+// Newcombe (1998), Stat. Med. 17, 857-872, table I, score method.
+TEST(ShareLimits, AreThoseOfTheScore) {
+  const struct {
+    int part, whole;
+    double lower, upper;
+  } published[] = {{81, 263, 0.2553, 0.3662},
+                   {15, 148, 0.0624, 0.1605},
+                   {0, 20, 0.0, 0.1611},
+                   {1, 29, 0.0061, 0.1718}};
+  for (const auto& row : published) {
+    const ShareLimits limits = share_limits(row.part, row.whole);
+    EXPECT_NEAR(limits.lower, row.lower, 5e-5) << row.part;
+    EXPECT_NEAR(limits.upper, row.upper, 5e-5) << row.part;
+  }
+}
+
 }  // namespace
 }  // namespace recoil
