@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "diagnosis/judge.hpp"
 #include "diagnosis/misfit_map.hpp"
 #include "diagnosis/next_measurement.hpp"
 #include "diagnosis/search.hpp"
@@ -193,14 +194,15 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
       held_out_folds(base.fitted.data, base.datasets, base.candidate.free_count + 1);
   const std::vector<FoldPrediction> base_folds =
       predict_folds(base.candidate, base.fitted.data, folds, base.refit.theta, options.threads);
-  judge(base, diagnosis.candidates, folds, base_folds);
   const bool one_size = has_one_size(base.fitted.data);
   const double apart = one_size ? apart_at_one_size : options.apart;
+  judge(base, diagnosis.candidates, INFINITY, folds, base_folds);
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, apart, one_size);
   if (found.empty() && more_than_chance(diagnosis)) {
     diagnosis.pairs = try_pairs(base, diagnosis.candidates);
-    judge(base, diagnosis.pairs, folds, base_folds);
-    found = explanations(diagnosis.pairs, std::max(apart, options.apart_in_pairs), one_size);
+    const double both_apart = std::max(apart, options.apart_in_pairs);
+    judge(base, diagnosis.pairs, both_apart, folds, base_folds);
+    found = explanations(diagnosis.pairs, both_apart, one_size);
   }
   decide(found, one_size, diagnosis);
   if (diagnosis.verdict == Verdict::not_separable) {

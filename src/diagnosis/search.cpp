@@ -20,11 +20,7 @@ constexpr int tries_in_pairs = 2;
 constexpr std::size_t sets_at_once = 13;    // between two looks at how many gain more
 constexpr std::ptrdiff_t often_enough = 5;  // to say that chance gives as much
 constexpr double worth_releasing = 2.0;     // gain of the criterion by a released parameter
-// What a cause may leave, though it is structure: this part of what it took. The laws of the
-// catalogue are good to some per cent of the loss that they describe.
-constexpr double tolerated_part = 0.03;
-constexpr double carried_part = 0.1;    // what each of two has to take, for the two to be forgiven
-constexpr double shown_as_lead = 30.0;  // candidates this far behind the best are not held out
+constexpr double carried_part = 0.1;  // what each of two has to take, for the two to be forgiven
 
 constexpr const char* one_would_do = "one of the two does as well alone";
 
@@ -196,22 +192,6 @@ CandidateResult try_both(const SearchBase& base, const CandidateResult& first,
   return result;
 }
 
-std::string reason_aside(const SearchBase& base, const CandidateResult& c) {
-  if (c.kind == MechanismKind::description) return "a description explains nothing";
-  if (!(c.delta_aicc < 0.0)) return "it gains less than its parameters cost";
-  if (c.p_value && *c.p_value > base.options.chance) {
-    return fmt::format("chance gives the best of all candidates as much in {:.0f} % of data sets",
-                       100.0 * *c.p_value);
-  }
-  for (const FoundParameter& parameter : c.parameters) {
-    if (!parameter.plausible) return "not possible: " + parameter.why_not;
-  }
-  if (c.remaining_p < tolerated_level && c.remaining_part > tolerated_part) {
-    return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
-  }
-  return "";
-}
-
 }  // namespace
 
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
@@ -324,23 +304,6 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
   });
   sort_by_criterion(results);
   return results;
-}
-
-void judge(const SearchBase& base, std::vector<CandidateResult>& candidates,
-           const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base_folds) {
-  if (candidates.empty()) return;
-  const double best = candidates.front().delta_aicc;
-  for (CandidateResult& c : candidates) {
-    if (c.aside.empty()) c.aside = reason_aside(base, c);
-    const bool lead = c.delta_aicc < best + shown_as_lead && c.delta_aicc < 0.0;
-    if (!c.aside.empty() && !lead) continue;
-    const std::vector<FoldPrediction> own =
-        predict_folds(c.candidate, base.fitted.data, folds, c.refit.theta, base.options.threads);
-    c.gain = held_out_gain(folds, base_folds, own, base.options.seed);
-    if (c.aside.empty() && c.gain->decisive && !(c.gain->log_score > 0.0)) {
-      c.aside = "it predicts sizes or targets that were held out no better than the base model";
-    }
-  }
 }
 
 }  // namespace recoil

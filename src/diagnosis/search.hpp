@@ -41,9 +41,4 @@ void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
 std::vector<CandidateResult> try_pairs(const SearchBase& base,
                                        const std::vector<CandidateResult>& singles);
 
-/// Says of every candidate why it is not a cause, or nothing; held-out gains are computed for those
-/// that pass everything else.
-void judge(const SearchBase& base, std::vector<CandidateResult>& candidates,
-           const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base_folds);
-
 }  // namespace recoil

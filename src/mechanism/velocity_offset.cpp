@@ -13,7 +13,7 @@ struct VelocityOffset {
   }
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    e.square = shifted_if_seen(e.square, own[0], border * e.measured_velocity);
+    e.square = shifted_if_seen(e.square, own[0] * own[1], border * e.measured_velocity);
   }
 };
 
@@ -22,13 +22,16 @@ struct VelocityOffset {
 Mechanism velocity_offset() {
   return make_mechanism<VelocityOffset>({
       .id = "velocity_offset",
-      .title = "the velocimeter reads too much by a constant",
+      .title = "the velocimeter reads too much, or too little, by a constant",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::instrument,
-      .formula = "both velocities are read as v + delta",
+      .formula =
+          "the incident velocity is read as V + delta, that of the rebound as V_r + s delta: s = 1 "
+          "where speeds are off, -1 where velocities with their sign are (a residual shift of "
+          "frequency)",
       .source = "an instrument's zero error; no further source",
-      .fingerprint = "e changes by delta (1 / V_r - 1 / V_i): 1 - e^2 ~ V^(-1), the same at all "
-                     "sizes and targets",
+      .fingerprint = "e changes by (s - e) delta / V: 1 - e^2 ~ V^(-1), the same at all sizes and "
+                     "targets",
       .parameters = {{.name = "velocity_error",
                       .unit = "m/s",
                       .meaning = "delta, read too much",
@@ -37,7 +40,17 @@ Mechanism velocity_offset() {
                       .lower = -10.0,
                       .upper = 10.0,
                       .plausible = {-0.1, 0.1, "a velocimeter's zero is good to some cm/s"},
-                      .starts = {-1e-2, 1e-1, -1e-1}}},
+                      .starts = {-1e-2, 1e-1, -1e-1}},
+                     {.name = "rebound_sign",
+                      .unit = "1",
+                      .meaning = "s, what the rebound reads too much of delta",
+                      .null_value = 1.0,
+                      .initial = 1.0,
+                      .lower = -1.0,
+                      .upper = 1.0,
+                      .plausible = {-1.0, 1.0, "an error of both velocities is of one size"},
+                      .starts = {-1.0},
+                      .free = false}},
   });
 }
 

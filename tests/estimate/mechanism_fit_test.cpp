@@ -195,7 +195,7 @@ TEST(MechanismSpec, MistakesNameTheNearestKnownWord) {
 TEST(MechanismSpec, NegativeValuesAreFineWhereTheyMeanSomething) {
   const FitSpec spec =
       parsed("\"velocity_offset\"", "velocity_error = { initial = -0.01, bounds = [-0.1, 0.1] }");
-  ASSERT_EQ(spec.parameters.size(), 4U);
+  ASSERT_EQ(spec.parameters.size(), 5U);
   EXPECT_EQ(spec.parameters[3].name, "velocity_error");
   EXPECT_EQ(spec.parameters[3].initial, -0.01);
   EXPECT_EQ(spec.parameters[3].lower, -0.1);

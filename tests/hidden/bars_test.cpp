@@ -52,6 +52,8 @@ std::vector<Question> clear_causes() {
     all.push_back({{"wall", {effect}, 20.0, 0}, {Mark::named}});
   }
   all.push_back({{"li", {"bulk_viscoelastic"}, 10.0, 0}, {Mark::named}});
+  // Off with its sign: the incident velocity too high, that of the rebound too low.
+  all.push_back({{"li", {"velocity_offset"}, 20.0, 0}, {Mark::named}});
   return all;
 }
 

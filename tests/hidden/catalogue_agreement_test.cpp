@@ -25,8 +25,9 @@ struct Pairing {
   const char* parameter;  ///< of the catalogue
   double factor;          ///< parameter = factor * strength, or factor / strength when inverse
   bool inverse;
-  double value_within;   ///< relative
-  double misfit_within;  ///< of the misfit that the effect left in the base model
+  double value_within;       ///< relative
+  double misfit_within;      ///< of the misfit that the effect left in the base model
+  const char* variant = "";  ///< of the law, as a line under [parameters]
 };
 
 void PrintTo(const Pairing& pairing, std::ostream* out) {
@@ -49,6 +50,8 @@ TEST_P(Agreement, TheCatalogueTakesTheEffectUp) {
   const std::string model = "[model]\n";
   text.insert(text.find(model) + model.size(),
               "mechanisms = [\"" + std::string(p.effect) + "\"]\n");
+  const std::string parameters = "[parameters]\n";
+  text.insert(text.find(parameters) + parameters.size(), p.variant);
   recoil::write_whole_file(fit, text);
   const ProgramRun run =
       run_program({RECOIL_BINARY, "fit", fit.string(), "--replicates", "0", "--threads", "1",
@@ -85,6 +88,10 @@ INSTANTIATE_TEST_SUITE_P(
         Pairing{"gas_film", "wall", 0, 10.0, "gas_pressure", 1.0, false, 3.0, 0.2},
         Pairing{"capillary", "wall", 0, 10.0, "bridge_length", 1.0, false, 0.05, 0.1},
         Pairing{"asperity_loss", "wall", 0, 10.0, "asperity_energy", 1.0, false, 0.05, 0.1},
+        Pairing{"velocity_offset", "wall-batches", 4, 10.0, "velocity_error", 1.0, false, 0.05,
+                0.1},
+        Pairing{"velocity_offset", "li", 0, 10.0, "velocity_error", 1.0, false, 0.05, 0.1,
+                "rebound_sign = { initial = -1 }\n"},
         Pairing{"size_calibration", "wall", 0, 10.0, "diameter_error", 1.0, false, 0.05, 0.1},
         Pairing{"survivor_bias", "wall", 0, 10.0, "adhesion_spread", 1.0, false, 0.1, 0.2},
         Pairing{"rebound_truncation", "li", 0, 10.0, "slowest_rebound", 1.0, false, 0.1, 0.2},

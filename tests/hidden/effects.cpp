@@ -115,7 +115,7 @@ double square_of_restitution(const Base& base, const Effects& effects, double ve
   }
   square -= 2.0 * gravity * effects.plane_height;
   if (square > 0.0 && effects.velocity_error != 0.0) {
-    v = std::sqrt(square) + effects.velocity_error;
+    v = std::sqrt(square) + effects.rebound_error_sign * effects.velocity_error;
     square = v > 0.0 ? v * v : -1e-6;
   }
   return square / (velocity * velocity);

@@ -23,6 +23,7 @@ struct Effects {
   double charge_exponent = 2.0;       ///< of the charge with the diameter
   double plane_height = 0.0;          ///< [m]
   double velocity_error = 0.0;        ///< read too much [m/s]
+  double rebound_error_sign = 1.0;    ///< -1: the rebound reads as much too little
   double diameter_error = 0.0;        ///< true diameter over stated one, less 1
   double size_spread = 0.0;           ///< sd of ln d
   double adhesion_spread = 0.0;       ///< sd of ln f0 from impact to impact

@@ -99,6 +99,7 @@ Draws draw_background(const Knob& knob, const Design& design, std::uint64_t seed
     e.oddity_width = 0.8 + 0.7 * width;
     e.oddity_centre = from * std::exp(phase * e.oddity_width);
   }
+  e.rebound_error_sign = random.uniform() < 0.5 ? -1.0 : 1.0;
   if (knob.id != "series_offset") draws.series_offset.clear();
   return draws;
 }
@@ -108,6 +109,9 @@ void add_effect(Effects& effects, const Knob& knob, const Draws& draws, const De
   if (knob.id == "gas_film") effects.gas_distance = draws.background.gas_distance;
   if (knob.id == "crack_rate") {
     effects.contact.crack_exponent = draws.background.contact.crack_exponent;
+  }
+  if (knob.id == "velocity_offset") {
+    effects.rebound_error_sign = draws.background.rebound_error_sign;
   }
   if (knob.kind == outside) {
     effects.oddity = draws.background.oddity;

@@ -22,6 +22,7 @@ struct Case {
   double V = 6.0, D = 3.4e-6, C_H = 0.03;
   double diameter_error = 0.05;
   double velocity_error = 0.04;
+  double rebound_sign = 0.4;
   double height = 2e-3;
   double field = 2e6, charge_exponent = 1.5;
   double asperity = 2e-14;
@@ -67,7 +68,7 @@ double by_hand(const Case& c) {
   v2 -= 2.0 / m * c.asperity;
   v2 -= well;
   v2 -= 2.0 * 9.80665 * c.height;
-  const double e = (std::sqrt(v2) + c.velocity_error) / c.V;
+  const double e = (std::sqrt(v2) + c.rebound_sign * c.velocity_error) / c.V;
   return std::pow((1.0 - c.outliers) * e + 0.5 * c.outliers, 2);
 }
 
@@ -80,8 +81,8 @@ TEST(Combination, AgreesWithAPlainReimplementation) {
     c.V = V;
     const one_point::Answer answer =
         one_point::ask(kSoft, ids,
-                       {c.diameter_error, c.velocity_error, c.height, c.field, c.charge_exponent,
-                        c.asperity, c.jkr, c.yield, c.rate, c.outliers},
+                       {c.diameter_error, c.velocity_error, c.rebound_sign, c.height, c.field,
+                        c.charge_exponent, c.asperity, c.jkr, c.yield, c.rate, c.outliers},
                        c.D, c.V, {c.C_H, 0.0, 0.0});
     ASSERT_TRUE(answer.usable);
     const double expected = by_hand(c);
@@ -97,14 +98,15 @@ TEST(Combination, AgreesWithAPlainReimplementation) {
                                   {2, &Case::C_H},
                                   {5, &Case::diameter_error},
                                   {6, &Case::velocity_error},
-                                  {7, &Case::height},
-                                  {8, &Case::field},
-                                  {9, &Case::charge_exponent},
-                                  {10, &Case::asperity},
-                                  {11, &Case::jkr},
-                                  {12, &Case::yield},
-                                  {13, &Case::rate},
-                                  {14, &Case::outliers}}) {
+                                  {7, &Case::rebound_sign},
+                                  {8, &Case::height},
+                                  {9, &Case::field},
+                                  {10, &Case::charge_exponent},
+                                  {11, &Case::asperity},
+                                  {12, &Case::jkr},
+                                  {13, &Case::yield},
+                                  {14, &Case::rate},
+                                  {15, &Case::outliers}}) {
       const double h = 1e-5;
       Case more = c;
       Case less = c;

@@ -100,8 +100,11 @@ TEST(VelocityOffset, IsReadInBothVelocities) {
   for (const double offset : {0.05, -0.05}) {
     const double e0 = hunt_crossley(kDamping * (V - offset));
     const double rebound = e0 * (V - offset);
-    EXPECT_NEAR(std::sqrt(square(kSoft, {"velocity_offset"}, {offset}, kDiameter, V, kDamped)),
-                (rebound + offset) / V, 1e-5);
+    for (const double sign : {1.0, -1.0, 0.0}) {
+      EXPECT_NEAR(
+          std::sqrt(square(kSoft, {"velocity_offset"}, {offset, sign}, kDiameter, V, kDamped)),
+          (rebound + sign * offset) / V, 1e-5);
+    }
   }
 }
 

@@ -1,0 +1,63 @@
+#include "diagnosis/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+
+namespace recoil {
+namespace {
+
+// What a cause may leave, though it is structure: this part of what it took. The laws of the
+// catalogue are good to some per cent of the loss that they describe.
+constexpr double tolerated_part = 0.03;
+constexpr std::size_t shown_leads = 8;  // are held out whatever is held against them
+constexpr double lead_within = 30.0;    // of the criterion, of the best
+
+std::string reason_aside(const SearchBase& base, const CandidateResult& c) {
+  if (c.kind == MechanismKind::description) return "a description explains nothing";
+  if (!(c.delta_aicc < 0.0)) return "it gains less than its parameters cost";
+  if (c.p_value && *c.p_value > base.options.chance) {
+    return fmt::format("chance gives the best of all candidates as much in {:.0f} % of data sets",
+                       100.0 * *c.p_value);
+  }
+  for (const FoundParameter& parameter : c.parameters) {
+    if (!parameter.plausible) return "not possible: " + parameter.why_not;
+  }
+  if (c.remaining_p < tolerated_level && c.remaining_part > tolerated_part) {
+    return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
+  }
+  return "";
+}
+
+}  // namespace
+
+void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, double reach,
+           const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base_folds) {
+  const auto hold_out = [&](CandidateResult& c) {
+    const std::vector<FoldPrediction> own =
+        predict_folds(c.candidate, base.fitted.data, folds, c.refit.theta, base.options.threads);
+    c.gain = held_out_gain(folds, base_folds, own, base.options.seed);
+    if (c.aside.empty() && c.gain->decisive && !(c.gain->log_score > 0.0)) {
+      c.aside = "it predicts sizes or targets that were held out no better than the base model";
+    }
+  };
+  for (CandidateResult& c : candidates) {
+    if (c.aside.empty()) c.aside = reason_aside(base, c);
+  }
+  const std::size_t leads = std::min(shown_leads, candidates.size());
+  parallel_over(leads, base.options.threads, [&](std::size_t k) {
+    const double within = std::min(0.0, candidates.front().delta_aicc + lead_within);
+    if (candidates[k].delta_aicc < within) hold_out(candidates[k]);
+  });
+  double best = INFINITY;  // of those that explain
+  for (CandidateResult& c : candidates) {
+    if (!c.explains() || c.delta_aicc > best + reach) continue;
+    if (!c.gain) hold_out(c);
+    if (c.explains()) best = std::min(best, c.delta_aicc);
+  }
+}
+
+}  // namespace recoil
