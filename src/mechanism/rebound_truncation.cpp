@@ -3,8 +3,8 @@
 namespace recoil {
 namespace {
 
-/// A point of some tens of impacts shows nothing when less than this part would be seen.
-constexpr double fewest_seen = 0.02;
+/// Nobody waits for a point of which less than this part would be seen: it shows nothing.
+constexpr double fewest_seen = 1e-3;
 constexpr double none_seen = 1e-12;
 
 struct ReboundTruncation {

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/units.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/format.hpp"
@@ -21,11 +23,21 @@ std::string headline(const Diagnosis& d) {
       return "The model describes these points";
     case Verdict::cause_named:
       return "What the model misses: " + with_spaces(d.named);
-    case Verdict::not_separable:
-      return d.shared_cause.empty()
-                 ? "Something is missed, and these data cannot tell what: " + with_spaces(d.rivals)
-                 : fmt::format("What the model misses: {}, by one of several laws ({})",
-                               d.shared_cause, with_spaces(d.rivals));
+    case Verdict::not_separable: {
+      if (!d.shared_cause.empty()) {
+        return fmt::format("What the model misses: {}, by one of several laws ({})", d.shared_cause,
+                           with_spaces(d.rivals));
+      }
+      std::vector<std::string> doubtful = d.rivals;
+      std::erase_if(doubtful, [&](const std::string& id) {
+        return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
+      });
+      if (!d.common.empty() && !doubtful.empty()) {
+        return fmt::format("What the model misses: {}, and beside it one of {}",
+                           with_spaces(d.common), with_spaces(doubtful));
+      }
+      return "Something is missed, and these data cannot tell what: " + with_spaces(d.rivals);
+    }
     case Verdict::unexplained:
       return "Something is missed that nothing in the catalogue explains";
   }

@@ -148,9 +148,18 @@ std::string verdict_line(const IndexEntry& entry) {
                    [&](const VerdictMark& mark) { return verdict == mark.verdict; });
   if (found == std::end(verdict_marks)) return "";
   std::string words = found->words;
-  for (const char* list : {"/named", "/rivals"}) {
-    const Json ids = at(diagnosis, list);
-    if (ids.is_array() && !ids.empty()) words += ": " + causes(ids);
+  const Json common = at(diagnosis, "/in_every_explanation");
+  Json doubtful = Json::array();
+  for (const Json& id : at(diagnosis, "/rivals")) {
+    if (std::find(common.begin(), common.end(), id) == common.end()) doubtful.push_back(id);
+  }
+  if (!common.empty() && !doubtful.empty()) {
+    words = fmt::format("{} acts, and beside it one of {}", causes(common), causes(doubtful));
+  } else {
+    for (const char* list : {"/named", "/rivals"}) {
+      const Json ids = at(diagnosis, list);
+      if (ids.is_array() && !ids.empty()) words += ": " + causes(ids);
+    }
   }
   return fmt::format(
       "<p class=\"verdict {}\"><span class=\"mark\" aria-hidden=\"true\">{}</span> "

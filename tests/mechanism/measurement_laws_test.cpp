@@ -37,14 +37,21 @@ TEST(ReboundTruncation, IsTheMeanOfATruncatedNormal) {
   ASSERT_GT(e, 0.2);
   const double s = 0.1;
   // Cut off at the mean: of a half-normal, e (1 + s sqrt(2 / pi)). Half is seen, which the border
-  // to "nothing seen" (2 %) reaches into by 0.5 * 1.02 / 0.52 = 0.98.
+  // to "nothing seen" (0.1 %) reaches into by 0.5 * 1.001 / 0.501 = 0.999.
   const double seen = std::pow(e * (1.0 + s * std::sqrt(2.0 / std::numbers::pi)), 2);
-  const double share = 0.5 * 1.02 / 0.52;
+  const double share = 0.5 * 1.001 / 0.501;
   EXPECT_NEAR(square(kSoft, {"rebound_truncation"}, {e * V, s}, kDiameter, V, kBase), share * seen,
               1e-9);
   // Far below the mean all are seen.
   EXPECT_NEAR(square(kSoft, {"rebound_truncation"}, {0.2 * e * V, s}, kDiameter, V, kBase), e * e,
               1e-12);
+  // Three deviations above it one in 740: what is seen lies 0.028 e above the border.
+  const double hazard = 0.0044318484119380075 / 0.0013498980316300957;  // of the normal at 3
+  const double tail = std::pow(e * (1.0 + s * hazard), 2);
+  const double missing = e * e * (1.0 - 1.3 * 1.3);
+  const double part = 0.0013498980316300957 * 1.001 / 0.0023498980316300957;
+  EXPECT_NEAR(square(kSoft, {"rebound_truncation"}, {1.3 * e * V, s}, kDiameter, V, kBase),
+              missing + part * (tail - missing), 1e-9);
   // Far above it none: it looks like capture.
   EXPECT_NEAR(square(kSoft, {"rebound_truncation"}, {2.0 * e * V, s}, kDiameter, V, kBase),
               e * e - 4.0 * e * e, 1e-12);
