@@ -94,14 +94,16 @@ std::string summary(const Options& options) {
   const std::vector<CoverageTable> tables = read_coverage_tables(options.summary);
   std::string link;
   if (!options.picture.empty()) {
-    constexpr double level = 0.95;  // of every table in reports/
+    const double level = tables.front().level;
     const std::vector<GridResult> grid = grid_of_tables(tables);
     if (!grid.empty()) {
       write_whole_file(
           options.picture,
-          coverage_picture(grid, level,
-                           "Coverage of the recommended 95 % intervals by kind of data",
-                           "read from the tables in " + options.summary));
+          coverage_picture(
+              grid, level,
+              fmt::format("Coverage of the recommended {:g} % intervals by kind of data",
+                          100.0 * level),
+              "read from the tables in " + options.summary));
       link = std::filesystem::path(options.picture).filename().string();
     }
   }

@@ -38,8 +38,11 @@ class TableReader {
   void learn(const std::string& line) {
     ++line_;
     std::smatch found;
-    static const std::regex count("^([0-9]+) simulated data sets");
-    if (std::regex_search(line, found, count)) table_.datasets = std::stoi(found[1]);
+    static const std::regex made("^([0-9]+) simulated data sets.* level ([0-9.]+) %");
+    if (std::regex_search(line, found, made)) {
+      table_.datasets = std::stoi(found[1]);
+      table_.level = 0.01 * std::stod(found[2]);
+    }
     if (line.starts_with("| design | parameter |")) {
       heads_ = cells_of(line);
     } else if (heads_.empty() || !line.starts_with("|")) {
@@ -54,6 +57,8 @@ class TableReader {
 
  private:
   void add_row(const std::vector<std::string>& cells) {
+    if (table_.datasets == 0)
+      fail("a row", "nothing before it says how many data sets and which level");
     if (cells.size() != heads_.size()) {
       fail(fmt::format("{} columns", cells.size()),
            fmt::format("its heads name {}", heads_.size()));
@@ -254,21 +259,20 @@ std::string coverage_summary(const std::vector<CoverageTable>& tables, const std
 }
 
 std::vector<GridResult> grid_of_tables(const std::vector<CoverageTable>& tables) {
-  constexpr int counted = 1000;
-  const auto count = [](double percent) {
-    return static_cast<int>(std::lround(percent / 100.0 * counted));
-  };
   std::vector<GridResult> results;
   for (const GridDesign& design : coverage_grid()) {
     GridResult result{design, {}};
-    result.coverage.datasets = counted;
     for (const CoverageTable& table : tables) {
+      const auto count = [&](double percent) {
+        return static_cast<int>(std::lround(0.01 * percent * table.datasets));
+      };
       for (const CoverageTableRow& row : table.rows) {
         if (row.design != design.name()) continue;
+        result.coverage.datasets = table.datasets;
         CoverageRow made;
         made.parameter = row.parameter;
         made.identifiable = count(row.identifiable);
-        made.cells = {{"recommended", counted, count(row.held), 0, 0, 0.0}};
+        made.cells = {{"recommended", table.datasets, count(row.held), 0, 0, 0.0}};
         result.coverage.rows.push_back(std::move(made));
       }
     }

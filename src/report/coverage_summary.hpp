@@ -21,14 +21,16 @@ struct CoverageTableRow {
 /// A table of the coverage study and the file that holds it.
 struct CoverageTable {
   std::filesystem::path file;
-  int datasets = 0;  ///< per design
+  int datasets = 0;    ///< per design
+  double level = 0.0;  ///< of its intervals
   std::vector<CoverageTableRow> rows;
   std::string markdown;  ///< the table itself, heads included
 };
 
 /// The coverage tables in the files coverage-*.md of `folder`, in the order of their names; files
 /// without such a table are passed over.
-/// @throws InputError where a row has other columns than the heads promise, or there is no table
+/// @throws InputError where a row has other columns than the heads promise, nothing says how many
+///     data sets it counts, or there is no table
 std::vector<CoverageTable> read_coverage_tables(const std::filesystem::path& folder);
 
 /// One page of all tables: the designs of the shipped fits whole; of the grid one row per design
@@ -37,7 +39,7 @@ std::vector<CoverageTable> read_coverage_tables(const std::filesystem::path& fol
 std::string coverage_summary(const std::vector<CoverageTable>& tables, const std::string& picture);
 
 /// What the tables say of the recommended intervals of the grid, for `coverage_picture`: shares as
-/// counts of a thousand.
+/// counts of their data sets.
 std::vector<GridResult> grid_of_tables(const std::vector<CoverageTable>& tables);
 
 }  // namespace recoil

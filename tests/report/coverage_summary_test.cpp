@@ -27,8 +27,8 @@ class Summary : public testing::Test {
   Summary& operator=(const Summary&) = delete;
 
   void write(const std::string& name, const std::string& rows) const {
-    write_whole_file(folder_ / name, "## T\n\n1000 simulated data sets per design.\n\n" + heads +
-                                         rows + "\nafter it | nothing\n");
+    write_whole_file(folder_ / name, "## T\n\n400 simulated data sets per design, level 95 %.\n\n" +
+                                         heads + rows + "\nafter it | nothing\n");
   }
 
   std::filesystem::path folder_;
@@ -45,15 +45,14 @@ TEST_F(Summary, NamesTheWorstParameterOfEveryDesign) {
   write_whole_file(folder_ / "coverage-old.md", "| a | table |\n|---|---|\n| of | others |\n");
   const std::vector<CoverageTable> tables = read_coverage_tables(folder_);
   ASSERT_EQ(tables.size(), 2U) << "the third is no table of coverage";
-  EXPECT_EQ(tables[1].datasets, 1000);
+  EXPECT_EQ(tables[1].datasets, 400);
+  EXPECT_DOUBLE_EQ(tables[1].level, 0.95);
   const std::string page = coverage_summary(tables, "picture.svg");
   EXPECT_THAT(page, HasSubstr("| dahneke | C_H | 99.0 |"));
-  EXPECT_THAT(page,
-              HasSubstr("| 20 | equal | estimated | fixed | with | 1000 | V*: 92.5 (92.5) | 0 "
-                        "| - | V* too narrow |"));
-  EXPECT_THAT(page,
-              HasSubstr("| 20 | 10 % | stated | free | - | 1000 | f0: 95.9 (95.9) | 0 | C_A | "
-                        "holds |"))
+  EXPECT_THAT(page, HasSubstr("| 20 | equal | estimated | fixed | with | 400 | V*: 92.5 (92.5) | 0 "
+                              "| - | V* too narrow |"));
+  EXPECT_THAT(page, HasSubstr("| 20 | 10 % | stated | free | - | 400 | f0: 95.9 (95.9) | 0 | C_A | "
+                              "holds |"))
       << "what the verdict warned of is not the worst";
   EXPECT_THAT(page, HasSubstr("of 4 rows 2 hold, in 1 more the verdict warns, 1 are too narrow and "
                               "0 too wide"));
@@ -61,13 +60,16 @@ TEST_F(Summary, NamesTheWorstParameterOfEveryDesign) {
   EXPECT_LT(page.find("| 20 | equal"), page.find("| 20 | 10 %")) << "the order of the grid";
   const std::vector<GridResult> grid = grid_of_tables(tables);
   ASSERT_EQ(grid.size(), 2U);
-  EXPECT_EQ(grid[0].coverage.rows[1].cells[0].held, 925);
+  EXPECT_EQ(grid[0].coverage.rows[1].cells[0].held, 370);
 }
 
 TEST_F(Summary, RefusesATableThatItCannotRead) {
   EXPECT_THROW(read_coverage_tables(folder_), InputError);
   write("coverage-a.md", "| n20 | C_A | 2.0 | 98.0 | 80.0 |\n");
   EXPECT_THROW(read_coverage_tables(folder_), InputError);
+  write_whole_file(folder_ / "coverage-a.md",
+                   heads + "| n20 | C_A | 2.0 | 98.0 | 80.0 | 40.0 | 80.0 | holds |\n");
+  EXPECT_THROW(read_coverage_tables(folder_), InputError) << "of how many?";
   write("coverage-a.md", "| n20 | C_A | 2.0 | 98.0 | many | 40.0 | 80.0 | holds |\n");
   EXPECT_THROW(read_coverage_tables(folder_), InputError);
 }
