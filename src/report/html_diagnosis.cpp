@@ -13,10 +13,10 @@ namespace recoil {
 namespace {
 
 std::string headline(const Diagnosis& d) {
-  const auto with_spaces = [](const std::vector<std::string>& ids) {
+  const auto with_spaces = [](const std::vector<std::string>& ids, const char* between = ", ") {
     std::vector<std::string> words;
     for (const std::string& id : ids) words.push_back(words_of(id));
-    return fmt::format("{}", fmt::join(words, ", "));
+    return fmt::format("{}", fmt::join(words, between));
   };
   switch (d.verdict) {
     case Verdict::adequate:
@@ -33,8 +33,8 @@ std::string headline(const Diagnosis& d) {
         return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
       });
       if (!d.common.empty() && !doubtful.empty()) {
-        return fmt::format("What the model misses: {}, and beside it one of {}",
-                           with_spaces(d.common), with_spaces(doubtful));
+        return fmt::format("What the model misses: {}, and beside it {}", with_spaces(d.common),
+                           with_spaces(doubtful, " or "));
       }
       return "Something is missed, and these data cannot tell what: " + with_spaces(d.rivals);
     }

@@ -199,6 +199,11 @@ TEST(HtmlIndex, SaysTheVerdictOfTheDiagnosisInWordsAndByAMark) {
   const std::string rivals = index(
       R"({"verdict": "not_separable", "named": [], "rivals": ["gas_film", "capillary", "a", "b"]})");
   EXPECT_THAT(rivals, HasSubstr("gas film, capillary, a and 1 more"));
+  const std::string certain = index(
+      R"({"verdict": "not_separable", "named": [], "rivals": ["crack_rate", "plastic_yield", "capillary"],
+          "in_every_explanation": ["plastic_yield"]})");
+  EXPECT_THAT(certain,
+              HasSubstr("plastic yield acts, and beside it one of crack rate, capillary</p>"));
   const std::string adequate = index(R"({"verdict": "adequate", "named": [], "rivals": []})");
   const std::string unknown = index(R"({"verdict": "unexplained", "named": [], "rivals": []})");
   const auto mark = [](const std::string& html) {
