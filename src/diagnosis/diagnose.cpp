@@ -116,14 +116,15 @@ void decide(const std::vector<const CandidateResult*>& found, bool one_size, Dia
       if (std::find(rivals.begin(), rivals.end(), id) == rivals.end()) rivals.push_back(id);
     }
   }
+  if (one_size) return;  // which tells no cause, nor what causes have in common
   for (const std::string& id : diagnosis.rivals) {
     const bool everywhere = std::all_of(found.begin(), found.end(), [&](const auto* c) {
       const auto& added = c->candidate.added;
       return std::find(added.begin(), added.end(), id) != added.end();
     });
-    if (everywhere && found.size() > 1) diagnosis.common.push_back(id);
+    if (everywhere) diagnosis.common.push_back(id);
   }
-  if (!one_size) diagnosis.shared_cause = shared_cause(found);
+  diagnosis.shared_cause = shared_cause(found);
 }
 
 void compare_capture(Diagnosis& diagnosis) {
