@@ -29,6 +29,7 @@ Json to_json(const Answered& a) {
           {"p_value", a.p_value},
           {"named", a.named},
           {"rivals", a.rivals},
+          {"certain", a.certain},
           {"shared_cause", a.shared_cause},
           {"contenders", contenders},
           {"closest", a.closest.id},
@@ -57,6 +58,7 @@ bool load(const fs::path& file, Answered& a) {
   a.p_value = kept["p_value"];
   a.named = kept["named"].get<std::vector<std::string>>();
   a.rivals = kept["rivals"].get<std::vector<std::string>>();
+  a.certain = kept.value("certain", std::vector<std::string>());
   a.shared_cause = kept["shared_cause"];
   for (const Json& c : kept["contenders"]) a.contenders.push_back({c[0], c[1]});
   a.closest = {kept["closest"], kept["closest_misfit"]};
@@ -98,6 +100,7 @@ void diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.p_value = answer.at("misfit").at("p_value");
   a.named = answer.at("named").get<std::vector<std::string>>();
   a.rivals = answer.at("rivals").get<std::vector<std::string>>();
+  a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
   if (answer.at("shared_cause").is_string()) a.shared_cause = answer["shared_cause"];
   a.contenders = contenders_of(answer.at("candidates"));
 }

@@ -27,7 +27,8 @@ struct Answered {
   double p_value = 1.0;
   std::vector<std::string> named;
   std::vector<std::string> rivals;
-  std::string shared_cause;  ///< of which all rivals are laws
+  std::vector<std::string> certain;  ///< of the rivals, those in every explanation
+  std::string shared_cause;          ///< of which all rivals are laws
   /// The best explanation by one mechanism and what comes within 30 of it; empty without one.
   std::vector<Contender> contenders;
   Closest closest;  ///< for one visible effect of the catalogue in a design of several diameters
