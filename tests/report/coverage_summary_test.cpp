@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -18,7 +19,7 @@ const std::string heads =
 
 class Summary : public testing::Test {
  protected:
-  Summary() : folder_(testing::TempDir() + "recoil-coverage-summary") {
+  Summary() : folder_(testing::TempDir() + "recoil-coverage-summary-" + std::to_string(getpid())) {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
