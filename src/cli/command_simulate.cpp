@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
+#include "data/text.hpp"
 #include "impact/sensitivity.hpp"
 
 namespace recoil {
@@ -99,7 +100,7 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
       if (slot.mechanism != mechanism->info.id) continue;
       without[j] = slot.null_value;
       values += fmt::format("{}{} = {:.6g}{}", values.empty() ? "" : ", ", slot.label(),
-                            slot.initial, slot.unit == "1" ? "" : " " + slot.unit);
+                            slot.initial, unit_suffix(slot.unit));
     }
     fmt::print("  {:<22}{:>+12.6f}  ({}; {})\n", mechanism->info.id, square(without) - all,
                to_string(mechanism->info.kind), values);

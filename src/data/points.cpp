@@ -165,8 +165,7 @@ class PointReader {
     const double given = stated(*field, col);
     const double converted = given * col.factor;
     if (converted >= range.lower && converted <= range.upper) return converted;
-    const std::string problem = fmt::format(
-        "{} = {:g}{}", col.name, given, col.unit.empty() || col.unit == "1" ? "" : " " + col.unit);
+    const std::string problem = fmt::format("{} = {:g}{}", col.name, given, unit_suffix(col.unit));
     if (given < 0.0 || (given == 0.0 && range.lower > 0.0)) {
       const bool optional = quantity == Quantity::restitution_sd ||
                             quantity == Quantity::velocity_sd || quantity == Quantity::diameter_sd;

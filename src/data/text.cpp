@@ -10,6 +10,8 @@
 namespace recoil {
 namespace {
 
+constexpr std::size_t longest_word = 40;  // [characters] of one that a message repeats
+
 unsigned byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);
 }
@@ -79,8 +81,7 @@ std::string shortened(std::string_view text, std::size_t longest) {
 }
 
 std::string quote(std::string_view word) {
-  constexpr std::size_t longest = 40;
-  return fmt::format("'{}'", printable(shortened(word, longest)));
+  return fmt::format("'{}'", printable(shortened(word, longest_word)));
 }
 
 std::string printable(std::string_view word) {
@@ -97,8 +98,23 @@ std::string printable(std::string_view word) {
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
   constexpr std::size_t longest = 64;  // the search takes time in proportion to the length
   const std::string nearest = word.size() > longest ? "" : nearest_word(word, known);
-  return nearest.empty() ? fmt::format("known: {}", join(known))
+  return nearest.empty() ? fmt::format("known: {}", listed(known))
                          : fmt::format("did you mean '{}'?", nearest);
+}
+
+std::string unit_suffix(std::string_view unit) {
+  return unit.empty() || unit == "1" ? "" : fmt::format(" {}", unit);
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t longest = 400;
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (text.size() > longest) return fmt::format("{} and {} more", text, words.size() - i);
+    if (i > 0) text += ", ";
+    text += printable(shortened(words[i], longest_word));
+  }
+  return text;
 }
 
 std::string join(const std::vector<std::string>& words) {

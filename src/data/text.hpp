@@ -30,6 +30,13 @@ std::string printable(std::string_view word);
 /// "did you mean 'x'?" when a known word is near, else "known: a, b, c".
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
 
+/// What follows a number in words: " m/s", nothing for a pure number (unit "1" or none).
+std::string unit_suffix(std::string_view unit);
+
+/// "a, b, c and 7 more": words out of somebody's file for a message that has to stay readable, each
+/// printable and cut to 40 characters, some 400 characters in all.
+std::string listed(const std::vector<std::string>& words);
+
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words);
 

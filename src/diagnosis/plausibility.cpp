@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/text.hpp"
+
 namespace recoil {
 namespace {
 
@@ -107,9 +109,9 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
       if (value < lower || value > upper) {
         parameter.plausible = false;
         parameter.nearly = is_near(slot, value, lower, upper);
-        parameter.why_not = fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}",
-                                        parameter.label, parameter.value,
-                                        slot.unit == "1" ? "" : " " + slot.unit, lower, upper, why);
+        parameter.why_not =
+            fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}", parameter.label,
+                        parameter.value, unit_suffix(slot.unit), lower, upper, why);
       }
       const double limit = firmest * softest(candidate.model);
       if (slot.name == "yield_pressure" &&

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "data/text.hpp"
 
 namespace recoil {
 namespace {
@@ -47,8 +48,7 @@ std::string parameters_words(const CandidateResult& candidate) {
   }
   std::vector<std::string> words;
   for (const FoundParameter& p : candidate.parameters) {
-    words.push_back(
-        fmt::format("{} = {:.3g}{}", p.label, p.value, p.unit == "1" ? "" : " " + p.unit));
+    words.push_back(fmt::format("{} = {:.3g}{}", p.label, p.value, unit_suffix(p.unit)));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }

@@ -203,13 +203,15 @@ class FitReader : private TomlReader {
     const double value = number(node, name);
     if (!entry.mechanism.empty()) {
       if (value >= entry.lower && value <= entry.upper) return value;
-      fail(node, fmt::format("'{}' of '{}' is {:g} {}", name, entry.name, value, entry.unit),
+      fail(node,
+           fmt::format("'{}' of '{}' is {:g}{}", name, entry.name, value, unit_suffix(entry.unit)),
            fmt::format("the formula of '{}' holds from {:g} to {:g}", entry.mechanism, entry.lower,
                        entry.upper),
            "choose a value within");
     }
     if (value >= 0.0) return value;
-    fail(node, fmt::format("'{}' of '{}' is {:g} {}", name, entry.name, value, entry.unit),
+    fail(node,
+         fmt::format("'{}' of '{}' is {:g}{}", name, entry.name, value, unit_suffix(entry.unit)),
          fmt::format("the {} cannot be negative", entry.meaning), "0 is the lowest value");
   }
 

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "data/text.hpp"
+#include "data/toml_number.hpp"
 
 namespace recoil {
 
@@ -52,12 +53,12 @@ std::string TomlReader::string(const toml::node& node, const std::string& name,
 
 double TomlReader::number(const toml::node& node, const std::string& name) const {
   if (!node.is_number()) wrong_type(node, name, "a number", fmt::format("{} = 0.5", name));
-  const double value = *node.value<double>();
-  if (!std::isfinite(value)) {
-    fail(node, fmt::format("'{}' is {}", name, value), "it has to be a finite number",
-         "write a number");
+  const std::optional<double> value = finite_number(node);
+  if (!value) {
+    fail(node, fmt::format("'{}' is {}", name, node.as_floating_point()->get()),
+         "it has to be a finite number", "write a number");
   }
-  return value;
+  return *value;
 }
 
 std::int64_t TomlReader::integer(const toml::node& node, const std::string& name) const {

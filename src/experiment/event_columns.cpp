@@ -116,7 +116,7 @@ EventColumns event_columns(const std::vector<std::string>& header, const std::st
       if (!needed(field) && renamed == format.columns.end()) continue;
       throw InputError({file, 1, 1}, fmt::format("no column {}", quote(wanted)),
                        "impacts are found by time, velocity and diameter",
-                       fmt::format("columns here: {}; say --column {}=NAME", join(header), name));
+                       fmt::format("columns here: {}; say --column {}=NAME", listed(header), name));
     }
     const auto index = static_cast<std::size_t>(found - header.begin());
     if (std::find(found + 1, header.end(), wanted) != header.end()) {

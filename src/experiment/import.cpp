@@ -100,7 +100,7 @@ void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
   }
   if (!named.empty()) {
     imported.notes.push_back(
-        fmt::format("diameters taken from the names of the series: {}", join(named)));
+        fmt::format("diameters taken from the names of the series: {}", listed(named)));
   }
 }
 

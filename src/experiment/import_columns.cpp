@@ -80,7 +80,7 @@ ImportedPoints read_columns(const ImportRequest& request,
     out.points.push_back(point);
   }
   const std::vector<std::string> unused = table.unused();
-  if (!unused.empty()) out.notes.push_back(fmt::format("columns not used: {}", join(unused)));
+  if (!unused.empty()) out.notes.push_back(fmt::format("columns not used: {}", listed(unused)));
   return out;
 }
 

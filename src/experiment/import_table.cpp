@@ -89,7 +89,7 @@ ImportTable::ImportTable(const std::filesystem::path& file, const std::vector<st
     for (const CsvField& cell : header_) names.push_back(cell.text);
     throw InputError({file_, header_.front().line, 1},
                      fmt::format("which column is {}?", quantity.name),
-                     fmt::format("the header has {}", join(names)),
+                     fmt::format("the header has {}", listed(names)),
                      fmt::format("say it with --map {}=COLUMN{}", quantity.name,
                                  quantity.dimension == ImportDimension::text ? "" : ":UNIT"));
   }
@@ -162,10 +162,11 @@ double ImportTable::unit_of(const ImportQuantity& quantity, const std::string& u
   if (name.empty() && plain) name = "1";
   const std::vector<std::string> names = import_unit_names(quantity.dimension);
   if (name.empty()) {
-    throw InputError({file_, header_[column].line, header_[column].column},
-                     fmt::format("the unit of {} is not stated", quote(header_[column].text)),
-                     fmt::format("{} is converted by it: {}", quantity.name, join(names)),
-                     fmt::format("write --map {}={}:UNIT", quantity.name, header_[column].text));
+    throw InputError(
+        {file_, header_[column].line, header_[column].column},
+        fmt::format("the unit of {} is not stated", quote(header_[column].text)),
+        fmt::format("{} is converted by it: {}", quantity.name, join(names)),
+        fmt::format("write --map {}={}:UNIT", quantity.name, listed({header_[column].text})));
   }
   if (const auto factor = import_unit_factor(quantity.dimension, name)) return *factor;
   throw InputError({file_, header_[column].line, header_[column].column},

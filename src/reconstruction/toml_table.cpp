@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include "data/toml_number.hpp"
 
 namespace recoil {
 
@@ -34,8 +34,8 @@ const toml::node& TomlTable::need(const std::string& key, const std::string& kin
 }
 
 double TomlTable::number(const std::string& key) {
-  const auto value = need(key, "a number").value<double>();
-  if (!value || !std::isfinite(*value)) fail(key, "it is not a finite number", "write a number");
+  const std::optional<double> value = finite_number(need(key, "a number"));
+  if (!value) fail(key, "it is not a finite number", "write a number");
   return *value;
 }
 
@@ -95,8 +95,8 @@ std::optional<std::vector<double>> TomlTable::optional_numbers(const std::string
   if (list == nullptr || list->empty()) fail(key, "it is not a list of numbers", "write [1, 2]");
   std::vector<double> numbers;
   for (const toml::node& item : *list) {
-    const auto value = item.value<double>();
-    if (!value || !std::isfinite(*value) || !(*value > 0.0)) {
+    const std::optional<double> value = finite_number(item);
+    if (!value || !(*value > 0.0)) {
       throw InputError(locate(item), fmt::format("bad entry of '{}' in {}", key, name_),
                        "every entry must be a number above zero", "correct it");
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/units.hpp"
+#include "data/text.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/format.hpp"
 #include "report/html_page.hpp"
@@ -158,8 +159,7 @@ void add_candidates(const std::vector<CandidateResult>& candidates, std::size_t 
     const CandidateResult& c = candidates[k];
     std::vector<std::string> values;
     for (const FoundParameter& p : c.parameters) {
-      values.push_back(
-          fmt::format("{} = {:.3g}{}", p.label, p.value, p.unit == "1" ? "" : " " + p.unit));
+      values.push_back(fmt::format("{} = {:.3g}{}", p.label, p.value, unit_suffix(p.unit)));
     }
     table.rows.push_back({escape_html(c.candidate.name()), escape_html(to_string(c.kind)),
                           fmt::format("{:.1f}", c.delta_aicc),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "data/text.hpp"
 #include "report/format.hpp"
 #include "report/pair_words.hpp"
 #include "report/text_blocks.hpp"
@@ -95,7 +96,7 @@ void write_variables(Blocks& out, const Analysis& a) {
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
     const std::string name = fmt::format("{:<{}}", slot.label() + ":", widest + 1);
-    const std::string unit = slot.unit == "1" ? "" : " " + slot.unit;
+    const std::string unit = unit_suffix(slot.unit);
     if (!slot.free) {
       out.line(fmt::format("{}  {}{} (fixed)", name, number(f.theta[s]), unit));
       continue;

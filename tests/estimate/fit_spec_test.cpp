@@ -248,6 +248,8 @@ const Mistake mistakes[] = {
     {"bounds_nan", "[0, 0.5]", "[0, nan]", "fit.toml:6:38: ", "'bounds' is nan", "write a number"},
     {"bounds_one", "[0, 0.5]", "[0]", "fit.toml:6:34: ", "not a pair", "for example"},
     {"bounds_three", "[0, 0.5]", "[0, 1, 2]", "fit.toml:6:34: ", "not a pair", "for example"},
+    {"bounds_beyond_exact_doubles", "[0, 0.5]", "[44444444442603404, 0.5]",
+     "fit.toml:6:34: ", "are the wrong way round", "write bounds = [0.5, 4.44444e+16]"},
     {"bounds_number", "[0, 0.5]", "1", "fit.toml:6:34: ", "not a pair", "for example"},
     {"bounds_text", "[0, 0.5]", "[0, \"1\"]", "fit.toml:6:38: ", "is of the type string",
      "for example"},

@@ -190,6 +190,8 @@ TEST(MechanismSpec, MistakesNameTheNearestKnownWord) {
                  {"fit.toml:5:", "the formula of 'plastic_yield' holds from 100000 to 1e+12"});
   expect_refused("\"velocity_offset\"", "velocity_error = { bounds = [-20, 1] }",
                  {"fit.toml:5:", "'velocity_offset' holds from -10 to 10"});
+  expect_refused("\"velocity_offset\"", "rebound_sign = { initial = -3 }",
+                 {"fit.toml:5:", "'initial' of 'rebound_sign' is -3 (the"});
 }
 
 TEST(MechanismSpec, NegativeValuesAreFineWhereTheyMeanSomething) {
