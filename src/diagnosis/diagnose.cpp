@@ -14,6 +14,7 @@
 #include "diagnosis/misfit_map.hpp"
 #include "diagnosis/next_measurement.hpp"
 #include "diagnosis/search.hpp"
+#include "diagnosis/unstated_errors.hpp"
 #include "diagnosis/verdict_words.hpp"
 
 namespace recoil {
@@ -180,6 +181,18 @@ void extend(const SearchBase& base, Diagnosis& diagnosis) {
   compare_capture(diagnosis);
 }
 
+/// Do errors that were not stated leave nothing, and fit so well that no cause can be told beside
+/// them? Better by `apart` than a single cause; nearly as well as two, the best of so many pairs:
+/// chance gives the best of N independent ones a criterion that is smaller by about 2 ln N.
+bool outdone_by_errors(const CandidateResult& best, const Diagnosis& diagnosis, double apart) {
+  const bool pair = best.candidate.added.size() > 1;
+  const double lead = pair ? -2.0 * std::log(static_cast<double>(diagnosis.pairs.size())) : apart;
+  return std::any_of(diagnosis.unstated.begin(), diagnosis.unstated.end(),
+                     [&](const UnstatedErrors& errors) {
+                       return errors.leave_nothing() && errors.delta_aicc + lead < best.delta_aicc;
+                     });
+}
+
 /// Does the best of all single candidates gain more than chance gives it?
 bool more_than_chance(const Diagnosis& diagnosis) {
   return !diagnosis.candidates.empty() &&
@@ -204,6 +217,11 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
     const double both_apart = std::max(apart, options.apart_in_pairs);
     judge(base, diagnosis.pairs, both_apart, folds, base_folds);
     found = explanations(diagnosis.pairs, both_apart, one_size);
+  }
+  diagnosis.unstated = unstated_errors(base);
+  if (!found.empty() && outdone_by_errors(*found.front(), diagnosis, apart)) {
+    diagnosis.outdone = found.front()->candidate.name();
+    found.clear();
   }
   decide(found, one_size, diagnosis);
   if (diagnosis.verdict == Verdict::not_separable) {

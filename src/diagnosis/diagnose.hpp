@@ -76,6 +76,16 @@ struct CandidateResult {
   bool explains() const { return aside.empty(); }
 };
 
+/// Errors of the measurement beyond the stated ones that might do in place of a cause.
+struct UnstatedErrors {
+  std::string id;           ///< "velocity_errors" or "larger_deviations"
+  double value = 0.0;       ///< relative sd of every velocity [1], or factor on every deviation [1]
+  double delta_aicc = 0.0;  ///< criterion less that of the base model as stated
+  double remaining_p = 0.0;  ///< of what is systematic, or of heavy tails, under them
+
+  bool leave_nothing() const { return delta_aicc < 0.0 && remaining_p >= tolerated_level; }
+};
+
 enum class Verdict { adequate, cause_named, not_separable, unexplained };
 std::string to_string(Verdict verdict);
 
@@ -123,6 +133,8 @@ struct Diagnosis {
   std::optional<HeldOutGain> gain;
   std::vector<CaptureChange> capture;
   std::vector<NextMeasurement> next;
+  std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate
+  std::string outdone;  ///< the best explanation, where unstated errors do better; else empty
   std::vector<std::string> warnings;
   /// What a reader has to know about the points: for reconstructions, what their recipe put there.
   std::vector<std::string> remarks;
@@ -145,6 +157,9 @@ struct Diagnosis {
 ///    chance gives, as chance gives more to the best of so many pairs; if they fail too the
 ///    structure is unexplained. One diameter names nothing: the size dependence, which tells causes
 ///    apart, was not seen.
+/// 5. Where errors that were not stated (`unstated_errors`) leave nothing and fit better than the
+///    best single explanation by more than `apart`, or about as well as the best of the pairs, no
+///    cause is told; where they would do as well, the text says so.
 /// @throws ComputationError when the base model has no usable fit.
 Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
                    const DiagnosisOptions& options);

@@ -192,6 +192,62 @@ std::string found_words(const Diagnosis& d) {
 
 }  // namespace
 
+std::vector<UnstatedErrors> rival_errors(const Diagnosis& d) {
+  std::vector<UnstatedErrors> rivals;
+  for (const UnstatedErrors& errors : d.unstated) {
+    const bool close = !d.extended || errors.delta_aicc < d.extended->delta_aicc + d.options.apart;
+    const bool two_for_one = d.extended && d.extended->candidate.added.size() > 1;
+    if (errors.leave_nothing() && (close || two_for_one)) rivals.push_back(errors);
+  }
+  return rivals;
+}
+
+namespace {
+
+std::string errors_words(const UnstatedErrors& errors) {
+  return errors.id == "velocity_errors"
+             ? fmt::format(
+                   "velocities uncertain by {:.2g} % each (velocity_relative_sd = {:.2g} "
+                   "under [noise]) leave nothing systematic (p = {:.2g})",
+                   100.0 * errors.value, errors.value, errors.remaining_p)
+             : fmt::format(
+                   "standard deviations {:.2g} times as large leave nothing systematic "
+                   "(p = {:.2g})",
+                   errors.value, errors.remaining_p);
+}
+
+std::string rival_errors_words(const Diagnosis& d) {
+  const std::vector<UnstatedErrors> rivals = rival_errors(d);
+  if (rivals.empty()) return "";
+  std::vector<std::string> words;
+  for (const UnstatedErrors& errors : rivals) words.push_back(errors_words(errors));
+  const double behind = d.extended ? rivals.front().delta_aicc - d.extended->delta_aicc : 0.0;
+  return fmt::format(" Errors that were not stated would do {}: {}.",
+                     !d.extended                ? "without any cause"
+                     : behind > d.options.apart ? fmt::format("too, if less well (AICc larger by "
+                                                              "{:.0f} than with two causes)",
+                                                              behind)
+                                                : "as well",
+                     fmt::join(words, "; "));
+}
+
+std::string unexplained_words(const Diagnosis& d) {
+  if (!d.structure.smooth) {
+    return " It has no shape in velocity and size: the points scatter more than their stated "
+           "deviations say, which are then too small.";
+  }
+  if (d.free_form_p <= 0.01) {
+    return " A smooth function of velocity and size does not take it up either.";
+  }
+  return rival_errors(d).empty()
+             ? " A smooth function of velocity and size takes it up: there is an effect that this "
+               "program does not know, or one that acts on some of the points only."
+             : " A smooth function of velocity and size takes it up as well, as it would an effect "
+               "that this program does not know.";
+}
+
+}  // namespace
+
 std::string where_text(const Diagnosis& d) {
   const auto worst = std::max_element(d.where.begin(), d.where.end(),
                                       [](const MisfitCell& a, const MisfitCell& b) {
@@ -243,24 +299,17 @@ std::string verdict_text(const Diagnosis& d) {
       text += gain_words(d) + rest_words(d) + next_words(d);
       break;
     case Verdict::unexplained:
-      text += "Nothing in the catalogue explains it, alone or in pairs." + single_point_words(d) +
-              lead_words(d);
-      if (!d.structure.smooth) {
-        text +=
-            " It has no shape in velocity and size: the points scatter more than their stated "
-            "deviations say, which are then too small.";
-      } else if (d.free_form_p > 0.01) {
-        text +=
-            " A smooth function of velocity and size takes it up: there is an effect that this "
-            "program does not know, or one that acts on some of the points only.";
-      } else {
-        text += " A smooth function of velocity and size does not take it up either.";
-      }
+      text += d.outdone.empty() ? "Nothing in the catalogue explains it, alone or in pairs."
+                                : fmt::format(
+                                      "{} would explain it, but so would errors that were not "
+                                      "stated, and with less: no cause is told.",
+                                      d.outdone);
+      text += single_point_words(d) + lead_words(d) + unexplained_words(d);
       break;
     case Verdict::adequate:
       break;
   }
-  return text + aside_words(d);
+  return text + rival_errors_words(d) + aside_words(d);
 }
 
 }  // namespace recoil

@@ -8,6 +8,9 @@
 
 namespace recoil {
 
+/// The answer in one line, without a full stop.
+std::string headline(const Diagnosis& diagnosis);
+
 /// `diagnosis.json`. Indented, ends with a newline, no NaN: what has no number is null.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 

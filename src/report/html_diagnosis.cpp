@@ -13,38 +13,6 @@
 namespace recoil {
 namespace {
 
-std::string headline(const Diagnosis& d) {
-  const auto with_spaces = [](const std::vector<std::string>& ids, const char* between = ", ") {
-    std::vector<std::string> words;
-    for (const std::string& id : ids) words.push_back(words_of(id));
-    return fmt::format("{}", fmt::join(words, between));
-  };
-  switch (d.verdict) {
-    case Verdict::adequate:
-      return "The model describes these points";
-    case Verdict::cause_named:
-      return "What the model misses: " + with_spaces(d.named);
-    case Verdict::not_separable: {
-      if (!d.shared_cause.empty()) {
-        return fmt::format("What the model misses: {}, by one of several laws ({})", d.shared_cause,
-                           with_spaces(d.rivals));
-      }
-      std::vector<std::string> doubtful = d.rivals;
-      std::erase_if(doubtful, [&](const std::string& id) {
-        return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
-      });
-      if (!d.common.empty() && !doubtful.empty()) {
-        return fmt::format("What the model misses: {}, and beside it {}", with_spaces(d.common),
-                           with_spaces(doubtful, " or "));
-      }
-      return "Something is missed, and these data cannot tell what: " + with_spaces(d.rivals);
-    }
-    case Verdict::unexplained:
-      return "Something is missed that nothing in the catalogue explains";
-  }
-  return "";
-}
-
 std::string answer_html(const Diagnosis& d) {
   std::string out = fmt::format("<p><strong>{}.</strong></p>\n<p class=\"summary\">{}</p>\n",
                                 escape_html(headline(d)), prose_html(d.text));

@@ -116,28 +116,13 @@ Json parsed(const IndexEntry& entry, const std::string& content, const std::stri
   return json;
 }
 
-/// The words of a verdict, and a mark that says the same to those who cannot see its colour.
+/// A mark that says a verdict to those who cannot see its colour.
 struct VerdictMark {
   const char* verdict;
   const char* mark;
-  const char* words;
 };
 constexpr VerdictMark verdict_marks[] = {
-    {"adequate", "✓", "the model describes these points"},
-    {"cause_named", "◆", "a cause is named"},
-    {"not_separable", "?", "several causes explain it"},
-    {"unexplained", "✗", "nothing in the catalogue explains what is missed"},
-};
-
-std::string causes(const Json& ids) {
-  std::vector<std::string> words;
-  for (const Json& id : ids) words.push_back(words_of(text(id)));
-  constexpr std::size_t most = 3;
-  const std::size_t more = words.size() > most ? words.size() - most : 0;
-  words.resize(words.size() - more);
-  return fmt::format("{}{}", fmt::join(words, ", "),
-                     more > 0 ? fmt::format(" and {} more", more) : std::string());
-}
+    {"adequate", "✓"}, {"cause_named", "◆"}, {"not_separable", "?"}, {"unexplained", "✗"}};
 
 std::string verdict_line(const IndexEntry& entry) {
   if (entry.diagnosis_json.empty()) return "";
@@ -147,25 +132,12 @@ std::string verdict_line(const IndexEntry& entry) {
       std::find_if(std::begin(verdict_marks), std::end(verdict_marks),
                    [&](const VerdictMark& mark) { return verdict == mark.verdict; });
   if (found == std::end(verdict_marks)) return "";
-  std::string words = found->words;
-  const Json common = at(diagnosis, "/in_every_explanation");
-  Json doubtful = Json::array();
-  for (const Json& id : at(diagnosis, "/rivals")) {
-    if (std::find(common.begin(), common.end(), id) == common.end()) doubtful.push_back(id);
-  }
-  if (!common.empty() && !doubtful.empty()) {
-    words = fmt::format("{} acts, and beside it one of {}", causes(common), causes(doubtful));
-  } else {
-    for (const char* list : {"/named", "/rivals"}) {
-      const Json ids = at(diagnosis, list);
-      if (ids.is_array() && !ids.empty()) words += ": " + causes(ids);
-    }
-  }
+  const std::string words = text(at(diagnosis, "/headline"));
   return fmt::format(
       "<p class=\"verdict {}\"><span class=\"mark\" aria-hidden=\"true\">{}</span> "
-      "<a href=\"{}\">{}</a>: {}</p>\n",
+      "<a href=\"{}\">{}</a></p>\n",
       found->verdict, found->mark, escape_html(entry.diagnosis_page),
-      escape_html(words_of(verdict)), escape_html(words));
+      escape_html(words.empty() ? words_of(verdict) : words));
 }
 
 std::string card(const IndexEntry& entry) {

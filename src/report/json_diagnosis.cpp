@@ -148,6 +148,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   }
   out["datasets"] = datasets;
   out["verdict"] = to_string(d.verdict);
+  out["headline"] = headline(d);
   out["text"] = d.text;
   out["misfit"] = structure_json(d.structure);
   out["misfit"]["where"] = Json::array();
@@ -166,6 +167,14 @@ std::string diagnosis_json(const Diagnosis& d) {
       d.extended_fit ? fit_json(*d.extended_fit, d.extended_intervals) : Json(nullptr);
   out["capture_velocity"] = capture_json(d);
   out["next_measurement"] = next_json(d);
+  out["unstated_errors"] = Json::array();
+  for (const UnstatedErrors& errors : d.unstated) {
+    out["unstated_errors"].push_back({{"id", errors.id},
+                                      {"value", errors.value},
+                                      {"delta_aicc", errors.delta_aicc},
+                                      {"remaining_p", errors.remaining_p},
+                                      {"leave_nothing", errors.leave_nothing()}});
+  }
   out["settings"] = {{"level", d.options.level},       {"chance", d.options.chance},
                      {"apart", d.options.apart},       {"apart_in_pairs", d.options.apart_in_pairs},
                      {"compared", d.options.compared}, {"seed", d.options.seed}};

@@ -93,6 +93,16 @@ std::vector<Question> one_diameter() {
            {Mark::inside, Mark::outside}}};
 }
 
+/// Errors that the table does not state are no cause.
+TEST(CarelessBar, ErrorsThatNobodyStatedAreToldAndNoCauseIs) {
+  for (const char* kind : {"velocities", "deviations"}) {
+    const Answered answer = ask({"wall", {kind}, 0.0, 0}, RECOIL_BINARY, {});
+    ASSERT_EQ(answer.status, 0) << answer.complaint;
+    EXPECT_EQ(answer.verdict, "unexplained") << kind;
+    EXPECT_TRUE(answer.errors_told) << kind;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(ClearCause, Bar, testing::ValuesIn(clear_causes()), test_name);
 INSTANTIATE_TEST_SUITE_P(CloseCause, Bar, testing::ValuesIn(close_causes()), test_name);
 INSTANTIATE_TEST_SUITE_P(NothingHidden, Bar, testing::ValuesIn(nothing_hidden()), test_name);

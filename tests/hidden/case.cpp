@@ -27,6 +27,21 @@ std::string joined(const std::vector<std::string>& effects) {
   return all;
 }
 
+/// What the table says of a point: the mean of its events, that came at another velocity than the
+/// printed one if that is uncertain.
+double reading_of(const Case& made, const Point& p, recoil::RandomStream& random) {
+  const double scatter = made.effects.velocity_scatter;
+  double reading = 0.0;
+  for (int i = 0; i < 100 && !(reading > 0.0); ++i) {  // somebody wants a rebound
+    const double velocity =
+        scatter > 0.0 ? p.velocity * (1.0 + scatter * random.normal()) : p.velocity;
+    reading = observed_mean(made.design.base, made.effects, made.design.scatter, velocity,
+                            p.diameter, p.row, made.design.events, random);
+    if (scatter == 0.0) break;
+  }
+  return reading;
+}
+
 }  // namespace
 
 std::string CaseOrder::key() const {
@@ -54,6 +69,11 @@ Case make_case(const CaseOrder& order) {
   made.reached = true;
   for (std::size_t k = 0; k < order.effects.size(); ++k) {
     const Knob& knob = find_knob(order.effects[k]);
+    if (knob.kind == KnobKind::careless) {  // leaves nothing without noise: of one size
+      knob.turn(made.effects, knob.largest, made.design);
+      made.strengths.push_back(knob.largest);
+      continue;
+    }
     const Draws draws = draw_background(knob, made.design, seed + k);
     const auto alone = [&](double strength) {
       Effects effects;
@@ -76,10 +96,7 @@ Case make_case(const CaseOrder& order) {
   const std::uint64_t readings_seed = number_of(order.key(), seed);
   for (std::size_t i = 0; i < made.points.size(); ++i) {
     recoil::RandomStream random(readings_seed, hidden_purpose, 100 + i);
-    const Point& p = made.points[i];
-    made.readings.push_back(observed_mean(made.design.base, made.effects, made.design.scatter,
-                                          p.velocity, p.diameter, p.row, made.design.events,
-                                          random));
+    made.readings.push_back(reading_of(made, made.points[i], random));
   }
   return made;
 }

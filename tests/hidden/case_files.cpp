@@ -62,9 +62,10 @@ std::string points_text(const Case& made) {
     const Point& p = made.points[i];
     const std::string& name = made.design.rows[p.row].name;
     const bool quoted = name.find(',') != std::string::npos;
-    text += fmt::format("{0}{1}{0},{2:g},{3},{4:.{5}f},{6},{7}\n", quoted ? "\"" : "", name,
-                        1e6 * p.diameter, printed(p.velocity, 3), made.readings[i],
-                        made.design.decimals, printed(p.sd, 3), made.design.events);
+    text += fmt::format(
+        "{0}{1}{0},{2:g},{3},{4:.{5}f},{6},{7}\n", quoted ? "\"" : "", name, 1e6 * p.diameter,
+        printed(p.velocity, 3), made.readings[i], made.design.decimals,
+        printed(p.sd / (1.0 + made.effects.deviations_short), 3), made.design.events);
   }
   return text;
 }

@@ -53,7 +53,8 @@ Closest closest_cause(const Case& made, const fs::path& binary) {
   const fs::path fit = write_case(without_noise(made), scratch.path());
   Closest closest{"", std::numeric_limits<double>::infinity()};
   for (const Knob& knob : knobs()) {
-    if (knob.kind == KnobKind::outside || !worth_trying(knob.id, made.order.effects.front())) {
+    const bool in_catalogue = knob.kind == KnobKind::physics || knob.kind == KnobKind::measurement;
+    if (!in_catalogue || !worth_trying(knob.id, made.order.effects.front())) {
       continue;
     }
     const double left = misfit_left(fit, std::string(knob.id), binary);

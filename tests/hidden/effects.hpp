@@ -30,6 +30,8 @@ struct Effects {
   double slowest_rebound = 0.0;       ///< that is seen [m/s]
   double outlier_share = 0.0;         ///< of the pairs
   std::vector<double> series_offset;  ///< on e, one for each series
+  double velocity_scatter = 0.0;  ///< sd of the printed velocity of a point, not stated, relative
+  double deviations_short = 0.0;  ///< true standard deviation over the stated one, less 1
   Oddity oddity = Oddity::none;
   double oddity_size = 0.0;    ///< on ln e
   double oddity_centre = 1.0;  ///< [m/s]

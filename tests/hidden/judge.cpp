@@ -31,6 +31,7 @@ Json to_json(const Answered& a) {
           {"rivals", a.rivals},
           {"certain", a.certain},
           {"shared_cause", a.shared_cause},
+          {"errors_told", a.errors_told},
           {"contenders", contenders},
           {"closest", a.closest.id},
           {"closest_misfit", a.closest.misfit}};
@@ -60,6 +61,7 @@ bool load(const fs::path& file, Answered& a) {
   a.rivals = kept["rivals"].get<std::vector<std::string>>();
   a.certain = kept.value("certain", std::vector<std::string>());
   a.shared_cause = kept["shared_cause"];
+  a.errors_told = kept.value("errors_told", false);
   for (const Json& c : kept["contenders"]) a.contenders.push_back({c[0], c[1]});
   a.closest = {kept["closest"], kept["closest_misfit"]};
   return true;
@@ -102,6 +104,8 @@ void diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.rivals = answer.at("rivals").get<std::vector<std::string>>();
   a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
   if (answer.at("shared_cause").is_string()) a.shared_cause = answer["shared_cause"];
+  a.errors_told = answer.at("text").get<std::string>().find("Errors that were not stated would") !=
+                  std::string::npos;
   a.contenders = contenders_of(answer.at("candidates"));
 }
 

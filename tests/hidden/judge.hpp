@@ -29,6 +29,7 @@ struct Answered {
   std::vector<std::string> rivals;
   std::vector<std::string> certain;  ///< of the rivals, those in every explanation
   std::string shared_cause;          ///< of which all rivals are laws
+  bool errors_told = false;          ///< the text says that errors that were not stated would do
   /// The best explanation by one mechanism and what comes within 30 of it; empty without one.
   std::vector<Contender> contenders;
   Closest closest;  ///< for one visible effect of the catalogue in a design of several diameters

@@ -59,6 +59,10 @@ const std::vector<Knob>& knobs() {
       {"dip", outside, "1", 1.0, 0.0, [](E& e, double s, const D&) { e.oddity_size = s; }},
       {"kink", outside, "1", 0.5, 0.0, [](E& e, double s, const D&) { e.oddity_size = s; }},
       {"wave", outside, "1", 0.5, 0.0, [](E& e, double s, const D&) { e.oddity_size = s; }},
+      {"velocities", careless, "1", 0.03, 0.0,
+       [](E& e, double s, const D&) { e.velocity_scatter = s; }},
+      {"deviations", careless, "1", 0.5, 0.0,
+       [](E& e, double s, const D&) { e.deviations_short = s; }},
   };
   return all;
 }

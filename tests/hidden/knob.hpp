@@ -9,7 +9,8 @@
 
 namespace hidden {
 
-enum class KnobKind { physics, measurement, outside };
+/// Careless: no effect on what happens, but errors that the table does not state.
+enum class KnobKind { physics, measurement, outside, careless };
 
 /// One effect with the one number that says how strong it is.
 struct Knob {

@@ -38,6 +38,8 @@ int run(int argc, char** argv) {
   app.add_option("--pairs", size.pairs, "data sets of each pair, design and strength");
   app.add_option("--outside", size.outside, "of each outside effect, design and strength");
   app.add_option("--single", size.single, "of each effect and strength with one diameter");
+  app.add_option("--careless", size.careless,
+                 "of each kind of error that is not stated, and design");
   app.add_option("--only", only, "only orders whose key contains this");
   app.add_option("--keep", keep, "folder for finished answers: a stopped study goes on from there");
   app.add_option("--picture", picture, "write the picture here (SVG)");

@@ -33,14 +33,24 @@ Chapter chapter_of(const CaseOrder& order) {
   if (!has_several_diameters(order.design)) return Chapter::single;
   if (order.effects.empty()) return Chapter::correct;
   if (order.effects.size() > 1) return Chapter::pair;
-  return find_knob(order.effects.front()).kind == KnobKind::outside ? Chapter::outside
-                                                                    : Chapter::effect;
+  switch (find_knob(order.effects.front()).kind) {
+    case KnobKind::outside:
+      return Chapter::outside;
+    case KnobKind::careless:
+      return Chapter::careless;
+    default:
+      return Chapter::effect;
+  }
 }
 
 std::vector<CaseOrder> plan_study(const StudySize& size) {
   Plan plan(size.seed);
   for (const Knob& knob : knobs()) {
     const std::vector<std::string> effect = {std::string(knob.id)};
+    if (knob.kind == KnobKind::careless) {
+      for (const char* design : {"wall", "li"}) plan.add(design, effect, 0.0, size.careless);
+      continue;
+    }
     const bool outside = knob.kind == KnobKind::outside;
     for (const double strength : study_strengths()) {
       const int count = outside ? size.outside : size.per_cell;

@@ -14,6 +14,7 @@ struct StudySize {
   int pairs = 4;      ///< of each pair and design
   int outside = 10;   ///< of each outside effect, design and strength
   int single = 4;     ///< of each effect and strength in designs of one diameter
+  int careless = 6;   ///< of each kind of error that is not stated, and design
   std::uint64_t seed = 20260101;
 };
 
@@ -24,7 +25,7 @@ inline const std::vector<double>& study_strengths() {
 inline constexpr double visible = 10.0;  ///< signal-to-noise from which on the bars count
 
 /// What a data set is in the study for.
-enum class Chapter { effect, correct, pair, outside, single };
+enum class Chapter { effect, correct, pair, outside, single, careless };
 Chapter chapter_of(const CaseOrder& order);
 
 /// Shuffled, the same way for equal sizes and seeds: what is done of a study that ends early is a

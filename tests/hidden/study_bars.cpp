@@ -79,6 +79,9 @@ std::string bars(const std::vector<Answered>& all) {
   for (const Answered* a : effects) {
     if (can_be_named(*a)) nameable.push_back(a);
   }
+  const Answers careless = those(all, in(Chapter::careless));
+  const Answers careless_seen = those(
+      all, [&](const Answered& a) { return in(Chapter::careless)(a) && a.verdict != "adequate"; });
   const Test found = marked({Mark::named});
   const Test inside = marked({Mark::named, Mark::inside});
   const Test told = [](const Answered& a) {
@@ -99,6 +102,10 @@ std::string bars(const std::vector<Answered>& all) {
       {"false alarms, nothing hidden", -0.05, those(all, in(Chapter::correct)), not_adequate},
       {"outside effect called unexplained", 0.80, seen(Chapter::outside),
        marked({Mark::unexplained})},
+      {"errors that nobody stated: a cause named", -0.05, careless,
+       [](const Answered& a) { return a.verdict == "cause_named"; }},
+      {"the same, where structure is seen: told that such errors would do", 0.80, careless_seen,
+       [](const Answered& a) { return a.errors_told; }},
       {"one diameter: answered by not_separable", 0.80,
        those(all,
              [](const Answered& a) {

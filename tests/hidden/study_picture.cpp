@@ -111,6 +111,7 @@ Confusion confusion_of(const std::vector<Answered>& answers) {
   Confusion c;
   std::vector<std::string> ids;
   for (const Knob& knob : knobs()) {
+    if (knob.kind == KnobKind::careless) continue;
     c.rows.emplace_back(knob.id);
     if (knob.kind != KnobKind::outside) ids.emplace_back(knob.id);
   }

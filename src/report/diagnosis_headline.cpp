@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "diagnosis/verdict_words.hpp"
+#include "report/diagnosis_report.hpp"
+#include "report/format.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_causes = 5;
+
+std::string causes(const std::vector<std::string>& ids, const char* between = ", ") {
+  std::vector<std::string> words;
+  for (const std::string& id : ids) {
+    if (words.size() < most_causes) words.push_back(words_of(id));
+  }
+  const std::size_t more = ids.size() - words.size();
+  return fmt::format("{}{}", fmt::join(words, between),
+                     more > 0 ? fmt::format(" and {} more", more) : std::string());
+}
+
+std::string headline_of_several(const Diagnosis& d) {
+  if (!d.shared_cause.empty()) {
+    return fmt::format("What the model misses: {}, by one of several laws ({})", d.shared_cause,
+                       causes(d.rivals));
+  }
+  std::vector<std::string> doubtful = d.rivals;
+  std::erase_if(doubtful, [&](const std::string& id) {
+    return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
+  });
+  if (!d.common.empty() && !doubtful.empty()) {
+    return fmt::format("What the model misses: {}, and beside it {}", causes(d.common),
+                       causes(doubtful, " or "));
+  }
+  return "Something is missed, and these data cannot tell what: " + causes(d.rivals);
+}
+
+}  // namespace
+
+std::string headline(const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::adequate:
+      return "The model describes these points";
+    case Verdict::cause_named:
+      return "What the model misses: " + causes(d.named);
+    case Verdict::not_separable:
+      return headline_of_several(d);
+    case Verdict::unexplained:
+      return rival_errors(d).empty()
+                 ? "Something is missed that nothing in the catalogue explains"
+                 : "Either the errors are larger than stated, or something is missed that nothing "
+                   "in the catalogue explains";
+  }
+  return "";
+}
+
+}  // namespace recoil

@@ -1,0 +1,150 @@
+#include "diagnosis/unstated_errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "diagnosis/verdict_words.hpp"
+#include "synthetic.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double stated_sd = 0.008;
+
+ImpactPoint impact(double diameter, double velocity) {
+  synthetic::Design design;
+  design.diameters = {diameter};
+  design.velocities = {velocity};
+  design.sd = stated_sd;
+  return synthetic::dataset(design).points.front();
+}
+
+double capture_velocity(double diameter) {
+  double velocity = 0.2;
+  while (impact(diameter, velocity).restitution == 0.0) velocity *= 1.01;
+  return velocity;
+}
+
+/// Impacts that the model describes, measured worse than stated: the sphere came at another
+/// velocity than the one that was read, and e scatters `larger` times as much as said.
+Dataset measured(unsigned seed, double velocity_error, double larger) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Dataset data = synthetic::dataset({});
+  data.points.clear();
+  data.series.clear();
+  for (const double diameter : {2.58e-6, 3.42e-6, 4.9e-6, 6.89e-6}) {
+    for (const double above : {1.15, 1.2, 1.3, 1.4, 1.6, 2.0, 3.0, 5.0, 9.0, 16.0, 30.0}) {
+      const double read = above * capture_velocity(diameter);
+      ImpactPoint point = impact(diameter, read * (1.0 + velocity_error * normal(random)));
+      point.series = data.series.size();
+      point.incident_velocity = read;
+      point.restitution += larger * stated_sd * normal(random);
+      data.points.push_back(point);
+    }
+    data.series.push_back(std::to_string(data.series.size()));
+  }
+  return data;
+}
+
+DiagnosisOptions options() {
+  DiagnosisOptions few;
+  few.simulated = 199;
+  few.compared = 19;
+  return few;
+}
+
+Diagnosis diagnosed(const Dataset& data) { return diagnose(synthetic::spec(), {data}, options()); }
+
+/// What `diagnose` would be told, without the search for causes.
+std::vector<UnstatedErrors> asked(const Dataset& data) {
+  const std::vector<Dataset> datasets = {data};
+  const FitSpec spec = synthetic::spec();
+  const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+  return unstated_errors(search_base(spec, datasets, fitted, options()));
+}
+
+bool speaks_of_errors(const Diagnosis& found) {
+  return found.text.find("Errors that were not stated would do") != std::string::npos;
+}
+
+const UnstatedErrors* find(const std::vector<UnstatedErrors>& all, const std::string& id) {
+  const auto at = std::find_if(all.begin(), all.end(),
+                               [&](const UnstatedErrors& errors) { return errors.id == id; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+TEST(UnstatedErrors, UncertainVelocitiesAreFound) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const std::vector<UnstatedErrors> all = asked(measured(seed, 0.04, 1.0));
+    const UnstatedErrors* const velocities = find(all, "velocity_errors");
+    ASSERT_NE(velocities, nullptr) << seed;
+    EXPECT_EQ(velocities, &all.front()) << seed;
+    EXPECT_TRUE(velocities->leave_nothing()) << velocities->remaining_p;
+    // From the third of the 44 points where e is steep enough: 20 % at one sigma.
+    EXPECT_NEAR(std::log(velocities->value / 0.04), 0.0, 0.55) << seed;
+  }
+}
+
+TEST(UnstatedErrors, DeviationsThatAreTooSmallAreFound) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const std::vector<UnstatedErrors> all = asked(measured(seed, 0.0, 1.8));
+    const UnstatedErrors* const larger = find(all, "larger_deviations");
+    ASSERT_NE(larger, nullptr) << seed;
+    EXPECT_TRUE(larger->leave_nothing()) << larger->remaining_p;
+    EXPECT_NEAR(std::log(larger->value / 1.8), 0.0, 0.35) << seed;  // 11 % at one sigma
+  }
+}
+
+TEST(UnstatedErrors, UncertainVelocitiesMakeNoCause) {
+  const Diagnosis found = diagnosed(measured(1, 0.04, 1.0));
+  EXPECT_EQ(found.verdict, Verdict::unexplained) << found.text;
+  EXPECT_TRUE(found.named.empty() && found.rivals.empty());
+  EXPECT_NE(found.text.find("velocities uncertain by"), std::string::npos) << found.text;
+}
+
+TEST(UnstatedErrors, DeviationsThatAreTooSmallMakeNoCause) {
+  const Diagnosis found = diagnosed(measured(1, 0.0, 1.8));
+  EXPECT_EQ(found.verdict, Verdict::unexplained) << found.text;
+  EXPECT_TRUE(speaks_of_errors(found)) << found.text;
+}
+
+TEST(UnstatedErrors, DoNotStandForABatch) {
+  Dataset data = measured(5, 0.0, 1.0);
+  constexpr double offset[] = {0.04, -0.05, 0.045, -0.03};
+  for (ImpactPoint& point : data.points) point.restitution += offset[point.series];
+  const Diagnosis found = diagnosed(data);
+  EXPECT_EQ(found.named, std::vector<std::string>{"series_offset"}) << found.text;
+  EXPECT_FALSE(speaks_of_errors(found)) << found.text;
+}
+
+TEST(UnstatedErrors, DoNotStandForADip) {
+  Dataset data = measured(6, 0.0, 1.0);
+  for (ImpactPoint& point : data.points) {
+    const double away = std::log(point.incident_velocity / 10.0) / 0.25;
+    if (point.series % 2 == 0) point.restitution -= 0.12 * std::exp(-0.5 * away * away);
+  }
+  const Diagnosis found = diagnosed(data);
+  EXPECT_EQ(found.verdict, Verdict::unexplained) << found.text;
+  EXPECT_FALSE(speaks_of_errors(found)) << found.text;
+}
+
+TEST(UnstatedErrors, AreNotAskedForWhereNoneAreStated) {
+  Dataset data = measured(7, 0.0, 1.8);
+  for (ImpactPoint& point : data.points) point.restitution_sd.reset();
+  EXPECT_TRUE(asked(data).empty());
+}
+
+TEST(UnstatedErrors, VelocityErrorsAreNotAskedForWhereTheyAreStated) {
+  Dataset data = measured(1, 0.04, 1.0);
+  ASSERT_NE(find(asked(data), "velocity_errors"), nullptr);
+  for (ImpactPoint& point : data.points) point.velocity_sd = 0.002 * point.incident_velocity;
+  EXPECT_EQ(find(asked(data), "velocity_errors"), nullptr);
+}
+
+}  // namespace
+}  // namespace recoil

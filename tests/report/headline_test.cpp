@@ -1,0 +1,74 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/verdict_words.hpp"
+#include "report/diagnosis_report.hpp"
+
+namespace recoil {
+namespace {
+
+using testing::HasSubstr;
+
+Diagnosis answered(Verdict verdict, std::vector<std::string> rivals = {}) {
+  Diagnosis d;
+  d.verdict = verdict;
+  d.rivals = std::move(rivals);
+  return d;
+}
+
+TEST(Headline, SaysWhatIsNamed) {
+  Diagnosis d = answered(Verdict::cause_named);
+  d.named = {"plastic_yield", "gas_film"};
+  EXPECT_EQ(headline(d), "What the model misses: plastic yield, gas film");
+  EXPECT_EQ(headline(answered(Verdict::adequate)), "The model describes these points");
+}
+
+TEST(Headline, TellsTheCertainFromTheDoubtful) {
+  Diagnosis d = answered(Verdict::not_separable, {"crack_rate", "plastic_yield", "capillary"});
+  EXPECT_EQ(headline(d),
+            "Something is missed, and these data cannot tell what: crack rate, plastic yield, "
+            "capillary");
+  d.common = {"plastic_yield"};
+  EXPECT_EQ(headline(d),
+            "What the model misses: plastic yield, and beside it crack rate or capillary");
+  d.common.clear();
+  d.shared_cause = "adhesion hysteresis";
+  EXPECT_EQ(headline(d),
+            "What the model misses: adhesion hysteresis, by one of several laws (crack rate, "
+            "plastic yield, capillary)");
+}
+
+TEST(Headline, StaysShortWithManyRivals) {
+  const std::string text =
+      headline(answered(Verdict::not_separable, {"a", "b", "c_d", "d", "e", "f", "g"}));
+  EXPECT_THAT(text, HasSubstr("a, b, c d, d, e and 2 more"));
+}
+
+TEST(Headline, DoubtsTheStatedErrorsWhereTheyMayBeTheReason) {
+  Diagnosis d = answered(Verdict::unexplained);
+  EXPECT_EQ(headline(d), "Something is missed that nothing in the catalogue explains");
+  d.unstated.push_back({"velocity_errors", 0.03, -40.0, 0.001});
+  EXPECT_EQ(headline(d), "Something is missed that nothing in the catalogue explains");
+  d.unstated.push_back({"larger_deviations", 1.4, -20.0, 0.4});
+  EXPECT_THAT(headline(d), HasSubstr("Either the errors are larger than stated, or"));
+}
+
+TEST(RivalErrors, CountBesideACauseOnlyWhereTheyFitAsWell) {
+  Diagnosis d = answered(Verdict::cause_named);
+  d.unstated.push_back({"velocity_errors", 0.03, -40.0, 0.4});
+  d.extended.emplace();
+  d.extended->candidate.added = {"gas_film"};
+  d.extended->delta_aicc = -50.0;
+  EXPECT_TRUE(rival_errors(d).empty());
+  d.extended->delta_aicc = -42.0;
+  EXPECT_EQ(rival_errors(d).size(), 1U);
+  d.extended->delta_aicc = -50.0;
+  d.extended->candidate.added = {"gas_film", "plastic_yield"};
+  EXPECT_EQ(rival_errors(d).size(), 1U) << "two causes against one number";
+}
+
+}  // namespace
+}  // namespace recoil
