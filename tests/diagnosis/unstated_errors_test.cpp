@@ -100,20 +100,21 @@ TEST(UnstatedErrors, DeviationsThatAreTooSmallAreFound) {
   }
 }
 
-TEST(UnstatedErrors, UncertainVelocitiesMakeNoCause) {
+// Whole diagnoses bear the name of that suite, which the sanitizers leave out.
+TEST(Diagnose, UncertainVelocitiesAreNoCause) {
   const Diagnosis found = diagnosed(measured(1, 0.04, 1.0));
   EXPECT_EQ(found.verdict, Verdict::unexplained) << found.text;
   EXPECT_TRUE(found.named.empty() && found.rivals.empty());
   EXPECT_NE(found.text.find("velocities uncertain by"), std::string::npos) << found.text;
 }
 
-TEST(UnstatedErrors, DeviationsThatAreTooSmallMakeNoCause) {
+TEST(Diagnose, DeviationsThatAreTooSmallAreNoCause) {
   const Diagnosis found = diagnosed(measured(1, 0.0, 1.8));
   EXPECT_EQ(found.verdict, Verdict::unexplained) << found.text;
   EXPECT_TRUE(speaks_of_errors(found)) << found.text;
 }
 
-TEST(UnstatedErrors, DoNotStandForABatch) {
+TEST(Diagnose, ErrorsDoNotStandForABatch) {
   Dataset data = measured(5, 0.0, 1.0);
   constexpr double offset[] = {0.04, -0.05, 0.045, -0.03};
   for (ImpactPoint& point : data.points) point.restitution += offset[point.series];
@@ -122,7 +123,7 @@ TEST(UnstatedErrors, DoNotStandForABatch) {
   EXPECT_FALSE(speaks_of_errors(found)) << found.text;
 }
 
-TEST(UnstatedErrors, DoNotStandForADip) {
+TEST(Diagnose, ErrorsDoNotStandForADip) {
   Dataset data = measured(6, 0.0, 1.0);
   for (ImpactPoint& point : data.points) {
     const double away = std::log(point.incident_velocity / 10.0) / 0.25;
