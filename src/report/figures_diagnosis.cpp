@@ -117,7 +117,7 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
       fmt::format(
           "set logscale x\nset xrange [{:.6g}:{:.6g}]\nset xlabel 'V  [m/s]' offset 0,0.4\n"
           "set palette defined (-1 '{}', 0 '#EEEEEE', 1 '{}')\nset cbrange [{:.3g}:{:.3g}]\n"
-          "set cblabel '(e - e_{{model}}) / sd' offset -0.5,0\nunset key\n",
+          "set cblabel '(e - e_{{model}}) / sd' offset 1,0\nunset key\n",
           slow, fast, style::blue, style::vermillion, -largest_z, largest_z) +
       log_ticks('x', slow, fast) + vertical_axis(d, rows, one_size);
   c += data_block("misses", rows.misses);

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "diagnosis/extended_toml.hpp"
+#include "quick_diagnosis.hpp"
 #include "synthetic.hpp"
 
 namespace recoil {
@@ -28,20 +29,10 @@ Dataset noisy(unsigned seed, double sd, const Disturb& disturb) {
   return data;
 }
 
-DiagnosisOptions quick() {
-  DiagnosisOptions options;
-  options.simulated = 199;
-  options.compared = 19;
-  return options;
-}
-
 double undisturbed(const ImpactPoint&, double e) { return e; }
 
 /// A batch each for the sizes: what is read too much.
-double by_series(const ImpactPoint& point, double e) {
-  constexpr double offset[] = {0.04, -0.05, 0.045, -0.03};
-  return e + offset[point.series];
-}
+double by_series(const ImpactPoint& point, double e) { return e + batch_offset[point.series]; }
 
 /// A resonance that no mechanism makes: a dip at one velocity, for one half of the sizes.
 double with_dip(const ImpactPoint& point, double e) {

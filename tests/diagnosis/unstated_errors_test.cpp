@@ -8,6 +8,7 @@
 #include <string>
 
 #include "diagnosis/verdict_words.hpp"
+#include "quick_diagnosis.hpp"
 #include "synthetic.hpp"
 
 namespace recoil {
@@ -51,21 +52,14 @@ Dataset measured(unsigned seed, double velocity_error, double larger) {
   return data;
 }
 
-DiagnosisOptions options() {
-  DiagnosisOptions few;
-  few.simulated = 199;
-  few.compared = 19;
-  return few;
-}
-
-Diagnosis diagnosed(const Dataset& data) { return diagnose(synthetic::spec(), {data}, options()); }
+Diagnosis diagnosed(const Dataset& data) { return diagnose(synthetic::spec(), {data}, quick()); }
 
 /// What `diagnose` would be told, without the search for causes.
 std::vector<UnstatedErrors> asked(const Dataset& data) {
   const std::vector<Dataset> datasets = {data};
   const FitSpec spec = synthetic::spec();
   const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
-  return unstated_errors(search_base(spec, datasets, fitted, options()));
+  return unstated_errors(search_base(spec, datasets, fitted, quick()));
 }
 
 bool speaks_of_errors(const Diagnosis& found) {
@@ -116,8 +110,7 @@ TEST(Diagnose, DeviationsThatAreTooSmallAreNoCause) {
 
 TEST(Diagnose, ErrorsDoNotStandForABatch) {
   Dataset data = measured(5, 0.0, 1.0);
-  constexpr double offset[] = {0.04, -0.05, 0.045, -0.03};
-  for (ImpactPoint& point : data.points) point.restitution += offset[point.series];
+  for (ImpactPoint& point : data.points) point.restitution += batch_offset[point.series];
   const Diagnosis found = diagnosed(data);
   EXPECT_EQ(found.named, std::vector<std::string>{"series_offset"}) << found.text;
   EXPECT_FALSE(speaks_of_errors(found)) << found.text;
