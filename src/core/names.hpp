@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace recoil {
+
+/// The words for the values of an enum: one table for both directions. Specialise it beside the
+/// enum with the names in the order of its values, which count from 0 without a gap:
+///
+///   enum class IntervalKind { wald, profile };
+///   template <>
+///   struct NamesOf<IntervalKind> {
+///     static constexpr std::array<std::string_view, 2> names = {"wald", "profile"};
+///   };
+template <class Enum>
+struct NamesOf;
+
+template <class Enum>
+concept NamedEnum = requires { NamesOf<Enum>::names.size(); };
+
+/// How many values `Enum` has.
+template <NamedEnum Enum>
+inline constexpr std::size_t count_of = NamesOf<Enum>::names.size();
+
+template <NamedEnum Enum>
+constexpr std::string_view name_of(Enum value) {
+  return NamesOf<Enum>::names.at(static_cast<std::size_t>(value));
+}
+
+template <NamedEnum Enum>
+std::string to_string(Enum value) {
+  return std::string(name_of(value));
+}
+
+/// Every value, in order.
+template <NamedEnum Enum>
+constexpr std::array<Enum, count_of<Enum>> values_of() {
+  std::array<Enum, count_of<Enum>> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<Enum>(i);
+  return values;
+}
+
+/// The value of that name; none for an unknown word, which is the caller's error to report.
+template <NamedEnum Enum>
+constexpr std::optional<Enum> value_named(std::string_view name) {
+  for (const Enum value : values_of<Enum>()) {
+    if (name_of(value) == name) return value;
+  }
+  return std::nullopt;
+}
+
+/// One entry for every value of an enum.
+template <NamedEnum Enum, class Entry>
+class PerValue {
+ public:
+  Entry& operator[](Enum value) { return entries_.at(static_cast<std::size_t>(value)); }
+  const Entry& operator[](Enum value) const { return entries_.at(static_cast<std::size_t>(value)); }
+
+ private:
+  std::array<Entry, count_of<Enum>> entries_{};
+};
+
+}  // namespace recoil
