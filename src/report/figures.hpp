@@ -3,18 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "document/document.hpp"
 #include "report/report.hpp"
 
 namespace recoil {
-
-/// One picture of a report. Titles and captions are plain text.
-struct Figure {
-  std::string id;
-  std::string title;
-  std::string caption;  ///< what it shows, and what to look for
-  std::string svg;      ///< ready to inline
-  bool large = false;   ///< takes the whole width of the page; scrolls in its box on a phone
-};
 
 /// e against V (log axis) of each diameter: points with error bars, full fit with its band, the
 /// two-point curve, the capture velocity with its interval.

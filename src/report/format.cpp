@@ -10,21 +10,6 @@
 namespace recoil {
 namespace {
 
-bool starts_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
-
-std::size_t code_points(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_code_point));
-}
-
-/// Cuts after `count` code points, never inside one.
-std::size_t cut_position(std::string_view text, std::size_t count) {
-  std::size_t seen = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (starts_code_point(text[i]) && seen++ == count) return i;
-  }
-  return text.size();
-}
-
 void add_new(std::vector<std::string>& list, const std::vector<std::string>& more) {
   for (const std::string& item : more) {
     if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
@@ -41,91 +26,16 @@ Interval no_interval(const std::string& why) {
 
 std::string version() { return RECOIL_VERSION; }
 
-std::string number(double value, int count) {
-  if (!std::isfinite(value)) return "n/a";
-  if (value == 0.0) return "0";
-  const double size = std::abs(value);
-  if (size >= std::pow(10.0, count) && size < 1e6) return fmt::format("{:.0f}", value);
-  std::string text = fmt::format("{:.{}g}", value, count);
-  // 3e-05 has a zero that says nothing.
-  const auto e = text.find('e');
-  if (e != std::string::npos && text.size() == e + 4 && text[e + 2] == '0') text.erase(e + 2, 1);
-  return text;
-}
-
-std::string digits(double value, int count) {
-  if (!std::isfinite(value) || value == 0.0) return number(value, count);
-  const int leading = static_cast<int>(std::floor(std::log10(std::abs(value))));
-  if (leading < -4 || leading > 5) return number(value, count);
-  return fmt::format("{:.{}f}", value, std::max(0, count - 1 - leading));
-}
-
-std::pair<std::string, std::string> number_with_error(double value, double error) {
-  if (!std::isfinite(value) || !std::isfinite(error) || error <= 0.0) {
-    return {number(value), number(error)};
-  }
-  const double largest = std::max(std::abs(value), error);
-  if (largest < 1e-4 || largest >= 1e6) {
-    const int count =
-        std::clamp(2 + static_cast<int>(std::floor(std::log10(largest / error))), 2, 12);
-    return {number(value, count), number(error, 2)};
-  }
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
-  return {fmt::format("{:.{}f}", value, decimals), fmt::format("{:.{}f}", error, decimals)};
-}
-
 std::string interval_text(const Interval& interval, int count) {
   if (!interval.available()) return "none";
   return fmt::format("[{}, {}]", digits(*interval.lower, count), digits(*interval.upper, count));
 }
-
-std::string p_value_text(double p) {
-  if (!std::isfinite(p)) return "n/a";
-  return p < 1e-6 ? "< 1e-6" : number(p, 2);
-}
-
-std::string percent(double fraction) { return fmt::format("{:.4g} %", 100.0 * fraction); }
 
 std::string diameter_text(double diameter) {
   const double um = diameter / units::um;
   if (!std::isfinite(um) || um <= 0.0) return "n/a";
   const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(um))), 1, 6);
   return fmt::format("{:.{}f}", um, decimals);
-}
-
-std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
-  std::string out;
-  std::size_t column = indent;
-  const auto break_line = [&] {
-    out += '\n';
-    out.append(indent, ' ');
-    column = indent;
-  };
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const std::size_t start = text.find_first_not_of(" \t\r\n", at);
-    if (start == std::string_view::npos) break;
-    std::size_t end = text.find_first_of(" \t\r\n", start);
-    if (end == std::string_view::npos) end = text.size();
-    std::string_view word = text.substr(start, end - start);
-    at = end;
-    const bool first = out.empty();
-    if (!first && column + 1 + code_points(word) > width) {
-      break_line();
-    } else if (!first) {
-      out += ' ';
-      ++column;
-    }
-    while (column + code_points(word) > width) {
-      const std::size_t cut = cut_position(word, width - column);
-      out += word.substr(0, cut);
-      word.remove_prefix(cut);
-      break_line();
-    }
-    out += word;
-    column += code_points(word);
-  }
-  return out;
 }
 
 std::string as_sentence(std::string words) {
@@ -135,11 +45,6 @@ std::string as_sentence(std::string words) {
   }
   if (std::string_view(".!?").find(words.back()) == std::string_view::npos) words += '.';
   return words;
-}
-
-std::string words_of(std::string identifier) {
-  std::replace(identifier.begin(), identifier.end(), '_', ' ');
-  return identifier;
 }
 
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot) {

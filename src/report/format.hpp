@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "document/number.hpp"
+#include "document/terminal.hpp"
 #include "report/report.hpp"
 #include "uncertainty/identifiability.hpp"  // recommended_interval
 
@@ -12,37 +14,14 @@
 /// that never run out of range when a stage was skipped.
 namespace recoil {
 
-/// `value` with at most `count` significant digits; "n/a" for anything that is not finite.
-std::string number(double value, int count = 4);
-
-/// `value` with all of its `count` significant digits, zeros at the end included: "1.00".
-std::string digits(double value, int count);
-
-/// A value and its error, the error with two significant digits and both with the same decimals:
-/// ("0.00312", "0.00021").
-std::pair<std::string, std::string> number_with_error(double value, double error);
-
 /// "[0.0027, 0.0035]", or "none".
 std::string interval_text(const Interval& interval, int count = 4);
-
-/// A p-value for people: "0.43", "0.0021", "< 1e-6".
-std::string p_value_text(double p);
-
-/// "95 %" of a level 0.95.
-std::string percent(double fraction);
 
 /// A diameter in micrometres, three or more digits: "4.90".
 std::string diameter_text(double diameter);
 
-/// `text` in lines of at most `width` characters (code points), broken at spaces, every line after
-/// the first behind `indent` spaces; a word that is too long is cut.
-std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
-
 /// `words` with a capital at the start and a full stop at the end; empty stays empty.
 std::string as_sentence(std::string words);
-
-/// An identifier such as "no_adhesion_damping" in words.
-std::string words_of(std::string identifier);
 
 /// Every interval of one slot; with `why` filled in when the assessment has none for it.
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot);

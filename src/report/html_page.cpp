@@ -6,7 +6,7 @@
 #include <cctype>
 #include <utility>
 
-#include "report/html_style.hpp"
+#include "document/html_style.hpp"
 
 namespace recoil {
 namespace {
@@ -34,34 +34,6 @@ void replace_word(std::string& text, std::string_view word, std::string_view by)
 }
 
 }  // namespace
-
-std::string escape_html(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        // Control characters have no place in HTML; a newline is a blank anyway.
-        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 std::string prose_html(std::string_view text) {
   static const std::pair<std::string_view, std::string_view> symbols[] = {
@@ -127,7 +99,7 @@ std::string figure_html(const Figure& figure) {
       "<figure id=\"figure-{}\"{}><div class=\"picture\"{}>{}</div>\n<figcaption>{}</figcaption>"
       "</figure>\n",
       escape_html(figure.id), figure.large ? " class=\"large\"" : "",
-      figure.large ? " tabindex=\"0\"" : "", figure.svg, prose_html(figure.caption));
+      figure.large ? " tabindex=\"0\"" : "", figure.svg, prose_html(plain_text(figure.caption)));
 }
 
 std::string figures_html(const std::vector<Figure>& figures) {

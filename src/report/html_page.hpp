@@ -4,12 +4,10 @@
 #include <string_view>
 #include <vector>
 
+#include "document/html.hpp"
 #include "report/figures.hpp"
 
 namespace recoil {
-
-/// `text` with the characters that mean something to HTML replaced, in content and attributes.
-std::string escape_html(std::string_view text);
 
 /// Escaped prose in which the symbols of the model (C_H, C_A, f0, W_A, V_a, V*) are set as such,
 /// "um" and "+/-" as characters.

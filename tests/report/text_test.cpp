@@ -92,25 +92,6 @@ TEST(TextReport, ReportsAnUnusableFitAsAFailure) {
   EXPECT_THAT(text, HasSubstr("no start rebounds at point 3"));
 }
 
-TEST(Format, AnErrorDecidesTheDigitsOfItsValue) {
-  EXPECT_EQ(number_with_error(0.0031234, 0.00021).first, "0.00312");
-  EXPECT_EQ(number_with_error(0.0031234, 0.00021).second, "0.00021");
-  EXPECT_EQ(number_with_error(8.9161, 0.4321).first, "8.92");
-  EXPECT_EQ(number_with_error(1234.5, 30.0).first, "1234");
-  EXPECT_EQ(number_with_error(1.2341e-7, 1.1e-9).first, "1.234e-7");
-  EXPECT_EQ(number_with_error(2.0, 0.0).first, "2");
-  EXPECT_EQ(number(NAN), "n/a");
-  EXPECT_EQ(number(3e-5), "3e-5");
-  EXPECT_EQ(number(1.5e-12), "1.5e-12");
-}
-
-TEST(Format, WrapCountsCharactersAndKeepsThemWhole) {
-  EXPECT_EQ(wrap("one two three", 9, 2), "one two\n  three");
-  EXPECT_EQ(wrap("µµµµ", 2, 0), "µµ\nµµ");
-  EXPECT_EQ(wrap("  spaced \n out ", 80, 0), "spaced out");
-  EXPECT_EQ(wrap("", 80, 4), "");
-}
-
 TEST(TextReport, WithoutAdhesionThereIsNoCaptureVelocity) {
   Analysis analysis = example::four_diameters();
   ASSERT_FALSE(analysis.uncertainty.capture.empty());

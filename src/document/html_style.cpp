@@ -1,4 +1,4 @@
-#include "report/html_style.hpp"
+#include "document/html_style.hpp"
 
 namespace recoil {
 

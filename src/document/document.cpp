@@ -1,0 +1,116 @@
+#include "document/document.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace recoil {
+namespace {
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+bool says_nothing(const Cell& cell) {
+  const auto* words = std::get_if<Sentence>(&cell);
+  return std::holds_alternative<std::monostate>(cell) || (words != nullptr && words->empty());
+}
+
+bool all_empty(const std::vector<Block>& blocks) {
+  return std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return empty(block); });
+}
+
+/// Calls `visit` with every block, those within others too.
+template <class Visit>
+void each_block(const std::vector<Block>& blocks, const Visit& visit) {
+  for (const Block& block : blocks) {
+    visit(block);
+    if (const auto* details = std::get_if<Details>(&block.content())) {
+      each_block(details->blocks, visit);
+    } else if (const auto* section = std::get_if<Section>(&block.content())) {
+      each_block(section->blocks, visit);
+    }
+  }
+}
+
+}  // namespace
+
+Sentence words_of_cell(const Cell& cell) {
+  return std::visit(Overloaded{[](std::monostate) { return Sentence("–"); },
+                               [](const Sentence& words) { return words; },
+                               [](const Quantity& quantity) { return quantity.words(); },
+                               [](const NumberRange& range) { return Sentence(range.text()); }},
+                    cell);
+}
+
+bool Table::has_headings() const {
+  return std::any_of(columns.begin(), columns.end(),
+                     [](const Column& column) { return !column.heading.empty(); });
+}
+
+Table without_empty_columns(Table table) {
+  for (auto& row : table.rows) row.resize(table.columns.size());
+  for (std::size_t column = table.columns.size(); column-- > 1;) {
+    const bool needed = std::any_of(table.rows.begin(), table.rows.end(),
+                                    [&](const auto& row) { return !says_nothing(row[column]); });
+    if (needed) continue;
+    const auto place = static_cast<std::ptrdiff_t>(column);
+    table.columns.erase(table.columns.begin() + place);
+    for (auto& row : table.rows) row.erase(row.begin() + place);
+  }
+  return table;
+}
+
+Table items(std::vector<std::pair<Sentence, Cell>> entries) {
+  Table table;
+  table.columns = {{}, {}};
+  for (auto& [name, value] : entries) {
+    table.rows.push_back({std::move(name), std::move(value)});
+  }
+  return table;
+}
+
+bool empty(const Block& block) {
+  return std::visit(Overloaded{[](const Paragraph& paragraph) { return paragraph.text.empty(); },
+                               [](const List& list) { return list.entries.empty(); },
+                               [](const Glossary& glossary) { return glossary.entries.empty(); },
+                               [](const Table& table) { return table.empty(); },
+                               [](const Figures& figures) { return figures.figures.empty(); },
+                               [](const Banner& banner) { return banner.text.empty(); },
+                               [](const Remark& remark) { return remark.text.empty(); },
+                               [](const Details& details) { return all_empty(details.blocks); },
+                               [](const Section& section) { return empty(section); }},
+                    block.content());
+}
+
+bool empty(const Section& section) { return all_empty(section.blocks); }
+
+void append(std::vector<Block>& blocks, std::vector<Block> more) {
+  for (Block& block : more) blocks.push_back(std::move(block));
+}
+
+const Section* section_of(const Document& document, std::string_view id) {
+  const auto found = std::find_if(document.sections.begin(), document.sections.end(),
+                                  [&](const Section& section) { return section.id == id; });
+  return found == document.sections.end() ? nullptr : &*found;
+}
+
+std::vector<const Table*> tables_of(const Section& section) {
+  std::vector<const Table*> tables;
+  each_block(section.blocks, [&](const Block& block) {
+    if (const auto* table = std::get_if<Table>(&block.content())) tables.push_back(table);
+  });
+  return tables;
+}
+
+std::vector<const Figure*> figures_of(const Section& section) {
+  std::vector<const Figure*> all;
+  each_block(section.blocks, [&](const Block& block) {
+    if (const auto* figures = std::get_if<Figures>(&block.content())) {
+      for (const Figure& figure : figures->figures) all.push_back(&figure);
+    }
+  });
+  return all;
+}
+
+}  // namespace recoil

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "document/number.hpp"
+#include "document/sentence.hpp"
+
+/// What people read, before it is known where: the terminal (terminal.hpp), a page (html.hpp) or
+/// Markdown (markdown.hpp) writes it out.
+namespace recoil {
+
+/// A cell without content is shown as a dash.
+using Cell = std::variant<std::monostate, Sentence, Quantity, NumberRange>;
+
+template <class T>
+Cell cell_if(const std::optional<T>& content) {
+  return content ? Cell(*content) : Cell();
+}
+
+Sentence words_of_cell(const Cell& cell);
+
+struct Column {
+  Sentence heading;
+  std::string unit{};  ///< said once, in the heading
+  bool words = false;  ///< to be read rather than compared: to the left, and broken into lines
+};
+
+/// The first cell of a row is its heading. Columns in which no row says anything are not shown. A
+/// table without headings is a list of names and values.
+struct Table {
+  Sentence caption;
+  std::vector<Column> columns;
+  std::vector<std::vector<Cell>> rows;
+  bool compact = false;  ///< small type, for many rows
+
+  bool empty() const { return rows.empty(); }
+  bool has_headings() const;
+};
+
+/// `table` as it is shown: every row as long as there are columns, columns that say nothing left
+/// out.
+Table without_empty_columns(Table table);
+
+/// Names and values, two by two.
+Table items(std::vector<std::pair<Sentence, Cell>> entries);
+
+struct Paragraph {
+  Sentence text;
+  bool lead = false;  ///< the answer itself, in larger type
+};
+
+struct List {
+  std::vector<Sentence> entries;
+};
+
+/// Terms and their meaning.
+struct Glossary {
+  std::vector<std::pair<Sentence, Sentence>> entries;
+};
+
+/// One picture.
+struct Figure {
+  std::string id;
+  std::string title;
+  Sentence caption;    ///< what it shows, and what to look for; without one there is no frame
+  std::string svg;     ///< ready to inline
+  bool large = false;  ///< takes the whole width of the page; scrolls in its box on a phone
+};
+
+/// Pictures side by side. A terminal has none.
+struct Figures {
+  std::vector<Figure> figures;
+};
+
+/// Something to know before reading on: where the points come from.
+struct Banner {
+  std::string label;  ///< one word, also the name of its look
+  Sentence text;
+};
+
+/// One line behind a sign that can be told from others without its colour.
+struct Remark {
+  std::string look;  ///< the name of its look
+  std::string sign;
+  Sentence text;
+};
+
+struct Block;
+
+/// Folded on a page until it is asked for.
+struct Details {
+  Sentence summary;
+  std::vector<Block> blocks;
+};
+
+struct Section {
+  std::string id;
+  Sentence title;
+  Sentence remark{};  ///< behind the title
+  std::vector<Block> blocks{};
+  std::string address{};  ///< where the title leads to
+};
+
+struct Block
+    : std::variant<Paragraph, List, Glossary, Table, Figures, Banner, Remark, Details, Section> {
+  using variant::variant;
+  const variant& content() const { return *this; }
+};
+
+/// Nothing to be shown.
+bool empty(const Block& block);
+bool empty(const Section& section);
+
+/// Every section as a block of its own; `more` behind `blocks`.
+void append(std::vector<Block>& blocks, std::vector<Block> more);
+
+struct Document {
+  std::string title;  ///< of the window
+  Sentence heading;   ///< of the page
+  Sentence subtitle{};
+  std::vector<Block> foreword{};  ///< above the contents
+  std::vector<Section> sections{};
+  std::string foot{};  ///< who made it
+  bool cards = false;  ///< the sections stand side by side, without a list of contents
+};
+
+/// The first figure, table of that id or caption; for those who look a document through.
+const Section* section_of(const Document& document, std::string_view id);
+
+/// Every table and figure of a section, those in details and subsections too.
+std::vector<const Table*> tables_of(const Section& section);
+std::vector<const Figure*> figures_of(const Section& section);
+
+}  // namespace recoil

@@ -1,0 +1,267 @@
+#include "document/html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "document/html_style.hpp"
+
+namespace recoil {
+namespace {
+
+/// C_H: an italic letter and an upright subscript; f0, V* alike; a longer name stays as it is.
+std::string symbol_html(const std::string& name) {
+  const std::string star = name.ends_with('*') ? "*" : "";
+  const std::string stem = name.substr(0, name.size() - star.size());
+  const std::size_t underscore = stem.find('_');
+  const std::size_t digit = stem.find_first_of("0123456789");
+  const std::size_t base = std::min(underscore, digit);
+  const auto italic = [&](const std::string& letter) {
+    return fmt::format("<i>{}</i>", escape_html(letter));
+  };
+  if (stem.size() == 1) return italic(stem) + star;
+  if (base != 1) return escape_html(name);
+  std::string below = stem.substr(underscore == 1 ? 2 : 1);
+  std::replace(below.begin(), below.end(), '_', ' ');
+  return fmt::format("{}<sub>{}</sub>{}", italic(stem.substr(0, 1)), escape_html(below), star);
+}
+
+/// um: µm; m2: m².
+std::string unit_html(const std::string& name) {
+  std::string out;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool starts = i == 0 || name[i - 1] == '/' || name[i - 1] == ' ';
+    if (name[i] == 'u' && starts && i + 1 < name.size()) {
+      out += "µ";
+    } else if (name[i] == '^') {
+      continue;
+    } else if (name[i] == '2' && i > 0) {
+      out += "²";
+    } else if (name[i] == '3' && i > 0) {
+      out += "³";
+    } else {
+      out += escape_html(std::string_view(name).substr(i, 1));
+    }
+  }
+  return out;
+}
+
+std::string run_html(const Run& run) {
+  switch (run.kind) {
+    case RunKind::text:
+      return escape_html(run.text);
+    case RunKind::symbol:
+      return symbol_html(run.text);
+    case RunKind::unit:
+      return unit_html(run.text);
+    case RunKind::plus_minus:
+      return "±";
+    case RunKind::qualifier:
+      return fmt::format(" <small>({})</small>", escape_html(run.text));
+    case RunKind::strong:
+      return fmt::format("<strong>{}</strong>", escape_html(run.text));
+    case RunKind::code:
+      return fmt::format("<code>{}</code>", escape_html(run.text));
+    case RunKind::link:
+      return fmt::format("<a href=\"{}\">{}</a>", escape_html(run.address), escape_html(run.text));
+  }
+  return "";
+}
+
+std::string heading_html(const Column& column) {
+  return column.unit.empty()
+             ? html_of(column.heading)
+             : fmt::format("{} [{}]", html_of(column.heading), unit_html(column.unit));
+}
+
+std::string table_html(const Table& full) {
+  const Table table = without_empty_columns(full);
+  std::string out = fmt::format("<div class=\"wide\" tabindex=\"0\"><table{}>\n",
+                                table.compact ? " class=\"compact\"" : "");
+  if (!table.caption.empty()) {
+    out += fmt::format("<caption>{}</caption>\n", html_of(table.caption));
+  }
+  const auto look = [&](std::size_t c) { return table.columns[c].words ? " class=\"words\"" : ""; };
+  if (table.has_headings()) {
+    out += "<thead><tr>";
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      out += fmt::format("<th scope=\"col\"{}>{}</th>", look(c), heading_html(table.columns[c]));
+    }
+    out += "</tr></thead>\n";
+  }
+  out += "<tbody>\n";
+  for (const auto& row : table.rows) {
+    out += "<tr>";
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string cell = html_of(words_of_cell(row[c]));
+      out += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", cell)
+                    : fmt::format("<td{}>{}</td>", look(c), cell);
+    }
+    out += "</tr>\n";
+  }
+  return out + "</tbody>\n</table></div>\n";
+}
+
+std::string figure_html(const Figure& figure) {
+  if (figure.caption.empty()) return fmt::format("<div class=\"picture\">{}</div>\n", figure.svg);
+  return fmt::format(
+      "<figure id=\"figure-{}\"{}><div class=\"picture\"{}>{}</div>\n<figcaption>{}</figcaption>"
+      "</figure>\n",
+      escape_html(figure.id), figure.large ? " class=\"large\"" : "",
+      figure.large ? " tabindex=\"0\"" : "", figure.svg, html_of(figure.caption));
+}
+
+std::string figures_html(const std::vector<Figure>& figures) {
+  if (figures.size() == 1 && figures.front().caption.empty()) return figure_html(figures.front());
+  std::string out = fmt::format("<div class=\"figures{}\">\n",
+                                figures.size() == 1 && !figures.front().large ? " single" : "");
+  for (const Figure& figure : figures) out += figure_html(figure);
+  return out + "</div>\n";
+}
+
+std::string titled(const Section& section) {
+  const std::string title = html_of(section.title);
+  return section.address.empty()
+             ? title
+             : fmt::format("<a href=\"{}\">{}</a>", escape_html(section.address), title);
+}
+
+struct BlockWriter {
+  std::string operator()(const Paragraph& paragraph) const {
+    return fmt::format("<p{}>{}</p>\n", paragraph.lead ? " class=\"summary\"" : "",
+                       html_of(paragraph.text));
+  }
+  std::string operator()(const List& list) const {
+    std::string out = "<ul>\n";
+    for (const Sentence& entry : list.entries) {
+      out += fmt::format("<li>{}</li>\n", html_of(entry));
+    }
+    return out + "</ul>\n";
+  }
+  std::string operator()(const Glossary& glossary) const {
+    std::string out = "<dl>\n";
+    for (const auto& [term, meaning] : glossary.entries) {
+      out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_of(term), html_of(meaning));
+    }
+    return out + "</dl>\n";
+  }
+  std::string operator()(const Table& table) const { return table_html(table); }
+  std::string operator()(const Figures& figures) const { return figures_html(figures.figures); }
+  std::string operator()(const Banner& banner) const {
+    const std::string label = escape_html(banner.label);
+    return fmt::format(
+        "<aside class=\"provenance {0}\" aria-label=\"Provenance\"><strong>{0}</strong> "
+        "<span>{1}</span></aside>\n",
+        label, html_of(banner.text));
+  }
+  std::string operator()(const Remark& remark) const {
+    return fmt::format(
+        "<p class=\"verdict {}\"><span class=\"mark\" aria-hidden=\"true\">{}</span> {}</p>\n",
+        escape_html(remark.look), escape_html(remark.sign), html_of(remark.text));
+  }
+  std::string operator()(const Details& details) const {
+    return fmt::format("<details><summary>{}</summary>\n{}</details>\n", html_of(details.summary),
+                       html_of(details.blocks));
+  }
+  std::string operator()(const Section& section) const {
+    return section.title.empty()
+               ? html_of(section.blocks)
+               : fmt::format("<h3>{}</h3>\n{}", titled(section), html_of(section.blocks));
+  }
+};
+
+std::string remark_html(const Section& section) {
+  return section.remark.empty()
+             ? ""
+             : fmt::format("<p class=\"subtitle\">{}</p>\n", html_of(section.remark));
+}
+
+std::string section_html(const Section& section) {
+  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}{}</section>\n", escape_html(section.id),
+                     titled(section), remark_html(section), html_of(section.blocks));
+}
+
+std::string card_html(const Section& section) {
+  return fmt::format("<article class=\"card\" id=\"{}\">\n<h2>{}</h2>\n{}{}</article>\n",
+                     escape_html(section.id), titled(section), remark_html(section),
+                     html_of(section.blocks));
+}
+
+std::string contents_html(const Document& document) {
+  std::string out;
+  for (const Section& section : document.sections) {
+    if (empty(section) || section.id.empty()) continue;
+    out += fmt::format("<a href=\"#{}\">{}</a> ", escape_html(section.id), html_of(section.title));
+  }
+  return out.empty() ? "" : fmt::format("<nav aria-label=\"Contents\">{}</nav>\n", out);
+}
+
+}  // namespace
+
+std::string escape_html(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        // Control characters have no place in HTML; a newline is a blank anyway.
+        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::string html_of(const Sentence& sentence) {
+  std::string out;
+  for (const Run& run : sentence.runs()) out += run_html(run);
+  return out;
+}
+
+std::string html_of(const std::vector<Block>& blocks) {
+  std::string out;
+  for (const Block& block : blocks) {
+    if (!empty(block)) out += std::visit(BlockWriter{}, block.content());
+  }
+  return out;
+}
+
+std::string html_page(const Document& document) {
+  std::string head = fmt::format("<header>\n<h1>{}</h1>\n", html_of(document.heading));
+  if (!document.subtitle.empty()) {
+    head += fmt::format("<p class=\"subtitle\">{}</p>\n", html_of(document.subtitle));
+  }
+  head += html_of(document.foreword);
+  if (!document.cards) head += contents_html(document);
+  std::string body;
+  for (const Section& section : document.sections) {
+    if (empty(section)) continue;
+    body += document.cards ? card_html(section) : section_html(section);
+  }
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n"
+      "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n{}</header>\n"
+      "<main{}>\n{}</main>\n<footer>{}</footer>\n</body>\n</html>\n",
+      escape_html(document.title), style_sheet(), head, document.cards ? " class=\"cards\"" : "",
+      body, escape_html(document.foot));
+}
+
+}  // namespace recoil

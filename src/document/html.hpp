@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "document/document.hpp"
+
+/// Documents as self-contained pages: style sheet and pictures inside, no script, no network.
+namespace recoil {
+
+/// `text` with the characters that mean something to HTML replaced, in content and attributes.
+std::string escape_html(std::string_view text);
+
+/// The words alone, symbols and units set as such.
+std::string html_of(const Sentence& sentence);
+
+/// Blocks without a page around them.
+std::string html_of(const std::vector<Block>& blocks);
+
+/// The whole file.
+std::string html_page(const Document& document);
+
+}  // namespace recoil

@@ -1,0 +1,93 @@
+#include "document/number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace recoil {
+
+std::string number(double value, int count) {
+  if (!std::isfinite(value)) return "n/a";
+  if (value == 0.0) return "0";
+  const double size = std::abs(value);
+  if (size >= std::pow(10.0, count) && size < 1e6) return fmt::format("{:.0f}", value);
+  std::string text = fmt::format("{:.{}g}", value, count);
+  // 3e-05 has a zero that says nothing.
+  const auto e = text.find('e');
+  if (e != std::string::npos && text.size() == e + 4 && text[e + 2] == '0') text.erase(e + 2, 1);
+  return text;
+}
+
+std::string digits(double value, int count) {
+  if (!std::isfinite(value) || value == 0.0) return number(value, count);
+  const int leading = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (leading < -4 || leading > 5) return number(value, count);
+  return fmt::format("{:.{}f}", value, std::max(0, count - 1 - leading));
+}
+
+std::pair<std::string, std::string> number_with_error(double value, double error) {
+  if (!std::isfinite(value) || !std::isfinite(error) || error <= 0.0) {
+    return {number(value), number(error)};
+  }
+  const double largest = std::max(std::abs(value), error);
+  if (largest < 1e-4 || largest >= 1e6) {
+    const int count =
+        std::clamp(2 + static_cast<int>(std::floor(std::log10(largest / error))), 2, 12);
+    return {number(value, count), number(error, 2)};
+  }
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
+  return {fmt::format("{:.{}f}", value, decimals), fmt::format("{:.{}f}", error, decimals)};
+}
+
+std::string p_value_text(double p) {
+  if (!std::isfinite(p)) return "n/a";
+  return p < 1e-6 ? "< 1e-6" : number(p, 2);
+}
+
+std::string percent(double fraction) { return fmt::format("{:.4g} %", 100.0 * fraction); }
+
+std::string text_of(double value, const Notation& notation) {
+  const double written = value * notation.scale;
+  if (!std::isfinite(written)) return "n/a";
+  const auto text = [&] {
+    switch (notation.kind) {
+      case Notation::Kind::significant:
+        return number(written, notation.digits);
+      case Notation::Kind::padded:
+        return digits(written, notation.digits);
+      case Notation::Kind::fixed:
+        return fmt::format("{:.{}f}", written, notation.digits);
+      case Notation::Kind::signed_fixed:
+        return fmt::format("{:+.{}f}", written, notation.digits);
+      case Notation::Kind::scientific:
+        return fmt::format("{:.{}e}", written, notation.digits);
+      case Notation::Kind::probability:
+        return p_value_text(written);
+    }
+    return std::string();
+  };
+  return text() + notation.suffix;
+}
+
+std::string NumberRange::text() const {
+  return fmt::format("[{}, {}]", text_of(lower, notation), text_of(upper, notation));
+}
+
+Sentence Quantity::words() const {
+  Sentence out;
+  if (error > 0.0) {
+    const auto [written, spread] = number_with_error(value, error);
+    out = say("{} {+/-} {}", written, spread);
+  } else {
+    out = text_of(value, notation);
+  }
+  return out + unit_after_number(unit);
+}
+
+std::optional<Quantity> quantity_if(const std::optional<double>& value, const Notation& notation) {
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  return Quantity{*value, notation};
+}
+
+}  // namespace recoil

@@ -1,0 +1,303 @@
+#include "document/terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t margin = 4;
+constexpr std::size_t gap = 2;           // between columns
+constexpr std::size_t widest_name = 36;  // of a list of names and values
+constexpr std::size_t narrowest_name = 19;
+constexpr std::size_t narrowest_words = 24;  // of a column of words
+constexpr std::size_t widest_heading = 30;   // of a row, where columns have to be shared out
+
+bool starts_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
+
+std::size_t code_points(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_code_point));
+}
+
+/// Where to cut after `count` code points, never inside one.
+std::size_t cut_position(std::string_view text, std::size_t count) {
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (starts_code_point(text[i]) && seen++ == count) return i;
+  }
+  return text.size();
+}
+
+std::size_t longest_word(std::string_view text) {
+  std::size_t longest = 0;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    longest = std::max(longest, code_points(text.substr(at, end - at)));
+    at = end + 1;
+  }
+  return longest;
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.emplace_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+std::string padded_to(const std::string& text, std::size_t width, bool right) {
+  const std::size_t own = code_points(text);
+  const std::string blanks(width > own ? width - own : 0, ' ');
+  return right ? blanks + text : text + blanks;
+}
+
+/// A table as characters, and how wide its columns are to be.
+struct Layout {
+  std::vector<std::string> headings;
+  std::vector<std::vector<std::string>> rows;
+  std::vector<bool> left;  ///< aligned, and broken into lines
+  std::vector<std::size_t> width;
+
+  std::size_t total() const {
+    return std::accumulate(width.begin(), width.end(), std::size_t{0}) + gap * (width.size() - 1);
+  }
+};
+
+std::string heading_of(const Column& column) {
+  const std::string heading = plain_text(column.heading);
+  return column.unit.empty() ? heading : fmt::format("{} [{}]", heading, column.unit);
+}
+
+Layout layout_of(const Table& table) {
+  Layout layout;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    layout.headings.push_back(heading_of(table.columns[c]));
+    layout.left.push_back(c == 0 || table.columns[c].words);
+    layout.width.push_back(code_points(layout.headings.back()));
+  }
+  for (const auto& row : table.rows) {
+    std::vector<std::string> cells;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      std::string text = plain_text(words_of_cell(row[c]));
+      if (text == "–") text = "-";
+      layout.width[c] = std::max(layout.width[c], code_points(text));
+      cells.push_back(std::move(text));
+    }
+    layout.rows.push_back(std::move(cells));
+  }
+  return layout;
+}
+
+/// Breaks headings, then columns of words, until the table is no wider than `room`.
+void narrow(Layout& layout, std::size_t room) {
+  if (layout.total() <= room) return;
+  for (std::size_t c = 0; c < layout.width.size(); ++c) {
+    std::size_t cells = longest_word(layout.headings[c]);
+    for (const auto& row : layout.rows) cells = std::max(cells, code_points(row[c]));
+    layout.width[c] = cells;
+  }
+  while (layout.total() > room) {
+    std::size_t widest = layout.width.size();
+    for (std::size_t c = 0; c < layout.width.size(); ++c) {
+      const bool shrinks = layout.left[c] && layout.width[c] > narrowest_words;
+      if (shrinks && (widest == layout.width.size() || layout.width[c] > layout.width[widest])) {
+        widest = c;
+      }
+    }
+    if (widest == layout.width.size()) return;
+    const std::size_t excess = layout.total() - room;
+    layout.width[widest] -= std::min(excess, layout.width[widest] - narrowest_words);
+  }
+}
+
+/// The columns that fit beside the first into `room`, group after group.
+std::vector<std::vector<std::size_t>> groups_of(const Layout& layout, std::size_t room) {
+  std::vector<std::vector<std::size_t>> groups = {{0}};
+  std::size_t used = layout.width[0];
+  for (std::size_t c = 1; c < layout.width.size(); ++c) {
+    if (used + gap + layout.width[c] > room && groups.back().size() > 1) {
+      groups.push_back({0});
+      used = layout.width[0];
+    }
+    groups.back().push_back(c);
+    used += gap + layout.width[c];
+  }
+  return groups;
+}
+
+std::string row_text(const Layout& layout, const std::vector<std::string>& cells,
+                     const std::vector<std::size_t>& columns, std::size_t indent, bool heading) {
+  std::vector<std::vector<std::string>> lines;
+  std::size_t height = 0;
+  for (const std::size_t c : columns) {
+    lines.push_back(lines_of(wrap(cells[c], std::max<std::size_t>(layout.width[c], 1), 0)));
+    height = std::max(height, lines.back().size());
+  }
+  std::string out;
+  for (std::size_t l = 0; l < height; ++l) {
+    std::string line(indent, ' ');
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      // Headings stand on the row's first line, cells hang from it.
+      const std::size_t first = heading ? height - lines[k].size() : 0;
+      const std::string text = l >= first && l - first < lines[k].size() ? lines[k][l - first] : "";
+      if (k > 0) line.append(gap, ' ');
+      line += padded_to(text, layout.width[columns[k]], !layout.left[columns[k]]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + '\n';
+  }
+  return out;
+}
+
+std::string items_text(const Table& table, std::size_t indent) {
+  std::size_t width = narrowest_name;
+  for (const auto& row : table.rows) {
+    const std::size_t own = code_points(plain_text(words_of_cell(row[0])));
+    if (own <= widest_name) width = std::max(width, own + 1);
+  }
+  std::string out;
+  for (const auto& row : table.rows) {
+    const std::string name = plain_text(words_of_cell(row[0]));
+    std::string value = plain_text(words_of_cell(row[1]));
+    if (value == "–") value = "-";
+    const std::size_t column = indent + width + 2;
+    out += std::string(indent, ' ');
+    out += code_points(name) < width
+               ? padded_to(name, width, false)
+               : wrap(name, terminal_columns, indent) + '\n' + std::string(indent + width, ' ');
+    out += "= " + wrap(value, terminal_columns, column) + '\n';
+  }
+  return out;
+}
+
+std::string paragraph_text(const Sentence& words, std::size_t indent) {
+  return std::string(indent, ' ') + wrap(plain_text(words), terminal_columns, indent) + '\n';
+}
+
+std::string blocks_text(const std::vector<Block>& blocks);
+
+struct BlockWriter {
+  std::string operator()(const Paragraph& paragraph) const {
+    return paragraph_text(paragraph.text, margin);
+  }
+  std::string operator()(const List& list) const {
+    std::string out;
+    for (const Sentence& entry : list.entries) {
+      out += fmt::format("    - {}\n", wrap(plain_text(entry), terminal_columns, margin + 2));
+    }
+    return out;
+  }
+  std::string operator()(const Glossary& glossary) const {
+    std::string out;
+    for (const auto& [term, meaning] : glossary.entries) {
+      out += std::string(margin, ' ') +
+             wrap(fmt::format("{}: {}", plain_text(term), plain_text(meaning)), terminal_columns,
+                  2 * margin) +
+             '\n';
+    }
+    return out;
+  }
+  std::string operator()(const Table& table) const { return terminal_text(table, margin); }
+  std::string operator()(const Figures&) const { return ""; }
+  std::string operator()(const Banner& banner) const {
+    const std::string text = plain_text(banner.text);
+    const bool named = text.find(banner.label) != std::string::npos;
+    return paragraph_text(named ? text : fmt::format("{}: {}", banner.label, text), margin);
+  }
+  std::string operator()(const Remark& remark) const {
+    return paragraph_text(Sentence(remark.sign + " ") + remark.text, margin);
+  }
+  std::string operator()(const Details& details) const {
+    return paragraph_text(details.summary + Sentence(":"), margin) + blocks_text(details.blocks);
+  }
+  std::string operator()(const Section& section) const {
+    return section.title.empty()
+               ? blocks_text(section.blocks)
+               : paragraph_text(section.title, margin) + blocks_text(section.blocks);
+  }
+};
+
+std::string blocks_text(const std::vector<Block>& blocks) {
+  std::string out;
+  for (const Block& block : blocks) {
+    if (!empty(block)) out += std::visit(BlockWriter{}, block.content());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
+  std::string out;
+  std::size_t column = indent;
+  const auto break_line = [&] {
+    out += '\n';
+    out.append(indent, ' ');
+    column = indent;
+  };
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t start = text.find_first_not_of(" \t\r\n", at);
+    if (start == std::string_view::npos) break;
+    std::size_t end = text.find_first_of(" \t\r\n", start);
+    if (end == std::string_view::npos) end = text.size();
+    std::string_view word = text.substr(start, end - start);
+    at = end;
+    const bool first = out.empty();
+    if (!first && column + 1 + code_points(word) > width) {
+      break_line();
+    } else if (!first) {
+      out += ' ';
+      ++column;
+    }
+    while (column + code_points(word) > width) {
+      const std::size_t cut = cut_position(word, width - column);
+      out += word.substr(0, cut);
+      word.remove_prefix(cut);
+      break_line();
+    }
+    out += word;
+    column += code_points(word);
+  }
+  return out;
+}
+
+std::string terminal_text(const Table& table, std::size_t indent) {
+  const Table shown = without_empty_columns(table);
+  if (shown.empty()) return "";
+  std::string out = shown.caption.empty() ? "" : paragraph_text(shown.caption, indent);
+  if (!shown.has_headings() && shown.columns.size() == 2) return out + items_text(shown, indent);
+  const std::size_t room = terminal_columns - indent;
+  Layout layout = layout_of(shown);
+  narrow(layout, room);
+  if (layout.total() > room) layout.width[0] = std::min(layout.width[0], widest_heading);
+  for (std::size_t c = 1; c < layout.width.size(); ++c) {
+    layout.width[c] = std::min(layout.width[c], room - layout.width[0] - gap);
+  }
+  for (const std::vector<std::size_t>& columns : groups_of(layout, room)) {
+    if (shown.has_headings()) out += row_text(layout, layout.headings, columns, indent, true);
+    for (const auto& row : layout.rows) out += row_text(layout, row, columns, indent, false);
+  }
+  return out;
+}
+
+std::string terminal_text(const Section& section) {
+  const std::string body = blocks_text(section.blocks);
+  if (body.empty()) return "";
+  const std::string remark = section.remark.empty() ? "" : " " + plain_text(section.remark);
+  return wrap(fmt::format("[[{}]]{}", plain_text(section.title), remark), terminal_columns, 0) +
+         '\n' + body;
+}
+
+std::string terminal_text(const std::vector<Section>& sections) {
+  std::string out;
+  for (const Section& section : sections) out += terminal_text(section);
+  return out;
+}
+
+}  // namespace recoil

@@ -1,0 +1,78 @@
+#include "document/html.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace recoil {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Html, SetsSymbolsAndUnits) {
+  EXPECT_EQ(html_of(say("{C_H} {f0} {V*} {a_eq} {e} {chi}")),
+            "<i>C</i><sub>H</sub> <i>f</i><sub>0</sub> <i>V</i>* <i>a</i><sub>eq</sub> <i>e</i> "
+            "chi");
+  EXPECT_EQ(html_of(say("{+/-} 1 {um}, {J/m2}, {kg/m3}, {uN}")), "± 1 µm, J/m², kg/m³, µN");
+  EXPECT_EQ(html_of(unit("m/s") + unit("um/s")), "m/sµm/s");
+  EXPECT_EQ(html_of(symbol("C_A[a<b]")), "<i>C</i><sub>A</sub> <small>(a&lt;b)</small>");
+  EXPECT_EQ(html_of(Sentence("C_H um +/-")), "C_H um +/-") << "plain text is left alone";
+}
+
+TEST(Html, EscapesWhateverItIsGiven) {
+  const std::string hostile = "<script>\"'&";
+  const std::string safe = "&lt;script&gt;&quot;&#39;&amp;";
+  Table table;
+  table.caption = hostile;
+  table.columns = {{hostile}, {hostile, hostile}};
+  table.rows = {{hostile, Quantity{1.0, significant(1), 0.0, hostile}}};
+  Document document;
+  document.title = hostile;
+  document.heading = hostile;
+  document.subtitle = hostile;
+  document.foot = hostile;
+  document.foreword = {Banner{hostile, hostile}, Remark{hostile, hostile, hostile}};
+  document.sections = {
+      {hostile,
+       hostile,
+       hostile,
+       {table, Paragraph{strong(hostile)}, Paragraph{code(hostile)},
+        Paragraph{link(hostile, hostile)}, List{{hostile}}, Glossary{{{hostile, hostile}}},
+        Details{hostile, {Paragraph{hostile}}}, Figures{{{hostile, hostile, hostile, "<svg/>"}}}},
+       hostile}};
+  const std::string page = html_page(document);
+  EXPECT_THAT(page, Not(HasSubstr("<script>")));
+  EXPECT_THAT(page, HasSubstr(safe));
+}
+
+TEST(Html, ATableDropsColumnsThatSayNothing) {
+  Table table;
+  table.columns = {{"name"}, {"silent"}, {"value", "um"}, {"remark", "", true}};
+  table.rows = {{"a", {}, Quantity{1.0, fixed(1)}, "words"},
+                {"b", {}, Quantity{std::numeric_limits<double>::quiet_NaN()}, {}}};
+  const std::string html = html_of(std::vector<Block>{table});
+  EXPECT_THAT(html, Not(HasSubstr("silent")));
+  EXPECT_THAT(html, HasSubstr("<th scope=\"col\">value [µm]</th>"));
+  EXPECT_THAT(html,
+              HasSubstr("<th scope=\"row\">a</th><td>1.0</td><td class=\"words\">words</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>n/a</td>"));
+  EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(Html, ContentsListWhatIsThere) {
+  Document document;
+  document.title = document.foot = "t";
+  document.heading = "t";
+  document.sections = {{"one", "One", "", {Paragraph{"x"}}}, {"none", "None", "", {List{}}}};
+  const std::string page = html_page(document);
+  EXPECT_THAT(page, HasSubstr("<a href=\"#one\">One</a>"));
+  EXPECT_THAT(page, Not(HasSubstr("none")));
+  document.cards = true;
+  document.sections[0].address = "one.html";
+  EXPECT_THAT(html_page(document), HasSubstr("<h2><a href=\"one.html\">One</a></h2>"));
+}
+
+}  // namespace
+}  // namespace recoil

@@ -1,0 +1,50 @@
+#include "document/number.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace recoil {
+namespace {
+
+TEST(Number, AnErrorDecidesTheDigitsOfItsValue) {
+  EXPECT_EQ(number_with_error(0.0031234, 0.00021).first, "0.00312");
+  EXPECT_EQ(number_with_error(0.0031234, 0.00021).second, "0.00021");
+  EXPECT_EQ(number_with_error(8.9161, 0.4321).first, "8.92");
+  EXPECT_EQ(number_with_error(1234.5, 30.0).first, "1234");
+  EXPECT_EQ(number_with_error(1.2341e-7, 1.1e-9).first, "1.234e-7");
+  EXPECT_EQ(number_with_error(2.0, 0.0).first, "2");
+}
+
+TEST(Number, IsShort) {
+  EXPECT_EQ(number(NAN), "n/a");
+  EXPECT_EQ(number(3e-5), "3e-5");
+  EXPECT_EQ(number(1.5e-12), "1.5e-12");
+  EXPECT_EQ(digits(1.0, 3), "1.00");
+  EXPECT_EQ(p_value_text(1e-9), "< 1e-6");
+  EXPECT_EQ(percent(0.95), "95 %");
+}
+
+TEST(Number, EveryNotation) {
+  EXPECT_EQ(text_of(0.123456, significant(3)), "0.123");
+  EXPECT_EQ(text_of(0.1, padded(3)), "0.100");
+  EXPECT_EQ(text_of(0.12345, fixed(2)), "0.12");
+  EXPECT_EQ(text_of(0.12345, signed_fixed(2)), "+0.12");
+  EXPECT_EQ(text_of(1.5e-13, scientific(1)), "1.5e-13");
+  EXPECT_EQ(text_of(1e-7, probability()), "< 1e-6");
+  EXPECT_EQ(text_of(-0.256, in_percent(signed_fixed(0))), "-26 %");
+  EXPECT_EQ(text_of(INFINITY, fixed(2)), "n/a");
+}
+
+TEST(Quantity, SaysValueErrorAndUnit) {
+  EXPECT_EQ(plain_text(Quantity{0.0031234, significant(4), 0.00021, "s/m"}.words()),
+            "0.00312 +/- 0.00021 s/m");
+  EXPECT_EQ(plain_text(Quantity{2.5, fixed(1), 0.0, "um"}.words()), "2.5 um");
+  EXPECT_EQ(plain_text(Quantity{2.5, fixed(1), 0.0, "1"}.words()), "2.5");
+  EXPECT_EQ(NumberRange({0.1, 0.25, padded(2)}).text(), "[0.10, 0.25]");
+  EXPECT_FALSE(quantity_if(NAN, fixed(1)).has_value());
+  EXPECT_FALSE(quantity_if(std::nullopt, fixed(1)).has_value());
+}
+
+}  // namespace
+}  // namespace recoil
