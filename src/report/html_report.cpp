@@ -132,13 +132,13 @@ std::string pair_paragraphs(const Analysis& a) {
   return out;
 }
 
-struct Section {
+struct PageSection {
   const char* id;
   const char* heading;
   std::string body;
 };
 
-std::vector<Section> plot_sections(const Analysis& a) {
+std::vector<PageSection> plot_sections(const Analysis& a) {
   const auto joined = [](std::vector<Figure> one, const std::vector<Figure>& other) {
     one.insert(one.end(), other.begin(), other.end());
     return one;
@@ -160,7 +160,7 @@ std::vector<Section> plot_sections(const Analysis& a) {
   };
 }
 
-std::vector<Section> table_sections(const Analysis& a) {
+std::vector<PageSection> table_sections(const Analysis& a) {
   const Identifiability& found = a.uncertainty.identifiability;
   std::string identifiability;
   if (!found.verdict.empty()) {
@@ -198,15 +198,15 @@ std::string html_report(const Analysis& analysis, const std::string& diagnosis) 
   body += provenance_html(provenances(analysis.datasets));
   body += fmt::format("<p class=\"summary\">{}</p>\n", prose_html(summary_words(analysis)));
 
-  std::vector<Section> sections = plot_sections(analysis);
+  std::vector<PageSection> sections = plot_sections(analysis);
   sections.insert(sections.begin() + 2, {"diagnosis", "What the model gets wrong", diagnosis});
-  for (Section& section : table_sections(analysis)) sections.push_back(std::move(section));
+  for (PageSection& section : table_sections(analysis)) sections.push_back(std::move(section));
   const std::vector<std::string> warnings = all_warnings(analysis);
   body += "<nav aria-label=\"Contents\">";
   if (!warnings.empty()) body += "<a href=\"#warnings\">Warnings</a>";
   std::string content;
   const std::string empty_figures = figures_html({});
-  for (const Section& section : sections) {
+  for (const PageSection& section : sections) {
     if (section.body.empty() || section.body == empty_figures) continue;
     body += fmt::format("<a href=\"#{}\">{}</a> ", section.id, escape_html(section.heading));
     content += section_html(section.id, section.heading, section.body);
