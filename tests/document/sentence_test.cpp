@@ -9,7 +9,7 @@ namespace {
 
 TEST(Sentence, IsFilledLikeAFormatAndKnowsItsSymbols) {
   const Sentence words = say("{} points give {C_H} = {:.2f} s/m at {} {um}", 12, 0.0312, "4.90");
-  const std::vector<Run> expected = {{RunKind::text, "12 points give "},
+  const std::vector<recoil::Run> expected = {{RunKind::text, "12 points give "},
                                      {RunKind::symbol, "C_H"},
                                      {RunKind::text, " = 0.03 s/m at 4.90 "},
                                      {RunKind::unit, "um"}};
@@ -33,7 +33,7 @@ TEST(Sentence, AMistakeInAPatternIsTheProgrammers) {
 TEST(Sentence, ASymbolKeepsWhatItBelongsTo) {
   const Sentence of_mica = symbol("C_A[mica]");
   ASSERT_EQ(of_mica.runs().size(), 2U);
-  EXPECT_EQ(of_mica.runs()[1], (Run{RunKind::qualifier, "mica"}));
+  EXPECT_EQ(of_mica.runs()[1], (recoil::Run{RunKind::qualifier, "mica"}));
   EXPECT_EQ(plain_text(of_mica), "C_A[mica]");
 }
 
