@@ -11,7 +11,8 @@
 #include "core/files.hpp"
 #include "data/folder_names.hpp"
 #include "diagnosis/extended_toml.hpp"
-#include "report/diagnosis_report.hpp"
+#include "report/diagnosis_document.hpp"
+#include "report/index_document.hpp"
 
 namespace recoil {
 namespace {
@@ -72,13 +73,6 @@ Diagnosis diagnose_for_report(const Analysis& analysis, const AnalysisFlags& fla
   return diagnosis;
 }
 
-std::string link_to(const std::string& address) {
-  return fmt::format(
-      "<p><a href=\"{}\">The whole diagnosis</a>: what was asked of the residuals, "
-      "every cause that was tried, what was held out.</p>\n",
-      address);
-}
-
 void report(const ReportOptions& options) {
   const fs::path out = options.out;
   require_writable_folder(out);
@@ -92,7 +86,12 @@ void report(const ReportOptions& options) {
     const fs::path diagnosed = out / id / "diagnosis.json";
     const fs::path stamp = out / id / "inputs.sha256";
     const std::string expected = fingerprint(fit_file, options.analysis);
+    IndexEntry entry;
+    entry.page = id + ".html";
+    entry.diagnosis_page = id + "/diagnosis.html";
     if (!options.force && is_current(stamp, expected, {page, json, text, picture, diagnosed})) {
+      entry.fit = read_summary(entry.page, read_text_file(json), read_text_file(diagnosed));
+      entry.picture = read_text_file(picture);
       fmt::print("{}: current\n", page.string());
     } else {
       AnalysisOptions resolved = options.analysis.resolved();
@@ -101,21 +100,22 @@ void report(const ReportOptions& options) {
       add_predictions(analysis);
       add_corrections(analysis);
       const Diagnosis diagnosis = diagnose_for_report(analysis, options.analysis);
-      write_whole_file(page, html_report(analysis, diagnosis_section(diagnosis) +
-                                                       link_to(id + "/diagnosis.html")));
+      entry.fit = summary_of(analysis, diagnosis);
+      entry.picture = thumbnail(analysis);
+      write_whole_file(page,
+                       html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page)));
       write_whole_file(out / id / "diagnosis.html", diagnosis_html(diagnosis));
       write_whole_file(diagnosed, diagnosis_json(diagnosis));
       write_whole_file(out / id / "extended.toml", extended_toml(diagnosis, out / id));
       write_whole_file(text, text_report(analysis));
-      write_whole_file(picture, thumbnail(analysis));
+      write_whole_file(picture, entry.picture);
       write_whole_file(json, json_report(analysis));
       write_whole_file(stamp, expected);
       forget_replicates(resolved.folder);
       fmt::print("{}: written\n", page.string());
     }
     std::fflush(stdout);
-    entries.push_back({id + ".html", read_text_file(json), read_text_file(picture),
-                       read_text_file(diagnosed), id + "/diagnosis.html"});
+    entries.push_back(std::move(entry));
   }
   write_whole_file(out / "index.html", html_index(entries));
   fmt::print("{}: written\n", (out / "index.html").string());

@@ -82,6 +82,7 @@ Sentence Quantity::words() const {
   } else {
     out = text_of(value, notation);
   }
+  if (band) out += " " + NumberRange{band->first, band->second, notation}.text();
   return out + unit_after_number(unit);
 }
 

@@ -66,8 +66,9 @@ struct Quantity {
   Notation notation{};
   double error = 0.0;  ///< one standard deviation; 0: none, and the notation decides the digits
   std::string unit{};  ///< empty where the heading of a column says it
+  std::optional<std::pair<double, double>> band{};  ///< in which it lies, in the same notation
 
-  /// "0.00312 +/- 0.00021 s/m"
+  /// "0.00312 +/- 0.00021 s/m", "0.853 [0.840, 0.866]"
   Sentence words() const;
   operator Sentence() const { return words(); }
 };

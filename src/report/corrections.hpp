@@ -13,12 +13,12 @@ namespace recoil {
 std::vector<Figure> correction_figures(const CorrectionStudy& study, std::size_t index);
 
 /// One sentence per correction: what leaving it out does to e, C_A and the capture velocity.
-std::vector<std::string> correction_words(const CorrectionStudy& study);
+std::vector<Sentence> correction_words(const CorrectionStudy& study);
 
 /// How many spheres in how many size classes a study is about.
 std::string study_words(const CorrectionStudy& study);
 
-/// Section of a fit's page; empty when there is nothing to show.
-std::string corrections_section(const Analysis& analysis);
+/// For a fit's page; empty when there is nothing to show.
+std::vector<Block> corrections_blocks(const Analysis& analysis);
 
 }  // namespace recoil

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "report/format.hpp"
-#include "report/html_page.hpp"
+#include "document/html.hpp"
 
 namespace recoil {
 namespace {

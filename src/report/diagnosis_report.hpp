@@ -23,9 +23,6 @@ std::string diagnosis_text(const Diagnosis& diagnosis);
 /// @throws ComputationError when gnuplot cannot be run.
 std::string diagnosis_html(const Diagnosis& diagnosis);
 
-/// The same as a section of a fit's page: the answer, the misfit, the fit before and after.
-std::string diagnosis_section(const Diagnosis& diagnosis);
-
 /// Where the base model is too high or too low, over velocity and diameter; one per dataset.
 std::vector<Figure> misfit_figures(const Diagnosis& diagnosis);
 

@@ -31,11 +31,15 @@ std::vector<Figure> mixture_figures(const Analysis& analysis);
 std::vector<Figure> capture_comparison_figures(const Analysis& analysis);
 
 /// In sentences: what the conventions differ by, and which of them the points lie closest to.
-std::vector<std::string> mixture_words(const Analysis& analysis,
-                                       const PolydispersePrediction& mixture);
+std::vector<Sentence> mixture_words(const Analysis& analysis,
+                                    const PolydispersePrediction& mixture);
 
-/// Sections of a fit's page; empty when there is nothing to show.
-std::string mixture_section(const Analysis& analysis);
-std::string capture_comparison_section(const Analysis& analysis);
+/// What `recoil predict` prints, as sections.
+std::vector<Section> prediction_sections(const Analysis& analysis,
+                                         const PolydispersePrediction& mixture);
+
+/// The same for a fit's page; empty when there is nothing to show.
+std::vector<Block> mixture_blocks(const Analysis& analysis);
+std::vector<Block> capture_comparison_blocks(const Analysis& analysis);
 
 }  // namespace recoil

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "document/document.hpp"
 #include "estimate/fit.hpp"
 #include "predict/capture_comparison.hpp"
 #include "predict/correction_study.hpp"
@@ -38,26 +39,13 @@ std::string json_report(const Analysis& analysis);
 
 /// One self-contained page: plots (inline SVG by gnuplot), tables, provenance; no network, no
 /// script, less than 1 MB.
-/// @param diagnosis HTML of the section on what the model gets wrong; empty: there is none
+/// @param diagnosis the section on what the model gets wrong; empty: there is none
 /// @pre analysis.fitted.usable
 /// @throws ComputationError when gnuplot cannot be run.
-std::string html_report(const Analysis& analysis, const std::string& diagnosis = "");
+std::string html_report(const Analysis& analysis, std::vector<Block> diagnosis = {});
 
 /// A small e(V) picture of the whole fit as SVG, for the index.
 /// @throws ComputationError when gnuplot cannot be run.
 std::string thumbnail(const Analysis& analysis);
-
-/// `index.html` over all fits, given their fit.json texts in order.
-struct IndexEntry {
-  std::string page;                 ///< relative address of the fit's page
-  std::string fit_json;             ///< its fit.json
-  std::string picture;              ///< an SVG thumbnail to inline, may be empty
-  std::string diagnosis_json = {};  ///< its diagnosis.json; empty: there is none
-  std::string diagnosis_page = {};  ///< relative address of the page of the diagnosis
-};
-
-/// @throws InputError when an entry's `fit_json` is not the JSON of a fit, or its `diagnosis_json`
-/// not that of a diagnosis.
-std::string html_index(const std::vector<IndexEntry>& entries);
 
 }  // namespace recoil

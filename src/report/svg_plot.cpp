@@ -13,7 +13,7 @@
 #include <memory>
 
 #include "core/error.hpp"
-#include "report/html_page.hpp"
+#include "document/html.hpp"
 #include "report/svg_tidy.hpp"
 
 extern char** environ;

@@ -1,0 +1,297 @@
+#include "report/diagnosis_document.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/units.hpp"
+#include "document/html.hpp"
+#include "document/terminal.hpp"
+#include "report/fit_document.hpp"
+#include "report/format.hpp"
+#include "uncertainty/identifiability.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_on_terminal = 12;  // of the causes tried
+constexpr std::size_t most_pairs = 8;
+
+Cell interval_cell(const Interval& interval) {
+  if (!interval.available()) return {};
+  return NumberRange{*interval.lower, *interval.upper, padded(3)};
+}
+
+/// One parameter under one of the models: estimate, interval, and what is special about it.
+struct UnderModel {
+  Cell estimate, interval;
+  std::string remark;
+};
+
+UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& intervals,
+                       const std::string& label) {
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    if (fitted.model.slots[j].label() != label) continue;
+    if (!fitted.model.slots[j].free) return {Quantity{fitted.theta[j]}, {}, "fixed"};
+    const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
+    UnderModel found{Quantity{fitted.theta[j], significant(4), error}, {}, ""};
+    if (fitted.at_bound[j]) found.remark = "at its bound";
+    if (j < intervals.size()) found.interval = interval_cell(recommended_interval(intervals[j]));
+    return found;
+  }
+  return {};
+}
+
+Cell said_of_both(const std::string& base, const std::string& extended) {
+  if (base == extended) return Sentence(base);
+  if (base.empty()) return Sentence(extended + " in the extended model");
+  if (extended.empty()) return Sentence(base + " in the base model");
+  return Sentence(fmt::format("{}, then {}", base, extended));
+}
+
+Paragraph gain_summary(const Diagnosis& d) {
+  if (!d.gain || !d.gain->lower || !d.gain->upper) return {};
+  return {say("Together: {} instead of {}, {:.0f} % less (95 % interval {:.0f} to {:.0f} %).",
+              number(d.gain->rmse_extended, 3), number(d.gain->rmse_base, 3),
+              100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper)};
+}
+
+List warnings_of(const Diagnosis& d) {
+  List list;
+  for (const std::string& warning : d.warnings) {
+    list.entries.push_back(as_sentence(Sentence(warning)));
+  }
+  return list;
+}
+
+}  // namespace
+
+Table structure_table(const Diagnosis& d) {
+  Table table;
+  table.caption =
+      say("Questions put to the residuals; p-values from {} data sets that the fitted model itself "
+          "made",
+          d.structure.simulated);
+  table.columns = {{"question"}, {say("{p}")}, {"id", "", true}};
+  for (const StructureTest& test : d.structure.tests) {
+    table.rows.push_back(
+        {Sentence(test.title), Quantity{test.p_value, probability()}, Sentence(test.id)});
+  }
+  table.rows.push_back({"all of them together", Quantity{d.structure.p_value, probability()}, {}});
+  return table;
+}
+
+Table misfit_table(const Diagnosis& d) {
+  Table table;
+  table.caption =
+      say("{e} - {e}_model, the same in the energy of the rebound and in standard "
+          "errors: positive where the model is too low");
+  table.columns = {{"dataset"},     {say("{d}"), "um"}, {say("{V}"), "m/s"}, {"points"},
+                   {say("in {e}")}, {"energy", "J"},    {"standard errors"}};
+  for (const MisfitCell& cell : d.where) {
+    table.rows.push_back(
+        {Sentence(d.datasets[cell.dataset].id), Quantity{cell.diameter / units::um, significant(3)},
+         say("{:.3g} to {:.3g}", cell.slowest, cell.fastest),
+         Quantity{static_cast<double>(cell.points), fixed(0)},
+         Quantity{cell.restitution, signed_fixed(3)}, Quantity{cell.energy, scientific(2)},
+         Quantity{cell.standardised, signed_fixed(1)}});
+  }
+  return table;
+}
+
+Table candidates_table(const std::vector<CandidateResult>& candidates, std::size_t most) {
+  Table table;
+  table.compact = true;
+  table.caption = say(
+      "Every mechanism of the catalogue, added to the model and refitted. {p}: of the gain, "
+      "against the best of all candidates on data of the base model; left: {p} of the structure "
+      "that remains");
+  table.columns = {{"mechanism"}, {"kind", "", true}, {"dAICc"},
+                   {say("{p}")},  {"held out"},       {"left"}};
+  for (std::size_t k = 0; k < std::min(most, candidates.size()); ++k) {
+    const CandidateResult& c = candidates[k];
+    table.rows.push_back(
+        {Sentence(c.candidate.name()), Sentence(to_string(c.kind)),
+         Quantity{c.delta_aicc, fixed(1)}, cell_if(quantity_if(c.p_value, probability())),
+         c.gain ? Cell(Quantity{c.gain->relative, in_percent(signed_fixed(0))}) : Cell(),
+         Quantity{c.remaining_p, probability()}});
+  }
+  return table;
+}
+
+Table found_parameters_table(const std::vector<CandidateResult>& candidates, std::size_t most) {
+  Table table;
+  table.compact = true;
+  table.caption = "What each would have to be, and what speaks against it";
+  table.columns = {{"mechanism"}, {"parameters", "", true}, {"verdict", "", true}};
+  for (std::size_t k = 0; k < std::min(most, candidates.size()); ++k) {
+    const CandidateResult& c = candidates[k];
+    std::vector<Sentence> values;
+    for (const FoundParameter& p : c.parameters) {
+      values.push_back(say("{} = {:.3g}", symbol(p.label), p.value) + unit_after_number(p.unit));
+    }
+    table.rows.push_back({Sentence(c.candidate.name()), join(values, ", "),
+                          Sentence(c.explains() ? "explains it" : c.aside)});
+  }
+  return table;
+}
+
+Table held_out_table(const Diagnosis& d) {
+  Table table;
+  if (!d.gain) return table;
+  table.caption =
+      "Blocks of points that neither model saw: both fitted to the others, then compared with them";
+  table.columns = {{"held out"},
+                   {"points"},
+                   {say("rms of {e}, base")},
+                   {say("rms of {e}, extended")},
+                   {"ln likelihood"},
+                   {"remark", "", true}};
+  for (const HeldOutGain::PerFold& fold : d.gain->folds) {
+    table.rows.push_back({say("{} {}", fold.fold.kind, fold.fold.name),
+                          Quantity{static_cast<double>(fold.fold.points.size()), fixed(0)},
+                          Quantity{fold.rmse_base, significant(3)},
+                          Quantity{fold.rmse_extended, significant(3)},
+                          Quantity{fold.log_score, signed_fixed(1)},
+                          Sentence(fold.counted ? "" : "shown, not counted")});
+  }
+  return table;
+}
+
+Table both_models_table(const Diagnosis& d) {
+  Table table;
+  if (!d.extended_fit) return table;
+  const std::string level = percent(d.spec.uncertainty.level) + " interval";
+  table.caption =
+      "Parameters under both models: what the base model's damping was carrying for the missing "
+      "effect";
+  table.columns = {{"parameter"}, {"unit", "", true},  {"base"}, {level}, {"extended"},
+                   {level},       {"remark", "", true}};
+  for (const ParameterSlot& slot : d.extended_fit->model.slots) {
+    const UnderModel base = under_model(d.base, d.base_intervals, slot.label());
+    const UnderModel extended = under_model(*d.extended_fit, d.extended_intervals, slot.label());
+    table.rows.push_back({symbol(slot.label()), unit(slot.unit), base.estimate, base.interval,
+                          extended.estimate, extended.interval,
+                          said_of_both(base.remark, extended.remark)});
+  }
+  return table;
+}
+
+Table capture_change_table(const Diagnosis& d) {
+  Table table;
+  table.caption = "Predicted capture velocity";
+  table.columns = {{"dataset"}, {say("{d}"), "um"}, {"base", "m/s"}, {"extended", "m/s"}};
+  const auto cell = [](const std::optional<double>& value) {
+    return value ? Cell(Quantity{*value, significant(4)}) : Cell("none");
+  };
+  for (const CaptureChange& change : d.capture) {
+    table.rows.push_back({Sentence(d.datasets[change.dataset].id),
+                          Sentence(diameter_text(change.diameter)), cell(change.base),
+                          cell(change.extended)});
+  }
+  return table;
+}
+
+Table next_measurement_table(const Diagnosis& d) {
+  Table table;
+  table.caption = "Impacts at which the rivals differ most for the number of impacts";
+  table.columns = {{"tells"},           {"from", "", true},         {say("{d}"), "um"},
+                   {say("{V}"), "m/s"}, {say("difference in {e}")}, {"impacts"}};
+  for (const NextMeasurement& next : d.next) {
+    table.rows.push_back({Sentence(words_of(next.one)), Sentence(words_of(next.other)),
+                          Sentence(diameter_text(next.diameter)),
+                          Quantity{next.velocity, significant(3)},
+                          Quantity{next.difference, signed_fixed(3)},
+                          next.events ? Cell(Quantity{static_cast<double>(*next.events), fixed(0)})
+                                      : Cell("more than a million")});
+  }
+  return table;
+}
+
+std::vector<Block> diagnosis_answer(const Diagnosis& d) {
+  std::vector<Block> blocks = {Paragraph{strong(headline(d) + ".")}, Paragraph{d.text, true}};
+  for (const std::string& remark : d.remarks) blocks.emplace_back(Paragraph{remark});
+  return blocks;
+}
+
+std::vector<Section> diagnosis_sections(const Diagnosis& d) {
+  Section answer{"verdict", "Verdict"};
+  answer.blocks = {Paragraph{to_string(d.verdict)}, Paragraph{d.text}};
+  append(answer.blocks, provenance_banners(d.datasets));
+  for (const std::string& remark : d.remarks) answer.blocks.emplace_back(Paragraph{remark});
+  return {std::move(answer),
+          {"residuals", "Residuals of the base model", {}, {structure_table(d)}},
+          {"misfit", "Where it misses", {}, {misfit_table(d)}},
+          {"causes",
+           "Causes",
+           {},
+           {candidates_table(d.candidates, most_on_terminal),
+            found_parameters_table(d.candidates, most_on_terminal)}},
+          {"pairs",
+           "Two causes at once",
+           {},
+           {candidates_table(d.pairs, most_on_terminal),
+            found_parameters_table(d.pairs, most_on_terminal)}},
+          {"gain", "Gain on held-out blocks", {}, {held_out_table(d), gain_summary(d)}},
+          {"parameters", "Parameters", {}, {both_models_table(d), capture_change_table(d)}},
+          {"next", "What to measure next", {}, {next_measurement_table(d)}},
+          {"warnings", "Warnings", {}, {warnings_of(d)}}};
+}
+
+Document diagnosis_document(const Diagnosis& d) {
+  constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+  Document page;
+  page.title = "Diagnosis of " + d.spec.id;
+  page.heading = "What the model gets wrong";
+  page.subtitle = page.title;
+  page.foot = "recoil " + version();
+  page.foreword = provenance_banners(d.datasets);
+  append(page.foreword, diagnosis_answer(d));
+  std::vector<CandidateResult> tried = d.candidates;
+  tried.insert(tried.end(), d.pairs.begin(),
+               d.pairs.begin() + static_cast<std::ptrdiff_t>(std::min(d.pairs.size(), most_pairs)));
+  page.sections = {
+      {"misfit",
+       "Where it misses",
+       {},
+       {Figures{misfit_figures(d)}, structure_table(d),
+        Details{"The misfit in numbers", {misfit_table(d)}}}},
+      {"causes",
+       "What could explain it",
+       {},
+       {Figures{ranking_figures(d)}, candidates_table(tried, all),
+        Details{"What each would have to be, and what speaks against it",
+                {found_parameters_table(tried, all)}}}},
+      {"before-after",
+       "Before and after",
+       {},
+       {Figures{before_after_figures(d)}, both_models_table(d), capture_change_table(d)}},
+      {"gain", "What was gained", {}, {held_out_table(d), gain_summary(d)}},
+      {"next", "What to measure next", {}, {next_measurement_table(d)}},
+      {"warnings", "Warnings", {}, {warnings_of(d)}}};
+  return page;
+}
+
+std::vector<Block> diagnosis_blocks(const Diagnosis& d, const std::string& address) {
+  // A page of several targets has many pictures already; the diagnosis itself shows the others.
+  Figures figures{misfit_figures(d)};
+  if (d.datasets.size() == 1) {
+    for (Figure& figure : before_after_figures(d)) figures.figures.push_back(std::move(figure));
+  }
+  std::vector<Block> blocks = diagnosis_answer(d);
+  append(blocks, {std::move(figures), both_models_table(d)});
+  if (!address.empty()) {
+    blocks.emplace_back(Paragraph{link("The whole diagnosis", address) +
+                                  ": what was asked of the residuals, every cause that was tried, "
+                                  "what was held out."});
+  }
+  return blocks;
+}
+
+std::string diagnosis_text(const Diagnosis& d) { return terminal_text(diagnosis_sections(d)); }
+
+std::string diagnosis_html(const Diagnosis& d) { return html_page(diagnosis_document(d)); }
+
+}  // namespace recoil
