@@ -10,9 +10,9 @@ namespace {
 TEST(Sentence, IsFilledLikeAFormatAndKnowsItsSymbols) {
   const Sentence words = say("{} points give {C_H} = {:.2f} s/m at {} {um}", 12, 0.0312, "4.90");
   const std::vector<recoil::Run> expected = {{RunKind::text, "12 points give "},
-                                     {RunKind::symbol, "C_H"},
-                                     {RunKind::text, " = 0.03 s/m at 4.90 "},
-                                     {RunKind::unit, "um"}};
+                                             {RunKind::symbol, "C_H"},
+                                             {RunKind::text, " = 0.03 s/m at 4.90 "},
+                                             {RunKind::unit, "um"}};
   EXPECT_EQ(words.runs(), expected);
   EXPECT_EQ(plain_text(words), "12 points give C_H = 0.03 s/m at 4.90 um");
 }

@@ -10,9 +10,10 @@
 #include <filesystem>
 
 #include "core/files.hpp"
+#include "document/html.hpp"
 #include "example_analysis.hpp"
 #include "report/experiment_figures.hpp"
-#include "report/html_page.hpp"
+#include "report/index_document.hpp"
 #include "report/svg_plot.hpp"
 
 namespace recoil {
@@ -25,7 +26,7 @@ class Browser : public testing::Test {
   static void SetUpTestSuite() {
     page_ = html_report(example::four_diameters());
     const Analysis analysis = example::four_diameters();
-    index_ = html_index({{"page.html", json_report(analysis), thumbnail(analysis)}});
+    index_ = html_index({{"page.html", summary_of(analysis), thumbnail(analysis)}});
   }
 
   void SetUp() override {
@@ -87,9 +88,12 @@ TEST_F(Browser, ShowsThePicturesOfAnExperiment) {
   for (const auto& [name, svg] : experiment_figures(shown, averages, "a synthetic run")) {
     figures.push_back({"figure-" + plot_name(name), name, "a caption", svg});
   }
-  const std::string page = page_html(
-      "An experiment", "<main>" + section_html("all", "All", figures_html(figures)) + "</main>");
-  EXPECT_EQ(open(page, 4), 0);
+  Document page;
+  page.title = "An experiment";
+  page.heading = page.title;
+  page.foot = "a test";
+  page.sections = {{"all", "All", {}, {Figures{figures}}}};
+  EXPECT_EQ(open(html_page(page), 4), 0);
 }
 
 TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(html_report(example::two_datasets()), 28), 0); }

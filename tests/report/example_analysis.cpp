@@ -279,6 +279,7 @@ Analysis four_diameters() {
   add_statistics(a, {0.00021, 0.0023, 0.0});
   add_two_point(a, 0, 0.0046, 0.062);
   add_pairs(a, 0);
+  a.fitted.data = a.data;
   return a;
 }
 
@@ -316,6 +317,7 @@ Analysis two_datasets() {
   a.uncertainty.two_point[1].result.status = TwoPointStatus::no_adhesion_damping;
   a.uncertainty.two_point[1].result.text = "no C_A >= 0 gives the e of the lowest velocity";
   a.data.warnings = {"some points lack a standard deviation, so all are weighted equally"};
+  a.fitted.data = a.data;
   return a;
 }
 

@@ -102,9 +102,5 @@ TEST(PairKeys, AreEmptyWithAReasonWhenThereWasNoStudy) {
   EXPECT_FALSE(fit["two_point"]["pairs_why"].get<std::string>().empty());
 }
 
-TEST(PairText, StandsInTheBlockReport) {
-  EXPECT_THAT(text_report(example::four_diameters()), HasSubstr("in 199 data sets simulated"));
-}
-
 }  // namespace
 }  // namespace recoil

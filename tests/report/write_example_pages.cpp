@@ -5,6 +5,7 @@
 
 #include "core/files.hpp"
 #include "example_analysis.hpp"
+#include "report/index_document.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {
@@ -16,11 +17,10 @@ int main(int argc, char** argv) {
   for (const recoil::Analysis& analysis :
        {recoil::example::four_diameters(), recoil::example::two_datasets()}) {
     const std::string id = analysis.spec.id;
-    const std::string json = recoil::json_report(analysis);
     recoil::write_whole_file(folder / (id + ".html"), recoil::html_report(analysis));
-    recoil::write_whole_file(folder / (id + ".json"), json);
+    recoil::write_whole_file(folder / (id + ".json"), recoil::json_report(analysis));
     recoil::write_whole_file(folder / (id + ".txt"), recoil::text_report(analysis));
-    entries.push_back({id + ".html", json, recoil::thumbnail(analysis)});
+    entries.push_back({id + ".html", recoil::summary_of(analysis), recoil::thumbnail(analysis)});
   }
   recoil::write_whole_file(folder / "index.html", recoil::html_index(entries));
 }
