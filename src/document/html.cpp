@@ -75,6 +75,14 @@ std::string heading_html(const Column& column) {
              : fmt::format("{} [{}]", html_of(column.heading), unit_html(column.unit));
 }
 
+/// Is there more in a column than a word or two, to be broken into lines?
+bool has_long_cells(const Table& table, std::size_t column) {
+  constexpr std::size_t few = 32;
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return plain_text(words_of_cell(row[column])).size() > few;
+  });
+}
+
 std::string table_html(const Table& full) {
   const Table table = without_empty_columns(full);
   std::string out = fmt::format("<div class=\"wide\" tabindex=\"0\"><table{}>\n",
@@ -82,7 +90,10 @@ std::string table_html(const Table& full) {
   if (!table.caption.empty()) {
     out += fmt::format("<caption>{}</caption>\n", html_of(table.caption));
   }
-  const auto look = [&](std::size_t c) { return table.columns[c].words ? " class=\"words\"" : ""; };
+  const auto look = [&](std::size_t c) {
+    if (!table.columns[c].words) return "";
+    return has_long_cells(table, c) ? " class=\"words prose\"" : " class=\"words\"";
+  };
   if (table.has_headings()) {
     out += "<thead><tr>";
     for (std::size_t c = 0; c < table.columns.size(); ++c) {

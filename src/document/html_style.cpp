@@ -65,7 +65,7 @@ thead th { border-top: 0; color: var(--quiet); font-weight: 600; }
 tbody th { font-weight: 600; }
 th:first-child { text-align: left; }
 td.words, th.words { text-align: left; }
-td.words { text-align: left; white-space: normal; min-width: 16rem; }
+td.prose { white-space: normal; min-width: 16rem; }
 table.compact { font-size: .8rem; }
 table.compact th, table.compact td { padding: .18rem .7rem; font-weight: 400; }
 dt { font-weight: 600; margin-top: .7rem; }
@@ -117,7 +117,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .wide { overflow: visible; }
   table { font-size: 8pt; }
   th, td { padding: .15rem .4rem; white-space: normal; }
-  td.words { min-width: 0; }
+  td.prose { min-width: 0; }
   table.compact th, table.compact td { white-space: nowrap; padding: .08rem .4rem; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }

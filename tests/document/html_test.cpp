@@ -65,10 +65,10 @@ TEST(Html, ContentsListWhatIsThere) {
   Document document;
   document.title = document.foot = "t";
   document.heading = "t";
-  document.sections = {{"one", "One", "", {Paragraph{"x"}}}, {"none", "None", "", {List{}}}};
+  document.sections = {{"one", "One", "", {Paragraph{"x"}}}, {"absent", "Absent", "", {List{}}}};
   const std::string page = html_page(document);
   EXPECT_THAT(page, HasSubstr("<a href=\"#one\">One</a>"));
-  EXPECT_THAT(page, Not(HasSubstr("none")));
+  EXPECT_THAT(page, Not(HasSubstr("absent")));
   document.cards = true;
   document.sections[0].address = "one.html";
   EXPECT_THAT(html_page(document), HasSubstr("<h2><a href=\"one.html\">One</a></h2>"));
