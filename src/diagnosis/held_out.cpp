@@ -8,9 +8,9 @@
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "estimate/impact_problem.hpp"
-#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {

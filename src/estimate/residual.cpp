@@ -130,7 +130,8 @@ void locate_peak(Observation& point) {
   double low = -point.shift - reach;
   double high = point.restitution * point.restitution - point.shift + reach;
   const auto slope = [&](double m) { return event_deviance_and_slope(point, m).slope; };
-  // Regula falsi with the Illinois rule, and halving where that is slow.
+  // Regula falsi with the Illinois rule, and halving where that is slow; by hand, since it runs for
+  // every point in every round of every replicate.
   double slope_low = slope(low);
   double slope_high = slope(high);
   constexpr int most_steps = 200;

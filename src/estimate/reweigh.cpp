@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/roots.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/survivors.hpp"
 
@@ -201,9 +202,11 @@ class Reweighing {
   /// lies on a slope, anywhere; by the golden section.
   double lowest(const std::vector<Local>& locals) const {
     const double before = std::log(data_.noise.event_spread);
+    constexpr double tolerance = 1e-3;  // of omega, relative
+    const auto at = [&](double log_spread) { return deviance(locals, log_spread); };
     const double near =
-        golden_section(locals, std::max(before - near_reach, std::log(least_spread)),
-                       std::min(before + near_reach, std::log(largest_spread)));
+        find_minimum(at, std::max(before - near_reach, std::log(least_spread)),
+                     std::min(before + near_reach, std::log(largest_spread)), tolerance);
     if (std::abs(near - before) < 0.95 * near_reach) return near;
     constexpr int grid = 12;
     const double from = std::log(least_spread);
@@ -211,39 +214,14 @@ class Reweighing {
     int best = 0;
     double best_value = INFINITY;
     for (int i = 0; i <= grid; ++i) {
-      const double value = deviance(locals, from + i * stride);
+      const double value = at(from + i * stride);
       if (value < best_value) {
         best = i;
         best_value = value;
       }
     }
-    return golden_section(locals, from + std::max(best - 1, 0) * stride,
-                          from + std::min(best + 1, grid) * stride);
-  }
-
-  double golden_section(const std::vector<Local>& locals, double low, double high) const {
-    constexpr double golden = 0.6180339887498949;
-    double x1 = high - golden * (high - low);
-    double x2 = low + golden * (high - low);
-    double f1 = deviance(locals, x1);
-    double f2 = deviance(locals, x2);
-    constexpr double tolerance = 1e-3;  // of omega, relative
-    while (high - low > tolerance) {
-      if (f1 < f2) {
-        high = x2;
-        x2 = x1;
-        f2 = f1;
-        x1 = high - golden * (high - low);
-        f1 = deviance(locals, x1);
-      } else {
-        low = x1;
-        x1 = x2;
-        f1 = f2;
-        x2 = low + golden * (high - low);
-        f2 = deviance(locals, x2);
-      }
-    }
-    return 0.5 * (low + high);
+    return find_minimum(at, from + std::max(best - 1, 0) * stride,
+                        from + std::min(best + 1, grid) * stride, tolerance);
   }
 
   Observations& data_;

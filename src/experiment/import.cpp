@@ -123,16 +123,6 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
                                    const fs::path& points_file,
                                    const std::vector<ImportedPoint>& points) {
   const Location& at = error.where();
-  std::string text = error.what();
-  const std::string prefix = at.file.empty() ? ""
-                             : at.line == 0
-                                 ? at.file + ": "
-                                 : fmt::format("{}:{}{}: ", at.file, at.line,
-                                               at.column > 0 ? fmt::format(":{}", at.column) : "");
-  if (text.starts_with(prefix)) text.erase(0, prefix.size());
-  const std::size_t why = text.find(" (");
-  const std::size_t end = text.find(") ", why);
-  if (why == std::string::npos || end == std::string::npos) throw error;
   // Nothing in the file is to blame for a material.
   Location place{at.file == points_file.string() ? request.file.string() : std::string()};
   const auto row = static_cast<std::size_t>(at.line) - 2;
@@ -140,8 +130,7 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
     place.line = points[row].line;
     place.column = 1;
   }
-  throw InputError(place, text.substr(0, why), text.substr(why + 2, end - why - 2),
-                   text.substr(end + 2));
+  throw InputError(place, error.problem(), error.why(), error.suggestion());
 }
 
 void require_free(const ImportRequest& request) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "predict/capture_dahneke.hpp"
 #include "predict/capture_jkr.hpp"

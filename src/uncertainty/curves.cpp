@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/parallel.hpp"
-#include "uncertainty/intervals.hpp"
+#include "core/statistics.hpp"
 
 namespace recoil {
 namespace {

@@ -128,7 +128,8 @@ std::optional<End> find_end(Profile& profile, const FitResult& fitted, std::size
   double inside = fitted.theta[slot];
   double outside = inside;
   if (inside == bound) return End{bound, true};
-  // sqrt(rise) is nearly linear in the parameter, so the false position converges at once.
+  // sqrt(rise) is nearly linear in the parameter, so the false position converges at once; by hand,
+  // since every value is a fit that may fail, and the end is known by the rise, not by its place.
   const auto excess = [&](double rise, double value) {
     return std::sqrt(std::max(rise, 0.0)) - std::sqrt(allowed(value));
   };

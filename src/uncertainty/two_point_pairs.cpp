@@ -5,8 +5,8 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "core/statistics.hpp"
 #include "uncertainty/bootstrap.hpp"
-#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {

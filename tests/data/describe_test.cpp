@@ -27,11 +27,11 @@ TEST(Describe, SaysWhatWasReadWithUnits) {
 
 TEST(Describe, ShowsOverridesAndWarnings) {
   const std::string text =
-      described(example::changed(example::package, "\"provenance\"",
+      described(support::changed(example::package, "\"provenance\"",
                                  "\"stiffness_K\": 3.745e9, \"adhesion_energy\": 0.235,\n"
                                  "\"adhesion_force_f0\": 5.74, \"reference_diameter\": 1.28e-6,"
                                  "\"provenance\""),
-                example::changed(example::points, "0.912", "1.1"));
+                support::changed(example::points, "0.912", "1.1"));
   for (const char* word : {"K 3.745 GPa", "adhesion energy 0.235 J/m2", "f0 5.74 N/m",
                            "reference diameter 1.28 um", "warnings", "above 1"}) {
     EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' is missing in\n" << text;
@@ -40,7 +40,7 @@ TEST(Describe, ShowsOverridesAndWarnings) {
 
 TEST(Describe, ColumnsStandBelowTheirHeads) {
   const std::string text =
-      described(example::package, example::changed(example::points, "large", "gro\xC3\x9F"));
+      described(example::package, support::changed(example::points, "large", "gro\xC3\x9F"));
   std::istringstream lines(text);
   std::vector<std::size_t> places;
   for (std::string line; std::getline(lines, line);) {
@@ -62,7 +62,7 @@ TEST(Provenance, TheWordAndItsSentenceStandInTheDescription) {
   for (const Provenance provenance : {Provenance::measured, Provenance::digitised,
                                       Provenance::reconstruction, Provenance::synthetic}) {
     std::string text =
-        described(example::changed(example::package, "\"measured\"",
+        described(support::changed(example::package, "\"measured\"",
                                    std::string("\"").append(to_string(provenance)).append("\"")));
     EXPECT_NE(text.find(to_string(provenance)), std::string::npos);
     // The sentence may be broken into lines: compare it without blanks.

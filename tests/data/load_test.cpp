@@ -8,8 +8,8 @@
 namespace recoil {
 namespace {
 
-using example::changed;
 using example::DatasetFolder;
+using support::changed;
 
 TEST(LoadDataset, ConvertsEveryColumnToSi) {
   const DatasetFolder folder;

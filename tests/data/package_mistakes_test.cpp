@@ -1,23 +1,21 @@
 #include <gtest/gtest.h>
 
-#include <ostream>
-
 #include "core/error.hpp"
 #include "data/dataset.hpp"
 #include "dataset_folder.hpp"
 
 namespace example {
-
-void PrintTo(const Mistake& mistake, std::ostream* stream);
-
 namespace {
+
+using support::changed;
+using support::Mistake;
 
 class PackageMistake : public testing::TestWithParam<Mistake> {};
 
 TEST_P(PackageMistake, IsOneClearLine) {
   const Mistake& mistake = GetParam();
   const DatasetFolder folder(changed(package, mistake.old_text, mistake.new_text));
-  expect_message(folder.failure(), mistake);
+  folder.expect(mistake);
 }
 
 const Mistake mistakes[] = {
@@ -128,36 +126,28 @@ const Mistake mistakes[] = {
      "datapackage.json:22:27: ", "reference_diameter = 4.9 m", "1 um is 1e-6 m"},
 };
 
-std::string name_of(const testing::TestParamInfo<Mistake>& tested) { return tested.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Each, PackageMistake, testing::ValuesIn(mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Each, PackageMistake, testing::ValuesIn(mistakes), support::name_of);
 
 TEST(PackageFile, EmptyOrNoObject) {
-  expect_message(DatasetFolder(" \n").failure(),
-                 {"", "", "", "datapackage.json:1:1: ", "the file is empty", "shipped dataset"});
-  expect_message(DatasetFolder("[]").failure(),
-                 {"", "", "", "datapackage.json:1:1: ", "the document is an array", "an object"});
-  expect_message(DatasetFolder("{\n  \"name\": \"x\",").failure(),
-                 {"", "", "", "datapackage.json:2:", "syntax error", "look before"});
+  DatasetFolder(" \n").expect(
+      {"", "", "", "datapackage.json:1:1: ", "the file is empty", "shipped dataset"});
+  DatasetFolder("[]").expect(
+      {"", "", "", "datapackage.json:1:1: ", "the document is an array", "an object"});
+  DatasetFolder("{\n  \"name\": \"x\",")
+      .expect({"", "", "", "datapackage.json:2:", "syntax error", "look before"});
 }
 
 TEST(PackageFile, FolderOrFileIsNotThere) {
   const DatasetFolder folder;
-  const auto message = [](const std::filesystem::path& path) {
-    try {
-      recoil::load_dataset(path);
-    } catch (const recoil::InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("loaded");
+  const auto error = [](const std::filesystem::path& path) {
+    return support::error_of([&] { recoil::load_dataset(path); });
   };
-  expect_message(message("no/such/folder"),
+  expect_mistake(error("no/such/folder"),
                  {"", "", "", "no/such/folder: ", "no such folder", "check the path"});
   const auto file = folder.path() / "points.csv";
-  expect_message(message(file), {"", "", "", file.string(), "this is not a folder", "name the"});
+  expect_mistake(error(file), {"", "", "", file.string(), "this is not a folder", "name the"});
   std::filesystem::remove(folder.path() / "datapackage.json");
-  expect_message(folder.failure(),
-                 {"", "", "", "datapackage.json: ", "no such file", "a shipped dataset"});
+  folder.expect({"", "", "", "datapackage.json: ", "no such file", "a shipped dataset"});
 }
 
 }  // namespace

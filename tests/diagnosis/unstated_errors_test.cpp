@@ -9,7 +9,7 @@
 
 #include "diagnosis/verdict_words.hpp"
 #include "quick_diagnosis.hpp"
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {

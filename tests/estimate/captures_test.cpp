@@ -9,7 +9,7 @@
 #include "core/random.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/noise.hpp"
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {

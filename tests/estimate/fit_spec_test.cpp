@@ -1,20 +1,20 @@
 #include "estimate/fit_spec.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
-#include <fstream>
-#include <ostream>
-#include <regex>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "support/mistake.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace recoil {
 namespace {
 
 namespace fs = std::filesystem;
+using support::changed;
+using support::Mistake;
 
 const std::string full = R"(dataset = "../datasets/quartz"
 [model]
@@ -36,22 +36,8 @@ velocity_relative_sd = 0.02
 diameter_errors = false
 )";
 
-std::string changed(std::string text, const std::string& old_text, const std::string& new_text) {
-  const std::size_t at = text.find(old_text);
-  if (at == std::string::npos) {
-    ADD_FAILURE() << "the example has no '" << old_text << "'";
-    return text;
-  }
-  return text.replace(at, old_text.size(), new_text);
-}
-
-std::string failure(const std::string& text) {
-  try {
-    parse_fit(text, "fit.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "parsed";
+std::optional<InputError> error_in(const std::string& text) {
+  return support::error_of([&] { parse_fit(text, "fit.toml"); });
 }
 
 TEST(ParseFit, ReadsEveryKey) {
@@ -155,33 +141,11 @@ TEST(ParameterCatalogue, IsConsistent) {
   EXPECT_FALSE(catalogue[2].free) << "f0 follows from eq. 12 unless a fit asks for more";
 }
 
-/// A mistake: what is replaced by what in the full example, and what the message has.
-struct Mistake {
-  std::string name;
-  std::string old_text;
-  std::string new_text;
-  std::string begin;
-  std::string word;
-  std::string hint;
-};
-
-void PrintTo(const Mistake& mistake, std::ostream* stream) { *stream << mistake.name; }
-
-void expect_message(const std::string& message, const Mistake& mistake) {
-  EXPECT_TRUE(message.starts_with(mistake.begin)) << message << "\nshould begin " << mistake.begin;
-  EXPECT_NE(message.find(mistake.word), std::string::npos) << message;
-  EXPECT_NE(message.find(mistake.hint), std::string::npos) << message;
-  EXPECT_EQ(message.find_first_of("\n\r\t"), std::string::npos) << message;
-  EXPECT_LT(message.size(), 300U) << message;
-  static const std::regex grammar(R"([^:]+(:\d+:\d+)?: .+ \(.+\) .+)");
-  EXPECT_TRUE(std::regex_match(message, grammar)) << message;
-}
-
 class FitMistake : public testing::TestWithParam<Mistake> {};
 
 TEST_P(FitMistake, IsOneClearLine) {
   const Mistake& mistake = GetParam();
-  expect_message(failure(changed(full, mistake.old_text, mistake.new_text)), mistake);
+  expect_mistake(error_in(changed(full, mistake.old_text, mistake.new_text)), mistake);
 }
 
 const std::string c_h = "C_H = { initial = 2e-3, bounds = [0, 0.5] }";
@@ -296,12 +260,10 @@ const Mistake mistakes[] = {
      "for example"},
 };
 
-std::string name_of(const testing::TestParamInfo<Mistake>& tested) { return tested.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Each, FitMistake, testing::ValuesIn(mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Each, FitMistake, testing::ValuesIn(mistakes), support::name_of);
 
 TEST(ParseFit, NeedsADataset) {
-  expect_message(failure(""),
+  expect_mistake(error_in(""),
                  {"", "", "", "fit.toml:1:1: ", "'dataset' is missing", "add dataset"});
 }
 
@@ -310,37 +272,26 @@ TEST(ParseFit, SurvivesTheLossOfAnyByte) {
     std::string text = full;
     text.erase(i, 1);
     for (const std::string& damaged : {text, full.substr(0, i)}) {
-      const std::string message = failure(damaged);
-      EXPECT_TRUE(message == "parsed" || message.starts_with("fit.toml:")) << message;
+      const std::string message = support::message_of([&] { parse_fit(damaged, "fit.toml"); });
+      EXPECT_TRUE(message == "no error" || message.starts_with("fit.toml:")) << message;
       EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message;
     }
   }
 }
 
 TEST(LoadFit, LooksForTheDatasetsFromTheFilesFolder) {
-  std::string name = (fs::temp_directory_path() / "recoil-fit-XXXXXX").string();
-  ASSERT_NE(mkdtemp(name.data()), nullptr);
-  const fs::path folder = name;
+  const support::TemporaryFolder folder;
   fs::create_directories(folder / "datasets" / "quartz");
-  fs::create_directories(folder / "fits");
   const fs::path file = folder / "fits" / "one.toml";
-  const auto message = [&](const std::string& text) {
-    std::ofstream(file) << text;
-    try {
-      const FitSpec spec = load_fit(file);
-      EXPECT_TRUE(fs::equivalent(spec.datasets[0], folder / "datasets" / "quartz"));
-      EXPECT_EQ(spec.sha256, sha256_hex(text));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("loaded");
-  };
-  EXPECT_EQ(message(full), "loaded");
-  expect_message(message("dataset = [\"../datasets/quartz\",\n  \"../datasets/mica\"]\n"),
+  folder.write("fits/one.toml", full);
+  const FitSpec spec = load_fit(file);
+  EXPECT_TRUE(fs::equivalent(spec.datasets[0], folder / "datasets" / "quartz"));
+  EXPECT_EQ(spec.sha256, sha256_hex(full));
+  folder.write("fits/one.toml", "dataset = [\"../datasets/quartz\",\n  \"../datasets/mica\"]\n");
+  expect_mistake(support::error_of([&] { load_fit(file); }),
                  {"", "", "", file.string() + ":2:3: ", "there is no folder", "correct the path"});
   fs::remove(file);
   EXPECT_THROW(load_fit(file), InputError);
-  fs::remove_all(folder);
 }
 
 }  // namespace

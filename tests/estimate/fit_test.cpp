@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "estimate/two_point.hpp"
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {

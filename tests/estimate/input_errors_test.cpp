@@ -6,7 +6,7 @@
 
 #include "core/random.hpp"
 #include "estimate/noise.hpp"
-#include "one_size.hpp"
+#include "support/one_size.hpp"
 
 namespace recoil {
 namespace {

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "../impact/independent_impact.hpp"
 #include "core/error.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit.hpp"
 #include "reconstruction/elastoplastic_truth.hpp"
-#include "synthetic.hpp"
+#include "support/independent_impact.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/random.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/noise_words.hpp"
-#include "one_size.hpp"
+#include "support/one_size.hpp"
 
 namespace recoil {
 namespace {

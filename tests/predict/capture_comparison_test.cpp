@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../estimate/synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace {
 

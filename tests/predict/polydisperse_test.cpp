@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "../estimate/synthetic.hpp"
 #include "estimate/observations.hpp"
+#include "support/synthetic.hpp"
 
 namespace {
 

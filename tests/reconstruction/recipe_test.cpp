@@ -5,9 +5,9 @@
 
 #include <ostream>
 
-#include "core/error.hpp"
 #include "recipe_folder.hpp"
 #include "reconstruction/reconstruction.hpp"
+#include "support/mistake.hpp"
 
 namespace recoil {
 namespace {
@@ -25,18 +25,15 @@ class RecipeMistakes : public ::testing::TestWithParam<Mistake> {};
 TEST_P(RecipeMistakes, AreOneLineWithItsPlace) {
   const Mistake& mistake = GetParam();
   const CopiedDatasets copies;
-  copies.replace(mistake.id, "recipe.toml", mistake.from, mistake.to);
-  try {
-    load_recipe(copies.folder(mistake.id));
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find(mistake.says), std::string::npos) << text;
-    EXPECT_NE(text.find("recipe.toml:"), std::string::npos) << text;
-    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-    EXPECT_GT(error.where().line, 0) << text;
-    EXPECT_GT(error.where().column, 0) << text;
-  }
+  copies.change(mistake.id + "/recipe.toml", mistake.from, mistake.to);
+  const auto error = support::error_of([&] { load_recipe(copies.folder(mistake.id)); });
+  ASSERT_TRUE(error) << "accepted";
+  const std::string text = error->what();
+  EXPECT_NE(text.find(mistake.says), std::string::npos) << text;
+  EXPECT_TRUE(error->where().file.ends_with("recipe.toml")) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  EXPECT_GT(error->where().line, 0) << text;
+  EXPECT_GT(error->where().column, 0) << text;
 }
 
 const std::string wall = "wall1990-mica";
@@ -86,7 +83,7 @@ TEST(Recipe, MissingOnesAreSaid) {
 
 TEST(Recipe, ImpactsThatAreHardlyEverSeenAreRefused) {
   const CopiedDatasets copies;
-  copies.replace(mixed, "recipe.toml", "probe_height = 1e-3", "probe_height = 1e-1");
+  copies.change(mixed + "/recipe.toml", "probe_height = 1e-3", "probe_height = 1e-1");
   EXPECT_THROW(load_recipe(copies.folder(mixed)), InputError);
 }
 

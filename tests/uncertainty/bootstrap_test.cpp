@@ -2,13 +2,12 @@
 #include "uncertainty/bootstrap.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
-#include "noisy_case.hpp"
+#include "support/noisy_case.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace recoil {
 namespace {
@@ -18,24 +17,9 @@ using synthetic::Case;
 using synthetic::noisy_case;
 using synthetic::small;
 
-/// A folder of its own, removed at the end.
-class Folder {
- public:
-  Folder() {
-    std::string place = (fs::temp_directory_path() / "recoil-boot-XXXXXX").string();
-    if (mkdtemp(place.data()) == nullptr) throw std::runtime_error("no folder to work in");
-    path_ = place;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path file() const { return path_ / "replicates.json"; }
-
- private:
-  fs::path path_;
+/// A folder for kept replicates.
+struct Folder : support::TemporaryFolder {
+  fs::path file() const { return path() / "replicates.json"; }
 };
 
 TEST(Bootstrap, ExtendingIsTheSameAsOneRun) {
@@ -88,7 +72,7 @@ TEST(ReplicateTable, DamagedFilesAreNotTrusted) {
         R"({"key": "key", "replicates": [[-1]]})", R"({"key": "key", "replicates": [7]})",
         R"({"key": "key", "replicates": [[99999999999]]})",
         R"({"key": "key", "replicates": [[0, ["a"], [1]]]})"}) {
-    std::ofstream(folder.file()) << text;
+    folder.write("replicates.json", text);
     EXPECT_EQ(load_replicates(folder.file(), "key", 1).finished(), 0U) << text;
   }
 }

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "noisy_case.hpp"
+#include "support/noisy_case.hpp"
 
 namespace recoil {
 namespace {

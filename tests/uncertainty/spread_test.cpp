@@ -1,7 +1,7 @@
 // Replicates scatter as the linearised errors say, where the problem is nearly linear.
 #include <gtest/gtest.h>
 
-#include "noisy_case.hpp"
+#include "support/noisy_case.hpp"
 
 namespace recoil {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "noisy_case.hpp"
+#include "support/noisy_case.hpp"
 
 namespace recoil {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "noisy_case.hpp"
+#include "support/noisy_case.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/profile.hpp"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 #include "uncertainty/uncertainty.hpp"
 
 namespace recoil::synthetic {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "estimate/fit.hpp"
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil::one_size {
 
