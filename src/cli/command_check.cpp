@@ -4,6 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "data/dataset.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 

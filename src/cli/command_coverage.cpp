@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "report/coverage_picture.hpp"
 #include "report/coverage_summary.hpp"
+#include "report/words_dataset.hpp"
 #include "uncertainty/coverage_grid.hpp"
 #include "uncertainty/coverage_truth.hpp"
 

@@ -13,6 +13,7 @@
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
 #include "report/experiment_figures.hpp"
+#include "report/words_impacts.hpp"
 
 namespace recoil {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "data/text.hpp"
 #include "impact/sensitivity.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace recoil {
 
@@ -21,7 +22,9 @@ template <class Enum>
 struct NamesOf;
 
 template <class Enum>
-concept NamedEnum = requires { NamesOf<Enum>::names.size(); };
+concept NamedEnum = requires {
+  NamesOf<Enum>::names.size();
+};
 
 /// How many values `Enum` has.
 template <NamedEnum Enum>
@@ -52,6 +55,12 @@ constexpr std::optional<Enum> value_named(std::string_view name) {
     if (name_of(value) == name) return value;
   }
   return std::nullopt;
+}
+
+/// The names, for messages that list what there is.
+template <NamedEnum Enum>
+std::vector<std::string> names_of() {
+  return {NamesOf<Enum>::names.begin(), NamesOf<Enum>::names.end()};
 }
 
 /// One entry for every value of an enum.

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
-#include "core/units.hpp"
 #include "data/json_document.hpp"
 #include "data/system.hpp"
 #include "data/text.hpp"
@@ -14,90 +12,57 @@
 namespace recoil {
 namespace {
 
-/// A field name of the format. `dimension` has no meaning for `series`, which is text.
-struct KnownField {
-  std::string_view name;
-  Quantity quantity;
-  Dimension dimension;
-};
-
-constexpr std::array<KnownField, 10> known_fields = {{
-    {"series", Quantity::series, Dimension::count},
-    {"diameter", Quantity::diameter, Dimension::length},
-    {"incident_velocity", Quantity::incident_velocity, Dimension::velocity},
-    {"restitution", Quantity::restitution, Dimension::ratio},
-    {"rebound_velocity", Quantity::rebound_velocity, Dimension::velocity},
-    {"restitution_sd", Quantity::restitution_sd, Dimension::ratio},
-    {"velocity_sd", Quantity::velocity_sd, Dimension::velocity},
-    {"diameter_sd", Quantity::diameter_sd, Dimension::length},
-    {"events", Quantity::events, Dimension::count},
-    {"captured", Quantity::captured, Dimension::count},
-}};
-
-std::vector<std::string> field_names() {
-  std::vector<std::string> names;
-  for (const KnownField& known : known_fields) names.emplace_back(known.name);
-  return names;
-}
-
 bool is_count(Quantity quantity) {
   return quantity == Quantity::events || quantity == Quantity::captured;
 }
 
 /// Frictionless `type` of a field. @returns whether it asks for whole numbers.
-bool read_type(const JsonNode& field, const KnownField& known) {
-  const JsonNode type =
-      field.require("type", "the schema says what the cells are",
-                    known.quantity == Quantity::series ? "write \"string\"" : "write \"number\"");
+bool read_type(const JsonNode& field, Quantity quantity) {
+  const bool text = quantity == Quantity::series;
+  const JsonNode type = field.require("type", "it says how the cells are read",
+                                      text ? "write \"string\"" : "write \"number\"");
   const std::string word = type.string();
   std::vector<std::string> allowed = {"number", "integer"};
-  if (known.quantity == Quantity::series) allowed = {"string"};
-  if (known.quantity == Quantity::captured) allowed.emplace_back("boolean");
+  if (text) allowed = {"string"};
+  if (quantity == Quantity::captured) allowed.emplace_back("boolean");
   if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) {
-    type.fail(fmt::format("the type {} does not fit the field '{}'", quote(word), known.name),
-              "the cells are converted by it", fmt::format("write {}", join(allowed)));
+    type.fail(fmt::format("the type of '{}' is {}", name_of(quantity), quote(word)), "",
+              fmt::format("write {}", join(allowed)));
   }
-  return word == "integer" || is_count(known.quantity);
+  return word == "integer" || is_count(quantity);
 }
 
-void read_unit(const JsonNode& field, const KnownField& known, Column& column) {
-  const std::vector<std::string> names = unit_names(known.dimension);
-  const std::optional<JsonNode> stated = field.find("unit");
-  if (!stated && is_count(known.quantity)) return;  // impacts are counted in no other unit
-  const JsonNode node =
-      field.require("unit", fmt::format("the cells of '{}' are converted by it", known.name),
-                    fmt::format("known: {}", join(names)));
+void read_unit(const JsonNode& field, Column& column) {
+  const Dimension dimension = dimension_of(column.quantity);
+  const std::string use = fmt::format("use {}", join(unit_names(dimension)));
+  if (!field.find("unit") && is_count(column.quantity)) return;  // counted in no other unit
+  const JsonNode node = field.require("unit", "values are converted by it", use);
   column.unit = node.string();
-  if (const auto factor = unit_factor(known.dimension, column.unit)) {
+  if (const auto factor = unit_factor(dimension, column.unit)) {
     column.factor = *factor;
     return;
   }
-  for (const Dimension other :
-       {Dimension::length, Dimension::velocity, Dimension::ratio, Dimension::count}) {
-    if (unit_factor(other, column.unit)) {
-      node.fail(fmt::format("'{}' in {}", known.name, quote(column.unit)),
-                "this unit measures something else", fmt::format("use {}", join(names)));
-    }
+  if (const auto other = dimension_of_unit(column.unit)) {
+    node.fail(fmt::format("'{}' in {}", column.name, quote(column.unit)),
+              fmt::format("that is the unit of a {}", name_of(*other)), use);
   }
-  node.fail(fmt::format("unknown unit {}", quote(column.unit)),
-            fmt::format("'{}' could not be converted", known.name),
-            fmt::format("use {}", join(names)));
+  node.fail(fmt::format("unknown unit {} of '{}'", quote(column.unit), column.name), "", use);
 }
 
 Column read_field(const JsonNode& field) {
-  const JsonNode name = field.require("name", "it ties the field to a column",
-                                      fmt::format("known: {}", join(field_names())));
+  const std::vector<std::string> names = names_of<Quantity>();
+  const JsonNode name =
+      field.require("name", "it ties the field to a column", fmt::format("known: {}", join(names)));
   Column column;
   column.name = name.string();
-  const auto known = std::find_if(known_fields.begin(), known_fields.end(),
-                                  [&](const KnownField& k) { return k.name == column.name; });
-  if (known == known_fields.end()) {
-    name.fail(fmt::format("unknown field {}", quote(column.name)),
-              "its column would be ignored silently", did_you_mean(column.name, field_names()));
+  const auto quantity = value_named<Quantity>(column.name);
+  if (!quantity) {
+    name.fail(fmt::format("unknown field {}", quote(column.name)), "its column would be ignored",
+              did_you_mean(column.name, names));
   }
-  column.quantity = known->quantity;
-  column.integer = read_type(field, *known);
-  if (column.quantity != Quantity::series) read_unit(field, *known, column);
+  column.quantity = *quantity;
+  column.integer = read_type(field, *quantity);
+  if (*quantity != Quantity::series) read_unit(field, column);
   return column;
 }
 
@@ -108,14 +73,11 @@ const Column* find_column(const std::vector<Column>& columns, Quantity quantity)
 }
 
 void check_completeness(const JsonNode& fields, const std::vector<Column>& columns) {
-  for (const KnownField& known : known_fields) {
-    const bool needed = known.quantity == Quantity::series ||
-                        known.quantity == Quantity::diameter ||
-                        known.quantity == Quantity::incident_velocity;
-    if (needed && find_column(columns, known.quantity) == nullptr) {
-      fields.fail(fmt::format("the field '{}' is missing", known.name), "every point needs it",
-                  "add it to the schema and the CSV file");
-    }
+  for (const Quantity needed :
+       {Quantity::series, Quantity::diameter, Quantity::incident_velocity}) {
+    if (find_column(columns, needed) != nullptr) continue;
+    fields.fail(fmt::format("the field '{}' is missing", name_of(needed)), "every point needs it",
+                "add it to the schema and the CSV file");
   }
   if (find_column(columns, Quantity::restitution) == nullptr &&
       find_column(columns, Quantity::rebound_velocity) == nullptr) {
@@ -227,6 +189,27 @@ std::vector<std::string> read_sources(const JsonNode& root) {
 }
 
 }  // namespace
+
+Dimension dimension_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::series:
+      return Dimension::text;
+    case Quantity::diameter:
+    case Quantity::diameter_sd:
+      return Dimension::length;
+    case Quantity::incident_velocity:
+    case Quantity::rebound_velocity:
+    case Quantity::velocity_sd:
+      return Dimension::velocity;
+    case Quantity::restitution:
+    case Quantity::restitution_sd:
+      return Dimension::ratio;
+    case Quantity::events:
+    case Quantity::captured:
+      return Dimension::count;
+  }
+  return Dimension::text;
+}
 
 Package read_package(const std::string& text, const std::string& file,
                      const std::string& fallback_id) {

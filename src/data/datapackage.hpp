@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
+#include "core/units.hpp"
 #include "data/dataset.hpp"
 
 namespace recoil {
@@ -21,6 +25,17 @@ enum class Quantity {
   events,
   captured,
 };
+
+/// Their names in a schema.
+template <>
+struct NamesOf<Quantity> {
+  static constexpr std::array<std::string_view, 10> names = {
+      "series",         "diameter",    "incident_velocity", "restitution", "rebound_velocity",
+      "restitution_sd", "velocity_sd", "diameter_sd",       "events",      "captured"};
+};
+
+/// What a quantity measures; a series is a text.
+Dimension dimension_of(Quantity quantity);
 
 /// One field of the schema.
 struct Column {

@@ -25,6 +25,12 @@ struct BadRow {
   std::string problem;
 };
 
+/// The unit of a field, as the command line or the data package states it.
+struct FieldUnit {
+  std::string field;
+  std::string unit;
+};
+
 /// The events of one file, cleaned and sorted by series and time.
 struct EventTable {
   std::string file;
@@ -40,20 +46,19 @@ struct EventTable {
   int first_unsorted = 0;             ///< line
   std::vector<std::string> ignored;   ///< columns without a meaning here
   std::string provenance;             ///< as the data package states it; empty when it does not
-  std::string unit_source;            ///< where the units were found, in words
+  std::vector<FieldUnit> units;       ///< of the fields that were read
 };
 
 inline constexpr std::size_t most_examples = 3;
 
 /// How the columns of an instrument's file are to be understood.
 struct EventFormat {
-  std::map<std::string, std::string> units;    ///< field -> unit; goes before the data package
+  /// Field -> unit; goes before the data package. Fields: time, velocity, tangential_velocity,
+  /// diameter, series.
+  std::map<std::string, std::string> units;
   std::map<std::string, std::string> columns;  ///< field -> the column's name in the file
   bool positive_away = false;  ///< the instrument counts velocities away from the surface positive
 };
-
-/// The names of the fields: time, velocity, tangential_velocity, diameter, series.
-const std::vector<std::string>& event_fields();
 
 /// Reads the events of `path`. Units come from `format`, else from the fields of the resource of
 /// this name in `datapackage.json` beside the file. Rows that are damaged or repeated are left out

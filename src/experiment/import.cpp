@@ -10,9 +10,11 @@
 #include "core/files.hpp"
 #include "data/folder_names.hpp"
 #include "data/text.hpp"
+#include "experiment/import_columns.hpp"
+#include "experiment/import_digitised.hpp"
+#include "experiment/import_flights.hpp"
 #include "experiment/import_package.hpp"
-#include "experiment/import_readers.hpp"
-#include "experiment/import_words.hpp"
+#include "experiment/option_values.hpp"
 
 namespace recoil {
 namespace {
@@ -41,7 +43,7 @@ std::optional<double> stated_diameter(const ImportRequest& request, const std::s
     const auto pair = split_pair(word);
     if (pair && pair->first != series) continue;
     const double value =
-        value_with_unit(pair ? pair->second : word, ImportDimension::length, "--diameter");
+        value_with_unit(pair ? pair->second : word, Dimension::length, "--diameter");
     if (pair) return value;
     found = value;
   }
@@ -55,19 +57,19 @@ std::optional<double> diameter_in_name(const std::string& series) {
   std::smatch match;
   if (!std::regex_search(series, match, pattern)) return std::nullopt;
   const auto number = parse_number(match[2].str());
-  const auto factor = import_unit_factor(ImportDimension::length, match[3].str());
+  const auto factor = unit_factor(Dimension::length, match[3].str());
   return number && factor ? std::optional<double>(*number * *factor) : std::nullopt;
 }
 
 void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
   const StatedError error =
-      stated_error(request.diameter_error, ImportDimension::length, "--diameter-error");
+      stated_error(request.diameter_error, Dimension::length, "--diameter-error");
   std::vector<std::string> named;
   std::vector<std::string> series;
   bool asked = request.diameters.empty();
   for (const std::string& word : request.diameters) {  // also those that nothing will need
     const auto pair = split_pair(word);
-    value_with_unit(pair ? pair->second : word, ImportDimension::length, "--diameter");
+    value_with_unit(pair ? pair->second : word, Dimension::length, "--diameter");
   }
   for (ImportedPoint& point : imported.points) {
     if (std::find(series.begin(), series.end(), point.series) == series.end()) {
@@ -96,17 +98,16 @@ void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
                      "its diameter would be lost", did_you_mean(pair->first, series));
   }
   if (!asked) {
-    imported.notes.emplace_back("--diameter was not used: the file has a diameter for every point");
+    imported.notes.push_back({ImportRemark::diameter_not_used});
   }
   if (!named.empty()) {
-    imported.notes.push_back(
-        fmt::format("diameters taken from the names of the series: {}", listed(named)));
+    imported.notes.push_back({ImportRemark::diameters_from_names, named});
   }
 }
 
 /// The scatter of the experiment on top of what the readings contribute.
 void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& points) {
-  const StatedError scatter = stated_error(request.scatter, ImportDimension::ratio, "--scatter");
+  const StatedError scatter = stated_error(request.scatter, Dimension::ratio, "--scatter");
   if (!scatter.stated()) return;
   for (ImportedPoint& point : points) {
     if (!point.restitution && !point.rebound_velocity) continue;
@@ -168,7 +169,7 @@ void refuse_reconstructed_points(const ImportRequest& request, const Dataset& im
 }
 
 /// Keeps the recipe of a former reconstruction where nothing takes it for the folder's.
-void set_recipe_aside(const fs::path& folder, std::vector<std::string>& notes) {
+void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
   std::error_code failed;
   if (!fs::exists(folder / recipe_name, failed)) return;
   fs::rename(folder / recipe_name, folder / set_aside_recipe_name, failed);
@@ -176,26 +177,10 @@ void set_recipe_aside(const fs::path& folder, std::vector<std::string>& notes) {
     throw InputError({(folder / recipe_name).string()}, "cannot set the recipe aside",
                      failed.message(), "rename it by hand: the points are no longer its own");
   }
-  notes.push_back(
-      fmt::format("the folder is no reconstruction any more; its {} is kept as {}, for comparison "
-                  "only",
-                  recipe_name, set_aside_recipe_name));
+  notes.push_back({ImportRemark::recipe_set_aside});
 }
 
 }  // namespace
-
-std::vector<std::string> import_format_names() {
-  return {"webplotdigitizer", "heights", "intervals", "csv"};
-}
-
-ImportFormat import_format_named(const std::string& name) {
-  const std::vector<std::string> names = import_format_names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == name) return static_cast<ImportFormat>(i);
-  }
-  throw InputError({}, fmt::format("--format {}: no such format", quote(name)),
-                   "it says how the file is read", did_you_mean(name, names));
-}
 
 ImportResult import_points(const ImportRequest& request) {
   require_free(request);

@@ -1,10 +1,11 @@
+#include "experiment/import_columns.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "data/text.hpp"
-#include "experiment/import_readers.hpp"
 #include "experiment/import_table.hpp"
 
 namespace recoil {
@@ -12,16 +13,16 @@ namespace {
 
 const std::vector<ImportQuantity>& known_quantities() {
   static const std::vector<ImportQuantity> known = {
-      {"series", ImportDimension::text},
-      {"diameter", ImportDimension::length},
-      {"incident_velocity", ImportDimension::velocity, true},
-      {"restitution", ImportDimension::ratio},
-      {"rebound_velocity", ImportDimension::velocity},
-      {"restitution_sd", ImportDimension::ratio},
-      {"velocity_sd", ImportDimension::velocity},
-      {"diameter_sd", ImportDimension::length},
-      {"events", ImportDimension::number},
-      {"captured", ImportDimension::number},
+      {"series", Dimension::text},
+      {"diameter", Dimension::length},
+      {"incident_velocity", Dimension::velocity, true},
+      {"restitution", Dimension::ratio},
+      {"rebound_velocity", Dimension::velocity},
+      {"restitution_sd", Dimension::ratio},
+      {"velocity_sd", Dimension::velocity},
+      {"diameter_sd", Dimension::length},
+      {"events", Dimension::count},
+      {"captured", Dimension::count},
   };
   return known;
 }
@@ -80,7 +81,7 @@ ImportedPoints read_columns(const ImportRequest& request,
     out.points.push_back(point);
   }
   const std::vector<std::string> unused = table.unused();
-  if (!unused.empty()) out.notes.push_back(fmt::format("columns not used: {}", listed(unused)));
+  if (!unused.empty()) out.notes.push_back({ImportRemark::columns_not_used, unused});
   return out;
 }
 

@@ -1,3 +1,5 @@
+#include "experiment/import_digitised.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "data/text.hpp"
-#include "experiment/import_readers.hpp"
 #include "experiment/import_table.hpp"
 
 namespace recoil {
@@ -131,13 +132,12 @@ std::map<std::string, Coordinate> read_coordinates(const std::vector<std::string
       }
       Coordinate coordinate{pair->first, 1.0};
       if (const std::size_t at = pair->second.find(':'); at != std::string::npos) {
-        const ImportDimension dimension =
-            velocity ? ImportDimension::velocity : ImportDimension::ratio;
-        const auto factor = import_unit_factor(dimension, pair->second.substr(at + 1));
+        const Dimension dimension = velocity ? Dimension::velocity : Dimension::ratio;
+        const auto factor = unit_factor(dimension, pair->second.substr(at + 1));
         if (!factor) {
           throw InputError({}, fmt::format("--map {}: unknown unit", entry),
                            "it could not be converted",
-                           fmt::format("use {}", join(import_unit_names(dimension))));
+                           fmt::format("use {}", join(unit_names(dimension))));
         }
         coordinate.factor = *factor;
       }
@@ -261,16 +261,9 @@ ImportedPoints read_digitised(const ImportRequest& request) {
     }
   }
   if (!error.stated()) {
-    out.notes.emplace_back(
-        "no digitisation error: --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% would "
-        "turn one into velocity_sd and restitution_sd");
+    out.notes.push_back({ImportRemark::no_reading_error});
   } else if (request.scatter.empty()) {
-    out.notes.emplace_back(
-        "restitution_sd holds the error of the reading alone; the scatter of the experiment comes "
-        "on "
-        "top of it: state it with --scatter 10%, or let the fit estimate it with [noise] variance "
-        "= "
-        "\"constant\" or \"capture\"");
+    out.notes.push_back({ImportRemark::reading_error_alone});
   }
   return out;
 }

@@ -11,7 +11,7 @@
 #include "data/datapackage.hpp"
 #include "data/folder_names.hpp"
 #include "data/text.hpp"
-#include "experiment/import_words.hpp"
+#include "experiment/option_values.hpp"
 
 namespace recoil {
 namespace {
@@ -148,11 +148,11 @@ std::string description_of(const ImportRequest& request) {
 }
 
 Json sources_of(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
-                std::vector<std::string>& notes) {
+                std::vector<ImportNote>& notes) {
   Json sources = Json::array();
   for (const std::string& source : request.sources) sources.push_back({{"title", source}});
   if (!sources.empty()) return sources;
-  notes.emplace_back("no source is stated: --source \"Author (year), journal, figure\" would");
+  notes.push_back({ImportRemark::no_source});
   if (existing && existing->json.contains("sources")) {
     for (Json source : existing->json["sources"]) {
       if (source.contains("title") && source["title"].is_string()) {
@@ -253,7 +253,7 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
 
 std::string package_text(const ImportRequest& request, const PointsText& points,
                          const std::optional<ExistingPackage>& existing,
-                         std::vector<std::string>& notes) {
+                         std::vector<ImportNote>& notes) {
   const std::string provenance = provenance_for(request, existing);
   const bool was_reconstruction = existing && existing->provenance == Provenance::reconstruction;
   Json package = existing ? existing->json : Json::object();
@@ -267,8 +267,7 @@ std::string package_text(const ImportRequest& request, const PointsText& points,
   package["description"] = description_of(request);
   if (was_reconstruction && package.contains("licenses")) {
     package.erase("licenses");
-    notes.emplace_back(
-        "the licence of the reconstruction was removed: that of these points is not known");
+    notes.push_back({ImportRemark::licence_removed});
   }
   package["sources"] = sources_of(request, existing, notes);
   const Json resource = {

@@ -91,7 +91,7 @@ ImportTable::ImportTable(const std::filesystem::path& file, const std::vector<st
                      fmt::format("which column is {}?", quantity.name),
                      fmt::format("the header has {}", listed(names)),
                      fmt::format("say it with --map {}=COLUMN{}", quantity.name,
-                                 quantity.dimension == ImportDimension::text ? "" : ":UNIT"));
+                                 quantity.dimension == Dimension::text ? "" : ":UNIT"));
   }
   if (rows_.empty()) {
     throw InputError({file_, header_.front().line, 1}, "there is a header but no row below it",
@@ -126,7 +126,7 @@ void ImportTable::add(const std::string& entry, const std::vector<ImportQuantity
   }
   Source source;
   source.dimension = quantity->dimension;
-  if (quantity->dimension == ImportDimension::text) {
+  if (quantity->dimension == Dimension::text) {
     for (std::size_t at = 0; at != std::string::npos;) {
       const std::size_t plus = column.find('+', at);
       source.at.push_back(
@@ -157,10 +157,10 @@ std::size_t ImportTable::column_named(const std::string& name) const {
 double ImportTable::unit_of(const ImportQuantity& quantity, const std::string& unit,
                             std::size_t column) const {
   const bool plain =
-      quantity.dimension == ImportDimension::number || quantity.dimension == ImportDimension::ratio;
+      quantity.dimension == Dimension::count || quantity.dimension == Dimension::ratio;
   std::string name = unit.empty() ? unit_in_brackets(header_[column].text) : unit;
   if (name.empty() && plain) name = "1";
-  const std::vector<std::string> names = import_unit_names(quantity.dimension);
+  const std::vector<std::string> names = unit_names(quantity.dimension);
   if (name.empty()) {
     throw InputError(
         {file_, header_[column].line, header_[column].column},
@@ -168,7 +168,7 @@ double ImportTable::unit_of(const ImportQuantity& quantity, const std::string& u
         fmt::format("{} is converted by it: {}", quantity.name, join(names)),
         fmt::format("write --map {}={}:UNIT", quantity.name, listed({header_[column].text})));
   }
-  if (const auto factor = import_unit_factor(quantity.dimension, name)) return *factor;
+  if (const auto factor = unit_factor(quantity.dimension, name)) return *factor;
   throw InputError({file_, header_[column].line, header_[column].column},
                    fmt::format("{} in {}", quantity.name, quote(name)),
                    "this unit is not known for it", fmt::format("use {}", join(names)));

@@ -47,7 +47,4 @@ std::string sizes_csv(const Distributions& distributions);
 /// bins of both rules (rule, lower, upper, middle, count, share), and sizes.csv see `sizes_csv`.
 std::map<std::string, std::string> histogram_files(const Distributions& distributions);
 
-/// The text that `recoil pair` prints.
-std::string describe(const EventTable& table, const PairResult& pairs, const Averages& averages);
-
 }  // namespace recoil

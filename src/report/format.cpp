@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {
@@ -124,7 +125,11 @@ std::vector<std::pair<std::string, std::string>> provenances(const std::vector<D
 
 std::vector<std::string> all_warnings(const Analysis& analysis) {
   std::vector<std::string> warnings;
-  for (const Dataset& dataset : analysis.datasets) add_new(warnings, dataset.warnings);
+  for (const Dataset& dataset : analysis.datasets) {
+    for (const DatasetWarning& warning : dataset.warnings) {
+      add_new(warnings, {warning_sentence(warning)});
+    }
+  }
   add_new(warnings, analysis.data.warnings);
   add_new(warnings, analysis.fitted.warnings);
   add_new(warnings, analysis.uncertainty.warnings);

@@ -6,6 +6,7 @@
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/json_values.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {

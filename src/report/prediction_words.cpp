@@ -7,6 +7,7 @@
 #include "report/format.hpp"
 #include "report/prediction.hpp"
 #include "report/text_blocks.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {

@@ -24,9 +24,7 @@ recoil::ImportRequest request_for(const std::string& format, const fs::path& pla
   request.surface = "material=silicon,youngs_modulus=131e9,poisson_ratio=0.28";
   request.provenance = "measured";
   request.sources = {"a test"};
-  for (const std::string& name : recoil::import_format_names()) {
-    if (format == name) request.format = recoil::import_format_named(name);
-  }
+  request.format = recoil::value_named<recoil::ImportFormat>(format).value_or(request.format);
   switch (request.format) {
     case recoil::ImportFormat::webplotdigitizer:
       request.axes = {"x=log,1,100", "y=linear,0,1"};

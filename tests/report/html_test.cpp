@@ -8,6 +8,7 @@
 #include "example_analysis.hpp"
 #include "report/corrections.hpp"
 #include "report/html_page.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "example_analysis.hpp"
 #include "report/format.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {

@@ -6,23 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "experiment/import.hpp"
+#include "core/units.hpp"
 
 /// The words of the command line: values with units, errors, lists.
 namespace recoil {
 
-/// What a column or a value of an import measures. Wider than Dimension: a laboratory also has
-/// centimetres and milliseconds.
-enum class ImportDimension { text, number, length, velocity, time, ratio };
-
-/// The factor to SI; nothing when the unit is not one of this dimension.
-std::optional<double> import_unit_factor(ImportDimension dimension, std::string_view unit);
-std::vector<std::string> import_unit_names(ImportDimension dimension);
-
 /// "4.9um", "4.9 um" -> 4.9e-6. @param option names it in messages: "--diameter"
 /// @throws InputError when it is no number with a unit of this dimension.
-double value_with_unit(const std::string& word, ImportDimension dimension,
-                       const std::string& option);
+double value_with_unit(const std::string& word, Dimension dimension, const std::string& option);
 
 /// One standard deviation, relative to the value or absolute.
 struct StatedError {
@@ -35,8 +26,7 @@ struct StatedError {
 
 /// "2%" is relative, "0.5mm" absolute; nothing stated for an empty word. Restitutions are given
 /// without a unit. @throws InputError
-StatedError stated_error(const std::string& word, ImportDimension dimension,
-                         const std::string& option);
+StatedError stated_error(const std::string& word, Dimension dimension, const std::string& option);
 
 /// Splits at commas that are not inside quotation marks, blanks around the parts dropped.
 std::vector<std::string> split_list(std::string_view text);

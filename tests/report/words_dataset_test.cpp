@@ -1,10 +1,11 @@
+#include "report/words_dataset.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "data/dataset.hpp"
-#include "dataset_folder.hpp"
+#include "../data/dataset_folder.hpp"
 
 namespace recoil {
 namespace {

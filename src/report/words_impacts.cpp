@@ -1,11 +1,13 @@
+#include "report/words_impacts.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/units.hpp"
 #include "experiment/flight.hpp"
-#include "experiment/pairing_files.hpp"
 
 namespace recoil {
 namespace {
@@ -44,8 +46,13 @@ double percent(double part, double whole) { return whole > 0.0 ? 100.0 * part / 
 double as_number(std::size_t n) { return static_cast<double>(n); }
 
 std::string rows_text(const EventTable& table) {
-  std::string out = line("events", fmt::format("{}: {} passages in {} rows; {}", table.file,
-                                               table.events.size(), table.rows, table.unit_source));
+  std::vector<std::string> units;
+  for (const FieldUnit& field : table.units) {
+    units.push_back(fmt::format("{} [{}]", field.field, field.unit));
+  }
+  std::string out =
+      line("events", fmt::format("{}: {} passages in {} rows; {}", table.file, table.events.size(),
+                                 table.rows, fmt::join(units, ", ")));
   if (table.damaged > 0) {
     std::string first;
     for (const BadRow& row : table.first_damaged) {

@@ -1,4 +1,4 @@
-#include "experiment/import_words.hpp"
+#include "experiment/option_values.hpp"
 
 #include <fmt/format.h>
 
@@ -10,31 +10,6 @@
 
 namespace recoil {
 namespace {
-
-struct Unit {
-  ImportDimension dimension;
-  std::string_view name;
-  double factor;
-};
-
-constexpr std::array<Unit, 16> known_units = {{
-    {ImportDimension::length, "nm", 1e-9},
-    {ImportDimension::length, "um", 1e-6},
-    {ImportDimension::length, "µm", 1e-6},
-    {ImportDimension::length, "mm", 1e-3},
-    {ImportDimension::length, "cm", 1e-2},
-    {ImportDimension::length, "m", 1.0},
-    {ImportDimension::velocity, "m/s", 1.0},
-    {ImportDimension::velocity, "cm/s", 1e-2},
-    {ImportDimension::velocity, "mm/s", 1e-3},
-    {ImportDimension::time, "s", 1.0},
-    {ImportDimension::time, "ms", 1e-3},
-    {ImportDimension::time, "us", 1e-6},
-    {ImportDimension::time, "µs", 1e-6},
-    {ImportDimension::ratio, "1", 1.0},
-    {ImportDimension::ratio, "%", 1e-2},
-    {ImportDimension::number, "1", 1.0},
-}};
 
 std::string trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t";
@@ -56,27 +31,11 @@ std::optional<std::pair<double, std::string>> number_and_rest(const std::string&
 
 }  // namespace
 
-std::optional<double> import_unit_factor(ImportDimension dimension, std::string_view unit) {
-  for (const Unit& known : known_units) {
-    if (known.dimension == dimension && known.name == unit) return known.factor;
-  }
-  return std::nullopt;
-}
-
-std::vector<std::string> import_unit_names(ImportDimension dimension) {
-  std::vector<std::string> names;
-  for (const Unit& known : known_units) {
-    if (known.dimension == dimension) names.emplace_back(known.name);
-  }
-  return names;
-}
-
-double value_with_unit(const std::string& word, ImportDimension dimension,
-                       const std::string& option) {
-  const std::vector<std::string> names = import_unit_names(dimension);
+double value_with_unit(const std::string& word, Dimension dimension, const std::string& option) {
+  const std::vector<std::string> names = unit_names(dimension);
   if (const auto parts = number_and_rest(word)) {
-    const bool plain = dimension == ImportDimension::ratio && parts->second.empty();
-    const auto factor = plain ? 1.0 : import_unit_factor(dimension, parts->second);
+    const bool plain = dimension == Dimension::ratio && parts->second.empty();
+    const auto factor = plain ? 1.0 : unit_factor(dimension, parts->second);
     if (factor) return parts->first * *factor;
   }
   throw InputError({}, fmt::format("{} {}: no number with a unit", option, quote(word)),
@@ -84,8 +43,7 @@ double value_with_unit(const std::string& word, ImportDimension dimension,
                    fmt::format("write it as 4.9{}", names.front()));
 }
 
-StatedError stated_error(const std::string& word, ImportDimension dimension,
-                         const std::string& option) {
+StatedError stated_error(const std::string& word, Dimension dimension, const std::string& option) {
   StatedError error;
   if (word.empty()) return error;
   const auto parts = number_and_rest(word);
