@@ -28,7 +28,7 @@ void run_import(ImportFlags flags) {
   const auto format = value_named<ImportFormat>(flags.format);
   if (!format) {
     throw InputError({}, fmt::format("--format {}: there is no such format", quote(flags.format)),
-                     "", did_you_mean(flags.format, names_of<ImportFormat>()));
+                     "", did_you_mean(flags.format, all_names<ImportFormat>()));
   }
   flags.request.format = *format;
   const ImportResult result = import_points(flags.request);
@@ -62,7 +62,7 @@ void add_import(CLI::App& program) {
   command->add_option("FILE", flags->file, "what to import")->required();
   command
       ->add_option("--format", flags->format,
-                   fmt::format("one of {}", fmt::join(names_of<ImportFormat>(), ", ")))
+                   fmt::format("one of {}", fmt::join(all_names<ImportFormat>(), ", ")))
       ->required();
   command->add_option("--into", flags->into, "the dataset's folder")->required();
   command->add_flag(

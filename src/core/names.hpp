@@ -48,6 +48,12 @@ constexpr std::array<Enum, count_of<Enum>> values_of() {
   return values;
 }
 
+/// Every name, in the order of the values.
+template <NamedEnum Enum>
+std::vector<std::string> all_names() {
+  return {NamesOf<Enum>::names.begin(), NamesOf<Enum>::names.end()};
+}
+
 /// The value of that name; none for an unknown word, which is the caller's error to report.
 template <NamedEnum Enum>
 constexpr std::optional<Enum> value_named(std::string_view name) {
@@ -55,12 +61,6 @@ constexpr std::optional<Enum> value_named(std::string_view name) {
     if (name_of(value) == name) return value;
   }
   return std::nullopt;
-}
-
-/// The names, for messages that list what there is.
-template <NamedEnum Enum>
-std::vector<std::string> names_of() {
-  return {NamesOf<Enum>::names.begin(), NamesOf<Enum>::names.end()};
 }
 
 /// One entry for every value of an enum.

@@ -50,7 +50,7 @@ void read_unit(const JsonNode& field, Column& column) {
 }
 
 Column read_field(const JsonNode& field) {
-  const std::vector<std::string> names = names_of<Quantity>();
+  const std::vector<std::string> names = all_names<Quantity>();
   const JsonNode name =
       field.require("name", "it ties the field to a column", fmt::format("known: {}", join(names)));
   Column column;
@@ -94,13 +94,13 @@ std::vector<Column> read_fields(const JsonNode& fields) {
       field.find("name")->fail(problem, why, "remove one");
     };
     if (find_column(columns, column.quantity) != nullptr) {
-      name_fails(fmt::format("the field '{}' stands here twice", column.name),
-                 "only one could count");
+      name_fails(fmt::format("the field '{}' stands here twice", column.name), "");
     }
     columns.push_back(column);
     if (find_column(columns, Quantity::restitution) != nullptr &&
         find_column(columns, Quantity::rebound_velocity) != nullptr) {
-      name_fails("both 'restitution' and 'rebound_velocity'", "they could contradict each other");
+      name_fails("both 'restitution' and 'rebound_velocity' are there",
+                 "they could contradict each other");
     }
   }
   check_completeness(fields, columns);
@@ -114,8 +114,9 @@ std::string read_path(const JsonNode& node) {
   const bool climbs = std::find(path.begin(), path.end(), "..") != path.end();
   if (text.empty() || path.is_absolute() || climbs || !path.has_filename() ||
       text.find("://") != std::string::npos || printable(text) != text) {
-    node.fail(fmt::format("the path {} leaves the dataset's folder or names no file", quote(text)),
-              "a dataset is one folder that can be copied", "write the file's name: points.csv");
+    node.fail(fmt::format("the path {} names no file in the dataset's folder", quote(text)),
+              "a dataset is one folder that can be copied",
+              "write the file's name, such as points.csv");
   }
   return text;
 }
@@ -128,7 +129,7 @@ char read_delimiter(const JsonNode& resource) {
   constexpr std::string_view allowed = ",;|\t";
   if (text.size() != 1 || allowed.find(text[0]) == std::string_view::npos) {
     node->fail(fmt::format("the delimiter is {}", quote(text)),
-               "comma, semicolon, bar and tab are read", "save the points with commas");
+               "only comma, semicolon, bar and tab are read", "save the points with commas");
   }
   return text[0];
 }
@@ -138,7 +139,7 @@ void read_resource(const JsonNode& root, Package& package) {
                                           "add [{\"path\": \"points.csv\", \"schema\": ...}]");
   const std::vector<JsonNode> items = resources.items();
   if (items.empty()) {
-    resources.fail("'resources' is empty", "it names the file with the points",
+    resources.fail("'resources' is empty", "it has to name the file with the points",
                    "add {\"path\": \"points.csv\", \"schema\": ...}");
   }
   const JsonNode& resource = items.front();
@@ -164,9 +165,8 @@ std::string read_id(const JsonNode& node) {
            c == '_' || c == '-';
   });
   if (id.empty() || id.front() == '.' || !plain) {
-    node.fail(fmt::format("the name {}", quote(id)),
-              "it becomes part of file names: letters, digits, '.', '_' and '-'",
-              "choose one like wall1990-mica");
+    node.fail(fmt::format("the name {} is not fit for a file's name", quote(id)), "",
+              "use letters, digits, '.', '_' and '-', as in wall1990-mica");
   }
   return id;
 }
@@ -215,7 +215,7 @@ Package read_package(const std::string& text, const std::string& file,
                      const std::string& fallback_id) {
   require_text(text, file);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw InputError({file, 1, 1}, "the file is empty", "it describes the dataset",
+    throw InputError({file, 1, 1}, "the file is empty", "it has to describe the dataset",
                      "start from the datapackage.json of a shipped dataset");
   }
   const JsonDocument document(text, file);

@@ -43,11 +43,10 @@ void require_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   const auto status = std::filesystem::status(folder, failed);
   if (!std::filesystem::exists(status)) {
-    throw InputError({folder.string()}, "no such folder", "a dataset is read from it",
-                     "check the path");
+    throw InputError({folder.string()}, "no such folder", "", "check the path");
   }
   if (!std::filesystem::is_directory(status)) {
-    throw InputError({folder.string()}, "this is not a folder",
+    throw InputError({folder.string()}, "this is a file, not a folder",
                      "a dataset is a folder with datapackage.json and its points",
                      "name the folder");
   }
@@ -76,14 +75,14 @@ Dataset load_dataset(const std::filesystem::path& folder) {
   std::error_code failed;
   if (!std::filesystem::exists(package_file, failed)) {
     throw InputError({package_file.string()}, "no such file", "it describes the dataset",
-                     "add it; a shipped dataset shows how it looks");
+                     "add it, as in a shipped dataset");
   }
   const std::string package_text = read_text_file(package_file, largest_package);
   Package package = read_package(package_text, package_file.string(), folder_name(folder));
   const std::filesystem::path points_file = folder / package.points_path;
   if (!std::filesystem::exists(points_file, failed)) {
-    throw InputError(package.points_where, "there is no file '" + package.points_path + "'",
-                     "it should hold the points", "correct the path or add the file");
+    throw InputError(package.points_where, "there is no file '" + package.points_path + "'", "",
+                     "correct the path or add the file");
   }
   const std::string csv_text = read_text_file(points_file);
   return assemble(std::move(package), package_text, csv_text, folder);

@@ -43,12 +43,12 @@ class PointReader {
 
   void finish() {
     if (header_.empty()) {
-      throw InputError({file_, 1, 1}, "the file is empty", "there is no point to fit",
+      throw InputError({file_, 1, 1}, "the file is empty", "",
                        "give it a header and one line for each point");
     }
     if (dataset_.points.empty()) {
-      throw InputError({file_, header_line_, 1}, "there is a header but no point below it",
-                       "there is nothing to fit", "give it one line for each point");
+      throw InputError({file_, header_line_, 1}, "there is a header but no point below it", "",
+                       "write one line for each point");
     }
     for (const auto& [remark, warning] : warnings_) dataset_.warnings.push_back(warning);
   }
@@ -69,14 +69,14 @@ class PointReader {
         const bool other_delimiter =
             row.size() == 1 && cell.text.find_first_of(",;\t|") != std::string::npos;
         fail(cell, fmt::format("the column {} is not in the schema", quote(cell.text)),
-             "its meaning and unit are not known",
+             "so its meaning and unit are not known",
              other_delimiter ? "state the delimiter under 'dialect' of the resource"
                              : did_you_mean(cell.text, names));
       }
       const auto index = static_cast<std::size_t>(column - names.begin());
       if (std::find(header_.begin(), header_.end(), index) != header_.end()) {
-        fail(cell, fmt::format("the column '{}' stands here twice", cell.text),
-             "only one of them could count", "remove or rename one");
+        fail(cell, fmt::format("the column '{}' stands here twice", cell.text), "",
+             "remove or rename one");
       }
       field_of_[package_.columns[index].quantity] = header_.size();
       header_.push_back(index);
@@ -122,7 +122,7 @@ class PointReader {
     if (!value) not_a_number(field, column);
     if (column.integer && *value != std::trunc(*value)) {
       fail(field, fmt::format("{} = {} is not a whole number", column.name, printable(field.text)),
-           "it is an integer in the schema or counts impacts", "write 1, 2, 3, ...");
+           "the schema says integer, or it counts impacts", "write 1, 2, 3, ...");
     }
     return *value;
   }
@@ -184,7 +184,7 @@ class PointReader {
            "give the series a name");
     }
     if (printable(field->text) != field->text) {
-      fail(*field, "a series name with control characters", "it is printed in every report",
+      fail(*field, "the name of the series has control characters", "",
            "use letters, digits and blanks");
     }
     const auto [known, added] = series_of_.try_emplace(field->text, dataset_.series.size());

@@ -90,7 +90,7 @@ void read_overrides(const JsonNode& recoil, ImpactSystem& system) {
   if (system.adhesion_force_f0 && !system.reference_diameter) {
     throw InputError(recoil.find("adhesion_force_f0")->where_key(),
                      "'adhesion_force_f0' without 'reference_diameter'",
-                     "f0 grows with the size of the particle",
+                     "f0 depends on the size of the particle",
                      "add the diameter in m to which it belongs");
   }
 }
@@ -102,8 +102,8 @@ Provenance read_provenance(const JsonNode& recoil) {
                                        "write measured, digitised, reconstruction or synthetic");
   const std::string word = node.string();
   if (const auto provenance = value_named<Provenance>(word)) return *provenance;
-  node.fail(fmt::format("unknown provenance {}", quote(word)), "every result repeats it",
-            did_you_mean(word, names_of<Provenance>()));
+  node.fail(fmt::format("unknown provenance {}", quote(word)), "",
+            did_you_mean(word, all_names<Provenance>()));
 }
 
 ImpactSystem read_system(const JsonNode& recoil) {

@@ -37,8 +37,7 @@ class FitReader : private TomlReader {
   }
 
   LocatedFit read() {
-    require_text(text_, file());
-    const toml::table root = parse();
+    const toml::table root = parse(text_);
     allow_only(root, "the fit", {"dataset", "model", "parameters", "noise", "uncertainty"});
     read_datasets(root);
     if (const toml::table* model = table(root, "model")) read_model(*model);
@@ -51,15 +50,6 @@ class FitReader : private TomlReader {
   }
 
  private:
-  toml::table parse() const {
-    try {
-      return toml::parse(text_, file());
-    } catch (const toml::parse_error& error) {
-      throw InputError(at(error.source()), shortened(printable(error.description()), 120),
-                       "the file is not valid TOML", "correct this line");
-    }
-  }
-
   void add_dataset(const toml::node& node) {
     const std::string text =
         string(node, "dataset", "dataset = \"../datasets/dahneke1975-quartz\"");

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "data/toml_reader.hpp"
 #include "estimate/noise_spec.hpp"
-#include "estimate/toml_reader.hpp"
 
 namespace recoil {
 

@@ -71,7 +71,7 @@ void require_known(const std::map<std::string, std::string>& given, const std::s
     if (value_named<EventField>(field)) continue;
     throw InputError(
         {}, fmt::format("{} {}={}: there is no field {}", option, field, value, quote(field)), "",
-        did_you_mean(field, names_of<EventField>()));
+        did_you_mean(field, all_names<EventField>()));
   }
 }
 

@@ -173,10 +173,9 @@ void require_sense(const EventTable& table) {
   }
   if (2 * table.damaged <= table.rows) return;
   const BadRow& first = table.first_damaged.front();
-  throw InputError(
-      {table.file, first.line, 1}, first.problem,
-      fmt::format("like this, {} of {} rows cannot be used", table.damaged, table.rows),
-      "check the delimiter, the units and that decimals have a point");
+  throw InputError({table.file, first.line, 1}, first.problem,
+                   fmt::format("{} of {} rows cannot be used", table.damaged, table.rows),
+                   "check the delimiter, the units and that decimals have a point");
 }
 
 }  // namespace

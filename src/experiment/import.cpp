@@ -86,16 +86,15 @@ void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
     if (!point.diameter) {
       throw InputError({request.file.string(), point.line, 1},
                        fmt::format("the diameter of series {} is not known", quote(point.series)),
-                       "mass and adhesion follow from it",
-                       "give --diameter 4.9um, or --diameter \"SERIES=4.9um\" for each series");
+                       "", "give --diameter 4.9um, or --diameter \"SERIES=4.9um\" for each series");
     }
     if (error.stated() && !point.diameter_sd) point.diameter_sd = error.of(*point.diameter);
   }
   for (const std::string& word : request.diameters) {
     const auto pair = split_pair(word);
     if (!pair || std::find(series.begin(), series.end(), pair->first) != series.end()) continue;
-    throw InputError({}, fmt::format("--diameter {}: no such series", quote(word)),
-                     "its diameter would be lost", did_you_mean(pair->first, series));
+    throw InputError({}, fmt::format("--diameter {}: there is no such series", quote(word)), "",
+                     did_you_mean(pair->first, series));
   }
   if (!asked) {
     imported.notes.push_back({ImportRemark::diameter_not_used});
@@ -137,15 +136,14 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
 void require_free(const ImportRequest& request) {
   std::error_code failed;
   if (fs::exists(request.into, failed) && !fs::is_directory(request.into, failed)) {
-    throw InputError({request.into.string()}, "this is a file", "a dataset is a folder",
-                     "choose another --into");
+    throw InputError({request.into.string()}, "this is a file, not a folder",
+                     "a dataset is a folder", "choose another --into");
   }
   if (request.replace) return;
   for (const char* name : {package_file_name, "points.csv"}) {
     if (!fs::exists(request.into / name, failed)) continue;
-    throw InputError({(request.into / name).string()}, "there is a dataset here already",
-                     "points are not overwritten unasked",
-                     "add --replace to replace them, or choose another --into");
+    throw InputError({(request.into / name).string()}, "there is a dataset here already", "",
+                     "add --replace to replace its points, or choose another --into");
   }
 }
 
@@ -164,7 +162,7 @@ void refuse_reconstructed_points(const ImportRequest& request, const Dataset& im
   throw InputError(
       {request.file.string()},
       fmt::format("{} of {} points are those of the reconstruction", same, imported.points.size()),
-      "a recipe made them and nobody measured or digitised them",
+      "a recipe made them; nobody measured or digitised them",
       "import points of an experiment, or --provenance synthetic");
 }
 
@@ -174,8 +172,8 @@ void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
   if (!fs::exists(folder / recipe_name, failed)) return;
   fs::rename(folder / recipe_name, folder / set_aside_recipe_name, failed);
   if (failed) {
-    throw InputError({(folder / recipe_name).string()}, "cannot set the recipe aside",
-                     failed.message(), "rename it by hand: the points are no longer its own");
+    throw InputError({(folder / recipe_name).string()}, "the recipe cannot be renamed",
+                     failed.message(), "rename it by hand, since the points are no longer its own");
   }
   notes.push_back({ImportRemark::recipe_set_aside});
 }

@@ -56,10 +56,10 @@ ImportedPoints read_columns(const ImportRequest& request,
   const ImportTable table(request.file, completed(request, package_map), known_quantities());
   if (table.has("restitution") == table.has("rebound_velocity")) {
     throw InputError({request.file.string(), 1, 1},
-                     table.has("restitution") ? "both restitution and rebound_velocity"
+                     table.has("restitution") ? "both restitution and rebound_velocity are there"
                                               : "which column is the rebound?",
-                     "the rebound is what is fitted, and two could contradict each other",
-                     "say it with --map restitution=COLUMN or rebound_velocity=COLUMN:m/s");
+                     table.has("restitution") ? "they could contradict each other" : "",
+                     "name one with --map restitution=COLUMN or rebound_velocity=COLUMN:m/s");
   }
   const std::string fallback =
       request.series.empty() ? request.file.stem().string() : request.series;

@@ -131,8 +131,9 @@ std::vector<ReleaseCheck> release_check(const std::vector<Launch>& launches, dou
 double gravity_of(const ImportRequest& request) {
   const auto value = parse_number(request.gravity);
   if (value && *value >= slowest_gravity && *value <= fastest_gravity) return *value;
-  throw InputError({}, fmt::format("--gravity {}", quote(request.gravity)),
-                   "it is an acceleration in m/s2", "9.80665 is standard gravity");
+  throw InputError({},
+                   fmt::format("--gravity {} is no acceleration in m/s2", quote(request.gravity)),
+                   "", "write 9.80665 for standard gravity");
 }
 
 }  // namespace
@@ -224,9 +225,9 @@ ImportedPoints read_intervals(const ImportRequest& request) {
   if (table.has("interval") == table.has("time")) {
     throw InputError(
         {request.file.string(), 1, 1},
-        table.has("time") ? "both intervals and times" : "which column has the intervals?",
-        "e is the ratio of successive intervals",
-        "say it with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
+        table.has("time") ? "both intervals and times are there"
+                          : "which column has the intervals?",
+        "", "name one with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
   }
   const StatedError time = stated_error(request.time_error, Dimension::time, "--time-error");
   const double g = gravity_of(request);

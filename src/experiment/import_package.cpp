@@ -31,7 +31,7 @@ void remove_words(std::string& text, const std::string& words) {
 Json parse_json(const std::string& text, const std::filesystem::path& file) {
   Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) {
-    throw InputError({file.string()}, "this is not a JSON object", "it describes a material",
+    throw InputError({file.string()}, "this is not a JSON object", "",
                      "write {\"material\": ..., \"youngs_modulus\": ..., ...}");
   }
   return json;
@@ -47,7 +47,8 @@ Json material(const std::string& words, const std::string& option) {
   for (const std::string& part : split_list(words)) {
     const auto pair = split_pair(part);
     if (!pair) {
-      throw InputError({}, fmt::format("{}: {}", option, quote(part)), "it is a list of key=value",
+      throw InputError({}, fmt::format("{}: {} is not of the form key=value", option, quote(part)),
+                       "",
                        "write material=steel,density=7900,youngs_modulus=193e9,poisson_ratio=0.3");
     }
     const auto number = parse_number(pair->second);
@@ -61,8 +62,8 @@ Json system_of(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / package_file_name;
   const Json json = parse_json(read_text_file(file), file);
   if (!json.contains("recoil") || !json["recoil"].is_object()) {
-    throw InputError({file.string()}, "nothing under 'recoil'", "--like takes the materials of it",
-                     "name another dataset");
+    throw InputError({file.string()}, "there is no 'recoil' with materials",
+                     "--like takes them from there", "name another dataset");
   }
   return json["recoil"];
 }
@@ -81,7 +82,7 @@ Json recoil_block(const ImportRequest& request, const std::optional<ExistingPack
     const bool sphere = std::string(body) == "particle";
     throw InputError(
         {}, fmt::format("the {} is not known", sphere ? "sphere's material" : "surface's material"),
-        sphere ? "mass and stiffness follow from it" : "the contact's stiffness follows from it",
+        "",
         fmt::format("give --{0} FILE.json, --{0} material=...,{1}youngs_modulus=...,poisson_ratio="
                     "..., or --like DIR",
                     body, sphere ? "density=...," : ""));
@@ -106,7 +107,7 @@ std::string provenance_for(const ImportRequest& request,
   }
   if (existing && existing->provenance == Provenance::reconstruction) return "digitised";
   if (existing) return to_string(existing->provenance);
-  throw InputError({}, "nobody says where these points come from", "every result repeats it",
+  throw InputError({}, "the provenance of these points is not known", "every result states it",
                    "give --provenance measured, or digitised when they were read off a figure");
 }
 

@@ -38,9 +38,9 @@ double value_with_unit(const std::string& word, Dimension dimension, const std::
     const auto factor = plain ? 1.0 : unit_factor(dimension, parts->second);
     if (factor) return parts->first * *factor;
   }
-  throw InputError({}, fmt::format("{} {}: no number with a unit", option, quote(word)),
+  throw InputError({}, fmt::format("{} {} is no number with a unit", option, quote(word)),
                    fmt::format("units are {}", join(names)),
-                   fmt::format("write it as 4.9{}", names.front()));
+                   fmt::format("write for example 4.9{}", names.front()));
 }
 
 StatedError stated_error(const std::string& word, Dimension dimension, const std::string& option) {
@@ -53,8 +53,8 @@ StatedError stated_error(const std::string& word, Dimension dimension, const std
     error.absolute = value_with_unit(word, dimension, option);
   }
   if (error.relative < 0.0 || error.absolute < 0.0 || !error.stated()) {
-    throw InputError({}, fmt::format("{} {}", option, quote(word)),
-                     "a standard deviation is positive", "leave the option out if it is unknown");
+    throw InputError({}, fmt::format("{} {} is not above zero", option, quote(word)),
+                     "it is a standard deviation", "leave the option out if it is not known");
   }
   return error;
 }

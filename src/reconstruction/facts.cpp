@@ -41,14 +41,13 @@ void require_known_fact(const FactSpec& fact) {
       throw InputError(fact.where,
                        fmt::format("the fact '{}' lacks the limit '{}'", fact.id, limit),
                        "a check without a threshold cannot fail",
-                       fmt::format("it takes: {}", fmt::join(kind->limits, ", ")));
+                       fmt::format("give {}", fmt::join(kind->limits, ", ")));
     }
   }
   for (const auto& [name, value] : fact.limits) {
     if (std::find(kind->limits.begin(), kind->limits.end(), name) == kind->limits.end()) {
       throw InputError(fact.where, fmt::format("the fact '{}' takes no limit '{}'", fact.id, name),
-                       "it would be ignored silently",
-                       fmt::format("it takes: {}", fmt::join(kind->limits, ", ")));
+                       "", fmt::format("it takes {}", fmt::join(kind->limits, ", ")));
     }
   }
 }

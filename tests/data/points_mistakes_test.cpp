@@ -137,7 +137,7 @@ TEST(PointsFile, BinaryMissingOrHuge) {
   DatasetFolder(package, std::string("\x7f"
                                      "ELF\0\1",
                                      6))
-      .expect({"", "", "", "points.csv: ", "byte 5 is NUL", "UTF-8"});
+      .expect({"", "", "", "points.csv: ", "not a text file", "UTF-8"});
   const DatasetFolder folder;
   fs::resize_file(folder.path() / "points.csv", 1ULL << 32);  // sparse
   folder.expect({"", "", "", "points.csv: ", "the file has 4294 MB", "split it"});

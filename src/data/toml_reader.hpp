@@ -11,13 +11,16 @@
 namespace recoil {
 
 /// Reads values out of a TOML file that a person wrote: whatever is not as it has to be throws an
-/// InputError with file, line and column.
+/// InputError with file, line and column. `TomlTable` reads a table key by key on top of it.
 class TomlReader {
  public:
   explicit TomlReader(std::string file) : file_(std::move(file)) {}
 
   const std::string& file() const { return file_; }
   Location at(const toml::source_region& region) const;
+
+  /// The whole file. @throws InputError when `text` is not TOML or not UTF-8
+  toml::table parse(const std::string& text) const;
 
   [[noreturn]] void fail(const toml::node& node, const std::string& problem, const std::string& why,
                          const std::string& suggestion) const;
@@ -30,6 +33,9 @@ class TomlReader {
 
   /// The table `name` of `parent`, or null when there is none.
   const toml::table* table(const toml::table& parent, const std::string& name) const;
+  const toml::table& table(const toml::node& node, const std::string& name) const;
+  const toml::array& array(const toml::node& node, const std::string& name,
+                           const std::string& example) const;
   std::string string(const toml::node& node, const std::string& name,
                      const std::string& example) const;
   double number(const toml::node& node, const std::string& name) const;  ///< finite

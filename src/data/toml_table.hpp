@@ -1,22 +1,21 @@
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
+#include "data/toml_reader.hpp"
 
 namespace recoil {
 
-/// Strict reading of one TOML table: every key is asked for by name, whatever was not asked for is
-/// an error that names the nearest known key, and every message carries file, line and column.
+/// Strict reading of one TOML table key by key: whatever was not asked for is an error that names
+/// the nearest key that was. It points into the table, which has to live longer.
 class TomlTable {
  public:
-  TomlTable(const toml::table& table, std::string file, std::string name)
-      : table_(table), file_(std::move(file)), name_(std::move(name)) {}
+  /// @param name as messages call the table: "the recipe", "[noise]"
+  TomlTable(const toml::table& table, const TomlReader& reader, std::string name)
+      : table_(table), reader_(reader), name_(std::move(name)) {}
 
   double number(const std::string& key);
   double positive(const std::string& key);
@@ -25,7 +24,7 @@ class TomlTable {
   std::int64_t whole(const std::string& key, std::int64_t lowest);
   std::string text(const std::string& key);
   std::optional<std::vector<std::string>> optional_texts(const std::string& key);
-  std::optional<std::vector<double>> optional_numbers(const std::string& key);
+  std::optional<std::vector<double>> optional_positives(const std::string& key);
   TomlTable table(const std::string& key);
   std::optional<TomlTable> optional_table(const std::string& key);
   std::vector<TomlTable> tables(const std::string& key);
@@ -37,15 +36,15 @@ class TomlTable {
 
   Location where() const;
   Location where(const std::string& key) const;
-  [[noreturn]] void fail(const std::string& key, const std::string& why,
+  /// At the value of `key`, or at the table when there is none.
+  [[noreturn]] void fail(const std::string& key, const std::string& problem, const std::string& why,
                          const std::string& suggestion) const;
 
  private:
   const toml::node& need(const std::string& key, const std::string& kind);
-  Location locate(const toml::node& node) const;
 
   const toml::table& table_;
-  std::string file_;
+  TomlReader reader_;
   std::string name_;
   std::set<std::string> asked_;
 };
