@@ -211,6 +211,27 @@ Dimension dimension_of(Quantity quantity) {
   return Dimension::text;
 }
 
+std::optional<JsonNode> find_resource(const JsonNode& root, const std::string& path) {
+  const auto resources = root.find("resources");
+  for (const JsonNode& resource : resources ? resources->items() : std::vector<JsonNode>{}) {
+    const auto place = resource.find("path");
+    if (place && place->string() == path) return resource;
+  }
+  return std::nullopt;
+}
+
+std::map<std::string, std::string> field_units(const JsonNode& resource) {
+  std::map<std::string, std::string> units;
+  const auto schema = resource.find("schema");
+  const auto fields = schema ? schema->find("fields") : std::nullopt;
+  for (const JsonNode& field : fields ? fields->items() : std::vector<JsonNode>{}) {
+    const auto name = field.find("name");
+    const auto unit = field.find("unit");
+    if (name && unit) units[name->string()] = unit->string();
+  }
+  return units;
+}
+
 Package read_package(const std::string& text, const std::string& file,
                      const std::string& fallback_id) {
   require_text(text, file);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "core/names.hpp"
 #include "core/units.hpp"
 #include "data/dataset.hpp"
+#include "data/json_document.hpp"
 
 namespace recoil {
 
@@ -71,5 +74,11 @@ struct Package {
 /// @throws InputError with the line and column of the first mistake.
 Package read_package(const std::string& text, const std::string& file,
                      const std::string& fallback_id);
+
+/// The resource of a package whose `path` is this, if there is one.
+std::optional<JsonNode> find_resource(const JsonNode& root, const std::string& path);
+
+/// The units that the fields of a resource state: field -> unit.
+std::map<std::string, std::string> field_units(const JsonNode& resource);
 
 }  // namespace recoil

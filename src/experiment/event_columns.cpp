@@ -8,7 +8,10 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "data/datapackage.hpp"
+#include "data/folder_names.hpp"
 #include "data/json_document.hpp"
+#include "data/system.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
@@ -37,7 +40,7 @@ Dimension dimension_of(EventField field) {
 /// What the data package says about one file.
 struct StatedUnits {
   std::map<std::string, std::string> unit;  ///< column -> unit
-  std::string provenance;
+  std::optional<Provenance> provenance;
   bool found = false;  ///< the package has a resource of this name
 };
 
@@ -45,24 +48,13 @@ StatedUnits read_stated(const std::string& package_text, const std::string& file
   StatedUnits stated;
   if (package_text.empty()) return stated;
   const std::filesystem::path path(file);
-  const std::string package = (path.parent_path() / "datapackage.json").string();
-  const JsonDocument document(package_text, package);
-  const auto resources = document.root().find("resources");
-  for (const JsonNode& resource : resources ? resources->items() : std::vector<JsonNode>{}) {
-    const auto place = resource.find("path");
-    if (!place || place->string() != path.filename().string()) continue;
-    stated.found = true;
-    const auto schema = resource.find("schema");
-    const auto fields = schema ? schema->find("fields") : std::nullopt;
-    for (const JsonNode& field : fields ? fields->items() : std::vector<JsonNode>{}) {
-      const auto name = field.find("name");
-      const auto unit = field.find("unit");
-      if (name && unit) stated.unit[name->string()] = unit->string();
-    }
-  }
+  const JsonDocument document(package_text, (path.parent_path() / package_file_name).string());
+  const auto resource = find_resource(document.root(), path.filename().string());
+  if (!resource) return stated;
+  stated.found = true;
+  stated.unit = field_units(*resource);
   const auto recoil = document.root().find("recoil");
-  const auto provenance = recoil && stated.found ? recoil->find("provenance") : std::nullopt;
-  if (provenance) stated.provenance = provenance->string();
+  if (recoil && recoil->find("provenance")) stated.provenance = read_provenance(*recoil);
   return stated;
 }
 

@@ -24,10 +24,10 @@ struct NamesOf<EventField> {
 struct EventColumns {
   PerValue<EventField, std::optional<std::size_t>> index;  ///< nothing: no such column
   PerValue<EventField, double> factor;
-  std::size_t width = 0;             ///< cells of a row
-  std::vector<std::string> ignored;  ///< columns that are no field
-  std::string provenance;            ///< of the data package; empty when it states none
-  std::vector<FieldUnit> units;      ///< of the fields that are there, series excepted
+  std::size_t width = 0;                 ///< cells of a row
+  std::vector<std::string> ignored;      ///< columns that are no field
+  std::optional<Provenance> provenance;  ///< of the data package
+  std::vector<FieldUnit> units;          ///< of the fields that are there, series excepted
 };
 
 /// Ties the fields to the header's columns and finds their units.

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "data/folder_names.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "experiment/event_columns.hpp"
@@ -220,7 +221,7 @@ EventTable parse_events(const std::string& text, const std::string& file,
 
 EventTable read_events(const std::filesystem::path& path, const EventFormat& format) {
   const std::string text = read_text_file(path, largest_file);
-  const std::filesystem::path package = path.parent_path() / "datapackage.json";
+  const std::filesystem::path package = path.parent_path() / package_file_name;
   const std::string package_text =
       std::filesystem::is_regular_file(package) ? read_text_file(package) : std::string();
   return parse_events(text, path.string(), package_text, format);

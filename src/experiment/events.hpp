@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "data/dataset.hpp"
+
 namespace recoil {
 
 /// One passage of a sphere through the probe volume, SI units.
@@ -39,14 +41,14 @@ struct EventTable {
   bool has_tangential = false;      ///< the second component was measured
   std::size_t rows = 0;             ///< rows below the header
   std::size_t damaged = 0;          ///< left out: cells missing, not numbers, or impossible
-  std::vector<BadRow> first_damaged;  ///< up to `most_examples`
-  std::size_t duplicated = 0;         ///< left out: alike in every column to a row that was kept
-  std::vector<int> first_duplicated;  ///< lines
-  std::size_t unsorted = 0;           ///< came later in the file than a later time; sorted in
-  int first_unsorted = 0;             ///< line
-  std::vector<std::string> ignored;   ///< columns without a meaning here
-  std::string provenance;             ///< as the data package states it; empty when it does not
-  std::vector<FieldUnit> units;       ///< of the fields that were read
+  std::vector<BadRow> first_damaged;     ///< up to `most_examples`
+  std::size_t duplicated = 0;            ///< left out: alike in every column to a row that was kept
+  std::vector<int> first_duplicated;     ///< lines
+  std::size_t unsorted = 0;              ///< came later in the file than a later time; sorted in
+  int first_unsorted = 0;                ///< line
+  std::vector<std::string> ignored;      ///< columns without a meaning here
+  std::optional<Provenance> provenance;  ///< as the data package states it
+  std::vector<FieldUnit> units;          ///< of the fields that were read
 };
 
 inline constexpr std::size_t most_examples = 3;

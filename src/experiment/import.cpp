@@ -192,7 +192,7 @@ ImportResult import_points(const ImportRequest& request) {
   ImportResult result;
   result.notes = std::move(imported.notes);
   const PointsText points = points_text(imported.points);
-  const std::string package = package_text(request, points, existing, result.notes);
+  const std::string package = imported_package(request, points, existing, result.notes);
   const fs::path points_file = request.into / (existing ? existing->points_path : "points.csv");
   try {
     result.dataset = parse_dataset(package, points.csv, request.into);

@@ -9,6 +9,7 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
+#include "data/datapackage_writer.hpp"
 #include "data/folder_names.hpp"
 #include "data/text.hpp"
 #include "experiment/option_values.hpp"
@@ -16,7 +17,7 @@
 namespace recoil {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = PackageJson;
 
 // How the titles and sources of the shipped reconstructions say what they are.
 constexpr const char* title_claim = ": a reconstruction";
@@ -57,23 +58,12 @@ Json material(const std::string& words, const std::string& option) {
   return json;
 }
 
-/// What a package says under `recoil`.
-Json system_of(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / package_file_name;
-  const Json json = parse_json(read_text_file(file), file);
-  if (!json.contains("recoil") || !json["recoil"].is_object()) {
-    throw InputError({file.string()}, "there is no 'recoil' with materials",
-                     "--like takes them from there", "name another dataset");
-  }
-  return json["recoil"];
-}
-
 Json recoil_block(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
                   const std::string& provenance) {
   Json block;
   block["provenance"] = provenance;
   Json stated = existing ? existing->json["recoil"] : Json::object();
-  if (!request.like.empty()) stated = system_of(request.like);
+  if (!request.like.empty()) stated = stated_system(request.like);
   if (!request.particle.empty()) stated["particle"] = material(request.particle, "--particle");
   if (!request.surface.empty()) stated["surface"] = material(request.surface, "--surface");
   if (request.adhesion_energy) stated["adhesion_energy"] = *request.adhesion_energy;
@@ -221,7 +211,7 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
       {"captured", "", 1.0, [](const ImportedPoint& p) { return p.captured; }},
   };
   PointsText text;
-  text.fields.push_back({{"name", "series"}, {"type", "string"}});
+  text.fields.push_back(package_field("series", "string", ""));
   text.csv = "series";
   std::vector<const Output*> used;
   for (const Output& output : outputs) {
@@ -233,16 +223,12 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
     if (!any && !always) continue;
     used.push_back(&output);
     text.csv += fmt::format(",{}", output.name);
-    Json field = {{"name", output.name}, {"type", output.unit.empty() ? "integer" : "number"}};
-    if (!output.unit.empty()) field["unit"] = output.unit;
-    text.fields.push_back(field);
+    text.fields.push_back(
+        package_field(output.name, output.unit.empty() ? "integer" : "number", output.unit));
   }
   text.csv += '\n';
   for (const ImportedPoint& point : points) {
-    const bool plain = point.series.find_first_of(",\"\n\r") == std::string::npos;
-    std::string name;
-    for (const char c : point.series) name += c == '"' ? std::string("\"\"") : std::string(1, c);
-    text.csv += plain ? point.series : fmt::format("\"{}\"", name);
+    text.csv += csv_cell(point.series);
     for (const Output* output : used) {
       const auto value = output->value(point);
       text.csv += value ? "," + number_text(*value / output->factor) : std::string(",");
@@ -252,9 +238,9 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
   return text;
 }
 
-std::string package_text(const ImportRequest& request, const PointsText& points,
-                         const std::optional<ExistingPackage>& existing,
-                         std::vector<ImportNote>& notes) {
+std::string imported_package(const ImportRequest& request, const PointsText& points,
+                             const std::optional<ExistingPackage>& existing,
+                             std::vector<ImportNote>& notes) {
   const std::string provenance = provenance_for(request, existing);
   const bool was_reconstruction = existing && existing->provenance == Provenance::reconstruction;
   Json package = existing ? existing->json : Json::object();
@@ -271,17 +257,15 @@ std::string package_text(const ImportRequest& request, const PointsText& points,
     notes.push_back({ImportRemark::licence_removed});
   }
   package["sources"] = sources_of(request, existing, notes);
-  const Json resource = {
-      {"name", "points"},    {"path", existing ? existing->points_path : "points.csv"},
-      {"format", "csv"},     {"mediatype", "text/csv"},
-      {"encoding", "utf-8"}, {"schema", {{"fields", points.fields}}}};
+  const Json resource =
+      csv_resource("points", existing ? existing->points_path : "points.csv", points.fields);
   if (existing) {
     package["resources"][0] = resource;
   } else {
     package["resources"] = Json::array({resource});
   }
   package["recoil"] = recoil_block(request, existing, provenance);
-  return package.dump(2) + "\n";
+  return package_text(package);
 }
 
 }  // namespace recoil

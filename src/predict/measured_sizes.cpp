@@ -10,6 +10,8 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/csv_table.hpp"
+#include "data/datapackage.hpp"
+#include "data/folder_names.hpp"
 #include "data/json_document.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
@@ -44,27 +46,22 @@ void read_resource(const JsonNode& resource, SizesResource& out) {
                    "it lies above the surface, within a metre", "give it in m: 1 mm is 0.001");
     }
   }
-  const auto schema = resource.find("schema");
-  const auto fields = schema ? schema->find("fields") : std::nullopt;
-  if (!fields) return;
-  for (const JsonNode& field : fields->items()) {
-    const std::string name = text_of(field, "name");
-    if (name == "diameter" || name == "lower") out.unit = text_of(field, "unit");
+  const std::map<std::string, std::string> units = field_units(resource);
+  for (const char* column : {"diameter", "lower"}) {
+    if (units.contains(column)) out.unit = units.at(column);
   }
 }
 
 SizesResource resource_beside(const std::filesystem::path& file) {
   SizesResource out;
-  const std::filesystem::path package = file.parent_path() / "datapackage.json";
+  const std::filesystem::path package = file.parent_path() / package_file_name;
   std::error_code failed;
   if (!std::filesystem::exists(package, failed)) return out;
   const std::string text = read_text_file(package);
   require_text(text, package.string());
   const JsonDocument document(text, package.string());
-  const auto resources = document.root().find("resources");
-  if (!resources) return out;
-  for (const JsonNode& resource : resources->items()) {
-    if (text_of(resource, "path") == file.filename().string()) read_resource(resource, out);
+  if (const auto resource = find_resource(document.root(), file.filename().string())) {
+    read_resource(*resource, out);
   }
   return out;
 }
