@@ -65,9 +65,9 @@ std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::stri
     known.push_back(datasets[d].id);
   }
   const std::string near = nearest_word(id, known);
-  throw InputError({}, fmt::format("--dataset {}: not a dataset of this fit", id),
-                   "it has to be one of those the fit names",
-                   near.empty() ? "leave it out for the first" : "did you mean " + near + "?");
+  throw InputError(
+      {}, fmt::format("--dataset {} is not a dataset of this fit", id), "",
+      near.empty() ? "leave the option out for the first one" : "did you mean " + near + "?");
 }
 
 void add_predictions(Analysis& analysis) {

@@ -51,13 +51,13 @@ std::map<std::string, std::string> assignments(const std::vector<std::string>& w
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == word.size()) {
-      throw InputError(
-          {}, fmt::format("{} {}", option, word), "it has the form FIELD=VALUE",
-          fmt::format("for example {} velocity={}", option, option == "--unit" ? "m/s" : "LDA1"));
+      throw InputError({}, fmt::format("{} {} is not of the form FIELD=VALUE", option, word), "",
+                       fmt::format("write for example {} velocity={}", option,
+                                   option == "--unit" ? "m/s" : "LDA1"));
     }
     if (!result.emplace(word.substr(0, equals), word.substr(equals + 1)).second) {
-      throw InputError({}, fmt::format("{} {} is given twice", option, word.substr(0, equals)),
-                       "only one could count", "remove one");
+      throw InputError({}, fmt::format("{} {} is given twice", option, word.substr(0, equals)), "",
+                       "remove one");
     }
   }
   return result;
@@ -73,13 +73,13 @@ void resolve(PairCommand& command) {
   for (const double edge : command.size_edges_um) {
     if (!command.averaging.size_edges.empty() &&
         edge * units::um <= command.averaging.size_edges.back()) {
-      throw InputError({}, "--size-edges do not ascend", "they are the limits of classes",
+      throw InputError({}, "--size-edges do not ascend", "",
                        "write for example --size-edges 20,40,60,110");
     }
     command.averaging.size_edges.push_back(edge * units::um);
   }
   if (command.averaging.size_edges.size() == 1) {
-    throw InputError({}, "--size-edges with one value", "a class has two limits",
+    throw InputError({}, "--size-edges has one value only", "a class has two limits",
                      "write for example --size-edges 20,40,60,110");
   }
 }

@@ -30,15 +30,15 @@ void take_fitted_values(ImpactModel& model, const std::string& path) {
   const std::string text = read_text_file(path);
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("parameters")) {
-    throw InputError({path}, "no fitted parameters here", "--parameters reads a fit.json",
-                     "make one with: recoil fit FIT --out DIR");
+    throw InputError({path}, "there are no fitted parameters in this file",
+                     "--parameters reads a fit.json", "make one with recoil fit FIT --out DIR");
   }
   for (ParameterSlot& slot : model.slots) {
     const auto found = json["parameters"].find(slot.label());
     if (found == json["parameters"].end() || !found->contains("value") ||
         !(*found)["value"].is_number()) {
-      throw InputError({path}, fmt::format("parameter {} is missing", slot.label()),
-                       "it belongs to another fit", "use the fit.json of this fit file");
+      throw InputError({path}, fmt::format("the parameter {} is missing", slot.label()),
+                       "this is the result of another fit", "use the fit.json of this fit file");
     }
     slot.initial = (*found)["value"].get<double>();
   }

@@ -55,8 +55,8 @@ std::string extended_toml(const Diagnosis& diagnosis, const std::filesystem::pat
   try {
     root = toml::parse(read_text_file(diagnosis.spec.file));
   } catch (const toml::parse_error&) {
-    throw InputError({diagnosis.spec.file.string()}, "the file is not valid TOML any more",
-                     "it was when the diagnosis began", "leave it alone until the end");
+    throw InputError({diagnosis.spec.file.string()}, "the file is no longer valid TOML",
+                     "it was when the diagnosis began", "leave it as it is until the end");
   }
   toml::array paths = paths_from(diagnosis.spec, folder);
   if (paths.size() == 1) {

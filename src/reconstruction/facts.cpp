@@ -31,8 +31,7 @@ void require_known_fact(const FactSpec& fact) {
   const FactKind* kind = find_kind(fact.id);
   if (kind == nullptr) {
     const std::string near = nearest_word(fact.id, all_ids());
-    throw InputError(fact.where, fmt::format("unknown fact '{}'", fact.id),
-                     "nothing would check it",
+    throw InputError(fact.where, fmt::format("unknown fact '{}'", fact.id), "",
                      near.empty() ? fmt::format("known: {}", fmt::join(all_ids(), ", "))
                                   : fmt::format("did you mean '{}'?", near));
   }
