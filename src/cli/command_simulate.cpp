@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
+#include "estimate/predictor.hpp"
 #include "impact/sensitivity.hpp"
 #include "report/words_dataset.hpp"
 
@@ -98,10 +99,10 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
     std::string values;
     for (std::size_t j = 0; j < theta.size(); ++j) {
       const ParameterSlot& slot = model.slots[j];
-      if (slot.mechanism != mechanism->info.id) continue;
-      without[j] = slot.null_value;
+      if (slot.mechanism() != mechanism) continue;
+      without[j] = slot.parameter->null_value;
       values += fmt::format("{}{} = {:.6g}{}", values.empty() ? "" : ", ", slot.label(),
-                            slot.initial, unit_suffix(slot.unit));
+                            slot.initial, unit_suffix(slot.parameter->unit));
     }
     fmt::print("  {:<22}{:>+12.6f}  ({}; {})\n", mechanism->info.id, square(without) - all,
                to_string(mechanism->info.kind), values);

@@ -11,6 +11,9 @@
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "estimate/impact_problem.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
 
 namespace recoil {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/files.hpp"
+#include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
 #include "experiment/pairing_files.hpp"
 
@@ -64,7 +65,7 @@ void fit_points(const FitSpec& spec, const Dataset& like, const KnownEvents& eve
   const Dataset dataset = parse_dataset(
       package_json(like.folder, like.id, like.provenance, events.table.file, "a study"),
       points_csv(averages), like.folder);
-  const FitResult fitted = fit(make_model(spec, {dataset}), gather({dataset}, spec.noise));
+  const FitResult fitted = fit(make_model(spec, {dataset}), gather({dataset}, spec));
   row.usable = fitted.usable;
   if (!fitted.usable) return;
   const std::size_t h = fitted.model.slot_C_H[0];

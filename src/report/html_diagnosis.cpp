@@ -48,7 +48,7 @@ std::string parameters_html(const Diagnosis& d) {
   table.head = {"parameter", "unit", "base", "extended"};
   for (const ParameterSlot& slot : d.extended_fit->model.slots) {
     table.rows.push_back(
-        {parameter_html(slot.label()), escape_html(slot.unit),
+        {parameter_html(slot.label()), escape_html(slot.parameter->unit),
          escape_html(value_cell(d.base, d.base_intervals, slot.label())),
          escape_html(value_cell(*d.extended_fit, d.extended_intervals, slot.label()))});
   }

@@ -31,7 +31,7 @@ std::string estimate_words(const Analysis& a, std::size_t s) {
   const ParameterSlot& slot = a.fitted.model.slots[s];
   const Interval interval = recommended_interval(intervals_of(a, s));
   std::string text =
-      fmt::format("{} = {} {}", slot.label(), number(a.fitted.theta[s], 3), slot.unit);
+      fmt::format("{} = {} {}", slot.label(), number(a.fitted.theta[s], 3), slot.parameter->unit);
   if (interval.available()) {
     text += fmt::format(" ({} to {})", number(*interval.lower, 3), number(*interval.upper, 3));
   }
@@ -40,7 +40,7 @@ std::string estimate_words(const Analysis& a, std::size_t s) {
 
 std::string fit_quality_words(const Analysis& a) {
   const FitResult& f = a.fitted;
-  if (!a.data.sd_stated || f.dof <= 0) {
+  if (!a.fitted.data.sd_stated || f.dof <= 0) {
     return fmt::format("The fit misses the points by {} in e (root mean square).",
                        number(f.rmse, 2));
   }
@@ -88,7 +88,7 @@ std::string summary_words(const Analysis& a) {
   double smallest = INFINITY;
   double largest = 0.0;
   std::vector<double> diameters;
-  for (const Observation& point : a.data.points) {
+  for (const Observation& point : a.fitted.data.points) {
     smallest = std::min(smallest, point.velocity);
     largest = std::max(largest, point.velocity);
     diameters.push_back(point.diameter);
@@ -103,8 +103,8 @@ std::string summary_words(const Analysis& a) {
 
   std::string text =
       fmt::format("{} points of {} spheres, {} um in diameter, hitting {} at {} to {} m/s. ",
-                  a.data.points.size(), first.system.particle.name, size, fmt::join(surfaces, ", "),
-                  number(smallest, 3), number(largest, 3));
+                  a.fitted.data.points.size(), first.system.particle.name, size,
+                  fmt::join(surfaces, ", "), number(smallest, 3), number(largest, 3));
   std::vector<std::string> estimates;
   for (std::size_t s = 0; s < a.fitted.model.slots.size(); ++s) {
     if (a.fitted.model.slots[s].free) estimates.push_back(estimate_words(a, s));

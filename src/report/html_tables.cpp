@@ -8,6 +8,8 @@
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/html_page.hpp"
+#include "report/words_noise.hpp"
+#include "report/words_two_point.hpp"
 
 namespace recoil {
 namespace {
@@ -64,7 +66,7 @@ std::string parameters_table(const Analysis& a) {
     const ParameterSlot& slot = f.model.slots[s];
     if (!slot.free) {
       table.rows.push_back({parameter_html(slot.label()), number(f.theta[s]), none,
-                            prose_html(slot.unit), none, "fixed", none, ""});
+                            prose_html(slot.parameter->unit), none, "fixed", none, ""});
       continue;
     }
     const double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
@@ -79,7 +81,7 @@ std::string parameters_table(const Analysis& a) {
     if (!interval.available()) remark += as_sentence("no interval: " + reason_without(set));
     if (!interval.note.empty()) remark += as_sentence(interval.note);
     table.rows.push_back({parameter_html(slot.label()), value, error > 0.0 ? spread : none,
-                          prose_html(slot.unit), interval_cell(interval),
+                          prose_html(slot.parameter->unit), interval_cell(interval),
                           interval.available() ? escape_html(set.recommended) : none,
                           number(slot.initial), prose_html(remark)});
   }
@@ -101,9 +103,10 @@ std::string intervals_table(const Analysis& a) {
     const ParameterSlot& slot = a.fitted.model.slots[s];
     if (!slot.free) continue;
     const IntervalSet set = intervals_of(a, s);
-    table.rows.push_back({quantity(slot.name, slot.unit), interval_cell(set.wald),
-                          interval_cell(set.profile), interval_cell(set.percentile),
-                          interval_cell(set.bca), interval_cell(set.studentized)});
+    table.rows.push_back({quantity(slot.parameter->name, slot.parameter->unit),
+                          interval_cell(set.wald), interval_cell(set.profile),
+                          interval_cell(set.percentile), interval_cell(set.bca),
+                          interval_cell(set.studentized)});
     if (!slot.dataset.empty()) table.rows.back()[0] = parameter_html(slot.label());
     const std::pair<const char*, const Interval*> kinds[] = {{"Wald", &set.wald},
                                                              {"profile", &set.profile},
@@ -151,18 +154,20 @@ std::string goodness_table(const Analysis& a) {
   const auto free = std::count_if(f.model.slots.begin(), f.model.slots.end(),
                                   [](const ParameterSlot& slot) { return slot.free; });
   HtmlTable table;
-  table.rows = {{"data points", fmt::format("{}", a.data.points.size())},
-                {"variables", fmt::format("{}", free)},
-                {"chi-square", number(f.chi2, 6)},
-                {"degrees of freedom", fmt::format("{}", f.dof)},
-                {"reduced chi-square", f.dof > 0 ? number(f.chi2 / f.dof, 4) : none},
-                {"p-value", a.data.sd_stated && f.dof > 0 ? escape_html(p_value_text(f.p_value))
-                                                          : "– (no deviations stated)"},
-                {"rms of <i>e</i>", number(f.rmse)}};
-  if (a.data.sd_stated && f.dof <= 0) table.rows[5][1] = none;
+  table.rows = {
+      {"data points", fmt::format("{}", a.fitted.data.points.size())},
+      {"variables", fmt::format("{}", free)},
+      {"chi-square", number(f.chi2, 6)},
+      {"degrees of freedom", fmt::format("{}", f.dof)},
+      {"reduced chi-square", f.dof > 0 ? number(f.chi2 / f.dof, 4) : none},
+      {"p-value", a.fitted.data.sd_stated && f.dof > 0 ? escape_html(p_value_text(f.p_value))
+                                                       : "– (no deviations stated)"},
+      {"rms of <i>e</i>", number(f.rmse)}};
+  if (a.fitted.data.sd_stated && f.dof <= 0) table.rows[5][1] = none;
   std::string out = table_html(table);
-  if (!f.noise_text.empty())
-    out += fmt::format("<p>{}</p>\n", prose_html(as_sentence(f.noise_text)));
+  if (const std::string words = noise_words(f); !words.empty()) {
+    out += fmt::format("<p>{}</p>\n", prose_html(as_sentence(words)));
+  }
   return out;
 }
 
@@ -195,9 +200,9 @@ std::string two_point_tables(const Analysis& a) {
     const TwoPointResult& two = comparison.result;
     const bool answered = two.status != TwoPointStatus::too_few_points;
     const auto point = [&](std::size_t i) {
-      if (!answered || i >= a.data.points.size()) return std::string(none);
-      return fmt::format("e = {} at {} m/s", number(a.data.points[i].restitution, 3),
-                         number(a.data.points[i].velocity, 3));
+      if (!answered || i >= a.fitted.data.points.size()) return std::string(none);
+      return fmt::format("e = {} at {} m/s", number(a.fitted.data.points[i].restitution, 3),
+                         number(a.fitted.data.points[i].velocity, 3));
     };
     HtmlTable table;
     table.caption = fmt::format("{}, two points calibrated at d = {} um: {} and {}",
@@ -207,9 +212,9 @@ std::string two_point_tables(const Analysis& a) {
     for (const std::size_t s :
          {f.model.slot_C_H[comparison.dataset], f.model.slot_C_A[comparison.dataset]}) {
       const ParameterSlot& slot = f.model.slots[s];
-      table.rows.push_back(
-          {quantity(slot.name, slot.unit), number_at(two.theta, s), number_at(f.theta, s)});
-      table.rows.push_back({prose_html(slot.name) + ", spread under resampling",
+      table.rows.push_back({quantity(slot.parameter->name, slot.parameter->unit),
+                            number_at(two.theta, s), number_at(f.theta, s)});
+      table.rows.push_back({prose_html(slot.parameter->name) + ", spread under resampling",
                             number_at(comparison.spread, s, 2),
                             number_at(comparison.full_spread, s, 2)});
     }
@@ -224,7 +229,7 @@ std::string two_point_tables(const Analysis& a) {
          ""});
     out += table_html(table);
     std::string words = fmt::format("Two-point iteration: {}. {}", words_of(to_string(two.status)),
-                                    as_sentence(two.text));
+                                    as_sentence(two_point_words(f, comparison.dataset, two)));
     if (comparison.full_held_out_rmse) {
       words +=
           " For the diameters not seen, all points of the calibration diameter alone were "

@@ -71,7 +71,7 @@ std::string diagnosis_text(const Diagnosis& d) {
       }
       out += fmt::format("    {:<22} {:>11} -> {:>11} +/- {:<10} {}\n", slot.label(), before,
                          number(d.extended_fit->theta[j]), number(d.extended_fit->std_error[j], 2),
-                         slot.unit);
+                         slot.parameter->unit);
     }
   }
   for (const CaptureChange& change : d.capture) {

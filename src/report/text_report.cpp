@@ -8,6 +8,8 @@
 #include "report/format.hpp"
 #include "report/pair_words.hpp"
 #include "report/text_blocks.hpp"
+#include "report/words_noise.hpp"
+#include "report/words_two_point.hpp"
 
 namespace recoil {
 namespace {
@@ -63,7 +65,7 @@ void write_model(Blocks& out, const Analysis& a) {
 }
 
 std::string solver_text(const FitResult& f) {
-  if (f.model.solver == Solver::reference) return "reference (CVODES)";
+  if (f.model.solver.kind == Solver::reference) return "reference (CVODES)";
   return fmt::format("fast; {} impacts of the fit were handed over to the reference", f.handovers);
 }
 
@@ -72,20 +74,20 @@ void write_statistics(Blocks& out, const Analysis& a) {
   const auto free = std::count_if(f.model.slots.begin(), f.model.slots.end(),
                                   [](const ParameterSlot& slot) { return slot.free; });
   out.open("Fit Statistics");
-  out.item("method",
-           fmt::format("{} in e^2, trust region within bounds (Ceres)",
-                       a.data.spec.student ? "Student's t likelihood" : "weighted least squares"));
+  out.item("method", fmt::format("{} in e^2, trust region within bounds (Ceres)",
+                                 a.fitted.data.spec.student ? "Student's t likelihood"
+                                                            : "weighted least squares"));
   out.item("solver", solver_text(f));
-  out.item("data points", fmt::format("{}", a.data.points.size()));
+  out.item("data points", fmt::format("{}", a.fitted.data.points.size()));
   out.item("variables", fmt::format("{}", free));
   out.item("chi-square", number(f.chi2, 6));
   out.item("reduced chi-square",
            f.dof > 0 ? fmt::format("{} ({} degrees of freedom)", number(f.chi2 / f.dof, 5), f.dof)
                      : "not defined (no degrees of freedom left)");
-  out.item("p-value", a.data.sd_stated ? p_value_text(f.p_value)
-                                       : "not defined (no standard deviations are stated)");
+  out.item("p-value", a.fitted.data.sd_stated ? p_value_text(f.p_value)
+                                              : "not defined (no standard deviations are stated)");
   out.item("rms of e", number(f.rmse));
-  if (!f.noise_text.empty()) out.item("noise", f.noise_text);
+  if (const std::string words = noise_words(f); !words.empty()) out.item("noise", words);
 }
 
 void write_variables(Blocks& out, const Analysis& a) {
@@ -96,7 +98,7 @@ void write_variables(Blocks& out, const Analysis& a) {
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
     const std::string name = fmt::format("{:<{}}", slot.label() + ":", widest + 1);
-    const std::string unit = unit_suffix(slot.unit);
+    const std::string unit = unit_suffix(slot.parameter->unit);
     if (!slot.free) {
       out.line(fmt::format("{}  {}{} (fixed)", name, number(f.theta[s]), unit));
       continue;
@@ -181,8 +183,8 @@ void write_capture(Blocks& out, const Analysis& a) {
 }
 
 std::string point_text(const Analysis& a, std::size_t index) {
-  if (index >= a.data.points.size()) return "none";
-  const Observation& point = a.data.points[index];
+  if (index >= a.fitted.data.points.size()) return "none";
+  const Observation& point = a.fitted.data.points[index];
   return fmt::format("e = {} at V = {} m/s", number(point.restitution), number(point.velocity));
 }
 
@@ -195,8 +197,9 @@ void write_two_point(Blocks& out, const Analysis& a) {
     out.item("dataset",
              fmt::format("{}, calibrated at d = {} um", a.datasets[comparison.dataset].id,
                          diameter_text(two.diameter)));
-    out.item("status", fmt::format("{} ({} iterations): {}", words_of(to_string(two.status)),
-                                   two.iterations, two.text));
+    out.item("status",
+             fmt::format("{} ({} iterations): {}", words_of(to_string(two.status)), two.iterations,
+                         two_point_words(a.fitted, comparison.dataset, two)));
     out.item("high point", point_text(a, two.high_point));
     out.item("low point", point_text(a, two.low_point));
     const auto row = [&](const std::string& name, const std::string& x, const std::string& y) {
@@ -209,7 +212,8 @@ void write_two_point(Blocks& out, const Analysis& a) {
     for (const std::size_t s :
          {f.model.slot_C_H[comparison.dataset], f.model.slot_C_A[comparison.dataset]}) {
       const ParameterSlot& slot = f.model.slots[s];
-      row(fmt::format("{} [{}]", slot.name, slot.unit), at(two.theta, s), at(f.theta, s));
+      row(fmt::format("{} [{}]", slot.parameter->name, slot.parameter->unit), at(two.theta, s),
+          at(f.theta, s));
       row("  spread under resampling", at(comparison.spread, s), at(comparison.full_spread, s));
     }
     const bool answered = two.status != TwoPointStatus::too_few_points;

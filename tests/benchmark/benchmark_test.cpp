@@ -97,8 +97,9 @@ TEST_F(PeerCase, ThePeersAreToldWhatRecoilIsTold) {
             model.contacts.at(0).reference_diameter);
   std::string csv = "density,stiffness,reference_diameter,start_C_H,start_C_A,start_f0\n";
   for (const ParameterSlot& slot : model.slots) {
-    EXPECT_TRUE(slot.free) << slot.name;
-    EXPECT_EQ(constants.at("start").at(slot.name).get<double>(), slot.initial) << slot.name;
+    EXPECT_TRUE(slot.free) << slot.parameter->name;
+    EXPECT_EQ(constants.at("start").at(slot.parameter->name).get<double>(), slot.initial)
+        << slot.parameter->name;
   }
   EXPECT_EQ(read_text_file(folder_ / "constants.csv"),
             csv + "1350,1789000000,4.9e-06,0.0015,0.06,8\n");

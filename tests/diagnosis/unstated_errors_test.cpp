@@ -8,6 +8,7 @@
 #include <string>
 
 #include "diagnosis/verdict_words.hpp"
+#include "estimate/capture_velocity.hpp"
 #include "quick_diagnosis.hpp"
 #include "support/synthetic.hpp"
 

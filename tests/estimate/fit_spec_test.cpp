@@ -50,7 +50,7 @@ TEST(ParseFit, ReadsEveryKey) {
   EXPECT_TRUE(spec.mechanisms.empty());
   ASSERT_EQ(spec.parameters.size(), 3U);
   const ParameterSpec& c_a = spec.parameters[1];
-  EXPECT_EQ(c_a.name, "C_A");
+  EXPECT_EQ(c_a.parameter->name, "C_A");
   EXPECT_EQ(c_a.initial, 0.1);
   EXPECT_EQ(c_a.lower, 0.01);
   EXPECT_EQ(c_a.upper, 5.0);
@@ -65,7 +65,7 @@ TEST(ParseFit, ReadsEveryKey) {
   EXPECT_EQ(spec.uncertainty.level, 0.9);
   EXPECT_EQ(spec.uncertainty.seed, 7U);
   EXPECT_EQ(spec.noise.variance, VarianceFunction::capture);
-  EXPECT_EQ(spec.noise.variance_place.line, 14);
+  EXPECT_EQ(spec.variance_place.line, 14);
   EXPECT_TRUE(spec.noise.student);
   EXPECT_EQ(spec.noise.student_dof, 5.0);
   EXPECT_TRUE(spec.noise.velocity_errors);
@@ -79,10 +79,10 @@ TEST(ParseFit, EveryKeyButDatasetHasADefault) {
   const FitSpec spec = parse_fit("dataset = \"d\"\n", "fit.toml");
   EXPECT_EQ(spec.datasets[0], fs::path("d"));
   EXPECT_EQ(spec.phase, AdhesionDampingPhase::rebound);
-  ASSERT_EQ(spec.parameters.size(), parameter_catalogue().size());
+  ASSERT_EQ(spec.parameters.size(), base_parameters().size());
   for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
-    const ParameterEntry& entry = parameter_catalogue()[i];
-    EXPECT_EQ(spec.parameters[i].name, entry.name);
+    const Parameter& entry = base_parameters()[i];
+    EXPECT_EQ(spec.parameters[i].parameter, &entry);
     EXPECT_EQ(spec.parameters[i].initial, entry.initial);
     EXPECT_EQ(spec.parameters[i].lower, entry.lower);
     EXPECT_EQ(spec.parameters[i].upper, entry.upper);
@@ -124,12 +124,12 @@ TEST(ParseFit, BootstrapMayBeLeftOut) {
 }
 
 TEST(ParameterCatalogue, IsConsistent) {
-  const auto& catalogue = parameter_catalogue();
+  const auto& catalogue = base_parameters();
   ASSERT_EQ(catalogue.size(), 3U);
   EXPECT_EQ(catalogue[0].name, "C_H");
   EXPECT_EQ(catalogue[1].name, "C_A");
   EXPECT_EQ(catalogue[2].name, "f0");
-  for (const ParameterEntry& entry : catalogue) {
+  for (const Parameter& entry : catalogue) {
     EXPECT_FALSE(entry.unit.empty());
     EXPECT_FALSE(entry.meaning.empty());
     EXPECT_LT(entry.lower, entry.upper);

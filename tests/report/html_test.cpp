@@ -101,7 +101,7 @@ TEST(HtmlReport, EscapesWhatAFileSays) {
   analysis.datasets[0].sources = {hostile};
   analysis.datasets[0].system.particle.name = hostile;
   analysis.spec.id = hostile;
-  analysis.fitted.warnings = {hostile};
+  analysis.datasets[0].warnings = {hostile};
   const std::string html = html_report(analysis);
   expect_self_contained(html);
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(1)"));
@@ -131,8 +131,9 @@ TEST(HtmlReport, StaysSmallWithManyPoints) {
   Analysis analysis = example::two_datasets();
   for (int copy = 0; copy < 5; ++copy) {
     const Analysis more = example::two_datasets();
-    analysis.data.points.insert(analysis.data.points.end(), more.data.points.begin(),
-                                more.data.points.end());
+    analysis.fitted.data.points.insert(analysis.fitted.data.points.end(),
+                                       more.fitted.data.points.begin(),
+                                       more.fitted.data.points.end());
     for (const auto member : {&FitResult::residuals, &FitResult::prediction,
                               &FitResult::prediction_squared, &FitResult::leverage}) {
       auto& list = analysis.fitted.*member;

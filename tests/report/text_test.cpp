@@ -63,8 +63,8 @@ TEST(TextReport, StaysNarrowWhateverTheWordsAre) {
   analysis.datasets[0].id =
       "a-dataset-with-a-name-that-is-far-too-long-to-stand-in-one-line-of-text";
   analysis.spec.file = "/a/path/" + std::string(150, 'p') + "/fit.toml";
-  analysis.fitted.warnings = {std::string(250, 'w') + " and the reason why " +
-                              std::string(40, 'z')};
+  analysis.datasets[0].warnings = {std::string(250, 'w') + " and the reason why " +
+                                   std::string(40, 'z')};
   analysis.fitted.model.slots[0].dataset = analysis.datasets[0].id;
   analysis.uncertainty.identifiability.text = std::string(500, 'i');
   EXPECT_LE(longest_line(text_report(analysis)), 100U) << text_report(analysis);

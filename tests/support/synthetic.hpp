@@ -58,15 +58,10 @@ inline Dataset dataset(const Design& design) {
 inline FitSpec spec(bool f0_free = false) {
   FitSpec made;
   made.id = "synthetic";
-  for (const ParameterEntry& entry : parameter_catalogue()) {
-    ParameterSpec parameter;
-    parameter.name = entry.name;
-    parameter.initial = entry.initial;
-    parameter.lower = entry.lower;
-    parameter.upper = entry.upper;
-    parameter.free = entry.name == "f0" ? f0_free : entry.free;
-    made.parameters.push_back(parameter);
+  for (const Parameter& parameter : base_parameters()) {
+    made.parameters.push_back(default_of(parameter));
   }
+  made.parameters.back().free = f0_free;
   return made;
 }
 

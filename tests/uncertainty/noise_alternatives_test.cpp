@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "estimate/noise.hpp"
+#include "estimate/reweighting.hpp"
 #include "support/one_size.hpp"
 
 namespace recoil {
@@ -32,7 +32,7 @@ TEST(NoiseAlternatives, WeighAsTheirCriteriaDo) {
     const auto total = [&](const FitResult& of) {
       for (const VarianceCandidate& candidate : fitted.data.noise.candidates) {
         if (candidate.function == of.data.noise.variance) {
-          return candidate.criterion + handicap(candidate.function);
+          return candidate.criterion + penalty_of(candidate.function);
         }
       }
       return std::nan("");

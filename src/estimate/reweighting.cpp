@@ -1,22 +1,19 @@
+#include "estimate/reweighting.hpp"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "estimate/impact_problem.hpp"
-#include "estimate/noise.hpp"
-#include "estimate/reweigh.hpp"
+#include "estimate/misfit.hpp"
+#include "estimate/weights.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr int most_rounds = 25;
 constexpr double least_scale = 1e-6;  // of e: no measurement is better
-
-int free_count(const ImpactModel& model) {
-  return static_cast<int>(std::count_if(model.slots.begin(), model.slots.end(),
-                                        [](const ParameterSlot& slot) { return slot.free; }));
-}
 
 /// The steps of the parameters in units of their standard errors (of their values, without one).
 std::vector<double> relative_steps(const LeastSquaresResult& run,
@@ -73,49 +70,51 @@ class Extrapolation {
   std::vector<double> last_;
 };
 
-Settled settle_with(const ImpactModel& model, Observations data, std::span<const double> start,
-                    const SettleOptions& options) {
-  Settled settled;
-  settled.data = std::move(data);
+ReweightedFit reweight_with(const ImpactModel& model, Observations data,
+                            std::span<const double> start, const ReweightingOptions& options) {
+  ReweightedFit result;
+  result.data = std::move(data);
   std::vector<double> theta(start.begin(), start.end());
-  double& noise_scale = settled.data.noise.scale;
+  double& noise_scale = result.data.noise.scale;
   Extrapolation extrapolation;
   for (int round = 0; round < most_rounds; ++round) {
-    const auto predicted = reweigh(model, theta, settled.data);
+    const auto predicted = renew_weights(model, theta, result.data);
     if (!predicted) {
-      settled.run.converged = false;
-      settled.run.message = "the model has no answer beside a point, where the weights need one";
-      return settled;
+      result.run.converged = false;
+      result.run.message = "the model has no answer beside a point, where the weights need one";
+      return result;
     }
-    settled.run = minimise(impact_problem(model, settled.data), theta, options.minimiser);
-    if (!settled.run.converged) return settled;
+    result.run = minimise(impact_problem(model, result.data), theta, options.minimiser);
+    if (!result.run.converged) return result;
     double scale = 1.0;
-    if (!settled.data.sd_stated) {
-      scale = misfit(settled.data, settled.run.residuals, *predicted, free_count(model)).scale();
+    if (!result.data.sd_stated) {
+      scale = misfit(result.data, result.run.residuals, *predicted, model.free_count()).scale();
       // Data without noise would let the scale shrink for ever.
-      settled.at_rest = noise_scale * scale < least_scale;
-      if (settled.at_rest) break;
+      result.at_rest = noise_scale * scale < least_scale;
+      if (result.at_rest) break;
     }
-    std::vector<double> steps = relative_steps(settled.run, theta);
-    settled.at_rest = largest(steps) < options.parameters && std::abs(scale - 1.0) < options.scale;
-    if (settled.at_rest) break;
-    theta = extrapolation.next(model, settled.run, theta, std::move(steps));
+    std::vector<double> steps = relative_steps(result.run, theta);
+    result.at_rest = largest(steps) < options.parameters && std::abs(scale - 1.0) < options.scale;
+    if (result.at_rest) break;
+    theta = extrapolation.next(model, result.run, theta, std::move(steps));
     noise_scale *= scale;
   }
-  return settled;
+  return result;
 }
 
 /// -2 ln restricted likelihood but for a constant that the variance functions share.
-double restricted_criterion(const ImpactModel& model, const Settled& settled) {
-  const LeastSquaresResult& run = settled.run;
-  const auto& points = settled.data.points;
-  const double unit =
-      !points.empty() && points.front().student ? points.front().student->calibration() : 1.0;
+double restricted_criterion(const ImpactModel& model, const ReweightedFit& result) {
+  const LeastSquaresResult& run = result.run;
+  const auto& points = result.data.points;
+  const std::optional<StudentNoise>& student = result.data.noise.student;
+  const double unit = student ? student->calibration() : 1.0;
   double criterion = run.sum_of_squares / unit;
   for (const Observation& point : points) {
     if (point.censored) continue;
-    if (point.scatter > 0.0) criterion += point.peak.deviance;  // the residual is what lies above
-    criterion += 2.0 * std::log(point.scatter > 0.0 ? point.mean_sd : point.sd);
+    if (point.weights.scatter > 0.0)
+      criterion += point.weights.peak.deviance;  // the residual is what lies above
+    criterion +=
+        2.0 * std::log(point.weights.scatter > 0.0 ? point.weights.mean_sd : point.weights.sd);
   }
   const std::size_t p = run.theta.size();
   std::vector<std::size_t> free;
@@ -139,7 +138,7 @@ double restricted_criterion(const ImpactModel& model, const Settled& settled) {
 
 }  // namespace
 
-double handicap(VarianceFunction function) {
+double penalty_of(VarianceFunction function) {
   switch (function) {
     case VarianceFunction::constant:
     case VarianceFunction::capture:
@@ -153,17 +152,30 @@ double handicap(VarianceFunction function) {
   return 0.0;
 }
 
-Settled settle(const ImpactModel& model, Observations data, std::span<const double> start,
-               const SettleOptions& options) {
+double choice_margin(const NoiseModel& noise) {
+  double own = 0.0;
+  double other = INFINITY;
+  for (const VarianceCandidate& candidate : noise.candidates) {
+    if (candidate.function == noise.variance) {
+      own = candidate.criterion + penalty_of(candidate.function);
+    } else {
+      other = std::min(other, candidate.criterion + penalty_of(candidate.function));
+    }
+  }
+  return std::isfinite(other) ? other - own : 0.0;
+}
+
+ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
+                             std::span<const double> start, const ReweightingOptions& options) {
   if (!data.weights_depend_on_fit()) {
-    Settled settled{{}, std::move(data)};
-    settled.run = minimise(impact_problem(model, settled.data), start, options.minimiser);
-    return settled;
+    ReweightedFit result{{}, std::move(data), true};
+    result.run = minimise(impact_problem(model, result.data), start, options.minimiser);
+    return result;
   }
   if (data.sd_stated || data.spec.variance) {
-    return settle_with(model, std::move(data), start, options);
+    return reweight_with(model, std::move(data), start, options);
   }
-  std::optional<Settled> best;
+  std::optional<ReweightedFit> best;
   double best_criterion = INFINITY;
   std::vector<VarianceCandidate> candidates;
   for (const VarianceFunction function :
@@ -171,16 +183,16 @@ Settled settle(const ImpactModel& model, Observations data, std::span<const doub
         VarianceFunction::steep}) {
     Observations own = data;
     own.noise.variance = function;
-    Settled settled = settle_with(model, std::move(own), start, options);
-    if (!settled.run.converged) {
-      if (!best) best = std::move(settled);
+    ReweightedFit result = reweight_with(model, std::move(own), start, options);
+    if (!result.run.converged) {
+      if (!best) best = std::move(result);
       continue;
     }
-    const double criterion = restricted_criterion(model, settled);
-    candidates.push_back({function, settled.data.noise.scale, criterion});
-    if (criterion + handicap(function) < best_criterion) {
-      best_criterion = criterion + handicap(function);
-      best = std::move(settled);
+    const double criterion = restricted_criterion(model, result);
+    candidates.push_back({function, result.data.noise.scale, criterion});
+    if (criterion + penalty_of(function) < best_criterion) {
+      best_criterion = criterion + penalty_of(function);
+      best = std::move(result);
     }
   }
   best->data.noise.candidates = std::move(candidates);

@@ -1,10 +1,13 @@
-#include "estimate/reweigh.hpp"
+#include "estimate/weights.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/roots.hpp"
+#include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
 #include "estimate/survivors.hpp"
 
 namespace recoil {
@@ -28,7 +31,7 @@ struct Local {
 };
 
 /// sd of a mean of `rebounds` impacts at predicted e^2 = m.
-double function_sd(VarianceFunction function, double scale, double m, double nearness,
+double function_sd(VarianceFunction function, double scale, double m, double proximity,
                    int rebounds) {
   const double s = scale / std::sqrt(static_cast<double>(std::max(1, rebounds)));
   const double square = std::max(m, 0.0);
@@ -39,7 +42,7 @@ double function_sd(VarianceFunction function, double scale, double m, double nea
     // 4 e^2 sd^2 + 2 sd^4 = s^2, the variance of e^2 for a normal e.
     return s * std::sqrt(0.5 / (square + std::sqrt(square * square + 0.5 * s * s)));
   }
-  if (function == VarianceFunction::steep) return s * std::exp(steepness * nearness);
+  if (function == VarianceFunction::steep) return s * std::exp(steepness * proximity);
   return s;
 }
 
@@ -51,14 +54,14 @@ double error_step(double relative) {
 }
 
 /// Everything is asked of the model at once, in the order in which it is needed.
-class Reweighing {
+class Renewal {
  public:
   enum class What { everything, event_spread };
 
-  explicit Reweighing(Observations& data, What what = What::everything)
+  explicit Renewal(Observations& data, What what = What::everything)
       : data_(data), everything_(what == What::everything) {
     for (const Observation& point : data.points) {
-      mixed_ = mixed_ || (point.captured > 0 && !point.censored);
+      mixed_ = mixed_ || point.mixed();
     }
     if (!mixed_) forget_scatter();
     if (mixed_ && !(data.noise.event_spread > 0.0)) data.noise.event_spread = first_spread;
@@ -74,7 +77,7 @@ class Reweighing {
       }
     };
     for (const Observation& p : data_.points) {
-      all.push_back({p.dataset, p.diameter, p.velocity, p.series});
+      all.push_back(p.conditions());
       if (everything_ && p.velocity_sd > 0.0)
         beside(p, error_step(p.velocity_sd / p.velocity), true);
       if (everything_ && p.diameter_sd > 0.0)
@@ -101,7 +104,7 @@ class Reweighing {
       if (everything_) set_errors(point, m, local);
       if (mixed_) locals.push_back(local(m, std::sqrt(3.0) * data_.noise.event_spread));
     }
-    if (mixed_) settle_scatter(locals);
+    if (mixed_) estimate_scatter(locals);
     return predicted;
   }
 
@@ -115,11 +118,11 @@ class Reweighing {
       const double less = answers[3 * i + 2].restitution_squared;
       const double h = std::sqrt(3.0) * data_.noise.event_spread;
       Observation& point = changed.points[i];
-      if (!(point.scatter > 0.0)) continue;
+      if (!(point.weights.scatter > 0.0)) continue;
       set_scatter(point,
                   {middle, (more - less) / (2.0 * h), (more - 2.0 * middle + less) / (h * h)},
                   changed.noise.event_spread);
-      if (point.scatter > 0.0 && !point.censored) locate_peak(point);
+      if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
     }
     return changed;
   }
@@ -129,8 +132,8 @@ class Reweighing {
   void forget_scatter() {
     data_.noise.event_spread = 0.0;
     for (Observation& point : data_.points) {
-      point.scatter = 0.0;
-      point.shift = 0.0;
+      point.weights.scatter = 0.0;
+      point.weights.shift = 0.0;
     }
   }
 
@@ -139,11 +142,12 @@ class Reweighing {
   template <class NextLocal>
   void set_errors(Observation& point, double m, const NextLocal& local) const {
     if (!data_.sd_stated) {
-      point.sd = function_sd(data_.noise.variance, data_.noise.scale, m, point.nearness,
-                             point.censored ? point.events : point.rebounds());
+      point.weights.sd =
+          function_sd(data_.noise.variance, data_.noise.scale, m, point.weights.proximity,
+                      point.censored ? point.events : point.rebounds());
     }
     double variance = 0.0;
-    point.input_bias = 0.0;
+    point.weights.input_bias = 0.0;
     for (const bool in_velocity : {true, false}) {
       const double relative =
           in_velocity ? point.velocity_sd / point.velocity : point.diameter_sd / point.diameter;
@@ -151,24 +155,25 @@ class Reweighing {
       const Local at = local(m, error_step(relative));
       const double shared = in_velocity && point.rebound_measured ? 2.0 * std::max(m, 0.0) : 0.0;
       variance += std::pow((at.slope + shared) * relative, 2);
-      point.input_bias += 0.5 * at.bend * relative * relative;
+      point.weights.input_bias += 0.5 * at.bend * relative * relative;
     }
-    point.input_sd = std::sqrt(variance);
+    point.weights.input_sd = std::sqrt(variance);
   }
 
   void set_scatter(Observation& point, const Local& at, double spread) const {
     const double square = spread * spread;
-    point.shift = 0.5 * square * at.bend;
-    point.scatter =
+    point.weights.shift = 0.5 * square * at.bend;
+    point.weights.scatter =
         std::sqrt(square * at.slope * at.slope + 0.5 * square * square * at.bend * at.bend);
-    const double u = (at.value + point.shift) / point.scatter;
+    const double u = (at.value + point.weights.shift) / point.weights.scatter;
     if (!(u < far_from_capture) && point.captured == 0) {
-      point.scatter = 0.0;
-      point.shift = 0.0;
+      point.weights.scatter = 0.0;
+      point.weights.shift = 0.0;
       return;
     }
-    const double slope = root_of_positive_normal(u).slope / std::sqrt(point.scatter);
-    point.mean_sd = std::hypot(survivors_sd(point, at.value), slope * point.input_sd);
+    const double slope = root_of_positive_normal(u).slope / std::sqrt(point.weights.scatter);
+    point.weights.mean_sd =
+        std::hypot(survivors_sd(point, at.value), slope * point.weights.input_sd);
   }
 
   double deviance(const std::vector<Local>& locals, double log_spread) const {
@@ -176,25 +181,26 @@ class Reweighing {
     for (std::size_t i = 0; i < locals.size(); ++i) {
       Observation point = data_.points[i];
       set_scatter(point, locals[i], std::exp(log_spread));
-      if (point.scatter > 0.0) {
+      if (point.weights.scatter > 0.0) {
         sum += event_deviance(point, locals[i].value);
-        if (!point.censored) sum += 2.0 * std::log(point.mean_sd / point.sd);
+        if (!point.censored) sum += 2.0 * std::log(point.weights.mean_sd / point.weights.sd);
       } else {
         sum += std::pow(
-            (point.restitution - expected_restitution(point, locals[i].value)) / point.sd, 2);
+            (point.restitution - expected_restitution(point, locals[i].value)) / point.weights.sd,
+            2);
       }
     }
     return sum;
   }
 
   /// omega by maximum likelihood at these parameters, and what follows for every point.
-  void settle_scatter(const std::vector<Local>& locals) {
+  void estimate_scatter(const std::vector<Local>& locals) {
     double& spread = data_.noise.event_spread;
     spread = std::exp(lowest(locals));
     for (std::size_t i = 0; i < locals.size(); ++i) {
       Observation& point = data_.points[i];
       set_scatter(point, locals[i], spread);
-      if (point.scatter > 0.0 && !point.censored) locate_peak(point);
+      if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
     }
   }
 
@@ -234,40 +240,41 @@ class Reweighing {
 namespace {
 
 std::optional<std::vector<double>> renew(const ImpactModel& model, std::span<const double> theta,
-                                         Reweighing reweighing) {
-  const std::vector<Prediction> answers = predict(model, theta, reweighing.questions(), false);
+                                         Renewal renewal) {
+  const std::vector<Prediction> answers = predict(model, theta, renewal.questions(), false);
   for (const Prediction& answer : answers) {
     if (!answer.usable()) return std::nullopt;
   }
-  return reweighing.learn(answers);
+  return renewal.learn(answers);
 }
 
 }  // namespace
 
-std::optional<std::vector<double>> reweigh(const ImpactModel& model, std::span<const double> theta,
-                                           Observations& data) {
+std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
+                                                 std::span<const double> theta,
+                                                 Observations& data) {
   if (!data.sd_stated) {
     for (Observation& point : data.points) {
       const double ratio =
           weakly_damped_capture(model, theta, point.dataset, point.diameter) / point.velocity;
-      point.nearness = std::min(1.0, ratio * ratio);
+      point.weights.proximity = std::min(1.0, ratio * ratio);
     }
   }
-  return renew(model, theta, Reweighing(data));
+  return renew(model, theta, Renewal(data));
 }
 
 bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
                         Observations& data) {
   if (!(data.noise.event_spread > 0.0)) return true;
-  return renew(model, theta, Reweighing(data, Reweighing::What::event_spread)).has_value();
+  return renew(model, theta, Renewal(data, Renewal::What::event_spread)).has_value();
 }
 
 std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<const double> theta,
                                             const Observations& data, std::span<const double> C) {
   if (!(data.noise.event_spread > 0.0) || C.empty()) return {};
   Observations own = data;
-  const Reweighing reweighing(own, Reweighing::What::event_spread);
-  const std::vector<Prediction> answers = predict(model, theta, reweighing.questions(), false);
+  const Renewal renewal(own, Renewal::What::event_spread);
+  const std::vector<Prediction> answers = predict(model, theta, renewal.questions(), false);
   for (const Prediction& answer : answers) {
     if (!answer.usable()) return {};
   }
@@ -277,7 +284,7 @@ std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<
   std::vector<double> deviance;             // T at ln omega - step, 0, + step
   std::vector<std::vector<double>> slopes;  // half of dT / d theta there
   for (const double by : {-step, 0.0, step}) {
-    const Observations there = reweighing.with_spread(answers, std::exp(by));
+    const Observations there = renewal.with_spread(answers, std::exp(by));
     std::vector<double> residuals(n);
     std::vector<double> jacobian(n * p);
     if (!impact_problem(model, there).evaluate(theta, residuals, jacobian)) return {};
@@ -309,8 +316,8 @@ std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<
 double event_spread_offset(const Observations& data) {
   double sum = 0.0;
   for (const Observation& point : data.points) {
-    if (!(point.scatter > 0.0) || point.censored) continue;
-    sum += point.peak.deviance + 2.0 * std::log(point.mean_sd / point.sd);
+    if (!(point.weights.scatter > 0.0) || point.censored) continue;
+    sum += point.weights.peak.deviance + 2.0 * std::log(point.weights.mean_sd / point.weights.sd);
   }
   return sum;
 }

@@ -1,11 +1,12 @@
-#include "estimate/noise_words.hpp"
+#include "report/words_noise.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "estimate/noise.hpp"
+#include "estimate/reweighting.hpp"
 
 namespace recoil {
 namespace {
@@ -14,37 +15,58 @@ namespace {
 // standard deviation.
 constexpr double outlier_share = 0.1;
 constexpr double outlier_factor = 3.0;
-// Curvature over the errors of V and d that is worth a warning, in sd of the point's e^2.
-constexpr double strained = 0.1;
 // A likelihood ratio of e^(4/2), about 7 to 1, is worth the word "clear".
 constexpr double clear = 4.0;
 
+std::string p_words(double p_value) {
+  return p_value < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p_value);
+}
+
 std::string variance_words(const Observations& data) {
   const NoiseModel& noise = data.noise;
-  std::string text =
-      "the noise is estimated from the residuals: " + scale_in_words(noise.variance, noise.scale);
-  if (data.spec.variance)
-    return text + fmt::format(" ({}, as asked for)", to_string(noise.variance));
+  const std::string text =
+      "the noise is estimated from the residuals: " + scale_words(noise.variance, noise.scale);
+  if (data.spec.variance) {
+    return text + fmt::format(" ({}, as asked for)", name_of(noise.variance));
+  }
   if (noise.candidates.empty()) return text;
-  std::string others;
+  std::vector<std::string_view> others;
   for (const VarianceCandidate& candidate : noise.candidates) {
-    if (candidate.function == noise.variance) continue;
-    others += fmt::format("{}{}", others.empty() ? "" : " and ", to_string(candidate.function));
+    if (candidate.function != noise.variance) others.push_back(name_of(candidate.function));
   }
   const double margin = choice_margin(noise);
-  return text + fmt::format(" ({}, chosen before {} by {:.1f} on -2 ln restricted likelihood{})",
-                            to_string(noise.variance), others, margin,
+  return text + fmt::format(" ({}, chosen over {} by {:.1f} in -2 ln restricted likelihood{})",
+                            name_of(noise.variance), fmt::join(others, " and "), margin,
                             margin < clear ? ", which is no clear decision" : "");
+}
+
+std::string verdict_words(const FitResult& fitted) {
+  switch (fitted.noise_verdict) {
+    case NoiseVerdict::unchecked:
+      return "as many parameters as points: the noise cannot be checked";
+    case NoiseVerdict::estimated:
+      return variance_words(fitted.data);
+    case NoiseVerdict::explained:
+      return "the stated standard deviations explain the scatter";
+    case NoiseVerdict::doubtful:
+      return fmt::format(
+          "the scatter is at the edge of what the stated standard deviations explain ({})",
+          p_words(fitted.p_value));
+    case NoiseVerdict::exceeded:
+      return widened_words(fitted);
+  }
+  return "";
 }
 
 std::string input_words(const std::vector<Observation>& points) {
   double most = 0.0;
   int count = 0;
   for (const Observation& point : points) {
-    if (!(point.input_sd > 0.0) || point.censored) continue;
+    const PointWeights& weights = point.weights;
+    if (!(weights.input_sd > 0.0) || point.censored) continue;
     ++count;
-    const double width = std::max(2.0 * point.restitution, point.sd) * point.sd;
-    most = std::max(most, point.input_sd / width);
+    const double width = std::max(2.0 * point.restitution, weights.sd) * weights.sd;
+    most = std::max(most, weights.input_sd / width);
   }
   if (count == 0) return "";
   return fmt::format(
@@ -65,7 +87,7 @@ std::string student_words(const StudentNoise& student) {
 
 }  // namespace
 
-std::string scale_in_words(VarianceFunction function, double scale) {
+std::string scale_words(VarianceFunction function, double scale) {
   switch (function) {
     case VarianceFunction::proportional:
       return fmt::format("sd(e) = {:.3g} e for every impact", scale);
@@ -85,42 +107,25 @@ std::string scale_in_words(VarianceFunction function, double scale) {
   return "sd(e) as stated";
 }
 
-double choice_margin(const NoiseModel& noise) {
-  double own = 0.0;
-  double other = INFINITY;
-  for (const VarianceCandidate& candidate : noise.candidates) {
-    if (candidate.function == noise.variance) {
-      own = candidate.criterion + handicap(candidate.function);
-    } else {
-      other = std::min(other, candidate.criterion + handicap(candidate.function));
-    }
-  }
-  return std::isfinite(other) ? other - own : 0.0;
+std::string widened_words(const FitResult& fitted) {
+  return fmt::format(
+      "the residuals are {:.3g} times larger than the stated noise explains ({}): every error and "
+      "interval is widened by that factor, and still describes this model, not the truth",
+      fitted.noise_scale, p_words(fitted.p_value));
 }
 
-void describe_noise(FitResult& result) {
-  const Observations& data = result.data;
-  if (!data.sd_stated && result.dof > 0) result.noise_text = variance_words(data);
-  result.noise_text += input_words(data.points);
+std::string noise_words(const FitResult& fitted) {
+  if (!fitted.usable) return "";
+  const Observations& data = fitted.data;
+  std::string text = verdict_words(fitted) + input_words(data.points);
   if (data.noise.event_spread > 0.0) {
-    result.noise_text += fmt::format(
+    text += fmt::format(
         "; from impact to impact the capture velocity scatters by {:.1f} % (from the counts of "
         "captures), and means of survivors are compared with the expected means of survivors",
         100.0 * data.noise.event_spread);
   }
-  if (data.points.empty()) return;
-  if (data.points.front().student) result.noise_text += student_words(*data.points.front().student);
-  const auto bent = std::count_if(data.points.begin(), data.points.end(), [](const Observation& p) {
-    const double sd = std::hypot(std::max(2.0 * p.restitution, p.sd) * p.sd, p.input_sd);
-    return std::abs(p.input_bias) > strained * sd;
-  });
-  if (bent > 0) {
-    result.warnings.push_back(fmt::format(
-        "at {} points the curve bends so much over the errors of velocity or diameter that their "
-        "effective variance (first order) is biased by more than {:.1g} standard deviations: close "
-        "to capture these errors are too large for it",
-        bent, strained));
-  }
+  if (data.noise.student) text += student_words(*data.noise.student);
+  return text;
 }
 
 }  // namespace recoil

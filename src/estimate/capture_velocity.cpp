@@ -1,7 +1,9 @@
+#include "estimate/capture_velocity.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "estimate/model.hpp"
+#include "estimate/predictor.hpp"
 
 namespace recoil {
 namespace {
