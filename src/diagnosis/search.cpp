@@ -202,8 +202,8 @@ Observations simulate_base(const SearchBase& base, std::uint64_t index) {
   Observations sample = base.fitted.data;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     Observation& point = sample.points[i];
-    point =
-        simulate_observation(point, base.fitted.prediction_squared[i], base.noise_scale, random);
+    point = simulate_observation(point, base.fitted.prediction_squared[i], base.noise_scale,
+                                 sample.noise.student, random);
     if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
   }
   return sample;

@@ -27,7 +27,7 @@ struct StartSummary {
   bool converged = false;
   std::string message;  ///< the minimiser's own words
   StartOutcome outcome = StartOutcome::not_converged;
-  std::vector<std::size_t> differing;  ///< of a tie: the slots whose values differ
+  std::vector<std::size_t> differing = {};  ///< of a tie: the slots whose values differ
 };
 
 /// What the scatter of the points says of the standard deviations that they state.
