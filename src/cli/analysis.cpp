@@ -65,9 +65,9 @@ std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::stri
     known.push_back(datasets[d].id);
   }
   const std::string near = nearest_word(id, known);
-  throw InputError({}, fmt::format("--dataset {}: not a dataset of this fit", id),
-                   "it has to be one of those the fit names",
-                   near.empty() ? "leave it out for the first" : "did you mean " + near + "?");
+  throw InputError(
+      {}, fmt::format("--dataset {} is not a dataset of this fit", id), "",
+      near.empty() ? "leave the option out for the first one" : "did you mean " + near + "?");
 }
 
 void add_predictions(Analysis& analysis) {
@@ -83,12 +83,12 @@ void add_predictions(Analysis& analysis) {
     if (!sizes) continue;
     mix.probe_height = sizes->probe_height.value_or(PolydisperseOptions{}.probe_height);
     analysis.mixtures.push_back(
-        predict_mixture(analysis.fitted, analysis.data, d, assessed.bootstrap, *sizes, mix));
+        predict_mixture(analysis.fitted, d, assessed.bootstrap, *sizes, mix));
     compare.include.emplace_back(d, sizes->smallest);
     compare.include.emplace_back(d, sizes->largest);
   }
-  analysis.captures = compare_captures(analysis.fitted, analysis.data, analysis.datasets,
-                                       assessed.bootstrap, compare);
+  analysis.captures =
+      compare_captures(analysis.fitted, analysis.datasets, assessed.bootstrap, compare);
 }
 
 void add_corrections(Analysis& analysis) {
@@ -102,8 +102,7 @@ void add_corrections(Analysis& analysis) {
 Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& options) {
   Analysis analysis = analyse_fit(fit_file, options);
   const UncertaintyOptions assess = uncertainty_options(analysis.spec, options);
-  analysis.uncertainty =
-      assess_uncertainty(analysis.fitted, analysis.data, analysis.datasets, assess);
+  analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
   return analysis;
 }
 
@@ -111,17 +110,16 @@ Analysis analyse_fit(const std::filesystem::path& fit_file, const AnalysisOption
   Analysis analysis;
   analysis.spec = load_fit(fit_file);
   analysis.datasets = load_datasets(analysis.spec);
-  const Observations gathered = gather(analysis.datasets, analysis.spec.noise);
+  const Observations gathered = gather(analysis.datasets, analysis.spec);
   require_scheme(analysis.spec, options.scheme.value_or(analysis.spec.uncertainty.scheme),
                  gathered);
   ImpactModel model = make_model(analysis.spec, analysis.datasets);
-  model.solver = options.solver;
+  model.solver.kind = options.solver;
   analysis.fitted = fit(model, gathered);
   if (!analysis.fitted.usable) {
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", fit_file.string(),
                                        analysis.fitted.failure));
   }
-  analysis.data = analysis.fitted.data;
   return analysis;
 }
 

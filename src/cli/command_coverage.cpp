@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "report/coverage_picture.hpp"
 #include "report/coverage_summary.hpp"
+#include "report/words_dataset.hpp"
 #include "uncertainty/coverage_grid.hpp"
 #include "uncertainty/coverage_truth.hpp"
 
@@ -123,12 +124,12 @@ void run(const Options& options) {
         "write: recoil coverage FIT, or: recoil coverage --summary reports");
   }
   if (options.grid && options.fit_files.size() > 1) {
-    throw InputError({}, "coverage: --grid with several fits",
-                     "a grid has the system and the estimate of one fit", "name one");
+    throw InputError({}, "--grid takes one fit", "a grid has its system and its estimate",
+                     "name one");
   }
   if (!options.picture.empty() && !options.grid && options.summary.empty()) {
-    throw InputError({}, "coverage: --picture", "it shows a grid or a summary",
-                     "add --grid, or leave it out");
+    throw InputError({}, "--picture without --grid or --summary", "there is nothing else to show",
+                     "add one of them, or leave it out");
   }
   const std::string text = !options.summary.empty()        ? summary(options)
                            : options.fit_files.size() == 1 ? one_fit(options)

@@ -1,9 +1,14 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "core/error.hpp"
+#include "data/text.hpp"
 #include "experiment/import.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_import.hpp"
 
 namespace recoil {
 namespace {
@@ -20,10 +25,15 @@ void run_import(ImportFlags flags) {
   flags.request.file = flags.file;
   flags.request.into = flags.into;
   flags.request.like = flags.like;
-  flags.request.format = import_format_named(flags.format);
+  const auto format = value_named<ImportFormat>(flags.format);
+  if (!format) {
+    throw InputError({}, fmt::format("--format {}: there is no such format", quote(flags.format)),
+                     "", did_you_mean(flags.format, all_names<ImportFormat>()));
+  }
+  flags.request.format = *format;
   const ImportResult result = import_points(flags.request);
   fmt::print("{}", describe(result.dataset));
-  for (const std::string& note : result.notes) fmt::print("note: {}\n", note);
+  for (const ImportNote& note : result.notes) fmt::print("note: {}\n", note_sentence(note));
   fmt::print("{}: written\n", flags.into);
 }
 
@@ -50,7 +60,9 @@ void add_import(CLI::App& program) {
   const auto flags = std::make_shared<ImportFlags>();
   ImportRequest& r = flags->request;
   command->add_option("FILE", flags->file, "what to import")->required();
-  command->add_option("--format", flags->format, "webplotdigitizer, heights, intervals or csv")
+  command
+      ->add_option("--format", flags->format,
+                   fmt::format("one of {}", fmt::join(all_names<ImportFormat>(), ", ")))
       ->required();
   command->add_option("--into", flags->into, "the dataset's folder")->required();
   command->add_flag(

@@ -8,11 +8,13 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/dataset.hpp"
+#include "data/folder_names.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/events.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
 #include "report/experiment_figures.hpp"
+#include "report/words_impacts.hpp"
 
 namespace recoil {
 namespace {
@@ -49,13 +51,13 @@ std::map<std::string, std::string> assignments(const std::vector<std::string>& w
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == word.size()) {
-      throw InputError(
-          {}, fmt::format("{} {}", option, word), "it has the form FIELD=VALUE",
-          fmt::format("for example {} velocity={}", option, option == "--unit" ? "m/s" : "LDA1"));
+      throw InputError({}, fmt::format("{} {} is not of the form FIELD=VALUE", option, word), "",
+                       fmt::format("write for example {} velocity={}", option,
+                                   option == "--unit" ? "m/s" : "LDA1"));
     }
     if (!result.emplace(word.substr(0, equals), word.substr(equals + 1)).second) {
-      throw InputError({}, fmt::format("{} {} is given twice", option, word.substr(0, equals)),
-                       "only one could count", "remove one");
+      throw InputError({}, fmt::format("{} {} is given twice", option, word.substr(0, equals)), "",
+                       "remove one");
     }
   }
   return result;
@@ -71,38 +73,45 @@ void resolve(PairCommand& command) {
   for (const double edge : command.size_edges_um) {
     if (!command.averaging.size_edges.empty() &&
         edge * units::um <= command.averaging.size_edges.back()) {
-      throw InputError({}, "--size-edges do not ascend", "they are the limits of classes",
+      throw InputError({}, "--size-edges do not ascend", "",
                        "write for example --size-edges 20,40,60,110");
     }
     command.averaging.size_edges.push_back(edge * units::um);
   }
   if (command.averaging.size_edges.size() == 1) {
-    throw InputError({}, "--size-edges with one value", "a class has two limits",
+    throw InputError({}, "--size-edges has one value only", "a class has two limits",
                      "write for example --size-edges 20,40,60,110");
   }
 }
 
-/// The word that goes into the dataset: what the events' own package says, or the option.
-std::string provenance_of(const PairCommand& command, const EventTable& table) {
-  if (!command.provenance.empty() && !table.provenance.empty() &&
-      command.provenance != table.provenance) {
-    throw InputError({}, fmt::format("--provenance {}", command.provenance),
-                     fmt::format("datapackage.json beside the events says {}", table.provenance),
-                     "correct one of them");
+/// What the events' own package says, or the option; nothing when neither does.
+std::optional<Provenance> stated_provenance(const PairCommand& command, const EventTable& table) {
+  const auto stated = value_named<Provenance>(command.provenance);
+  if (stated && table.provenance && *stated != *table.provenance) {
+    throw InputError({},
+                     fmt::format("--provenance {}, but datapackage.json beside the events says {}",
+                                 command.provenance, to_string(*table.provenance)),
+                     "", "correct one of them");
   }
-  const std::string& word = command.provenance.empty() ? table.provenance : command.provenance;
-  if (word.empty()) {
-    throw InputError({}, "the provenance of the events is not known",
-                     "a dataset says where its points come from",
+  return stated ? stated : table.provenance;
+}
+
+/// The provenance of a dataset, which has to have one.
+Provenance provenance_of(const PairCommand& command, const EventTable& table) {
+  const auto provenance = stated_provenance(command, table);
+  if (!provenance) {
+    throw InputError({}, "the provenance of the events is not known", "every dataset states it",
                      "say --provenance measured, or synthetic for simulated events");
   }
-  return word;
+  return *provenance;
 }
 
 std::string remark_of(const PairCommand& command, const EventTable& table) {
-  const std::string& word = command.provenance.empty() ? table.provenance : command.provenance;
+  const auto provenance = stated_provenance(command, table);
   const std::string file = fs::path(table.file).filename().string();
-  return word.empty() || word == "measured" ? file : fmt::format("{}: {}", file, word);
+  return !provenance || *provenance == Provenance::measured
+             ? file
+             : fmt::format("{}: {}", file, to_string(*provenance));
 }
 
 /// Points of mixed sizes get the distribution of the sizes beside them; size classes need none.
@@ -110,9 +119,8 @@ void write_dataset(const PairCommand& command, const EventTable& table, const Pa
                    const std::string& points) {
   const bool mixed =
       command.averaging.size_edges.size() <= 2 && command.averaging.size_classes == 1;
-  const fs::path like = fs::path(command.like) / "datapackage.json";
   const std::string package = package_json(
-      read_text_file(like), like.string(), fs::absolute(command.into).lexically_normal().filename(),
+      command.like, fs::absolute(command.into).lexically_normal().filename(),
       provenance_of(command, table), fs::path(table.file).filename().string(),
       fmt::format("{} impacts that recoil pair found in {} passages; the measuring plane {:.5g} mm "
                   "above the surface; velocities at the surface.",
@@ -123,7 +131,7 @@ void write_dataset(const PairCommand& command, const EventTable& table, const Pa
   if (mixed) {
     write_whole_file(fs::path(command.into) / "sizes.csv", sizes_csv(distributions(table, pairs)));
   }
-  write_whole_file(fs::path(command.into) / "datapackage.json", package);
+  write_whole_file(fs::path(command.into) / package_file_name, package);
 }
 
 void run_pair(PairCommand command) {
@@ -229,7 +237,7 @@ void add_output_options(CLI::App& app, PairCommand& command) {
   like->needs(into);
   app.add_option("--provenance", command.provenance,
                  "of the events, where no datapackage.json beside them states it")
-      ->check(CLI::IsMember({"measured", "digitised", "reconstruction", "synthetic"}));
+      ->check(CLI::IsMember(all_names<Provenance>()));
   app.add_option("--per-bin", command.averaging.per_bin, "impacts of one point, about")
       ->capture_default_str()
       ->check(CLI::Range(2, 1000000));

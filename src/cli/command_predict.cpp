@@ -34,8 +34,7 @@ void predict_sizes(const PredictOptions& options) {
   assess.profile = false;
   assess.curves = false;
   assess.two_point = false;
-  analysis.uncertainty =
-      assess_uncertainty(analysis.fitted, analysis.data, analysis.datasets, assess);
+  analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
 
   PolydisperseOptions mix;
   mix.level = assess.level;
@@ -43,8 +42,8 @@ void predict_sizes(const PredictOptions& options) {
   if (sizes.probe_height) mix.probe_height = *sizes.probe_height;
   if (options.height >= 0.0) mix.probe_height = options.height * units::mm;
   if (options.midpoints) mix.parts = 1;
-  const PolydispersePrediction mixture = predict_mixture(
-      analysis.fitted, analysis.data, dataset, analysis.uncertainty.bootstrap, sizes, mix);
+  const PolydispersePrediction mixture =
+      predict_mixture(analysis.fitted, dataset, analysis.uncertainty.bootstrap, sizes, mix);
   if (!options.out.empty()) {
     const std::filesystem::path out = options.out;
     for (const Figure& figure : mixture_figures(analysis, mixture)) {

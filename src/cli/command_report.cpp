@@ -34,8 +34,9 @@ std::vector<fs::path> fits_to_report(const ReportOptions& options) {
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   }
   if (files.empty()) {
-    throw InputError({"fits"}, "no fit files here", "without FIT every fits/*.toml is reported",
-                     "run it from the project's folder, or name the fits");
+    throw InputError({"fits"}, "there are no fit files here",
+                     "without FIT every fits/*.toml is reported",
+                     "name the fits, or run this in the project's folder");
   }
   std::sort(files.begin(), files.end());
   return files;

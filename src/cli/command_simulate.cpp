@@ -10,7 +10,9 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
+#include "estimate/predictor.hpp"
 #include "impact/sensitivity.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {
@@ -29,15 +31,15 @@ void take_fitted_values(ImpactModel& model, const std::string& path) {
   const std::string text = read_text_file(path);
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("parameters")) {
-    throw InputError({path}, "no fitted parameters here", "--parameters reads a fit.json",
-                     "make one with: recoil fit FIT --out DIR");
+    throw InputError({path}, "there are no fitted parameters in this file",
+                     "--parameters reads a fit.json", "make one with recoil fit FIT --out DIR");
   }
   for (ParameterSlot& slot : model.slots) {
     const auto found = json["parameters"].find(slot.label());
     if (found == json["parameters"].end() || !found->contains("value") ||
         !(*found)["value"].is_number()) {
-      throw InputError({path}, fmt::format("parameter {} is missing", slot.label()),
-                       "it belongs to another fit", "use the fit.json of this fit file");
+      throw InputError({path}, fmt::format("the parameter {} is missing", slot.label()),
+                       "this is the result of another fit", "use the fit.json of this fit file");
     }
     slot.initial = (*found)["value"].get<double>();
   }
@@ -97,10 +99,10 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
     std::string values;
     for (std::size_t j = 0; j < theta.size(); ++j) {
       const ParameterSlot& slot = model.slots[j];
-      if (slot.mechanism != mechanism->info.id) continue;
-      without[j] = slot.null_value;
+      if (slot.mechanism() != mechanism) continue;
+      without[j] = slot.parameter->null_value;
       values += fmt::format("{}{} = {:.6g}{}", values.empty() ? "" : ", ", slot.label(),
-                            slot.initial, unit_suffix(slot.unit));
+                            slot.initial, unit_suffix(slot.parameter->unit));
     }
     fmt::print("  {:<22}{:>+12.6f}  ({}; {})\n", mechanism->info.id, square(without) - all,
                to_string(mechanism->info.kind), values);

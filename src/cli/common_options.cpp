@@ -8,10 +8,10 @@ AnalysisOptions AnalysisFlags::resolved() const {
   AnalysisOptions options;
   options.replicates_auto = replicates == "auto";
   if (!replicates.empty() && !options.replicates_auto) options.replicates = std::stoi(replicates);
-  if (!scheme.empty()) options.scheme = scheme_named(scheme);
+  if (!scheme.empty()) options.scheme = value_named<Scheme>(scheme);
   if (seed >= 0) options.seed = static_cast<std::uint64_t>(seed);
   options.threads = threads;
-  options.solver = solver == "reference" ? Solver::reference : Solver::fast;
+  options.solver = value_named<Solver>(solver).value_or(Solver::fast);
   return options;
 }
 
@@ -26,13 +26,13 @@ void add_analysis_flags(CLI::App& command, AnalysisFlags& flags) {
       .add_option("--scheme", flags.scheme,
                   "how new data sets are drawn: auto, parametric, residual, wild, case, cluster "
                   "(default: the fit file's)")
-      ->check(CLI::IsMember(scheme_names()));
+      ->check(CLI::IsMember(all_names<Scheme>()));
   command.add_option("--seed", flags.seed, "fixes every digit (default: the fit file's)")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   command.add_option("--threads", flags.threads, "threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
   command.add_option("--solver", flags.solver, "fast (default) or reference (CVODES)")
-      ->check(CLI::IsMember({"fast", "reference"}));
+      ->check(CLI::IsMember(all_names<Solver>()));
 }
 
 }  // namespace recoil

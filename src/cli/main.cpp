@@ -32,7 +32,7 @@ std::string unknown_option(const CLI::App& program, int argc, char** argv) {
     if (word.rfind("--", 0) != 0 || word == "--") continue;
     if (std::find(known.begin(), known.end(), word) != known.end()) continue;
     const std::string near = recoil::nearest_word(word, known);
-    return fmt::format("unknown option '{}' (recoil {} does not have it) {}", word, argv[1],
+    return fmt::format("unknown option '{}' of recoil {}; {}", word, argv[1],
                        near.empty() ? fmt::format("see recoil {} --help", argv[1])
                                     : fmt::format("did you mean {}?", near));
   }
@@ -50,14 +50,14 @@ std::string one_line(const CLI::ParseError& error, const CLI::App& program, int 
   if (argc > 1 && argv[1][0] != '-' &&
       std::find(known.begin(), known.end(), argv[1]) == known.end()) {
     const std::string near = recoil::nearest_word(argv[1], known);
-    return fmt::format("unknown command '{}' {}", argv[1],
+    return fmt::format("unknown command '{}'; {}", argv[1],
                        near.empty() ? "see recoil --help" : fmt::format("did you mean {}?", near));
   }
   if (const std::string option = unknown_option(program, argc, argv); !option.empty()) {
     return option;
   }
   const std::string command = argc > 1 && argv[1][0] != '-' ? fmt::format(" {}", argv[1]) : "";
-  return fmt::format("{} (the command line is wrong) see recoil{} --help", message, command);
+  return fmt::format("{}; see recoil{} --help", message, command);
 }
 
 }  // namespace
@@ -109,8 +109,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", error.what());
     return no_answer;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "recoil: unexpected: {} (this is a defect of recoil) please report it\n",
-               error.what());
+    fmt::print(stderr, "recoil: {} (this is a defect of recoil); please report it\n", error.what());
     return no_answer;
   }
 }

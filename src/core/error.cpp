@@ -28,7 +28,7 @@ std::string compose(const Location& where, const std::string& problem, const std
   }
   text += problem;
   if (!why.empty()) text += fmt::format(" ({})", why);
-  if (!suggestion.empty()) text += fmt::format(" {}", suggestion);
+  if (!suggestion.empty()) text += fmt::format("; {}", suggestion);
   return one_line(std::move(text));
 }
 
@@ -52,7 +52,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 InputError::InputError(const Location& where, const std::string& problem, const std::string& why,
                        const std::string& suggestion)
-    : std::runtime_error(compose(where, problem, why, suggestion)), where_(where) {}
+    : std::runtime_error(compose(where, problem, why, suggestion)),
+      where_(where),
+      problem_(one_line(problem)),
+      why_(one_line(why)),
+      suggestion_(one_line(suggestion)) {}
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
   std::string best;

@@ -17,17 +17,16 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max
   std::error_code failed;
   const auto status = std::filesystem::status(path, failed);
   if (failed || !std::filesystem::exists(status)) {
-    throw InputError(where, "no such file", "it has to be read", "check the path");
+    throw InputError(where, "no such file", "", "check the path");
   }
   if (std::filesystem::is_directory(status)) {
-    throw InputError(where, "this is a folder", "a file is expected here", "name a file inside it");
+    throw InputError(where, "this is a folder, not a file", "", "name a file inside it");
   }
   const std::uintmax_t size =
       std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, failed) : 0;
   if (!failed && size > max_bytes) {
     throw InputError(where, fmt::format("the file has {} MB", size / 1000000),
-                     fmt::format("at most {} MB are read", max_bytes / 1000000),
-                     "split it, or average events into points first");
+                     fmt::format("at most {} MB are read", max_bytes / 1000000), "split it");
   }
   std::ifstream in(path, std::ios::binary);
   std::string text;
@@ -39,13 +38,13 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max
   }
   if (text.size() > max_bytes) {
     throw InputError(where, fmt::format("the file has more than {} MB", max_bytes / 1000000),
-                     "no more is read into memory",
-                     "split it, or average events into points first");
+                     "no more is read", "split it");
   }
-  if (!in.eof()) throw InputError(where, "cannot read the file", "permission or disk", "check it");
+  if (!in.eof())
+    throw InputError(where, "the file cannot be read", "", "check its permissions and the disk");
   if (const auto nul = text.find('\0'); nul != std::string::npos) {
-    throw InputError(where, fmt::format("byte {} is NUL", nul + 1), "this is not a text file",
-                     "export it as UTF-8 text");
+    throw InputError(where, "this is not a text file", fmt::format("byte {} is NUL", nul + 1),
+                     "save it as UTF-8 text");
   }
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte-order mark carries no meaning
   return text;
@@ -63,16 +62,16 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
     out.close();
     if (!out) {
       std::filesystem::remove(beside, failed);
-      throw InputError(where, "cannot write the file", "permission or a full disk",
-                       "choose another --out");
+      throw InputError(where, "the file cannot be written", "",
+                       "check its folder's permissions and the disk");
     }
   }
   std::filesystem::rename(beside, path, failed);
   if (failed) {
     std::error_code ignored;
     std::filesystem::remove(beside, ignored);
-    throw InputError(where, "cannot put the finished file in place", failed.message(),
-                     "choose another --out");
+    throw InputError(where, "the finished file cannot be put in its place", failed.message(),
+                     "choose another place");
   }
 }
 
@@ -84,12 +83,12 @@ void require_writable_folder(const std::filesystem::path& folder) {
     nearest = nearest.parent_path();
   }
   if (!std::filesystem::is_directory(nearest, failed)) {
-    throw InputError(where, fmt::format("{} is a file", nearest.string()),
-                     "results are written into a folder", "choose another --out");
+    throw InputError(where, fmt::format("{} is a file, not a folder", nearest.string()), "",
+                     "choose another folder for the results");
   }
   if (access(nearest.c_str(), W_OK) != 0) {
-    throw InputError(where, fmt::format("no permission to write into {}", nearest.string()),
-                     "results are written there at the end", "choose another --out");
+    throw InputError(where, fmt::format("no permission to write into {}", nearest.string()), "",
+                     "choose another folder for the results");
   }
 }
 

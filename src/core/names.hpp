@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace recoil {
 
@@ -21,7 +22,9 @@ template <class Enum>
 struct NamesOf;
 
 template <class Enum>
-concept NamedEnum = requires { NamesOf<Enum>::names.size(); };
+concept NamedEnum = requires {
+  NamesOf<Enum>::names.size();
+};
 
 /// How many values `Enum` has.
 template <NamedEnum Enum>
@@ -43,6 +46,12 @@ constexpr std::array<Enum, count_of<Enum>> values_of() {
   std::array<Enum, count_of<Enum>> values{};
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<Enum>(i);
   return values;
+}
+
+/// Every name, in the order of the values.
+template <NamedEnum Enum>
+std::vector<std::string> all_names() {
+  return {NamesOf<Enum>::names.begin(), NamesOf<Enum>::names.end()};
 }
 
 /// The value of that name; none for an unknown word, which is the caller's error to report.

@@ -11,15 +11,23 @@ struct Unit {
   double factor;
 };
 
-constexpr std::array<Unit, 8> known_units = {{
-    {Dimension::length, "um", units::um},
-    {Dimension::length, "mm", units::mm},
-    {Dimension::length, "m", units::m},
-    {Dimension::velocity, "m/s", 1.0},
-    {Dimension::velocity, "cm/s", 1e-2},
+constexpr std::array<Unit, 16> known_units = {{
+    {Dimension::count, "1", 1.0},
     {Dimension::ratio, "1", 1.0},
     {Dimension::ratio, "%", 1e-2},
-    {Dimension::count, "1", 1.0},
+    {Dimension::length, "um", units::um},
+    {Dimension::length, "µm", units::um},
+    {Dimension::length, "nm", units::nm},
+    {Dimension::length, "mm", units::mm},
+    {Dimension::length, "cm", units::cm},
+    {Dimension::length, "m", units::m},
+    {Dimension::velocity, "m/s", 1.0},
+    {Dimension::velocity, "cm/s", units::cm},
+    {Dimension::velocity, "mm/s", units::mm},
+    {Dimension::time, "s", 1.0},
+    {Dimension::time, "ms", units::ms},
+    {Dimension::time, "us", units::us},
+    {Dimension::time, "µs", units::us},
 }};
 
 }  // namespace
@@ -37,6 +45,13 @@ std::vector<std::string> unit_names(Dimension dimension) {
     if (known.dimension == dimension) names.emplace_back(known.name);
   }
   return names;
+}
+
+std::optional<Dimension> dimension_of_unit(std::string_view unit) {
+  for (const Unit& known : known_units) {
+    if (known.name == unit) return known.dimension;
+  }
+  return std::nullopt;
 }
 
 }  // namespace recoil

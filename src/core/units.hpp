@@ -1,18 +1,24 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/names.hpp"
 
 namespace recoil {
 
 /// Multiply by these to come into SI, divide to leave it: `4.9 * units::um`.
 namespace units {
 inline constexpr double m = 1.0;
+inline constexpr double cm = 1e-2;
 inline constexpr double mm = 1e-3;
 inline constexpr double um = 1e-6;
 inline constexpr double nm = 1e-9;
+inline constexpr double ms = 1e-3;
+inline constexpr double us = 1e-6;
 inline constexpr double ns = 1e-9;
 inline constexpr double GPa = 1e9;
 }  // namespace units
@@ -20,14 +26,23 @@ inline constexpr double GPa = 1e9;
 /// Standard gravity [m/s2], exact by definition (CGPM 1901).
 inline constexpr double standard_gravity = 9.80665;
 
-/// What a column of a data file measures.
-enum class Dimension { length, velocity, ratio, count };
+/// What a column of a data file or a value on the command line measures. Texts have no unit.
+enum class Dimension { text, count, ratio, length, velocity, time };
+
+template <>
+struct NamesOf<Dimension> {
+  static constexpr std::array<std::string_view, 6> names = {"text",   "count",    "ratio",
+                                                            "length", "velocity", "time"};
+};
 
 /// The factor to SI of a unit name ("um", "cm/s", "%"), or nothing when `unit` does not belong to
 /// `dimension`.
 std::optional<double> unit_factor(Dimension dimension, std::string_view unit);
 
-/// The unit names accepted for `dimension`, for error messages.
+/// The unit names accepted for `dimension`, for error messages; the usual one first.
 std::vector<std::string> unit_names(Dimension dimension);
+
+/// What `unit` measures, if it is known at all.
+std::optional<Dimension> dimension_of_unit(std::string_view unit);
 
 }  // namespace recoil

@@ -79,21 +79,21 @@ class CsvReader {
 
   [[noreturn]] void fail_inside() {
     if (csv_error(&parser_) == CSV_ENOMEM) throw std::bad_alloc();
-    throw InputError({file_, line_, column_}, "a quotation mark is in the wrong place",
-                     "a quoted cell begins and ends with one, and inside it each is doubled",
+    throw InputError({file_, line_, column_}, "a quotation mark in the middle of a cell",
+                     "a quoted cell begins and ends with one",
                      "write \"\" for a mark inside a quoted cell");
   }
 
   [[noreturn]] void fail_endless() const {
     throw InputError({file_, field_line_, field_column_},
-                     fmt::format("a cell of more than {} characters", longest_cell),
-                     "no table has that", "is a quotation mark never closed, or this no CSV file?");
+                     fmt::format("a cell has more than {} characters", longest_cell), "",
+                     "look for a quotation mark that is never closed");
   }
 
   [[noreturn]] void fail_at_end() {
     if (csv_error(&parser_) == CSV_ENOMEM) throw std::bad_alloc();
-    throw InputError({file_, field_line_, field_column_}, "this quotation mark is never closed",
-                     "the rest of the file would be one cell", "close it with another \"");
+    throw InputError({file_, field_line_, field_column_}, "this quotation mark is never closed", "",
+                     "close it with another \"");
   }
 
   csv_parser parser_{};

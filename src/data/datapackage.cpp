@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
-#include "core/units.hpp"
 #include "data/json_document.hpp"
 #include "data/system.hpp"
 #include "data/text.hpp"
@@ -14,90 +12,57 @@
 namespace recoil {
 namespace {
 
-/// A field name of the format. `dimension` has no meaning for `series`, which is text.
-struct KnownField {
-  std::string_view name;
-  Quantity quantity;
-  Dimension dimension;
-};
-
-constexpr std::array<KnownField, 10> known_fields = {{
-    {"series", Quantity::series, Dimension::count},
-    {"diameter", Quantity::diameter, Dimension::length},
-    {"incident_velocity", Quantity::incident_velocity, Dimension::velocity},
-    {"restitution", Quantity::restitution, Dimension::ratio},
-    {"rebound_velocity", Quantity::rebound_velocity, Dimension::velocity},
-    {"restitution_sd", Quantity::restitution_sd, Dimension::ratio},
-    {"velocity_sd", Quantity::velocity_sd, Dimension::velocity},
-    {"diameter_sd", Quantity::diameter_sd, Dimension::length},
-    {"events", Quantity::events, Dimension::count},
-    {"captured", Quantity::captured, Dimension::count},
-}};
-
-std::vector<std::string> field_names() {
-  std::vector<std::string> names;
-  for (const KnownField& known : known_fields) names.emplace_back(known.name);
-  return names;
-}
-
 bool is_count(Quantity quantity) {
   return quantity == Quantity::events || quantity == Quantity::captured;
 }
 
 /// Frictionless `type` of a field. @returns whether it asks for whole numbers.
-bool read_type(const JsonNode& field, const KnownField& known) {
-  const JsonNode type =
-      field.require("type", "the schema says what the cells are",
-                    known.quantity == Quantity::series ? "write \"string\"" : "write \"number\"");
+bool read_type(const JsonNode& field, Quantity quantity) {
+  const bool text = quantity == Quantity::series;
+  const JsonNode type = field.require("type", "it says how the cells are read",
+                                      text ? "write \"string\"" : "write \"number\"");
   const std::string word = type.string();
   std::vector<std::string> allowed = {"number", "integer"};
-  if (known.quantity == Quantity::series) allowed = {"string"};
-  if (known.quantity == Quantity::captured) allowed.emplace_back("boolean");
+  if (text) allowed = {"string"};
+  if (quantity == Quantity::captured) allowed.emplace_back("boolean");
   if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) {
-    type.fail(fmt::format("the type {} does not fit the field '{}'", quote(word), known.name),
-              "the cells are converted by it", fmt::format("write {}", join(allowed)));
+    type.fail(fmt::format("the type of '{}' is {}", name_of(quantity), quote(word)), "",
+              fmt::format("write {}", join(allowed)));
   }
-  return word == "integer" || is_count(known.quantity);
+  return word == "integer" || is_count(quantity);
 }
 
-void read_unit(const JsonNode& field, const KnownField& known, Column& column) {
-  const std::vector<std::string> names = unit_names(known.dimension);
-  const std::optional<JsonNode> stated = field.find("unit");
-  if (!stated && is_count(known.quantity)) return;  // impacts are counted in no other unit
-  const JsonNode node =
-      field.require("unit", fmt::format("the cells of '{}' are converted by it", known.name),
-                    fmt::format("known: {}", join(names)));
+void read_unit(const JsonNode& field, Column& column) {
+  const Dimension dimension = dimension_of(column.quantity);
+  const std::string use = fmt::format("use {}", join(unit_names(dimension)));
+  if (!field.find("unit") && is_count(column.quantity)) return;  // counted in no other unit
+  const JsonNode node = field.require("unit", "values are converted by it", use);
   column.unit = node.string();
-  if (const auto factor = unit_factor(known.dimension, column.unit)) {
+  if (const auto factor = unit_factor(dimension, column.unit)) {
     column.factor = *factor;
     return;
   }
-  for (const Dimension other :
-       {Dimension::length, Dimension::velocity, Dimension::ratio, Dimension::count}) {
-    if (unit_factor(other, column.unit)) {
-      node.fail(fmt::format("'{}' in {}", known.name, quote(column.unit)),
-                "this unit measures something else", fmt::format("use {}", join(names)));
-    }
+  if (const auto other = dimension_of_unit(column.unit)) {
+    node.fail(fmt::format("'{}' in {}", column.name, quote(column.unit)),
+              fmt::format("that is the unit of a {}", name_of(*other)), use);
   }
-  node.fail(fmt::format("unknown unit {}", quote(column.unit)),
-            fmt::format("'{}' could not be converted", known.name),
-            fmt::format("use {}", join(names)));
+  node.fail(fmt::format("unknown unit {} of '{}'", quote(column.unit), column.name), "", use);
 }
 
 Column read_field(const JsonNode& field) {
-  const JsonNode name = field.require("name", "it ties the field to a column",
-                                      fmt::format("known: {}", join(field_names())));
+  const std::vector<std::string> names = all_names<Quantity>();
+  const JsonNode name =
+      field.require("name", "it ties the field to a column", fmt::format("known: {}", join(names)));
   Column column;
   column.name = name.string();
-  const auto known = std::find_if(known_fields.begin(), known_fields.end(),
-                                  [&](const KnownField& k) { return k.name == column.name; });
-  if (known == known_fields.end()) {
-    name.fail(fmt::format("unknown field {}", quote(column.name)),
-              "its column would be ignored silently", did_you_mean(column.name, field_names()));
+  const auto quantity = value_named<Quantity>(column.name);
+  if (!quantity) {
+    name.fail(fmt::format("unknown field {}", quote(column.name)), "its column would be ignored",
+              did_you_mean(column.name, names));
   }
-  column.quantity = known->quantity;
-  column.integer = read_type(field, *known);
-  if (column.quantity != Quantity::series) read_unit(field, *known, column);
+  column.quantity = *quantity;
+  column.integer = read_type(field, *quantity);
+  if (*quantity != Quantity::series) read_unit(field, column);
   return column;
 }
 
@@ -108,14 +73,11 @@ const Column* find_column(const std::vector<Column>& columns, Quantity quantity)
 }
 
 void check_completeness(const JsonNode& fields, const std::vector<Column>& columns) {
-  for (const KnownField& known : known_fields) {
-    const bool needed = known.quantity == Quantity::series ||
-                        known.quantity == Quantity::diameter ||
-                        known.quantity == Quantity::incident_velocity;
-    if (needed && find_column(columns, known.quantity) == nullptr) {
-      fields.fail(fmt::format("the field '{}' is missing", known.name), "every point needs it",
-                  "add it to the schema and the CSV file");
-    }
+  for (const Quantity needed :
+       {Quantity::series, Quantity::diameter, Quantity::incident_velocity}) {
+    if (find_column(columns, needed) != nullptr) continue;
+    fields.fail(fmt::format("the field '{}' is missing", name_of(needed)), "every point needs it",
+                "add it to the schema and the CSV file");
   }
   if (find_column(columns, Quantity::restitution) == nullptr &&
       find_column(columns, Quantity::rebound_velocity) == nullptr) {
@@ -132,13 +94,13 @@ std::vector<Column> read_fields(const JsonNode& fields) {
       field.find("name")->fail(problem, why, "remove one");
     };
     if (find_column(columns, column.quantity) != nullptr) {
-      name_fails(fmt::format("the field '{}' stands here twice", column.name),
-                 "only one could count");
+      name_fails(fmt::format("the field '{}' stands here twice", column.name), "");
     }
     columns.push_back(column);
     if (find_column(columns, Quantity::restitution) != nullptr &&
         find_column(columns, Quantity::rebound_velocity) != nullptr) {
-      name_fails("both 'restitution' and 'rebound_velocity'", "they could contradict each other");
+      name_fails("both 'restitution' and 'rebound_velocity' are there",
+                 "they could contradict each other");
     }
   }
   check_completeness(fields, columns);
@@ -152,8 +114,9 @@ std::string read_path(const JsonNode& node) {
   const bool climbs = std::find(path.begin(), path.end(), "..") != path.end();
   if (text.empty() || path.is_absolute() || climbs || !path.has_filename() ||
       text.find("://") != std::string::npos || printable(text) != text) {
-    node.fail(fmt::format("the path {} leaves the dataset's folder or names no file", quote(text)),
-              "a dataset is one folder that can be copied", "write the file's name: points.csv");
+    node.fail(fmt::format("the path {} names no file in the dataset's folder", quote(text)),
+              "a dataset is one folder that can be copied",
+              "write the file's name, such as points.csv");
   }
   return text;
 }
@@ -166,7 +129,7 @@ char read_delimiter(const JsonNode& resource) {
   constexpr std::string_view allowed = ",;|\t";
   if (text.size() != 1 || allowed.find(text[0]) == std::string_view::npos) {
     node->fail(fmt::format("the delimiter is {}", quote(text)),
-               "comma, semicolon, bar and tab are read", "save the points with commas");
+               "only comma, semicolon, bar and tab are read", "save the points with commas");
   }
   return text[0];
 }
@@ -176,7 +139,7 @@ void read_resource(const JsonNode& root, Package& package) {
                                           "add [{\"path\": \"points.csv\", \"schema\": ...}]");
   const std::vector<JsonNode> items = resources.items();
   if (items.empty()) {
-    resources.fail("'resources' is empty", "it names the file with the points",
+    resources.fail("'resources' is empty", "it has to name the file with the points",
                    "add {\"path\": \"points.csv\", \"schema\": ...}");
   }
   const JsonNode& resource = items.front();
@@ -202,9 +165,8 @@ std::string read_id(const JsonNode& node) {
            c == '_' || c == '-';
   });
   if (id.empty() || id.front() == '.' || !plain) {
-    node.fail(fmt::format("the name {}", quote(id)),
-              "it becomes part of file names: letters, digits, '.', '_' and '-'",
-              "choose one like wall1990-mica");
+    node.fail(fmt::format("the name {} is not fit for a file's name", quote(id)), "",
+              "use letters, digits, '.', '_' and '-', as in wall1990-mica");
   }
   return id;
 }
@@ -228,11 +190,53 @@ std::vector<std::string> read_sources(const JsonNode& root) {
 
 }  // namespace
 
+Dimension dimension_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::series:
+      return Dimension::text;
+    case Quantity::diameter:
+    case Quantity::diameter_sd:
+      return Dimension::length;
+    case Quantity::incident_velocity:
+    case Quantity::rebound_velocity:
+    case Quantity::velocity_sd:
+      return Dimension::velocity;
+    case Quantity::restitution:
+    case Quantity::restitution_sd:
+      return Dimension::ratio;
+    case Quantity::events:
+    case Quantity::captured:
+      return Dimension::count;
+  }
+  return Dimension::text;
+}
+
+std::optional<JsonNode> find_resource(const JsonNode& root, const std::string& path) {
+  const auto resources = root.find("resources");
+  for (const JsonNode& resource : resources ? resources->items() : std::vector<JsonNode>{}) {
+    const auto place = resource.find("path");
+    if (place && place->string() == path) return resource;
+  }
+  return std::nullopt;
+}
+
+std::map<std::string, std::string> field_units(const JsonNode& resource) {
+  std::map<std::string, std::string> units;
+  const auto schema = resource.find("schema");
+  const auto fields = schema ? schema->find("fields") : std::nullopt;
+  for (const JsonNode& field : fields ? fields->items() : std::vector<JsonNode>{}) {
+    const auto name = field.find("name");
+    const auto unit = field.find("unit");
+    if (name && unit) units[name->string()] = unit->string();
+  }
+  return units;
+}
+
 Package read_package(const std::string& text, const std::string& file,
                      const std::string& fallback_id) {
   require_text(text, file);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw InputError({file, 1, 1}, "the file is empty", "it describes the dataset",
+    throw InputError({file, 1, 1}, "the file is empty", "it has to describe the dataset",
                      "start from the datapackage.json of a shipped dataset");
   }
   const JsonDocument document(text, file);

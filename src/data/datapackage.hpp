@@ -1,10 +1,17 @@
 #pragma once
 
+#include <array>
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
+#include "core/units.hpp"
 #include "data/dataset.hpp"
+#include "data/json_document.hpp"
 
 namespace recoil {
 
@@ -21,6 +28,17 @@ enum class Quantity {
   events,
   captured,
 };
+
+/// Their names in a schema.
+template <>
+struct NamesOf<Quantity> {
+  static constexpr std::array<std::string_view, 10> names = {
+      "series",         "diameter",    "incident_velocity", "restitution", "rebound_velocity",
+      "restitution_sd", "velocity_sd", "diameter_sd",       "events",      "captured"};
+};
+
+/// What a quantity measures; a series is a text.
+Dimension dimension_of(Quantity quantity);
 
 /// One field of the schema.
 struct Column {
@@ -56,5 +74,11 @@ struct Package {
 /// @throws InputError with the line and column of the first mistake.
 Package read_package(const std::string& text, const std::string& file,
                      const std::string& fallback_id);
+
+/// The resource of a package whose `path` is this, if there is one.
+std::optional<JsonNode> find_resource(const JsonNode& root, const std::string& path);
+
+/// The units that the fields of a resource state: field -> unit.
+std::map<std::string, std::string> field_units(const JsonNode& resource);
 
 }  // namespace recoil

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
 #include "data/material.hpp"
 
 namespace recoil {
@@ -12,12 +15,12 @@ namespace recoil {
 /// Where points come from. It travels with everything computed from them.
 enum class Provenance { measured, digitised, reconstruction, synthetic };
 
-/// The word used in files and on the screen: "measured", "digitised", ...
-std::string to_string(Provenance provenance);
-
-/// One sentence on what the provenance means for whoever reads a result; for a reconstruction it
-/// says that no point of it was measured.
-std::string provenance_sentence(Provenance provenance);
+/// The words used in files and on the screen.
+template <>
+struct NamesOf<Provenance> {
+  static constexpr std::array<std::string_view, 4> names = {"measured", "digitised",
+                                                            "reconstruction", "synthetic"};
+};
 
 /// One measured point: the mean restitution of `events` impacts at one velocity and diameter, or a
 /// point at which the spheres were captured.
@@ -43,18 +46,28 @@ struct DataColumn {
   std::string unit;  ///< "um"; empty for text
 };
 
+/// What is unusual about a point that is kept all the same.
+enum class PointRemark { restitution_above_one, unmarked_zero, unusual_diameter, repeated };
+
+/// All points of one kind.
+struct DatasetWarning {
+  PointRemark remark = PointRemark::restitution_above_one;
+  std::size_t count = 0;
+  int first_line = 0;  ///< in points.csv
+};
+
 /// A dataset folder as read, in SI units.
 struct Dataset {
   std::string id;     ///< the package's name
   std::string title;  ///< for people
   Provenance provenance = Provenance::measured;
   ImpactSystem system;
-  std::vector<std::string> series;    ///< names, in order of appearance
-  std::vector<ImpactPoint> points;    ///< in file order
-  std::vector<DataColumn> columns;    ///< as the schema lists them
-  std::vector<std::string> sources;   ///< one line each: title and address
-  std::vector<std::string> warnings;  ///< what a reader should know, e.g. a restitution above 1
-  std::string sha256;                 ///< of datapackage.json and the points, as hexadecimal
+  std::vector<std::string> series;       ///< names, in order of appearance
+  std::vector<ImpactPoint> points;       ///< in file order
+  std::vector<DataColumn> columns;       ///< as the schema lists them
+  std::vector<std::string> sources;      ///< one line each: title and address
+  std::vector<DatasetWarning> warnings;  ///< by remark, those that there are
+  std::string sha256;                    ///< of datapackage.json and the points, as hexadecimal
   std::filesystem::path folder;
 };
 
@@ -71,9 +84,5 @@ Dataset load_dataset(const std::filesystem::path& folder);
 /// @throws InputError as `load_dataset` does.
 Dataset parse_dataset(const std::string& datapackage_text, const std::string& csv_text,
                       const std::filesystem::path& folder);
-
-/// What `recoil check` prints: the system, the columns with their units, the series and ranges,
-/// the provenance sentence and the warnings.
-std::string describe(const Dataset& dataset);
 
 }  // namespace recoil

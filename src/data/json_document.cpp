@@ -93,7 +93,7 @@ class PositionScan {
     skip_blanks();
     positions.value = at_;
     if (depth > deepest_nesting) {
-      throw InputError(locate(text_, at_, file_), "lists or objects nested too deeply",
+      throw InputError(locate(text_, at_, file_), "lists or objects are nested too deeply",
                        fmt::format("at most {} levels are read", deepest_nesting),
                        "flatten this part");
     }
@@ -126,8 +126,8 @@ class PositionScan {
     child.name = string_token();
     if (!seen.insert(child.name).second) {
       throw InputError(locate(text_, child.key, file_),
-                       fmt::format("the key {} stands here twice", quote(child.name)),
-                       "only one of the two values could count", "remove one");
+                       fmt::format("the key {} stands here twice", quote(child.name)), "",
+                       "remove one");
     }
     skip_blanks();
     ++at_;  // past the colon
@@ -145,7 +145,7 @@ JsonDocument::JsonDocument(std::string text, std::string file)
   SyntaxCheck check;
   if (!json::sax_parse(text_, &check)) {
     throw InputError(at(check.offset(text_)), syntax_problem(check), "the file is not valid JSON",
-                     "look before this place, too");
+                     "look at this place and just before it");
   }
   positions_ = PositionScan(text_, file_).root();
   value_ = json::parse(text_);
@@ -197,8 +197,8 @@ double JsonNode::number() const {
 void JsonNode::allow_only(const std::vector<std::string>& known) const {
   for (const JsonNode& member : members()) {
     if (std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
-    throw InputError(member.where_key(), fmt::format("unknown key {}", quote(member.key())),
-                     fmt::format("'{}' would ignore it silently", name_),
+    throw InputError(member.where_key(),
+                     fmt::format("unknown key {} in '{}'", quote(member.key()), name_), "",
                      did_you_mean(member.key(), known));
   }
 }
@@ -225,7 +225,7 @@ void JsonNode::expect(bool right_type, const std::string& type) const {
   if (right_type) return;
   fail(fmt::format("{} is {} {}", name_.empty() ? "the document" : fmt::format("'{}'", name_),
                    value_->is_array() || value_->is_object() ? "an" : "a", value_->type_name()),
-       fmt::format("it has to be {}", type), fmt::format("write {}", type));
+       "", fmt::format("write {}", type));
 }
 
 }  // namespace recoil

@@ -17,16 +17,6 @@
 namespace recoil {
 namespace {
 
-/// One sentence for all points with the same peculiarity, however many there are.
-struct Remark {
-  std::size_t count = 0;
-  int first_line = 0;
-
-  void add(int line) {
-    if (count++ == 0) first_line = line;
-  }
-};
-
 /// What a value may be in SI, and what one outside of it usually means.
 struct Range {
   double lower;
@@ -53,14 +43,14 @@ class PointReader {
 
   void finish() {
     if (header_.empty()) {
-      throw InputError({file_, 1, 1}, "the file is empty", "there is no point to fit",
+      throw InputError({file_, 1, 1}, "the file is empty", "",
                        "give it a header and one line for each point");
     }
     if (dataset_.points.empty()) {
-      throw InputError({file_, header_line_, 1}, "there is a header but no point below it",
-                       "there is nothing to fit", "give it one line for each point");
+      throw InputError({file_, header_line_, 1}, "there is a header but no point below it", "",
+                       "write one line for each point");
     }
-    write_warnings();
+    for (const auto& [remark, warning] : warnings_) dataset_.warnings.push_back(warning);
   }
 
  private:
@@ -79,14 +69,14 @@ class PointReader {
         const bool other_delimiter =
             row.size() == 1 && cell.text.find_first_of(",;\t|") != std::string::npos;
         fail(cell, fmt::format("the column {} is not in the schema", quote(cell.text)),
-             "its meaning and unit are not known",
+             "so its meaning and unit are not known",
              other_delimiter ? "state the delimiter under 'dialect' of the resource"
                              : did_you_mean(cell.text, names));
       }
       const auto index = static_cast<std::size_t>(column - names.begin());
       if (std::find(header_.begin(), header_.end(), index) != header_.end()) {
-        fail(cell, fmt::format("the column '{}' stands here twice", cell.text),
-             "only one of them could count", "remove or rename one");
+        fail(cell, fmt::format("the column '{}' stands here twice", cell.text), "",
+             "remove or rename one");
       }
       field_of_[package_.columns[index].quantity] = header_.size();
       header_.push_back(index);
@@ -132,7 +122,7 @@ class PointReader {
     if (!value) not_a_number(field, column);
     if (column.integer && *value != std::trunc(*value)) {
       fail(field, fmt::format("{} = {} is not a whole number", column.name, printable(field.text)),
-           "it is an integer in the schema or counts impacts", "write 1, 2, 3, ...");
+           "the schema says integer, or it counts impacts", "write 1, 2, 3, ...");
     }
     return *value;
   }
@@ -194,7 +184,7 @@ class PointReader {
            "give the series a name");
     }
     if (printable(field->text) != field->text) {
-      fail(*field, "a series name with control characters", "it is printed in every report",
+      fail(*field, "the name of the series has control characters", "",
            "use letters, digits and blanks");
     }
     const auto [known, added] = series_of_.try_emplace(field->text, dataset_.series.size());
@@ -271,28 +261,17 @@ class PointReader {
   }
 
   void remark(const ImpactPoint& point) {
-    if (point.restitution > 1.0) above_one_.add(point.line);
-    if (point.restitution == 0.0 && !point.all_captured()) zero_.add(point.line);
-    if (point.diameter > limits::unusual_diameter) large_.add(point.line);
+    const auto add = [&](PointRemark remark) {
+      DatasetWarning& warning = warnings_[remark];
+      if (warning.count++ == 0) warning = {remark, 1, point.line};
+    };
+    if (point.restitution > 1.0) add(PointRemark::restitution_above_one);
+    if (point.restitution == 0.0 && !point.all_captured()) add(PointRemark::unmarked_zero);
+    if (point.diameter > limits::unusual_diameter) add(PointRemark::unusual_diameter);
     if (!seen_.emplace(point.series, point.diameter, point.incident_velocity, point.restitution)
              .second) {
-      repeated_.add(point.line);
+      add(PointRemark::repeated);
     }
-  }
-
-  void write_warnings() {
-    const auto warn = [&](const Remark& found, const std::string& what, const std::string& advice) {
-      if (found.count == 0) return;
-      dataset_.warnings.push_back(fmt::format(
-          "{} point{} with {} ({} line {}): {}", found.count, found.count == 1 ? "" : "s", what,
-          found.count == 1 ? "in" : "first in", found.first_line, advice));
-    };
-    warn(above_one_, "a restitution above 1", "kept, since noise can do this; energy cannot");
-    warn(zero_, "a restitution of 0 that is not marked as captured",
-         "taken as the slowest of rebounds; use the column 'captured' for spheres that stayed");
-    warn(large_, "a diameter above 1 mm", "kept; if these are microspheres, the unit is wrong");
-    warn(repeated_, "the same series, diameter, velocity and restitution as an earlier one",
-         "kept; a point that was copied by accident would count twice");
   }
 
   const std::string& file_;
@@ -304,7 +283,7 @@ class PointReader {
   std::map<Quantity, std::size_t> field_of_;
   std::map<std::string, std::size_t> series_of_;
   std::set<std::tuple<std::size_t, double, double, double>> seen_;
-  Remark above_one_, zero_, large_, repeated_;
+  std::map<PointRemark, DatasetWarning> warnings_;
 };
 
 }  // namespace

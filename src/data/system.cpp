@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "data/limits.hpp"
 #include "data/text.hpp"
 
@@ -92,7 +90,7 @@ void read_overrides(const JsonNode& recoil, ImpactSystem& system) {
   if (system.adhesion_force_f0 && !system.reference_diameter) {
     throw InputError(recoil.find("adhesion_force_f0")->where_key(),
                      "'adhesion_force_f0' without 'reference_diameter'",
-                     "f0 grows with the size of the particle",
+                     "f0 depends on the size of the particle",
                      "add the diameter in m to which it belongs");
   }
 }
@@ -102,16 +100,10 @@ void read_overrides(const JsonNode& recoil, ImpactSystem& system) {
 Provenance read_provenance(const JsonNode& recoil) {
   const JsonNode node = recoil.require("provenance", "every result says where its points come from",
                                        "write measured, digitised, reconstruction or synthetic");
-  constexpr std::array all = {Provenance::measured, Provenance::digitised,
-                              Provenance::reconstruction, Provenance::synthetic};
   const std::string word = node.string();
-  std::vector<std::string> known;
-  for (const Provenance provenance : all) {
-    if (word == to_string(provenance)) return provenance;
-    known.push_back(to_string(provenance));
-  }
-  node.fail(fmt::format("unknown provenance {}", quote(word)), "every result repeats it",
-            did_you_mean(word, known));
+  if (const auto provenance = value_named<Provenance>(word)) return *provenance;
+  node.fail(fmt::format("unknown provenance {}", quote(word)), "",
+            did_you_mean(word, all_names<Provenance>()));
 }
 
 ImpactSystem read_system(const JsonNode& recoil) {

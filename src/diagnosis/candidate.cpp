@@ -15,19 +15,14 @@
 namespace recoil {
 namespace {
 
-bool belongs_to(const Candidate& candidate, const ParameterSlot& slot) {
-  return std::find(candidate.added.begin(), candidate.added.end(), slot.mechanism) !=
-         candidate.added.end();
-}
-
 /// `near` and what differs from it by an advised start of one parameter of an added mechanism.
 std::vector<std::vector<double>> advised_starts(const Candidate& candidate,
                                                 const std::vector<double>& near) {
   std::vector<std::vector<double>> starts = {near};
   for (std::size_t j = 0; j < near.size(); ++j) {
     const ParameterSlot& slot = candidate.model.slots[j];
-    if (!slot.free || !belongs_to(candidate, slot)) continue;
-    std::vector<double> values = slot.starts;
+    if (!slot.free || !candidate.adds(slot)) continue;
+    std::vector<double> values = slot.parameter->starts;
     values.push_back(slot.initial);
     for (const double value : values) {
       if (value == near[j] || value < slot.lower || value > slot.upper) continue;
@@ -42,7 +37,7 @@ std::vector<std::vector<double>> advised_starts(const Candidate& candidate,
 std::vector<double> hardly_damped(const Candidate& candidate, std::vector<double> near) {
   for (std::size_t j = 0; j < near.size(); ++j) {
     const ParameterSlot& slot = candidate.model.slots[j];
-    if (!slot.free || !slot.mechanism.empty() || slot.name == "f0") continue;
+    if (!slot.free || !slot.parameter->is_damping()) continue;
     near[j] = std::clamp(0.1 * near[j], slot.lower, slot.upper);
   }
   return near;
@@ -70,21 +65,19 @@ std::vector<std::vector<double>> best_starts(const LeastSquaresProblem& problem,
 
 /// Narrows the bounds of a mechanism's parameter to its plausible range and a fifth of its width
 /// beyond (of its logarithm where it has one): an estimate scatters about a truth at the edge.
-void keep_possible(const ParameterEntry& entry, ParameterSpec& spec) {
-  for (const MechanismParameter& parameter : find_mechanism(entry.mechanism)->info.parameters) {
-    if (parameter.name != entry.name) continue;
-    const auto [lower, upper, why] = parameter.plausible;
-    if (parameter.log_scale) {
-      const double beyond = std::pow(upper / lower, 0.2);
-      spec.lower = std::max(spec.lower, lower / beyond);
-      spec.upper = std::min(spec.upper, upper * beyond);
-    } else {
-      const double beyond = 0.2 * (upper - lower);
-      spec.lower = std::max(spec.lower, lower == parameter.null_value ? lower : lower - beyond);
-      spec.upper = std::min(spec.upper, upper + beyond);
-    }
-    spec.initial = std::clamp(spec.initial, spec.lower, spec.upper);
+void keep_possible(ParameterSpec& spec) {
+  const Parameter& parameter = *spec.parameter;
+  const auto [lower, upper, why] = parameter.plausible;
+  if (parameter.log_scale) {
+    const double beyond = std::pow(upper / lower, 0.2);
+    spec.lower = std::max(spec.lower, lower / beyond);
+    spec.upper = std::min(spec.upper, upper * beyond);
+  } else {
+    const double beyond = 0.2 * (upper - lower);
+    spec.lower = std::max(spec.lower, lower == parameter.null_value ? lower : lower - beyond);
+    spec.upper = std::min(spec.upper, upper + beyond);
   }
+  spec.initial = std::clamp(spec.initial, spec.lower, spec.upper);
 }
 
 /// Relative scatter of single impacts among the slowest rebounds [1], as their points state it,
@@ -117,6 +110,11 @@ void take_stated_scatter(const std::vector<Dataset>& datasets, ParameterSpec& sp
 
 }  // namespace
 
+bool Candidate::adds(const ParameterSlot& slot) const {
+  return slot.mechanism() != nullptr &&
+         std::find(added.begin(), added.end(), slot.mechanism()->info.id) != added.end();
+}
+
 std::string Candidate::name() const { return fmt::format("{}", fmt::join(added, " + ")); }
 
 Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datasets,
@@ -128,25 +126,22 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
     candidate.added.emplace_back(mechanism->info.id);
     candidate.spec.mechanisms.emplace_back(mechanism->info.id);
   }
-  std::map<std::string, ParameterSpec> known;
-  for (const ParameterSpec& parameter : spec.parameters) known[parameter.name] = parameter;
   candidate.spec.parameters.clear();
-  for (const ParameterEntry& entry : parameters_with(candidate.spec.mechanisms)) {
-    const auto found = known.find(entry.name);
-    if (found != known.end()) {
-      candidate.spec.parameters.push_back(found->second);
-    } else {
-      ParameterSpec own{entry.name, entry.initial, entry.lower, entry.upper, entry.free || release,
-                        false,      false};
-      if (possible && own.free) keep_possible(entry, own);
-      if (own.name == "event_scatter") take_stated_scatter(datasets, own);
-      candidate.spec.parameters.push_back(own);
+  for (const Parameter* parameter : parameters_with(candidate.spec.mechanisms)) {
+    ParameterSpec stated = spec.statement_of(*parameter);
+    const auto& before = spec.mechanisms;
+    const bool is_new =
+        parameter->mechanism != nullptr &&
+        std::find(before.begin(), before.end(), parameter->mechanism->info.id) == before.end();
+    if (is_new) {
+      stated.free = stated.free || release;
+      if (possible && stated.free) keep_possible(stated);
+      if (parameter->is_scatter_of_rebounds) take_stated_scatter(datasets, stated);
     }
+    candidate.spec.parameters.push_back(stated);
   }
   candidate.model = make_model(candidate.spec, datasets);
-  candidate.free_count =
-      static_cast<int>(std::count_if(candidate.model.slots.begin(), candidate.model.slots.end(),
-                                     [](const ParameterSlot& slot) { return slot.free; }));
+  candidate.free_count = candidate.model.free_count();
   return candidate;
 }
 

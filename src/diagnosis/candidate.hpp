@@ -19,6 +19,8 @@ struct Candidate {
 
   /// "plastic_yield", "plastic_yield + probe_plane".
   std::string name() const;
+  /// Does `slot` belong to one of the further mechanisms?
+  bool adds(const ParameterSlot& slot) const;
 };
 
 /// `spec` with the mechanisms `added` on top of its own, their parameters as the catalogue has

@@ -16,6 +16,7 @@
 #include "diagnosis/search.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "diagnosis/verdict_words.hpp"
+#include "estimate/capture_velocity.hpp"
 
 namespace recoil {
 namespace {
@@ -158,7 +159,7 @@ std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const Diagnos
   options.capture = false;
   options.two_point = false;
   options.pair_simulations = 0;
-  return assess_uncertainty(fitted, fitted.data, diagnosis.datasets, options).intervals;
+  return assess_uncertainty(fitted, diagnosis.datasets, options).intervals;
 }
 
 /// The extended model as `fit` would have it, with settled weights.
@@ -167,7 +168,7 @@ void extend(const SearchBase& base, Diagnosis& diagnosis) {
   FitOptions options;
   options.several_starts = false;
   options.start = best.refit.theta;
-  const Observations gathered = gather(base.datasets, base.spec.noise);
+  const Observations gathered = gather(base.datasets, base.spec);
   diagnosis.extended_fit = fit(best.candidate.model, gathered, options);
   if (!diagnosis.extended_fit->usable) {
     diagnosis.warnings.push_back("the extended model has no usable fit of its own: " +
@@ -252,7 +253,7 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
   diagnosis.options = options;
   diagnosis.spec = spec;
   diagnosis.datasets = datasets;
-  diagnosis.base = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+  diagnosis.base = fit(make_model(spec, datasets), gather(datasets, spec));
   if (!diagnosis.base.usable) {
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", spec.file.string(),
                                        diagnosis.base.failure));

@@ -12,7 +12,7 @@
 namespace recoil {
 namespace {
 
-toml::table& subtable(toml::table& table, const char* key) {
+toml::table& subtable(toml::table& table, std::string_view key) {
   if (!table.contains(key)) table.insert(key, toml::table{});
   return *table.get(key)->as_table();
 }
@@ -32,11 +32,12 @@ toml::array paths_from(const FitSpec& spec, const std::filesystem::path& folder)
 /// at its null value instead, which is its default.
 void start_at_estimate(toml::table& parameters, const ParameterSpec& spec,
                        const FitResult& fitted) {
-  const auto slot = std::find_if(fitted.model.slots.begin(), fitted.model.slots.end(),
-                                 [&](const ParameterSlot& s) { return s.name == spec.name; });
+  const auto slot =
+      std::find_if(fitted.model.slots.begin(), fitted.model.slots.end(),
+                   [&](const ParameterSlot& s) { return s.parameter == spec.parameter; });
   if (slot == fitted.model.slots.end() || !slot->series.empty()) return;
-  const bool derived = spec.name == "f0" && !spec.free && !spec.initial_stated;
-  toml::table& entry = subtable(parameters, spec.name.c_str());
+  const bool derived = spec.is_derived() && !spec.free;
+  toml::table& entry = subtable(parameters, spec.parameter->name);
   entry.insert_or_assign("free", spec.free);
   if (spec.free) {
     if (!entry.contains("bounds")) {
@@ -55,8 +56,8 @@ std::string extended_toml(const Diagnosis& diagnosis, const std::filesystem::pat
   try {
     root = toml::parse(read_text_file(diagnosis.spec.file));
   } catch (const toml::parse_error&) {
-    throw InputError({diagnosis.spec.file.string()}, "the file is not valid TOML any more",
-                     "it was when the diagnosis began", "leave it alone until the end");
+    throw InputError({diagnosis.spec.file.string()}, "the file is no longer valid TOML",
+                     "it was when the diagnosis began", "leave it as it is until the end");
   }
   toml::array paths = paths_from(diagnosis.spec, folder);
   if (paths.size() == 1) {

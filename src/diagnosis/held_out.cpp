@@ -8,9 +8,12 @@
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "estimate/impact_problem.hpp"
-#include "uncertainty/intervals.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
 
 namespace recoil {
 namespace {

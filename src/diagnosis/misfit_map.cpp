@@ -4,6 +4,8 @@
 #include <map>
 #include <numbers>
 
+#include "estimate/residual.hpp"
+
 namespace recoil {
 namespace {
 
@@ -47,9 +49,9 @@ std::vector<MisfitCell> misfit_map(const FitResult& fitted) {
       cell.restitution += miss / cell.points;
       cell.energy += 0.5 * mass * point.velocity * point.velocity *
                      (measured * measured - expected * expected) / cell.points;
-      if (point.censored || !(point.sd > 0.0)) continue;
-      weights += 1.0 / (point.sd * point.sd);
-      weighted += miss / (point.sd * point.sd);
+      if (point.censored || !(point.weights.sd > 0.0)) continue;
+      weights += 1.0 / (point.weights.sd * point.weights.sd);
+      weighted += miss / (point.weights.sd * point.weights.sd);
     }
     if (weights > 0.0) cell.standardised = weighted / std::sqrt(weights);
     map.push_back(cell);

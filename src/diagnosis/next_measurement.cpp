@@ -5,6 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
+
 namespace recoil {
 namespace {
 
@@ -22,8 +25,8 @@ double event_sd(const FitResult& base, std::size_t dataset, double velocity) {
     const double distance = std::abs(std::log(point.velocity / velocity));
     if (distance >= nearest) continue;
     nearest = distance;
-    sd =
-        point.sd * std::sqrt(static_cast<double>(std::max(point.rebounds(), 1))) * base.noise_scale;
+    sd = point.weights.sd * std::sqrt(static_cast<double>(std::max(point.rebounds(), 1))) *
+         base.noise_scale;
   }
   return std::max(sd, smallest_sd);
 }

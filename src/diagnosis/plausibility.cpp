@@ -11,18 +11,8 @@
 namespace recoil {
 namespace {
 
-constexpr double firmest = 0.3;         // yield pressure over E*
 constexpr double allowed_errors = 2.0;  // outside of a plausible range
 constexpr double at_null = 1e-9;        // of the range of a parameter
-
-const MechanismParameter* catalogue_entry(const ParameterSlot& slot) {
-  const Mechanism* mechanism = find_mechanism(slot.mechanism);
-  if (mechanism == nullptr) return nullptr;
-  for (const MechanismParameter& parameter : mechanism->info.parameters) {
-    if (parameter.name == slot.name) return &parameter;
-  }
-  return nullptr;
-}
 
 /// The softest E* of the datasets of a model [Pa].
 double softest(const ImpactModel& model) {
@@ -91,36 +81,32 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
   std::vector<FoundParameter> found;
   for (std::size_t j = 0; j < refit.theta.size(); ++j) {
     const ParameterSlot& slot = candidate.model.slots[j];
-    if (std::find(candidate.added.begin(), candidate.added.end(), slot.mechanism) ==
-        candidate.added.end()) {
-      continue;
-    }
-    const MechanismParameter* entry = catalogue_entry(slot);
+    if (!candidate.adds(slot)) continue;
+    const Parameter& entry = *slot.parameter;
     FoundParameter parameter;
     parameter.label = slot.label();
-    parameter.unit = slot.unit;
+    parameter.unit = slot.parameter->unit;
     parameter.value = refit.theta[j];
-    parameter.null_value = slot.null_value;
-    const bool vanishes =
-        std::abs(parameter.value - slot.null_value) <= at_null * (slot.upper - slot.lower);
-    if (slot.free && entry != nullptr && !vanishes) {
-      const auto [lower, upper, why] = entry->plausible;
+    parameter.null_value = slot.parameter->null_value;
+    const bool vanishes = std::abs(parameter.value - slot.parameter->null_value) <=
+                          at_null * (slot.upper - slot.lower);
+    if (slot.free && !vanishes) {
+      const auto [lower, upper, why] = entry.plausible;
       const double value = nearest_to_range(slot, parameter.value, errors[j], lower, upper);
       if (value < lower || value > upper) {
         parameter.plausible = false;
         parameter.nearly = is_near(slot, value, lower, upper);
         parameter.why_not =
             fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}", parameter.label,
-                        parameter.value, unit_suffix(slot.unit), lower, upper, why);
+                        parameter.value, unit_suffix(entry.unit), lower, upper, why);
       }
-      const double limit = firmest * softest(candidate.model);
-      if (slot.name == "yield_pressure" &&
-          nearest_to_range(slot, parameter.value, errors[j], lower, limit) > limit) {
+      const double modulus = softest(candidate.model);
+      const double limit = entry.modulus_limit.share * modulus;
+      if (nearest_to_range(slot, parameter.value, errors[j], lower, limit) > limit) {
         parameter.plausible = parameter.nearly = false;
-        parameter.why_not = fmt::format(
-            "a yield pressure of {:.3g} Pa is {:.2g} times the reduced modulus: no solid resists "
-            "more than about 0.3 of it",
-            parameter.value, parameter.value / softest(candidate.model));
+        parameter.why_not = fmt::format("{} = {:.3g}{} is {:.2g} times the reduced modulus: {}",
+                                        parameter.label, parameter.value, unit_suffix(entry.unit),
+                                        parameter.value / modulus, entry.modulus_limit.why);
       }
     }
     found.push_back(std::move(parameter));

@@ -10,7 +10,10 @@
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "diagnosis/plausibility.hpp"
-#include "estimate/noise.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
+#include "estimate/simulated_observation.hpp"
 
 namespace recoil {
 namespace {
@@ -91,21 +94,13 @@ std::vector<double> within_bounds(const ImpactModel& model, std::vector<double> 
   return theta;
 }
 
-/// Is it a parameter that the catalogue holds fixed?
-bool is_released(const ParameterSlot& slot) {
-  for (const MechanismParameter& parameter : find_mechanism(slot.mechanism)->info.parameters) {
-    if (parameter.name == slot.name) return !parameter.free;
-  }
-  return false;
-}
-
 /// Does a free parameter of an added mechanism rest on a bound? Exponents may.
 bool rests_on_the_edge(const CandidateResult& result) {
   for (std::size_t j = 0; j < result.refit.theta.size(); ++j) {
     const ParameterSlot& slot = result.candidate.model.slots[j];
-    const auto& added = result.candidate.added;
-    const bool own = std::find(added.begin(), added.end(), slot.mechanism) != added.end();
-    if (own && slot.free && !result.refit.moving[j] && !is_released(slot)) return true;
+    // One that the catalogue holds fixed may rest there.
+    const bool own = result.candidate.adds(slot) && slot.parameter->free;
+    if (own && slot.free && !result.refit.moving[j]) return true;
   }
   return false;
 }
@@ -125,11 +120,8 @@ bool series_are_sizes(const Observations& data) {
 }
 
 bool can_be_released(const Candidate& candidate) {
-  return std::any_of(
-      candidate.model.slots.begin(), candidate.model.slots.end(), [&](const ParameterSlot& slot) {
-        return !slot.free && std::find(candidate.added.begin(), candidate.added.end(),
-                                       slot.mechanism) != candidate.added.end();
-      });
+  return std::any_of(candidate.model.slots.begin(), candidate.model.slots.end(),
+                     [&](const ParameterSlot& slot) { return !slot.free && candidate.adds(slot); });
 }
 
 /// The same with released parameters, if that is worth it.
@@ -210,9 +202,9 @@ Observations simulate_base(const SearchBase& base, std::uint64_t index) {
   Observations sample = base.fitted.data;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     Observation& point = sample.points[i];
-    point =
-        simulate_observation(point, base.fitted.prediction_squared[i], base.noise_scale, random);
-    if (point.scatter > 0.0 && !point.censored) locate_peak(point);
+    point = simulate_observation(point, base.fitted.prediction_squared[i], base.noise_scale,
+                                 sample.noise.student, random);
+    if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
   }
   return sample;
 }
@@ -284,7 +276,7 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
                                        const std::vector<CandidateResult>& singles) {
   std::vector<const CandidateResult*> causes;
   for (const CandidateResult& single : singles) {
-    const bool batch = single.candidate.added.front() == "series_offset";
+    const bool batch = find_mechanism(single.candidate.added.front())->is_batch();
     if (single.kind == MechanismKind::description) continue;
     if (batch && series_are_sizes(base.fitted.data)) continue;
     causes.push_back(&single);

@@ -171,7 +171,8 @@ void StructureStatistics::add_global_functions(const Observations& data) {
         column[i] = legendre(u[i], std::max(degree, 1))[static_cast<std::size_t>(degree)] *
                     (with_size ? w[i] : 1.0);
         // A discrepancy in e, seen in units of the point's deviation.
-        const double sd = data.points[i].mean_sd > 0.0 ? data.points[i].mean_sd : data.points[i].sd;
+        const double sd = data.points[i].weights.mean_sd > 0.0 ? data.points[i].weights.mean_sd
+                                                               : data.points[i].weights.sd;
         if (sd > 0.0) column[i] /= sd;
       }
       if (orthogonalise(column, smooth_)) smooth_.push_back(std::move(column));

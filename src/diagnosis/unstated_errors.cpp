@@ -19,8 +19,8 @@ constexpr int steps = 15;
 /// it [1].
 double square_sd(const Observation& point) {
   const double e = point.restitution;
-  if (point.mean_sd > 0.0) return 2.0 * e * point.mean_sd;
-  return std::hypot(std::max(2.0 * e, point.sd) * point.sd, point.input_sd);
+  if (point.weights.mean_sd > 0.0) return 2.0 * e * point.weights.mean_sd;
+  return std::hypot(std::max(2.0 * e, point.weights.sd) * point.weights.sd, point.weights.input_sd);
 }
 
 /// -2 ln likelihood of a fit whose weights are a part of the question, but for a constant.

@@ -9,9 +9,11 @@
 
 #include "core/units.hpp"
 #include "estimate/impact_problem.hpp"
-#include "estimate/noise.hpp"
-#include "estimate/noise_words.hpp"
-#include "estimate/reweigh.hpp"
+#include "estimate/misfit.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
+#include "estimate/reweighting.hpp"
+#include "estimate/weights.hpp"
 
 namespace recoil {
 namespace {
@@ -37,8 +39,9 @@ std::vector<std::vector<double>> starting_points(const ImpactModel& model,
       bool moved = false;
       for (std::size_t j = 0; j < start.size(); ++j) {
         const ParameterSlot& slot = model.slots[j];
-        if (!slot.free || slot.name == "f0" || !slot.mechanism.empty()) continue;
-        const double factor = slot.name == "C_H" ? hertz : adhesion;
+        if (!slot.free || !slot.parameter->is_damping()) continue;
+        const double factor =
+            slot.parameter->role == ParameterRole::hertz_damping ? hertz : adhesion;
         start[j] = std::clamp(start[j] * factor, slot.lower, slot.upper);
         moved = moved || start[j] != first[j];
       }
@@ -48,7 +51,7 @@ std::vector<std::vector<double>> starting_points(const ImpactModel& model,
   for (std::size_t j = 0; j < first.size(); ++j) {
     const ParameterSlot& slot = model.slots[j];
     if (!slot.free) continue;
-    for (const double value : slot.starts) {
+    for (const double value : slot.parameter->starts) {
       if (value < slot.lower || value > slot.upper || value == first[j]) continue;
       starts.push_back(first);
       starts.back()[j] = value;
@@ -67,7 +70,7 @@ std::vector<Prediction> predict_observations(const ImpactModel& model,
                                              const Observations& data) {
   std::vector<PointConditions> points;
   for (const Observation& point : data.points) {
-    points.push_back({point.dataset, point.diameter, point.velocity, point.series});
+    points.push_back(point.conditions());
   }
   return predict(model, theta, std::move(points), false);
 }
@@ -108,84 +111,58 @@ void record_leverage(FitResult& result, const std::vector<double>& jacobian,
   }
 }
 
-std::string in_words(double p_value) {
-  return p_value < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p_value);
-}
-
 /// Decides what the standard deviations are worth.
 void judge_noise(FitResult& result, const Misfit& misfit) {
   result.dof = misfit.dof;
   result.p_value = misfit.p_value;
-  if (misfit.dof <= 0) {
-    result.noise_text = "as many parameters as points: the noise cannot be checked";
-    return;
-  }
-  if (!result.data.sd_stated) {
+  const auto verdict = [&] {
+    if (misfit.dof <= 0) return NoiseVerdict::unchecked;
+    if (!result.data.sd_stated) return NoiseVerdict::estimated;
+    if (misfit.p_value < misfit_level) return NoiseVerdict::exceeded;
+    return misfit.p_value < doubtful_level ? NoiseVerdict::doubtful : NoiseVerdict::explained;
+  };
+  result.noise_verdict = verdict();
+  if (result.noise_verdict == NoiseVerdict::estimated ||
+      result.noise_verdict == NoiseVerdict::exceeded) {
     result.noise_scale = misfit.scale();
-  } else if (result.p_value < misfit_level) {
-    result.noise_scale = misfit.scale();
-    result.noise_text = fmt::format(
-        "the residuals are {:.3g} times larger than the stated noise explains ({}): every error "
-        "and interval is widened by that factor, and still describes this model, not the truth",
-        result.noise_scale, in_words(result.p_value));
-    result.warnings.push_back(result.noise_text);
-  } else if (result.p_value < doubtful_level) {
-    result.noise_text = fmt::format(
-        "the scatter is at the edge of what the stated standard deviations explain ({})",
-        in_words(result.p_value));
-  } else {
-    result.noise_text = "the stated standard deviations explain the scatter";
   }
 }
 
-void report_starts(FitResult& result, const StartSummary& best) {
-  int failed = 0;
-  int elsewhere = 0;
-  for (const StartSummary& start : result.starts) {
-    if (!start.converged) {
-      ++failed;
-    } else if (start.chi2 > best.chi2 * (1.0 + 1e-3) + 1e-6) {
-      ++elsewhere;
+/// Where the errors of V and d are too large for an effective variance of first order.
+int count_strained(const std::vector<Observation>& points) {
+  return static_cast<int>(std::count_if(points.begin(), points.end(), [](const Observation& p) {
+    const PointWeights& w = p.weights;
+    const double sd = std::hypot(std::max(2.0 * p.restitution, w.sd) * w.sd, w.input_sd);
+    return std::abs(w.input_bias) > strained_bias * sd;
+  }));
+}
+
+void compare_starts(FitResult& result, std::size_t best_start) {
+  const StartSummary& best = result.starts[best_start];
+  for (std::size_t k = 0; k < result.starts.size(); ++k) {
+    StartSummary& start = result.starts[k];
+    if (!start.converged) continue;
+    start.outcome = k == best_start ? StartOutcome::best : StartOutcome::same;
+    if (start.chi2 > best.chi2 * (1.0 + 1e-3) + 1e-6) {
+      start.outcome = StartOutcome::worse;
     } else if (start.chi2 <= best.chi2 * (1.0 + tie_tolerance)) {
       for (std::size_t j = 0; j < start.end.size(); ++j) {
         if (result.std_error[j] > 0.0 &&
             std::abs(start.end[j] - best.end[j]) > 0.1 * result.std_error[j]) {
-          result.warnings.push_back(fmt::format(
-              "tie: another start ends with the same chi2 at {} = {:.4g} instead of {:.4g}",
-              result.model.slots[j].label(), start.end[j], best.end[j]));
+          start.outcome = StartOutcome::tie;
+          start.differing.push_back(j);
         }
       }
     }
-  }
-  if (failed > 0) {
-    result.warnings.push_back(
-        fmt::format("{} of {} starts did not converge", failed, result.starts.size()));
-  }
-  if (elsewhere > 0) {
-    result.warnings.push_back(fmt::format("{} of {} starts ended in a worse local minimum",
-                                          elsewhere, result.starts.size()));
-  }
-}
-
-void report_bounds(FitResult& result) {
-  for (std::size_t j = 0; j < result.theta.size(); ++j) {
-    if (!result.at_bound[j]) continue;
-    const ParameterSlot& slot = result.model.slots[j];
-    const bool low = result.theta[j] <= 0.5 * (slot.lower + slot.upper);
-    result.warnings.push_back(fmt::format(
-        "{} rests on its {} bound {:.4g} {}: it has no symmetric error, and the errors of the "
-        "others are conditional on it",
-        slot.label(), low ? "lower" : "upper", low ? slot.lower : slot.upper, slot.unit));
   }
 }
 
 /// The points for the search from several starts. A mean of survivors lies far above the curve
 /// until the scatter of the impacts is known, so points with rebounds and captures wait for
-/// `settle`, if the others suffice.
+/// `reweighted_fit`, if the others suffice.
 Observations without_mixed_points(const Observations& data, std::ptrdiff_t free_count) {
   Observations rest = data;
-  std::erase_if(rest.points,
-                [](const Observation& point) { return point.captured > 0 && !point.censored; });
+  std::erase_if(rest.points, [](const Observation& point) { return point.mixed(); });
   const auto rebounds = std::count_if(rest.points.begin(), rest.points.end(),
                                       [](const Observation& point) { return !point.censored; });
   return rebounds > free_count ? rest : data;
@@ -194,11 +171,9 @@ Observations without_mixed_points(const Observations& data, std::ptrdiff_t free_
 /// Where a mechanism of the model says how the impacts of a point differ, its survivors are what
 /// the mean e is of: their spread must not be estimated a second time from the counts.
 void leave_counts_to_mechanism(const ImpactModel& model, FitResult& result) {
-  const auto spreads = [](const ParameterSlot& slot) {
-    return !slot.mechanism.empty() && find_mechanism(slot.mechanism)->spreads();
-  };
-  const auto found = std::find_if(model.slots.begin(), model.slots.end(), spreads);
-  if (found == model.slots.end()) return;
+  const auto found = std::find_if(model.chain.begin(), model.chain.end(),
+                                  [](const Mechanism* mechanism) { return mechanism->spreads(); });
+  if (found == model.chain.end()) return;
   int counts = 0;
   for (Observation& point : result.data.points) {
     if (point.censored || !point.counted) continue;
@@ -206,26 +181,26 @@ void leave_counts_to_mechanism(const ImpactModel& model, FitResult& result) {
     point.counted = false;
     ++counts;
   }
-  if (counts == 0) return;
-  result.warnings.push_back(fmt::format(
-      "{} says how the impacts of a point differ: the counts of captured spheres at {} points "
-      "with rebounds are not used beside it",
-      found->mechanism, counts));
+  if (counts > 0) result.unused_counts = {*found, counts};
 }
 
 }  // namespace
+
+const StartSummary& FitResult::best_start() const {
+  return *std::find_if(starts.begin(), starts.end(), [](const StartSummary& start) {
+    return start.outcome == StartOutcome::best;
+  });
+}
 
 FitResult fit(const ImpactModel& model, const Observations& observed, const FitOptions& options) {
   FitResult result;
   result.model = model;
   result.data = observed;
-  result.warnings = observed.warnings;
   leave_counts_to_mechanism(model, result);
-  const Observations& data = result.data;  // until `settle` has weighed them
+  const Observations& data = result.data;  // until `reweighted_fit` has weighed them
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
-  const auto free_count = std::count_if(model.slots.begin(), model.slots.end(),
-                                        [](const ParameterSlot& slot) { return slot.free; });
-  result.dof = static_cast<int>(data.points.size()) - static_cast<int>(free_count);
+  const int free_count = model.free_count();
+  result.dof = static_cast<int>(data.points.size()) - free_count;
   if (result.dof < 0) {
     result.failure = fmt::format("{} points cannot determine {} free parameters",
                                  data.points.size(), free_count);
@@ -254,19 +229,15 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
   }
 
   if (data.weights_depend_on_fit()) {
-    Settled settled = settle(model, data, best.theta, {.minimiser = options.minimiser});
-    if (!settled.run.converged) {
-      result.failure = "the weights do not settle: " + settled.run.message;
+    ReweightedFit reweighted =
+        reweighted_fit(model, data, best.theta, {.minimiser = options.minimiser});
+    if (!reweighted.run.converged) {
+      result.failure = "no fit together with its weights: " + reweighted.run.message;
       return result;
     }
-    if (!settled.at_rest) {
-      result.warnings.emplace_back(
-          "the weights of the points still moved when their rounds ran out: the estimate depends "
-          "on "
-          "where they stopped");
-    }
-    best = std::move(settled.run);
-    result.data = std::move(settled.data);
+    result.weights_at_rest = reweighted.at_rest;
+    best = std::move(reweighted.run);
+    result.data = std::move(reweighted.data);
   }
   result.usable = true;
   result.theta = best.theta;
@@ -275,9 +246,8 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
   result.chi2 = best.sum_of_squares;
   record_predictions(result);
   record_leverage(result, best.jacobian, best.covariance);
-  judge_noise(result, misfit(result.data, result.residuals, result.prediction_squared,
-                             static_cast<int>(free_count)));
-  describe_noise(result);
+  judge_noise(result, misfit(result.data, result.residuals, result.prediction_squared, free_count));
+  result.strained_points = count_strained(result.data.points);
   result.covariance = scaled_covariance(result.data, best.covariance, result.noise_scale);
   result.spread_covariance =
       event_spread_covariance(model, result.theta, result.data, best.covariance);
@@ -285,17 +255,11 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
     result.covariance[k] += result.spread_covariance[k];
   }
   result.std_error.assign(result.theta.size(), 0.0);
-  if (result.covariance.empty()) {
-    result.warnings.push_back(
-        "the points do not determine all free parameters (J'J is singular): no standard errors");
-  } else {
-    for (std::size_t j = 0; j < result.theta.size(); ++j) {
-      result.std_error[j] = std::sqrt(result.covariance[j * result.theta.size() + j]);
-    }
+  for (std::size_t j = 0; !result.covariance.empty() && j < result.theta.size(); ++j) {
+    result.std_error[j] = std::sqrt(result.covariance[j * result.theta.size() + j]);
   }
   result.rmse = root_mean_square(model, result.theta, result.data);
-  report_starts(result, result.starts[best_start]);
-  report_bounds(result);
+  compare_starts(result, best_start);
   return result;
 }
 
@@ -309,8 +273,7 @@ double root_mean_square(const ImpactModel& model, std::span<const double> theta,
   if (points.empty()) return 0.0;
   std::vector<PointConditions> conditions;
   for (const std::size_t i : points) {
-    const Observation& point = data.points[i];
-    conditions.push_back({point.dataset, point.diameter, point.velocity, point.series});
+    conditions.push_back(data.points[i].conditions());
   }
   const std::vector<Prediction> predictions = predict(model, theta, std::move(conditions), false);
   double sum = 0.0;

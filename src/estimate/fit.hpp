@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,14 +10,45 @@
 
 namespace recoil {
 
+/// How one of several starts ended.
+enum class StartOutcome {
+  best,           ///< at the smallest chi2
+  same,           ///< at the same place as the best
+  tie,            ///< with the same chi2 elsewhere, see StartSummary::differing
+  worse,          ///< in a worse local minimum
+  not_converged,  ///< without an answer
+};
+
 /// Where one of several starts ended.
 struct StartSummary {
   std::vector<double> start;
   std::vector<double> end;
   double chi2 = 0.0;
   bool converged = false;
-  std::string message;
+  std::string message;  ///< the minimiser's own words
+  StartOutcome outcome = StartOutcome::not_converged;
+  std::vector<std::size_t> differing = {};  ///< of a tie: the slots whose values differ
 };
+
+/// What the scatter of the points says of the standard deviations that they state.
+enum class NoiseVerdict {
+  unchecked,  ///< there are as many parameters as points
+  estimated,  ///< none are stated: the noise is estimated from the residuals
+  explained,  ///< they explain the scatter
+  doubtful,   ///< the scatter is at the edge of what chance makes of them
+  exceeded,   ///< it is larger: every error and interval is widened by FitResult::noise_scale
+};
+
+/// Counts of captures that a fit does not use, as a mechanism says how the impacts of a point
+/// differ.
+struct UnusedCounts {
+  const Mechanism* mechanism = nullptr;
+  int points = 0;
+};
+
+/// Curvature over the errors of V and d from which on their effective variance is strained, in
+/// standard deviations of the point's e^2.
+inline constexpr double strained_bias = 0.1;
 
 struct FitOptions {
   bool several_starts = true;
@@ -27,7 +59,7 @@ struct FitOptions {
 /// The full least-squares fit.
 struct FitResult {
   bool usable = false;
-  std::string failure;  ///< why not, with the parameter or point that stood in the way
+  std::string failure;  ///< for an error message: why not, and which point stood in the way
   ImpactModel model;
   Observations data;  ///< the points with the weights that belong to this fit: what every refit,
                       ///< profile and simulation starts from
@@ -46,14 +78,19 @@ struct FitResult {
   double rmse = 0.0;     ///< of e over all points that rebounded [1]
   double noise_scale = 1.0;  ///< what the standard deviations of `data` are multiplied by in every
                              ///< interval: 1 where they hold, or were estimated by this fit
-  std::string noise_text;    ///< what was taken as noise and why, in sentences with semicolons
-  long handovers = 0;        ///< impacts that the fast solver left to the reference
+  NoiseVerdict noise_verdict = NoiseVerdict::unchecked;
+  int strained_points = 0;      ///< with an input_bias above `strained_bias`
+  bool weights_at_rest = true;  ///< false: the weights still moved when their rounds ran out
+  std::optional<UnusedCounts> unused_counts;
+  long handovers = 0;  ///< impacts that the fast solver left to the reference
   std::vector<StartSummary> starts;
-  std::vector<std::string> warnings;
+
+  /// @pre usable
+  const StartSummary& best_start() const;
 };
 
-/// Fits the free parameters of `model` to all points at once from several starts, then settles the
-/// weights that depend on the fit (`settle`).
+/// Fits the free parameters of `model` to all points at once from several starts, then once more
+/// together with the weights that depend on the fit (`reweighted_fit`).
 FitResult fit(const ImpactModel& model, const Observations& data, const FitOptions& options = {});
 
 /// Root mean square of e - e_model over the points whose index is in `subset` (all when empty);

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/text.hpp"
-#include "estimate/noise_reader.hpp"
+#include "data/toml_reader.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -20,6 +20,80 @@ namespace {
 constexpr std::uintmax_t largest_file = 1024 * 1024;  // [bytes]
 constexpr int fewest_replicates = 19;
 constexpr int most_replicates = 1000000;
+
+// Larger than this an error is no error of the quantity but another quantity.
+constexpr double largest_relative_sd = 0.5;
+// Beyond it Student's t is the normal distribution for every practical purpose.
+constexpr double largest_student_dof = 1000.0;
+
+void read_variance(const TomlReader& reader, const toml::node& node, NoiseSpec& spec) {
+  const std::string word = reader.string(node, "variance", "variance = \"auto\"");
+  if (word == "auto") return;
+  spec.variance = value_named<VarianceFunction>(word);
+  if (spec.variance) return;
+  std::vector<std::string> names = all_names<VarianceFunction>();
+  names.insert(names.begin(), "auto");
+  reader.fail(node, fmt::format("unknown variance function {}", quote(word)),
+              fmt::format("known are {}", join(names)), did_you_mean(word, names));
+}
+
+void read_residuals(const TomlReader& reader, const toml::table& table, NoiseSpec& spec) {
+  if (const toml::node* node = table.get("residuals")) {
+    const std::string word = reader.string(*node, "residuals", "residuals = \"normal\"");
+    if (word != "normal" && word != "student") {
+      reader.fail(*node, fmt::format("unknown distribution {}", quote(word)),
+                  "residuals are taken as normal or, against outliers, as Student's t",
+                  did_you_mean(word, {"normal", "student"}));
+    }
+    spec.student = word == "student";
+  }
+  const toml::node* const node = table.get("student_dof");
+  if (node == nullptr) return;
+  spec.student_dof = reader.number(*node, "student_dof");
+  if (!spec.student) {
+    reader.fail(*node, "'student_dof' without Student's t",
+                "normal residuals have no degrees of freedom of their own",
+                "add residuals = \"student\", or remove it");
+  }
+  if (spec.student_dof < 1.0 || spec.student_dof > largest_student_dof) {
+    reader.fail(*node, fmt::format("student_dof = {:g}", spec.student_dof),
+                fmt::format("it has to lie between 1 and {:g}", largest_student_dof),
+                "4 is usual; residuals = \"normal\" is its limit");
+  }
+}
+
+/// `quantity_errors` (on or off) and `quantity_relative_sd` (where the dataset states none).
+void read_input_errors(const TomlReader& reader, const toml::table& table,
+                       const std::string& quantity, bool& used, double& relative_sd) {
+  const std::string switch_name = quantity + "_errors";
+  const std::string size_name = quantity + "_relative_sd";
+  if (const toml::node* node = table.get(switch_name)) used = reader.boolean(*node, switch_name);
+  const toml::node* const node = table.get(size_name);
+  if (node == nullptr) return;
+  relative_sd = reader.number(*node, size_name);
+  if (relative_sd < 0.0 || relative_sd > largest_relative_sd) {
+    reader.fail(*node, fmt::format("{} = {:g}", size_name, relative_sd),
+                fmt::format("it has to lie between 0 and {:g}", largest_relative_sd),
+                "two per cent is written 0.02");
+  }
+  if (!used) {
+    reader.fail(*node, fmt::format("'{}' though {} = false", size_name, switch_name),
+                "it would be ignored silently", "remove one of the two");
+  }
+}
+
+/// The `[noise]` table.
+NoiseSpec read_noise_spec(const TomlReader& reader, const toml::table& table) {
+  reader.allow_only(table, "[noise]",
+                    {"variance", "residuals", "student_dof", "velocity_errors",
+                     "velocity_relative_sd", "diameter_errors", "diameter_relative_sd"});
+  NoiseSpec spec;
+  if (const toml::node* node = table.get("variance")) read_variance(reader, *node, spec);
+  read_residuals(reader, table, spec);
+  read_input_errors(reader, table, "velocity", spec.velocity_errors, spec.velocity_relative_sd);
+  read_input_errors(reader, table, "diameter", spec.diameter_errors, spec.diameter_relative_sd);
+  return spec;
+}
 
 /// A fit and where its dataset paths stand.
 struct LocatedFit {
@@ -37,29 +111,22 @@ class FitReader : private TomlReader {
   }
 
   LocatedFit read() {
-    require_text(text_, file());
-    const toml::table root = parse();
+    const toml::table root = parse(text_);
     allow_only(root, "the fit", {"dataset", "model", "parameters", "noise", "uncertainty"});
     read_datasets(root);
     if (const toml::table* model = table(root, "model")) read_model(*model);
     read_parameters(table(root, "parameters"));
     if (const toml::table* noise = table(root, "noise")) {
       fit_.spec.noise = read_noise_spec(*this, *noise);
+      if (const toml::node* variance = noise->get("variance")) {
+        fit_.spec.variance_place = at(variance->source());
+      }
     }
     if (const toml::table* uncertainty = table(root, "uncertainty")) read_uncertainty(*uncertainty);
     return std::move(fit_);
   }
 
  private:
-  toml::table parse() const {
-    try {
-      return toml::parse(text_, file());
-    } catch (const toml::parse_error& error) {
-      throw InputError(at(error.source()), shortened(printable(error.description()), 120),
-                       "the file is not valid TOML", "correct this line");
-    }
-  }
-
   void add_dataset(const toml::node& node) {
     const std::string text =
         string(node, "dataset", "dataset = \"../datasets/dahneke1975-quartz\"");
@@ -101,12 +168,13 @@ class FitReader : private TomlReader {
     allow_only(model, "[model]", {"adhesion_damping_phase", "mechanisms"});
     if (const toml::node* node = model.get("adhesion_damping_phase")) {
       const std::string word = string(*node, "adhesion_damping_phase", "\"rebound\"");
-      if (word != "rebound" && word != "both") {
+      const auto phase = value_named<AdhesionDampingPhase>(word);
+      if (!phase) {
         fail(*node, fmt::format("unknown phase {}", quote(word)),
              "the adhesion damping acts during the rebound or during both phases",
-             did_you_mean(word, {"rebound", "both"}));
+             did_you_mean(word, all_names<AdhesionDampingPhase>()));
       }
-      fit_.spec.phase = word == "both" ? AdhesionDampingPhase::both : AdhesionDampingPhase::rebound;
+      fit_.spec.phase = *phase;
     }
     const toml::node* const mechanisms = model.get("mechanisms");
     if (mechanisms == nullptr) return;
@@ -115,7 +183,9 @@ class FitReader : private TomlReader {
   }
 
   void add_mechanism(const toml::node& item) {
-    const std::string id = string(item, "mechanisms", "mechanisms = [\"plastic_yield\"]");
+    const std::string id =
+        string(item, "mechanisms",
+               fmt::format("mechanisms = [\"{}\"]", mechanism_catalogue().front().info.id));
     std::vector<std::string> known;
     for (const Mechanism& mechanism : mechanism_catalogue()) known.emplace_back(mechanism.info.id);
     if (find_mechanism(id) == nullptr) {
@@ -136,7 +206,7 @@ class FitReader : private TomlReader {
       const std::string id(mechanism.info.id);
       const auto& chosen = fit_.spec.mechanisms;
       if (std::find(chosen.begin(), chosen.end(), id) != chosen.end()) continue;
-      for (const MechanismParameter& parameter : mechanism.info.parameters) {
+      for (const Parameter& parameter : mechanism.info.parameters) {
         const toml::node* const node = parameters.get(parameter.name);
         if (node == nullptr) continue;
         fail(*node, fmt::format("'{}' belongs to the mechanism '{}'", parameter.name, id),
@@ -146,26 +216,28 @@ class FitReader : private TomlReader {
   }
 
   void read_parameters(const toml::table* parameters) {
-    const std::vector<ParameterEntry> entries = parameters_with(fit_.spec.mechanisms);
+    const std::vector<const Parameter*> known = parameters_with(fit_.spec.mechanisms);
     std::vector<std::string> names;
-    for (const ParameterEntry& entry : entries) names.push_back(entry.name);
+    for (const Parameter* parameter : known) names.emplace_back(parameter->name);
     if (parameters != nullptr) {
       refuse_parameters_of_others(*parameters);
       allow_only(*parameters, "[parameters]", names);
     }
-    for (const ParameterEntry& entry : entries) {
-      ParameterSpec spec{entry.name, entry.initial, entry.lower, entry.upper,
-                         entry.free, false,         false};
-      const toml::node* const node = parameters == nullptr ? nullptr : parameters->get(entry.name);
-      if (node != nullptr) read_parameter(*node, entry, spec);
+    for (const Parameter* parameter : known) {
+      ParameterSpec spec = default_of(*parameter);
+      const toml::node* const node =
+          parameters == nullptr ? nullptr : parameters->get(parameter->name);
+      if (node != nullptr) read_parameter(*node, spec);
       fit_.spec.parameters.push_back(spec);
     }
   }
 
-  void read_parameter(const toml::node& node, const ParameterEntry& entry, ParameterSpec& spec) {
+  void read_parameter(const toml::node& node, ParameterSpec& spec) {
+    const Parameter& entry = *spec.parameter;
+    const std::string name(entry.name);
     const std::string example = fmt::format("{} = {{ initial = {:g}, bounds = [{:g}, {:g}] }}",
                                             entry.name, entry.initial, entry.lower, entry.upper);
-    if (!node.is_table()) wrong_type(node, entry.name, "a table", example);
+    if (!node.is_table()) wrong_type(node, name, "a table", example);
     const toml::table& table = *node.as_table();
     allow_only(table, fmt::format("'{}'", entry.name), {"initial", "bounds", "free", "per"});
     if (const toml::node* free = table.get("free")) {
@@ -181,15 +253,14 @@ class FitReader : private TomlReader {
       spec.per_dataset = true;
     }
     const toml::node* const bounds = table.get("bounds");
-    if (bounds != nullptr) read_bounds(*bounds, entry, spec);
+    if (bounds != nullptr) read_bounds(*bounds, spec);
     const toml::node* const initial = table.get("initial");
     if (initial != nullptr) {
       spec.initial = admissible(*initial, "initial", entry);
       spec.initial_stated = true;
     }
-    const bool derived = entry.name == "f0" && !spec.initial_stated;  // eq. 12, not known yet
     const bool outside = spec.initial < spec.lower || spec.initial > spec.upper;
-    if (!derived && outside && (spec.free || bounds != nullptr)) {
+    if (!spec.is_derived() && outside && (spec.free || bounds != nullptr)) {
       fail(initial != nullptr ? *initial : *bounds,
            fmt::format("the {}initial value {:g} of '{}' lies outside of its bounds",
                        spec.initial_stated ? "" : "default ", spec.initial, entry.name),
@@ -198,15 +269,14 @@ class FitReader : private TomlReader {
     }
   }
 
-  double admissible(const toml::node& node, const std::string& name,
-                    const ParameterEntry& entry) const {
+  double admissible(const toml::node& node, const std::string& name, const Parameter& entry) const {
     const double value = number(node, name);
-    if (!entry.mechanism.empty()) {
+    if (entry.mechanism != nullptr) {
       if (value >= entry.lower && value <= entry.upper) return value;
       fail(node,
            fmt::format("'{}' of '{}' is {:g}{}", name, entry.name, value, unit_suffix(entry.unit)),
-           fmt::format("the formula of '{}' holds from {:g} to {:g}", entry.mechanism, entry.lower,
-                       entry.upper),
+           fmt::format("the formula of '{}' holds from {:g} to {:g}", entry.mechanism->info.id,
+                       entry.lower, entry.upper),
            "choose a value within");
     }
     if (value >= 0.0) return value;
@@ -215,7 +285,8 @@ class FitReader : private TomlReader {
          fmt::format("the {} cannot be negative", entry.meaning), "0 is the lowest value");
   }
 
-  void read_bounds(const toml::node& node, const ParameterEntry& entry, ParameterSpec& spec) const {
+  void read_bounds(const toml::node& node, ParameterSpec& spec) const {
+    const Parameter& entry = *spec.parameter;
     const toml::array* const pair = node.as_array();
     if (pair == nullptr || pair->size() != 2) {
       fail(node, fmt::format("'bounds' of '{}' is not a pair of numbers", entry.name),
@@ -245,10 +316,10 @@ class FitReader : private TomlReader {
     UncertaintySpec& spec = fit_.spec.uncertainty;
     if (const toml::node* node = table.get("scheme")) {
       const std::string word = string(*node, "scheme", "scheme = \"auto\"");
-      const std::optional<Scheme> scheme = scheme_named(word);
+      const std::optional<Scheme> scheme = value_named<Scheme>(word);
       if (!scheme) {
         fail(*node, fmt::format("unknown scheme {}", quote(word)),
-             "the bootstrap would not know how to draw", did_you_mean(word, scheme_names()));
+             "the bootstrap would not know how to draw", did_you_mean(word, all_names<Scheme>()));
       }
       spec.scheme = *scheme;
     }
@@ -292,30 +363,15 @@ class FitReader : private TomlReader {
 
 }  // namespace
 
-const std::vector<ParameterEntry>& parameter_catalogue() {
-  // Starts: C_H V = 0.03 costs 1 - e = 2/3 C_H V = 0.02 at 10 m/s, and this C_A makes the model
-  // capture ammonium fluorescein of 4.9 um below about 1 m/s, both near what Wall et al. (1990)
-  // saw. f0 starts at eq. 12 of its dataset unless the fit says otherwise; its number here is only
-  // the magnitude of Table 1 of Li, Dunn & Brach (1999).
-  static const std::vector<ParameterEntry> catalogue = {
-      {"C_H", "s/m", "Hertz damping", 3e-3, 0.0, 1.0, true, false},
-      {"C_A", "s/m", "adhesion damping", 3e-2, 0.0, 10.0, true, false},
-      {"f0", "N/m", "adhesion force per length of the contact's edge", 10.0, 1e-6, 1e6, false,
-       true},
-  };
-  return catalogue;
+ParameterSpec default_of(const Parameter& parameter) {
+  return {&parameter, parameter.initial, parameter.lower, parameter.upper, parameter.free};
 }
 
-std::vector<ParameterEntry> parameters_with(const std::vector<std::string>& mechanisms) {
-  std::vector<ParameterEntry> entries = parameter_catalogue();
-  for (const Mechanism* mechanism : chain_of(mechanisms)) {
-    for (const MechanismParameter& p : mechanism->info.parameters) {
-      entries.push_back({std::string(p.name), std::string(p.unit), std::string(p.meaning),
-                         p.initial, p.lower, p.upper, p.free, p.log_scale,
-                         std::string(mechanism->info.id)});
-    }
-  }
-  return entries;
+ParameterSpec FitSpec::statement_of(const Parameter& parameter) const {
+  const auto found =
+      std::find_if(parameters.begin(), parameters.end(),
+                   [&](const ParameterSpec& spec) { return spec.parameter == &parameter; });
+  return found != parameters.end() ? *found : default_of(parameter);
 }
 
 FitSpec parse_fit(const std::string& text, const std::filesystem::path& file) {

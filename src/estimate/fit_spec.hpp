@@ -5,22 +5,32 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "estimate/noise_spec.hpp"
 #include "estimate/scheme.hpp"
 #include "impact/impact.hpp"
+#include "mechanism/parameter.hpp"
 
 namespace recoil {
 
-/// One parameter of a fit file. Units are fixed by the catalogue (`parameter_catalogue`).
+/// What a fit file states of one parameter.
 struct ParameterSpec {
-  std::string name;
+  const Parameter* parameter = nullptr;
   double initial = 0.0;
   double lower = 0.0;
   double upper = 0.0;
   bool free = true;
   bool per_dataset = false;     ///< `per = "dataset"`: one value for each dataset of the fit
   bool initial_stated = false;  ///< f0 takes eq. 12 when its initial value is not stated
+
+  /// Is the start (or the value, if it is fixed) to be had from the materials of the datasets?
+  bool is_derived() const {
+    return parameter->role == ParameterRole::adhesion_force && !initial_stated;
+  }
 };
+
+/// What a fit file means that does not mention `parameter`.
+ParameterSpec default_of(const Parameter& parameter);
 
 /// The `[uncertainty]` table.
 struct UncertaintySpec {
@@ -41,28 +51,13 @@ struct FitSpec {
   std::vector<std::string> mechanisms;    ///< ids from the catalogue of mechanisms
   std::vector<ParameterSpec> parameters;  ///< all of `parameters_with(mechanisms)`, in that order
   NoiseSpec noise;
+  Location variance_place;  ///< where the file names the variance function, for messages
   UncertaintySpec uncertainty;
   std::string sha256;  ///< of the file's text
+
+  /// The entry of `parameters`, or the default where there is none.
+  ParameterSpec statement_of(const Parameter& parameter) const;
 };
-
-/// What a parameter is: name, unit, meaning, default start and bounds.
-struct ParameterEntry {
-  std::string name;
-  std::string unit;
-  std::string meaning;
-  double initial;
-  double lower;
-  double upper;
-  bool free;
-  bool log_scale;              ///< estimated in its logarithm: it is positive by nature
-  std::string mechanism = {};  ///< id of that to which it belongs; empty for the base model
-};
-
-/// C_H, C_A and f0, in this order.
-const std::vector<ParameterEntry>& parameter_catalogue();
-
-/// Those and the parameters of `mechanisms`, in the order in which the mechanisms act.
-std::vector<ParameterEntry> parameters_with(const std::vector<std::string>& mechanisms);
 
 /// Reads and validates a fit file. Unknown keys are errors that name the nearest known one.
 ///

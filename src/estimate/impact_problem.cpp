@@ -2,6 +2,9 @@
 
 #include <memory>
 
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
+
 namespace recoil {
 
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
@@ -16,7 +19,7 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
   }
   std::vector<PointConditions> points;
   for (const Observation& point : data.points) {
-    points.push_back({point.dataset, point.diameter, point.velocity, point.series});
+    points.push_back(point.conditions());
   }
   const auto predictor = std::make_shared<PointPredictor>(model, std::move(points));
   problem.evaluate = [predictor, &data, handovers](std::span<const double> theta,
@@ -27,8 +30,8 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
     if (handovers != nullptr) *handovers += handed_over;
     for (std::size_t i = 0; i < data.points.size(); ++i) {
       if (!predictor->at(i).usable()) return false;
-      const WeightedResidual r =
-          weighted_residual(data.points[i], predictor->at(i).restitution_squared);
+      const WeightedResidual r = weighted_residual(
+          data.points[i], predictor->at(i).restitution_squared, data.noise.student);
       residuals[i] = r.value;
       if (!jacobian.empty()) predictor->gradient_row(i, r.slope, jacobian.subspan(i * p, p));
     }

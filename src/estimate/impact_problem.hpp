@@ -1,7 +1,8 @@
 #pragma once
 
-#include "estimate/fit.hpp"
 #include "estimate/least_squares.hpp"
+#include "estimate/model.hpp"
+#include "estimate/observations.hpp"
 
 namespace recoil {
 

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+
+#include "impact/fast_solver.hpp"
 
 namespace recoil {
 namespace {
@@ -16,35 +17,27 @@ double reference_diameter_of(const Dataset& dataset) {
   return diameters[diameters.size() / 2];
 }
 
-std::size_t add_slot(ImpactModel& model, const ParameterEntry& entry, const ParameterSpec& spec,
-                     const std::string& dataset, double initial) {
-  model.slots.push_back({spec.name, entry.unit, dataset, initial, spec.lower, spec.upper, spec.free,
-                         entry.log_scale && spec.lower > 0.0, entry.mechanism});
+std::size_t add_slot(ImpactModel& model, const ParameterSpec& spec, const std::string& dataset,
+                     const std::string& series, double initial) {
+  model.slots.push_back({spec.parameter, dataset, series, initial, spec.lower, spec.upper,
+                         spec.free, spec.parameter->log_scale && spec.lower > 0.0});
   return model.slots.size() - 1;
 }
 
 /// The slots of one parameter of a mechanism, per dataset: one, or one per series.
-std::vector<std::vector<std::size_t>> add_own_slots(ImpactModel& model, const ParameterEntry& entry,
-                                                    const ParameterSpec& spec,
-                                                    const MechanismParameter& parameter,
+std::vector<std::vector<std::size_t>> add_own_slots(ImpactModel& model, const ParameterSpec& spec,
                                                     const std::vector<Dataset>& datasets) {
   std::vector<std::vector<std::size_t>> all;
-  const auto add = [&](const std::string& dataset, const std::string& series) {
-    const std::size_t slot = add_slot(model, entry, spec, dataset, spec.initial);
-    model.slots[slot].series = series;
-    model.slots[slot].null_value = parameter.null_value;
-    model.slots[slot].starts = parameter.starts;
-    return slot;
-  };
   const bool several = datasets.size() > 1;
   for (const Dataset& dataset : datasets) {
     std::vector<std::size_t>& slots = all.emplace_back();
-    if (parameter.per_series) {
+    if (spec.parameter->per_series) {
       for (const std::string& series : dataset.series) {
-        slots.push_back(add(several ? dataset.id : "", series));
+        slots.push_back(add_slot(model, spec, several ? dataset.id : "", series, spec.initial));
       }
     } else if (all.size() == 1 || spec.per_dataset) {
-      slots.push_back(add(several && spec.per_dataset ? dataset.id : "", ""));
+      const std::string id = several && spec.per_dataset ? dataset.id : "";
+      slots.push_back(add_slot(model, spec, id, "", spec.initial));
     } else {
       slots = all.front();
     }
@@ -52,17 +45,37 @@ std::vector<std::vector<std::size_t>> add_own_slots(ImpactModel& model, const Pa
   return all;
 }
 
-const MechanismParameter& parameter_of(const ParameterEntry& entry) {
-  const Mechanism* const mechanism = find_mechanism(entry.mechanism);
-  const auto& all = mechanism->info.parameters;
-  return *std::find_if(all.begin(), all.end(),
-                       [&](const MechanismParameter& p) { return p.name == entry.name; });
+/// The slot of a parameter of the base model for every dataset.
+std::vector<std::size_t> add_base_slots(ImpactModel& model, const ParameterSpec& spec,
+                                        const std::vector<Dataset>& datasets) {
+  // f0 belongs to a pair of materials: where it is derived, every dataset has its own.
+  const bool derived = spec.is_derived();
+  const bool split = datasets.size() > 1 && (spec.per_dataset || (derived && !spec.free));
+  std::vector<std::size_t> slots;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    if (d > 0 && !split) {
+      slots.push_back(slots.front());
+      continue;
+    }
+    const double initial = derived ? model.contacts[d].adhesion_force : spec.initial;
+    slots.push_back(add_slot(model, spec, split ? datasets[d].id : "", "", initial));
+  }
+  return slots;
+}
+
+long simulate_by_reference(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                           std::span<ImpactResult> results) {
+  for (std::size_t i = 0; i < groups.size(); ++i) results[i] = simulate_impact(groups[i], options);
+  return 0;
 }
 
 }  // namespace
 
 std::string ParameterSlot::label() const {
-  if (series.empty()) return dataset.empty() ? name : fmt::format("{}[{}]", name, dataset);
+  const std::string_view name = parameter->name;
+  if (series.empty()) {
+    return dataset.empty() ? std::string(name) : fmt::format("{}[{}]", name, dataset);
+  }
   return dataset.empty() ? fmt::format("{}[{}]", name, series)
                          : fmt::format("{}[{}/{}]", name, dataset, series);
 }
@@ -73,6 +86,24 @@ std::vector<double> ImpactModel::initial() const {
   return theta;
 }
 
+int ImpactModel::free_count() const {
+  return static_cast<int>(std::count_if(slots.begin(), slots.end(),
+                                        [](const ParameterSlot& slot) { return slot.free; }));
+}
+
+ImpactOptions ImpactModel::impact_options(bool gradient) const {
+  ImpactOptions options;
+  options.phase = phase;
+  options.gradient = gradient;
+  options.tolerance *= solver.tolerance_factor;
+  options.fast_tolerance *= solver.tolerance_factor;
+  return options;
+}
+
+SimulateImpacts ImpactModel::simulator() const {
+  return solver.kind == Solver::fast ? simulate_impacts_fast : simulate_by_reference;
+}
+
 ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets) {
   ImpactModel model;
   model.phase = spec.phase;
@@ -81,31 +112,21 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     model.surroundings.push_back(surroundings_of(dataset.system, model.contacts.back()));
   }
   model.chain = chain_of(spec.mechanisms);
-  const std::vector<ParameterEntry> entries = parameters_with(spec.mechanisms);
-  assert(entries.size() == spec.parameters.size());
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    const ParameterEntry& entry = entries[k];
-    const ParameterSpec& parameter = spec.parameters[k];
-    assert(entry.name == parameter.name);
-    if (!entry.mechanism.empty()) {
-      model.slot_own.push_back(
-          add_own_slots(model, entry, parameter, parameter_of(entry), datasets));
-      continue;
-    }
-    std::vector<std::size_t>& index = parameter.name == "C_H"   ? model.slot_C_H
-                                      : parameter.name == "C_A" ? model.slot_C_A
-                                                                : model.slot_f0;
-    // f0 belongs to a pair of materials: where it is derived, every dataset has its own.
-    const bool derived = parameter.name == "f0" && !parameter.initial_stated;
-    const bool split =
-        datasets.size() > 1 && (parameter.per_dataset || (derived && !parameter.free));
-    for (std::size_t d = 0; d < datasets.size(); ++d) {
-      if (d > 0 && !split) {
-        index.push_back(index.front());
-        continue;
-      }
-      const double initial = derived ? model.contacts[d].adhesion_force : parameter.initial;
-      index.push_back(add_slot(model, entry, parameter, split ? datasets[d].id : "", initial));
+  for (const Parameter* parameter : parameters_with(spec.mechanisms)) {
+    const ParameterSpec stated = spec.statement_of(*parameter);
+    switch (parameter->role) {
+      case ParameterRole::hertz_damping:
+        model.slot_C_H = add_base_slots(model, stated, datasets);
+        break;
+      case ParameterRole::adhesion_damping:
+        model.slot_C_A = add_base_slots(model, stated, datasets);
+        break;
+      case ParameterRole::adhesion_force:
+        model.slot_f0 = add_base_slots(model, stated, datasets);
+        break;
+      case ParameterRole::of_mechanism:
+        model.slot_own.push_back(add_own_slots(model, stated, datasets));
+        break;
     }
   }
   return model;
@@ -113,12 +134,11 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
 
 std::vector<double> without_mechanisms(const ImpactModel& model, std::vector<double> theta) {
   for (std::size_t j = 0; j < theta.size(); ++j) {
-    if (!model.slots[j].mechanism.empty()) theta[j] = model.slots[j].null_value;
+    const Parameter& parameter = *model.slots[j].parameter;
+    if (parameter.mechanism != nullptr) theta[j] = parameter.null_value;
   }
   return theta;
 }
-
-double Prediction::restitution() const { return std::sqrt(std::max(restitution_squared, 0.0)); }
 
 ImpactConditions conditions_at(const ImpactModel& model, std::span<const double> theta,
                                std::size_t dataset, double diameter, double velocity) {
@@ -131,26 +151,6 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
           adhesion_force_at(theta[model.slot_f0[dataset]], contact.reference_diameter, diameter),
           theta[model.slot_C_H[dataset]],
           theta[model.slot_C_A[dataset]]};
-}
-
-std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
-                                std::vector<PointConditions> points, bool gradient) {
-  PointPredictor predictor(model, std::move(points));
-  predictor.evaluate(theta, gradient);
-  std::vector<Prediction> predictions(predictor.size());
-  for (std::size_t i = 0; i < predictor.size(); ++i) {
-    predictions[i].outcome = predictor.at(i).outcome;
-    predictions[i].restitution_squared = predictor.at(i).restitution_squared;
-    if (!gradient) continue;
-    predictions[i].gradient.resize(model.slots.size());
-    predictor.gradient_row(i, 1.0, predictions[i].gradient);
-  }
-  return predictions;
-}
-
-Prediction predict(const ImpactModel& model, std::span<const double> theta, std::size_t dataset,
-                   double diameter, double velocity, bool gradient) {
-  return predict(model, theta, {{dataset, diameter, velocity}}, gradient).front();
 }
 
 }  // namespace recoil

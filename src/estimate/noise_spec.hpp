@@ -1,9 +1,10 @@
 #pragma once
 
+#include <array>
 #include <optional>
-#include <string>
+#include <string_view>
 
-#include "core/error.hpp"
+#include "core/names.hpp"
 
 namespace recoil {
 
@@ -21,15 +22,17 @@ namespace recoil {
 /// and Weighting in Regression, chapter 3).
 enum class VarianceFunction { stated, constant, proportional, capture, steep };
 
-/// The word used in files and on the screen.
-std::string to_string(VarianceFunction function);
+template <>
+struct NamesOf<VarianceFunction> {
+  static constexpr std::array<std::string_view, 5> names = {"stated", "constant", "proportional",
+                                                            "capture", "steep"};
+};
 
 /// The `[noise]` table of a fit file.
 struct NoiseSpec {
   /// Empty for "auto": the stated standard deviations when every point has one, else whichever
   /// function the points ask for.
   std::optional<VarianceFunction> variance;
-  Location variance_place;  ///< where the file says so, for messages
 
   bool student = false;      ///< `residuals = "student"`: Student's t instead of the normal
   double student_dof = 4.0;  ///< its degrees of freedom, at least 1

@@ -27,7 +27,7 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
   point.diameter = p.diameter;
   point.velocity = p.incident_velocity;
   point.restitution = p.restitution;
-  point.sd = p.restitution_sd.value_or(0.0);
+  point.weights.sd = p.restitution_sd.value_or(0.0);
   point.censored = p.all_captured();
   point.events = p.events;
   point.captured = p.captured;
@@ -47,42 +47,46 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
 void complete_captured(std::vector<Observation>& points) {
   std::vector<double> known;
   for (const Observation& point : points) {
-    if (point.sd > 0.0) known.push_back(point.event_sd());
+    if (point.weights.sd > 0.0) known.push_back(point.event_sd());
   }
   std::sort(known.begin(), known.end());
   const double middle = known.empty() ? nominal_sd : known[known.size() / 2];
   for (Observation& point : points) {
-    if (point.censored && !(point.sd > 0.0)) point.sd = middle / std::sqrt(point.events);
+    if (point.censored && !(point.weights.sd > 0.0))
+      point.weights.sd = middle / std::sqrt(point.events);
   }
 }
 
 void weigh_equally(std::vector<Observation>& points) {
   for (Observation& point : points) {
-    point.sd =
+    point.weights.sd =
         nominal_sd / std::sqrt(std::max(1, point.censored ? point.events : point.rebounds()));
   }
 }
 
 }  // namespace
 
+double Observation::event_sd() const {
+  return weights.sd * std::sqrt(static_cast<double>(rebounds() > 0 ? rebounds() : events));
+}
+
 bool Observations::weights_depend_on_fit() const {
   return !sd_stated || std::any_of(points.begin(), points.end(), [](const Observation& point) {
-    return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 || point.scatter > 0.0 ||
-           (point.captured > 0 && !point.censored);
+    return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 || point.weights.scatter > 0.0 ||
+           point.mixed();
   });
 }
 
-Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec) {
+Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
+                    const Location& variance_place) {
   Observations data;
   data.spec = spec;
-  std::size_t missing = 0;
-  std::size_t stated = 0;
-  const std::optional<StudentNoise> student =
-      spec.student ? std::optional(student_noise(spec.student_dof)) : std::nullopt;
+  int missing = 0;
+  int stated = 0;
+  if (spec.student) data.noise.student = student_noise(spec.student_dof);
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     for (const ImpactPoint& p : datasets[d].points) {
       data.points.push_back(observe(datasets[d], d, p, spec));
-      data.points.back().student = student;
       if (p.restitution_sd) {
         ++stated;
       } else if (!p.all_captured()) {
@@ -92,7 +96,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec)
   }
   if (spec.variance == VarianceFunction::stated && missing > 0) {
     throw InputError(
-        spec.variance_place, "variance = \"stated\"",
+        variance_place, "variance = \"stated\"",
         fmt::format("{} of {} points state no restitution_sd", missing, data.points.size()),
         "write \"auto\", or state them all");
   }
@@ -104,17 +108,13 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec)
   weigh_equally(data.points);
   data.noise.variance = spec.variance.value_or(VarianceFunction::constant);
   data.noise.scale = nominal_sd;
-  if (stated > 0) {
-    data.warnings.push_back(fmt::format(
-        "the standard deviations that {} points state (restitution_sd) are set aside: {}", stated,
-        spec.variance ? "the fit asks for an estimated variance function"
-                      : fmt::format("{} others state none, and two kinds of weights would not be "
-                                    "comparable",
-                                    missing)));
-  }
-  data.warnings.emplace_back(
-      "the noise is estimated from the residuals: the fit cannot be tested against it");
+  data.sd_set_aside = stated;
+  data.sd_missing = missing;
   return data;
+}
+
+Observations gather(const std::vector<Dataset>& datasets, const FitSpec& spec) {
+  return gather(datasets, spec.noise, spec.variance_place);
 }
 
 }  // namespace recoil

@@ -1,25 +1,17 @@
+#include "estimate/predictor.hpp"
+
 #include <algorithm>
 #include <cassert>
-
-#include "estimate/model.hpp"
-#include "impact/fast_solver.hpp"
+#include <cmath>
 
 namespace recoil {
 namespace {
 
 constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
 
-long simulate_by_reference(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-                           std::span<ImpactResult> results) {
-  for (std::size_t i = 0; i < groups.size(); ++i) results[i] = simulate_impact(groups[i], options);
-  return 0;
-}
-
-SimulateImpacts simulator(Solver solver) {
-  return solver == Solver::fast ? simulate_impacts_fast : simulate_by_reference;
-}
-
 }  // namespace
+
+double Prediction::restitution() const { return std::sqrt(std::max(restitution_squared, 0.0)); }
 
 PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointConditions> points,
                                Effects effects)
@@ -38,13 +30,13 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
 
   std::vector<const Mechanism*> chain;
   std::vector<std::size_t> own;  // which parameters of the model's chain
-  std::vector<const MechanismParameter*> own_parameters;
+  std::vector<const Parameter*> own_parameters;
   std::size_t parameter = 0;
   for (const Mechanism* mechanism : model.chain) {
     const bool acts =
         effects == Effects::as_measured || mechanism->info.kind != MechanismKind::measurement;
     if (acts) chain.push_back(mechanism);
-    for (const MechanismParameter& p : mechanism->info.parameters) {
+    for (const Parameter& p : mechanism->info.parameters) {
       if (acts) {
         own.push_back(parameter);
         own_parameters.push_back(&p);
@@ -74,11 +66,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
 
 long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   assert(theta.size() == model_.slots.size());
-  ImpactOptions options;
-  options.phase = model_.phase;
-  options.gradient = gradient;
-  options.tolerance *= model_.loosened;
-  options.fast_tolerance *= model_.loosened;
+  const ImpactOptions options = model_.impact_options(gradient);
   if (extended_) return evaluate_extended(theta, options);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointConditions& p = points_[i];
@@ -86,7 +74,7 @@ long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
                   theta[model_.slot_f0[p.dataset]] * beta_per_f0_[i],
                   theta[model_.slot_C_A[p.dataset]] * p.velocity};
   }
-  return simulator(model_.solver)(groups_, options, results_);
+  return model_.simulator()(groups_, options, results_);
 }
 
 long PointPredictor::evaluate_extended(std::span<const double> theta,
@@ -94,7 +82,7 @@ long PointPredictor::evaluate_extended(std::span<const double> theta,
   for (std::size_t k = 0; k < slots_.size(); ++k) {
     values_[k] = slots_[k] == no_slot ? nulls_[k] : theta[slots_[k]];
   }
-  const long handed_over = extended_->evaluate(values_, options, simulator(model_.solver));
+  const long handed_over = extended_->evaluate(values_, options, model_.simulator());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     results_[i].outcome = extended_->at(i).outcome;
     results_[i].restitution_squared = extended_->at(i).restitution_squared;
@@ -133,6 +121,26 @@ double PointPredictor::diameter_slope(std::size_t i) const {
   return -2.0 / 3.0 * groups_[i].beta * results_[i].gradient[1] / points_[i].diameter;
 }
 
+std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
+                                std::vector<PointConditions> points, bool gradient) {
+  PointPredictor predictor(model, std::move(points));
+  predictor.evaluate(theta, gradient);
+  std::vector<Prediction> predictions(predictor.size());
+  for (std::size_t i = 0; i < predictor.size(); ++i) {
+    predictions[i].outcome = predictor.at(i).outcome;
+    predictions[i].restitution_squared = predictor.at(i).restitution_squared;
+    if (!gradient) continue;
+    predictions[i].gradient.resize(model.slots.size());
+    predictor.gradient_row(i, 1.0, predictions[i].gradient);
+  }
+  return predictions;
+}
+
+Prediction predict(const ImpactModel& model, std::span<const double> theta, std::size_t dataset,
+                   double diameter, double velocity, bool gradient) {
+  return predict(model, theta, {{dataset, diameter, velocity}}, gradient).front();
+}
+
 ContactView contact_view(const ImpactModel& model, std::span<const double> theta,
                          const PointConditions& point) {
   std::vector<double> values = {theta[model.slot_C_H[point.dataset]],
@@ -140,7 +148,7 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
                                 theta[model.slot_f0[point.dataset]]};
   std::size_t k = 0;
   for (const Mechanism* mechanism : model.chain) {
-    for (const MechanismParameter& p : mechanism->info.parameters) {
+    for (const Parameter& p : mechanism->info.parameters) {
       const std::vector<std::size_t>& slots = model.slot_own[k++][point.dataset];
       const bool known = !p.per_series || point.series < slots.size();
       values.push_back(known ? theta[slots[p.per_series ? point.series : 0]] : p.null_value);

@@ -1,3 +1,5 @@
+#include "estimate/residual.hpp"
+
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sf_erf.h>
 
@@ -6,7 +8,6 @@
 #include <numbers>
 
 #include "core/gsl_errors.hpp"
-#include "estimate/observations.hpp"
 #include "estimate/survivors.hpp"
 
 namespace recoil {
@@ -28,9 +29,10 @@ struct CaptureSpread {
 };
 CaptureSpread capture_spread(const Observation& point) {
   const double n = point.events;
-  const double shared = point.input_sd * point.input_sd;
-  if (!(point.scatter > 0.0)) return {std::sqrt(2.0 * std::pow(point.sd, 4) + shared), 1.0 / n};
-  const double own = point.scatter;
+  const double shared = point.weights.input_sd * point.weights.input_sd;
+  if (!(point.weights.scatter > 0.0))
+    return {std::sqrt(2.0 * std::pow(point.weights.sd, 4) + shared), 1.0 / n};
+  const double own = point.weights.scatter;
   const double square = own * own + shared;
   return {std::sqrt(square), (1.0 + (n - 1.0) * own * own / square) / n};
 }
@@ -39,7 +41,7 @@ WeightedResidual tobit_residual(const Observation& point, double m) {
   gsl_errors_are_values();
   const CaptureSpread spread = capture_spread(point);
   const double n = spread.weight * point.events;
-  const double z = (m + point.shift) / spread.scale;
+  const double z = (m + point.weights.shift) / spread.scale;
   const double deviance = -2.0 * n * log_captured(z);
   if (deviance < 1e-280) return {0.0, 0.0};
   const double value = std::sqrt(deviance);
@@ -55,13 +57,13 @@ struct Deviance {
 /// D of a point whose impacts differ, and dD/dm.
 Deviance event_deviance_and_slope(const Observation& point, double m) {
   gsl_errors_are_values();
-  const double x = m + point.shift;
+  const double x = m + point.weights.shift;
   Deviance d{0.0, 0.0};
   if (!point.censored) {
-    const RootMoments root = root_of_positive_normal(x / point.scatter);
-    const double unit = std::sqrt(point.scatter);
-    const double r = (point.restitution - unit * root.mean) / point.mean_sd;
-    d = {r * r, -2.0 * r * root.slope / (unit * point.mean_sd)};
+    const RootMoments root = root_of_positive_normal(x / point.weights.scatter);
+    const double unit = std::sqrt(point.weights.scatter);
+    const double r = (point.restitution - unit * root.mean) / point.weights.mean_sd;
+    d = {r * r, -2.0 * r * root.slope / (unit * point.weights.mean_sd)};
   }
   if (!point.counted) return d;
   const CaptureSpread spread = capture_spread(point);
@@ -74,7 +76,7 @@ Deviance event_deviance_and_slope(const Observation& point, double m) {
 }
 
 WeightedResidual event_residual(const Observation& point, double m) {
-  const DeviancePeak& peak = point.peak;
+  const DeviancePeak& peak = point.weights.peak;
   const double away = m - peak.at;
   const double unit = std::sqrt(0.5 * peak.curvature);
   constexpr double close = 1e-3;
@@ -89,7 +91,7 @@ WeightedResidual event_residual(const Observation& point, double m) {
 }
 
 WeightedResidual mean_residual(const Observation& point, double m) {
-  const double variance = point.sd * point.sd;
+  const double variance = point.weights.sd * point.weights.sd;
   const double y = point.restitution * point.restitution - variance;
   const double hypotenuse = std::hypot(m, variance);
   // For m far below zero (m + hypotenuse) cancels; the conjugate form does not.
@@ -98,26 +100,23 @@ WeightedResidual mean_residual(const Observation& point, double m) {
   const double psi = std::sqrt(psi_squared);
   const double psi_slope = psi / (2.0 * hypotenuse);  // d psi / d m
   const double sum = point.restitution + psi;
-  const double width =
-      std::sqrt(variance * (sum * sum + 2.0 * variance) + point.input_sd * point.input_sd);
+  const double width = std::sqrt(variance * (sum * sum + 2.0 * variance) +
+                                 point.weights.input_sd * point.weights.input_sd);
   const double width_slope = variance * sum * psi_slope / width;
   return {(y - m) / width, (-1.0 - (y - m) / width * width_slope) / width};
 }
 
 WeightedResidual normal_residual(const Observation& point, double m) {
   if (point.censored) return tobit_residual(point, m);
-  return point.scatter > 0.0 ? event_residual(point, m) : mean_residual(point, m);
+  return point.weights.scatter > 0.0 ? event_residual(point, m) : mean_residual(point, m);
 }
 
 }  // namespace
 
-double Observation::event_sd() const {
-  return sd * std::sqrt(static_cast<double>(rebounds() > 0 ? rebounds() : events));
-}
-
-WeightedResidual weighted_residual(const Observation& point, double m) {
+WeightedResidual weighted_residual(const Observation& point, double m,
+                                   const std::optional<StudentNoise>& student) {
   const WeightedResidual r = normal_residual(point, m);
-  return point.student ? point.student->transformed(r) : r;
+  return student ? student->transformed(r) : r;
 }
 
 double event_deviance(const Observation& point, double m) {
@@ -126,11 +125,13 @@ double event_deviance(const Observation& point, double m) {
 
 void locate_peak(Observation& point) {
   // D falls where everything would be captured and rises far above the measured mean.
-  const double reach = 10.0 * (point.scatter + point.input_sd + point.mean_sd);
-  double low = -point.shift - reach;
-  double high = point.restitution * point.restitution - point.shift + reach;
+  const double reach =
+      10.0 * (point.weights.scatter + point.weights.input_sd + point.weights.mean_sd);
+  double low = -point.weights.shift - reach;
+  double high = point.restitution * point.restitution - point.weights.shift + reach;
   const auto slope = [&](double m) { return event_deviance_and_slope(point, m).slope; };
-  // Regula falsi with the Illinois rule, and halving where that is slow.
+  // Regula falsi with the Illinois rule, and halving where that is slow; by hand, since it runs for
+  // every point in every round of every replicate.
   double slope_low = slope(low);
   double slope_high = slope(high);
   constexpr int most_steps = 200;
@@ -154,10 +155,11 @@ void locate_peak(Observation& point) {
       slope_low *= 0.5;
     }
   }
-  DeviancePeak& peak = point.peak;
+  DeviancePeak& peak = point.weights.peak;
   peak.at = middle;
   peak.deviance = event_deviance(point, peak.at);
-  const double h = 1e-3 * std::min(point.scatter, std::max(point.mean_sd, 1e-3 * point.scatter));
+  const double h = 1e-3 * std::min(point.weights.scatter,
+                                   std::max(point.weights.mean_sd, 1e-3 * point.weights.scatter));
   const double more = slope(peak.at + h);
   const double less = slope(peak.at - h);
   peak.curvature = (more - less) / (2.0 * h);
@@ -165,14 +167,16 @@ void locate_peak(Observation& point) {
 }
 
 double survivors_sd(const Observation& point, double m) {
-  if (point.censored) return point.sd;
-  const double variance = root_of_positive_normal((m + point.shift) / point.scatter).variance;
-  return std::max(point.sd, std::sqrt(point.scatter * variance / point.rebounds()));
+  if (point.censored) return point.weights.sd;
+  const double variance =
+      root_of_positive_normal((m + point.weights.shift) / point.weights.scatter).variance;
+  return std::max(point.weights.sd, std::sqrt(point.weights.scatter * variance / point.rebounds()));
 }
 
 double expected_restitution(const Observation& point, double m) {
-  if (point.censored || !(point.scatter > 0.0)) return std::sqrt(std::max(m, 0.0));
-  return std::sqrt(point.scatter) * root_of_positive_normal((m + point.shift) / point.scatter).mean;
+  if (point.censored || !(point.weights.scatter > 0.0)) return std::sqrt(std::max(m, 0.0));
+  return std::sqrt(point.weights.scatter) *
+         root_of_positive_normal((m + point.weights.shift) / point.weights.scatter).mean;
 }
 
 }  // namespace recoil

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
+#include <array>
+#include <string_view>
+
+#include "core/names.hpp"
 
 namespace recoil {
 
@@ -16,13 +17,11 @@ enum class Scheme {
   cluster,     ///< whole series drawn with replacement
 };
 
-/// The name that fit files, the command line and fit.json use: "auto", "parametric", "residual",
-/// "wild", "case", "cluster".
-std::string to_string(Scheme scheme);
-
-/// Every name, in the order of the enumerators.
-const std::vector<std::string>& scheme_names();
-
-std::optional<Scheme> scheme_named(const std::string& name);
+/// As fit files, the command line and fit.json have it.
+template <>
+struct NamesOf<Scheme> {
+  static constexpr std::array<std::string_view, 6> names = {"auto", "parametric", "residual",
+                                                            "wild", "case",       "cluster"};
+};
 
 }  // namespace recoil

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/roots.hpp"
+
 namespace recoil {
 namespace {
 
@@ -35,17 +37,14 @@ double core_scale(const StudentNoise& student) {
     const double t = std::sinh(i * step);
     nodes.emplace_back(t, gsl_ran_tdist_pdf(t, student.dof) * std::cosh(i * step) * step);
   }
-  double low = 0.05;
-  double high = 2.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
+  const auto excess = [&](double scale) {
     double square = 0.0;
     for (const auto& [t, weight] : nodes) {
-      square += weight * student.psi(middle * t) * student.psi(middle * t);
+      square += weight * student.psi(scale * t) * student.psi(scale * t);
     }
-    (square < student.mean_square ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+    return square - student.mean_square;
+  };
+  return find_root(excess, 0.05, 2.0);
 }
 
 }  // namespace

@@ -1,19 +1,15 @@
 #include "estimate/two_point.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-#include "impact/fast_solver.hpp"
-
 namespace recoil {
 namespace {
 
 constexpr int most_iterations = 200;
-constexpr double settled = 1e-8;         // relative change of both factors
+constexpr double at_rest = 1e-8;         // relative change of both factors
 constexpr double root_tolerance = 1e-9;  // relative, of each factor; Newton ends far below it
 
 struct Excess {
@@ -108,7 +104,7 @@ class Iteration {
     double& damping = on_high_ ? run_.C_H : run_.C_A;
     const double change = std::abs(found.value_or(0.0) - damping);
     damping = found.value_or(0.0);
-    const bool moves = change > settled * damping;
+    const bool moves = change > at_rest * damping;
     if (on_high_) {
       hertz_found_ = found.has_value();
       hertz_moves_ = moves;
@@ -155,33 +151,6 @@ class Iteration {
   DampingSearch search_;
 };
 
-std::string describe(const Observation& point) {
-  return fmt::format("e = {:.4g} at V = {:.4g} m/s", point.restitution, point.velocity);
-}
-
-/// How the iteration ended, with numbers.
-std::string words(const ImpactModel& model, std::size_t dataset, const TwoPointRun& run,
-                  const Observation& low, const Observation& high) {
-  switch (run.status) {
-    case TwoPointStatus::no_hertz_damping:
-      return fmt::format(
-          "no C_H >= 0 gives {}: the adhesion that the lowest velocity asks for (C_A = {:.4g} s/m) "
-          "already costs more there",
-          describe(high), run.C_A);
-    case TwoPointStatus::no_adhesion_damping:
-      return fmt::format("no C_A in [0, {:.4g}] s/m gives {} beside C_H = {:.4g} s/m",
-                         model.slots[model.slot_C_A[dataset]].upper, describe(low), run.C_H);
-    case TwoPointStatus::converged:
-      return fmt::format("from {} and {}", describe(low), describe(high));
-    case TwoPointStatus::not_converging:
-      return fmt::format("C_H and C_A still change after {} iterations on {} and {}",
-                         most_iterations, describe(low), describe(high));
-    case TwoPointStatus::too_few_points:
-      break;
-  }
-  return "";
-}
-
 bool choose_points(const Observations& data, std::size_t dataset, double diameter,
                    TwoPointResult& result) {
   double nearest = 0.0;
@@ -208,22 +177,6 @@ bool choose_points(const Observations& data, std::size_t dataset, double diamete
 
 }  // namespace
 
-std::string to_string(TwoPointStatus status) {
-  switch (status) {
-    case TwoPointStatus::converged:
-      return "converged";
-    case TwoPointStatus::no_hertz_damping:
-      return "no_hertz_damping";
-    case TwoPointStatus::no_adhesion_damping:
-      return "no_adhesion_damping";
-    case TwoPointStatus::not_converging:
-      return "not_converging";
-    case TwoPointStatus::too_few_points:
-      return "too_few_points";
-  }
-  return "";
-}
-
 std::vector<TwoPointRun> iterate_two_points(const ImpactModel& model,
                                             std::span<const TwoPoints> pairs) {
   std::vector<Iteration> iterations;
@@ -231,23 +184,14 @@ std::vector<TwoPointRun> iterate_two_points(const ImpactModel& model,
   for (const TwoPoints& points : pairs) iterations.emplace_back(model, points);
   std::vector<std::size_t> running(pairs.size());
   std::iota(running.begin(), running.end(), std::size_t{0});
-  ImpactOptions options;
-  options.phase = model.phase;
-  options.gradient = true;
-  options.tolerance *= model.loosened;
-  options.fast_tolerance *= model.loosened;
+  const ImpactOptions options = model.impact_options(true);
+  const SimulateImpacts simulate = model.simulator();
   std::vector<ImpactGroups> groups;
   std::vector<ImpactResult> results(pairs.size());
   while (!running.empty()) {
     groups.clear();
     for (const std::size_t i : running) groups.push_back(iterations[i].query());
-    if (model.solver == Solver::fast) {
-      simulate_impacts_fast(groups, options, std::span(results).first(groups.size()));
-    } else {
-      for (std::size_t k = 0; k < groups.size(); ++k) {
-        results[k] = simulate_impact(groups[k], options);
-      }
-    }
+    simulate(groups, options, std::span(results).first(groups.size()));
     for (std::size_t k = 0; k < running.size(); ++k) iterations[running[k]].answer(results[k]);
     std::erase_if(running, [&](std::size_t i) { return iterations[i].done(); });
   }
@@ -269,10 +213,7 @@ TwoPointResult two_point(const ImpactModel& model, const Observations& data, std
                          double diameter) {
   TwoPointResult result;
   result.theta = without_mechanisms(model, model.initial());
-  if (!choose_points(data, dataset, diameter, result)) {
-    result.text = "the diameter has fewer than two velocities at which spheres rebounded";
-    return result;
-  }
+  if (!choose_points(data, dataset, diameter, result)) return result;
   const Observation& low = data.points[result.low_point];
   const Observation& high = data.points[result.high_point];
   const TwoPoints pair{
@@ -281,7 +222,6 @@ TwoPointResult two_point(const ImpactModel& model, const Observations& data, std
   result.status = run.status;
   result.iterations = run.iterations;
   result.theta = two_point_theta(model, dataset, run);
-  result.text = words(model, dataset, run, low, high);
   return result;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <array>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "estimate/fit.hpp"
@@ -17,7 +18,11 @@ enum class TwoPointStatus {
   too_few_points,
 };
 
-std::string to_string(TwoPointStatus status);
+template <>
+struct NamesOf<TwoPointStatus> {
+  static constexpr std::array<std::string_view, 5> names = {
+      "converged", "no_hertz_damping", "no_adhesion_damping", "not_converging", "too_few_points"};
+};
 
 /// A point at which spheres came back.
 struct Rebound {
@@ -54,7 +59,6 @@ std::vector<double> two_point_theta(const ImpactModel& model, std::size_t datase
 /// C_A, and so on until nothing changes. f0 is fixed by eq. 12.
 struct TwoPointResult {
   TwoPointStatus status = TwoPointStatus::too_few_points;
-  std::string text;           ///< the status in a sentence, with numbers
   std::size_t low_point = 0;  ///< indices into the observations
   std::size_t high_point = 0;
   double diameter = 0.0;      ///< of the series used [m]

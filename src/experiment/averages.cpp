@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "experiment/flight.hpp"
 
@@ -108,17 +109,6 @@ Moments moments_of(const std::vector<Arrival>& all, std::size_t begin, std::size
   result.sd = std::sqrt(squares / (n - 1.0));
   if (result.sd < 1e-9 * result.mean) result.sd = 0.0;  // alike but for rounding
   return result;
-}
-
-/// The probability of `count` or more of a Poisson variable with this mean.
-double poisson_at_least(std::size_t count, double mean) {
-  double term = std::exp(-mean);
-  double below = 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
-    below += term;
-    term *= mean / static_cast<double>(k + 1);
-  }
-  return 1.0 - below;
 }
 
 /// Divides the unpaired of a bin among lost, too slow and captured.

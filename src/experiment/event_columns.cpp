@@ -8,51 +8,39 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "data/datapackage.hpp"
+#include "data/folder_names.hpp"
 #include "data/json_document.hpp"
+#include "data/system.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t series_field = static_cast<std::size_t>(EventField::series);
-
-bool needed(std::size_t field) {
-  const auto name = static_cast<EventField>(field);
-  return name == EventField::time || name == EventField::velocity || name == EventField::diameter;
+bool needed(EventField field) {
+  return field == EventField::time || field == EventField::velocity ||
+         field == EventField::diameter;
 }
 
-std::vector<std::string> unit_words(std::size_t field) {
-  switch (static_cast<EventField>(field)) {
+Dimension dimension_of(EventField field) {
+  switch (field) {
     case EventField::time:
-      return {"s", "ms", "us"};
+      return Dimension::time;
     case EventField::velocity:
     case EventField::tangential:
-      return unit_names(Dimension::velocity);
-    default:
-      return unit_names(Dimension::length);
+      return Dimension::velocity;
+    case EventField::diameter:
+      return Dimension::length;
+    case EventField::series:
+      break;
   }
-}
-
-/// The factor to SI, or nothing for a unit that does not measure the field.
-std::optional<double> factor_of(std::size_t field, const std::string& unit) {
-  switch (static_cast<EventField>(field)) {
-    case EventField::time:
-      if (unit == "s") return 1.0;
-      if (unit == "ms") return 1e-3;
-      if (unit == "us") return 1e-6;
-      return std::nullopt;
-    case EventField::velocity:
-    case EventField::tangential:
-      return unit_factor(Dimension::velocity, unit);
-    default:
-      return unit_factor(Dimension::length, unit);
-  }
+  return Dimension::text;
 }
 
 /// What the data package says about one file.
 struct StatedUnits {
   std::map<std::string, std::string> unit;  ///< column -> unit
-  std::string provenance;
+  std::optional<Provenance> provenance;
   bool found = false;  ///< the package has a resource of this name
 };
 
@@ -60,43 +48,26 @@ StatedUnits read_stated(const std::string& package_text, const std::string& file
   StatedUnits stated;
   if (package_text.empty()) return stated;
   const std::filesystem::path path(file);
-  const std::string package = (path.parent_path() / "datapackage.json").string();
-  const JsonDocument document(package_text, package);
-  const auto resources = document.root().find("resources");
-  for (const JsonNode& resource : resources ? resources->items() : std::vector<JsonNode>{}) {
-    const auto place = resource.find("path");
-    if (!place || place->string() != path.filename().string()) continue;
-    stated.found = true;
-    const auto schema = resource.find("schema");
-    const auto fields = schema ? schema->find("fields") : std::nullopt;
-    for (const JsonNode& field : fields ? fields->items() : std::vector<JsonNode>{}) {
-      const auto name = field.find("name");
-      const auto unit = field.find("unit");
-      if (name && unit) stated.unit[name->string()] = unit->string();
-    }
-  }
+  const JsonDocument document(package_text, (path.parent_path() / package_file_name).string());
+  const auto resource = find_resource(document.root(), path.filename().string());
+  if (!resource) return stated;
+  stated.found = true;
+  stated.unit = field_units(*resource);
   const auto recoil = document.root().find("recoil");
-  const auto provenance = recoil && stated.found ? recoil->find("provenance") : std::nullopt;
-  if (provenance) stated.provenance = provenance->string();
+  if (recoil && recoil->find("provenance")) stated.provenance = read_provenance(*recoil);
   return stated;
 }
 
 void require_known(const std::map<std::string, std::string>& given, const std::string& option) {
   for (const auto& [field, value] : given) {
-    const auto& known = event_fields();
-    if (std::find(known.begin(), known.end(), field) != known.end()) continue;
-    throw InputError({}, fmt::format("{} {}={}: no field {}", option, field, value, quote(field)),
-                     "events have no other", did_you_mean(field, known));
+    if (value_named<EventField>(field)) continue;
+    throw InputError(
+        {}, fmt::format("{} {}={}: there is no field {}", option, field, value, quote(field)), "",
+        did_you_mean(field, all_names<EventField>()));
   }
 }
 
 }  // namespace
-
-const std::vector<std::string>& event_fields() {
-  static const std::vector<std::string> names = {"time", "velocity", "tangential_velocity",
-                                                 "diameter", "series"};
-  return names;
-}
 
 EventColumns event_columns(const std::vector<std::string>& header, const std::string& file,
                            const std::string& package_text, const EventFormat& format) {
@@ -107,45 +78,44 @@ EventColumns event_columns(const std::vector<std::string>& header, const std::st
   columns.width = header.size();
   columns.provenance = stated.provenance;
   std::vector<bool> used(header.size(), false);
-  for (std::size_t field = 0; field < event_field_count; ++field) {
-    const std::string& name = event_fields()[field];
+  for (const EventField field : values_of<EventField>()) {
+    const std::string name = to_string(field);
     const auto renamed = format.columns.find(name);
     const std::string& wanted = renamed != format.columns.end() ? renamed->second : name;
     const auto found = std::find(header.begin(), header.end(), wanted);
     if (found == header.end()) {
       if (!needed(field) && renamed == format.columns.end()) continue;
-      throw InputError({file, 1, 1}, fmt::format("no column {}", quote(wanted)),
-                       "impacts are found by time, velocity and diameter",
-                       fmt::format("columns here: {}; say --column {}=NAME", listed(header), name));
+      throw InputError({file, 1, 1}, fmt::format("there is no column {}", quote(wanted)),
+                       fmt::format("the columns are {}", listed(header)),
+                       fmt::format("name it with --column {}=NAME", name));
     }
     const auto index = static_cast<std::size_t>(found - header.begin());
+    const Location place = {file, 1, static_cast<int>(index) + 1};
     if (std::find(found + 1, header.end(), wanted) != header.end()) {
-      throw InputError({file, 1, 1}, fmt::format("two columns {}", quote(wanted)),
-                       "only one could count", "rename one");
+      throw InputError(place, fmt::format("two columns are called {}", quote(wanted)), "",
+                       "rename one");
     }
     used[index] = true;
-    columns.index[field] = static_cast<int>(index);
-    if (field == series_field) continue;
+    columns.index[field] = index;
+    if (field == EventField::series) continue;
     const auto by_option = format.units.find(name);
     const auto by_package = stated.unit.find(wanted);
+    const std::vector<std::string> known = unit_names(dimension_of(field));
     if (by_option == format.units.end() && by_package == stated.unit.end()) {
-      throw InputError({file, 1, static_cast<int>(index) + 1},
-                       fmt::format("the unit of '{}' is not known", name),
+      throw InputError(place, fmt::format("the unit of '{}' is not known", name),
                        stated.found ? "datapackage.json beside the file states none"
                                     : "there is no datapackage.json beside the file that lists it",
-                       fmt::format("say --unit {}={}", name, fmt::join(unit_words(field), "|")));
+                       fmt::format("say --unit {}={}", name, fmt::join(known, "|")));
     }
     const std::string& unit =
         by_option != format.units.end() ? by_option->second : by_package->second;
-    const std::optional<double> factor = factor_of(field, unit);
+    const std::optional<double> factor = unit_factor(dimension_of(field), unit);
     if (!factor) {
-      throw InputError(
-          {file, 1, static_cast<int>(index) + 1}, fmt::format("'{}' in {}", name, quote(unit)),
-          "this unit is not known for it", fmt::format("use {}", join(unit_words(field))));
+      throw InputError(place, fmt::format("unknown unit {} of '{}'", quote(unit), name), "",
+                       fmt::format("use {}", join(known)));
     }
     columns.factor[field] = *factor;
-    columns.unit_source +=
-        fmt::format("{}{} [{}]", columns.unit_source.empty() ? "" : ", ", name, unit);
+    columns.units.push_back({name, unit});
   }
   for (std::size_t i = 0; i < header.size(); ++i) {
     if (!used[i]) columns.ignored.push_back(printable(header[i]));

@@ -1,25 +1,33 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
 #include "experiment/events.hpp"
 
 namespace recoil {
 
-/// A field of the events, in the order of `event_fields()`.
+/// A field of the events.
 enum class EventField { time, velocity, tangential, diameter, series };
-inline constexpr std::size_t event_field_count = 5;
+
+template <>
+struct NamesOf<EventField> {
+  static constexpr std::array<std::string_view, 5> names = {
+      "time", "velocity", "tangential_velocity", "diameter", "series"};
+};
 
 /// Where each field stands in a row, and its factor to SI.
 struct EventColumns {
-  std::array<int, event_field_count> index{-1, -1, -1, -1, -1};  ///< -1: no such column
-  std::array<double, event_field_count> factor{1.0, 1.0, 1.0, 1.0, 1.0};
-  std::size_t width = 0;             ///< cells of a row
-  std::vector<std::string> ignored;  ///< columns that are no field
-  std::string provenance;            ///< of the data package; empty when it states none
-  std::string unit_source;           ///< in words
+  PerValue<EventField, std::optional<std::size_t>> index;  ///< nothing: no such column
+  PerValue<EventField, double> factor;
+  std::size_t width = 0;                 ///< cells of a row
+  std::vector<std::string> ignored;      ///< columns that are no field
+  std::optional<Provenance> provenance;  ///< of the data package
+  std::vector<FieldUnit> units;          ///< of the fields that are there, series excepted
 };
 
 /// Ties the fields to the header's columns and finds their units.

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "data/folder_names.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "experiment/event_columns.hpp"
@@ -82,17 +83,21 @@ class EventReader {
     if (cells.size() != columns_.width) {
       return fmt::format("{} cells, the header has {}", cells.size(), columns_.width);
     }
-    const std::array<double*, 4> places = {&event.time, &event.velocity, &event.tangential,
-                                           &event.diameter};
-    for (std::size_t field = 0; field < places.size(); ++field) {
-      if (columns_.index[field] < 0) continue;
-      const std::string_view cell = cells[static_cast<std::size_t>(columns_.index[field])];
+    const std::array<std::pair<EventField, double*>, 4> places = {{
+        {EventField::time, &event.time},
+        {EventField::velocity, &event.velocity},
+        {EventField::tangential, &event.tangential},
+        {EventField::diameter, &event.diameter},
+    }};
+    for (const auto& [field, place] : places) {
+      if (!columns_.index[field]) continue;
+      const std::string_view cell = cells[*columns_.index[field]];
       const std::optional<double> value = parse_number(cell);
       if (!value) {
-        return fmt::format("{} is {}", event_fields()[field],
+        return fmt::format("{} is {}", name_of(field),
                            cell.empty() ? std::string("empty") : quote(printable(cell)));
       }
-      *places[field] = *value * columns_.factor[field];
+      *place = *value * columns_.factor[field];
     }
     const double speed = std::abs(event.velocity);
     if (!(speed >= limits::slowest_velocity && speed <= limits::fastest_velocity)) {
@@ -110,8 +115,8 @@ class EventReader {
   }
 
   std::string read_series(const std::vector<std::string_view>& cells, Event& event) {
-    const int index = columns_.index[static_cast<std::size_t>(EventField::series)];
-    const std::string_view name = index < 0 ? "all" : cells[static_cast<std::size_t>(index)];
+    const auto index = columns_.index[EventField::series];
+    const std::string_view name = index ? cells[*index] : "all";
     if (!table_.series.empty() && table_.series[last_series_] == name) {
       event.series = static_cast<std::uint32_t>(last_series_);
       return "";
@@ -164,15 +169,14 @@ void sort_and_unite(EventTable& table) {
 /// A file of which most is damage was not understood.
 void require_sense(const EventTable& table) {
   if (table.rows == 0) {
-    throw InputError({table.file, 1, 1}, "no events below the header", "there is nothing to pair",
-                     "one row is one passage through the probe volume");
+    throw InputError({table.file, 1, 1}, "there is a header but no row below it", "",
+                     "write one row for each passage through the probe volume");
   }
   if (2 * table.damaged <= table.rows) return;
   const BadRow& first = table.first_damaged.front();
-  throw InputError(
-      {table.file, first.line, 1}, first.problem,
-      fmt::format("like this, {} of {} rows cannot be used", table.damaged, table.rows),
-      "check the delimiter, the units and that decimals have a point");
+  throw InputError({table.file, first.line, 1}, first.problem,
+                   fmt::format("{} of {} rows cannot be used", table.damaged, table.rows),
+                   "check the delimiter, the units and that decimals have a point");
 }
 
 }  // namespace
@@ -198,8 +202,8 @@ EventTable parse_events(const std::string& text, const std::string& file,
       EventColumns columns = event_columns(header, file, package_text, format);
       table.ignored = columns.ignored;
       table.provenance = columns.provenance;
-      table.unit_source = columns.unit_source;
-      table.has_tangential = columns.index[static_cast<std::size_t>(EventField::tangential)] >= 0;
+      table.units = columns.units;
+      table.has_tangential = columns.index[EventField::tangential].has_value();
       reader.emplace(table, std::move(columns), format.positive_away ? -1.0 : 1.0);
       continue;
     }
@@ -207,8 +211,8 @@ EventTable parse_events(const std::string& text, const std::string& file,
     reader->row(cells, line);
   }
   if (!reader) {
-    throw InputError({file, 1, 1}, "the file is empty", "there is nothing to pair",
-                     "the first line names the columns: time,velocity,diameter");
+    throw InputError({file, 1, 1}, "the file is empty", "",
+                     "begin with a line that names the columns: time,velocity,diameter");
   }
   require_sense(table);
   sort_and_unite(table);
@@ -217,7 +221,7 @@ EventTable parse_events(const std::string& text, const std::string& file,
 
 EventTable read_events(const std::filesystem::path& path, const EventFormat& format) {
   const std::string text = read_text_file(path, largest_file);
-  const std::filesystem::path package = path.parent_path() / "datapackage.json";
+  const std::filesystem::path package = path.parent_path() / package_file_name;
   const std::string package_text =
       std::filesystem::is_regular_file(package) ? read_text_file(package) : std::string();
   return parse_events(text, path.string(), package_text, format);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "data/dataset.hpp"
+
 namespace recoil {
 
 /// One passage of a sphere through the probe volume, SI units.
@@ -25,6 +27,12 @@ struct BadRow {
   std::string problem;
 };
 
+/// The unit of a field, as the command line or the data package states it.
+struct FieldUnit {
+  std::string field;
+  std::string unit;
+};
+
 /// The events of one file, cleaned and sorted by series and time.
 struct EventTable {
   std::string file;
@@ -33,27 +41,26 @@ struct EventTable {
   bool has_tangential = false;      ///< the second component was measured
   std::size_t rows = 0;             ///< rows below the header
   std::size_t damaged = 0;          ///< left out: cells missing, not numbers, or impossible
-  std::vector<BadRow> first_damaged;  ///< up to `most_examples`
-  std::size_t duplicated = 0;         ///< left out: alike in every column to a row that was kept
-  std::vector<int> first_duplicated;  ///< lines
-  std::size_t unsorted = 0;           ///< came later in the file than a later time; sorted in
-  int first_unsorted = 0;             ///< line
-  std::vector<std::string> ignored;   ///< columns without a meaning here
-  std::string provenance;             ///< as the data package states it; empty when it does not
-  std::string unit_source;            ///< where the units were found, in words
+  std::vector<BadRow> first_damaged;     ///< up to `most_examples`
+  std::size_t duplicated = 0;            ///< left out: alike in every column to a row that was kept
+  std::vector<int> first_duplicated;     ///< lines
+  std::size_t unsorted = 0;              ///< came later in the file than a later time; sorted in
+  int first_unsorted = 0;                ///< line
+  std::vector<std::string> ignored;      ///< columns without a meaning here
+  std::optional<Provenance> provenance;  ///< as the data package states it
+  std::vector<FieldUnit> units;          ///< of the fields that were read
 };
 
 inline constexpr std::size_t most_examples = 3;
 
 /// How the columns of an instrument's file are to be understood.
 struct EventFormat {
-  std::map<std::string, std::string> units;    ///< field -> unit; goes before the data package
+  /// Field -> unit; goes before the data package. Fields: time, velocity, tangential_velocity,
+  /// diameter, series.
+  std::map<std::string, std::string> units;
   std::map<std::string, std::string> columns;  ///< field -> the column's name in the file
   bool positive_away = false;  ///< the instrument counts velocities away from the surface positive
 };
-
-/// The names of the fields: time, velocity, tangential_velocity, diameter, series.
-const std::vector<std::string>& event_fields();
 
 /// Reads the events of `path`. Units come from `format`, else from the fields of the resource of
 /// this name in `datapackage.json` beside the file. Rows that are damaged or repeated are left out

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.hpp"
+
 namespace recoil {
 namespace {
 
@@ -32,14 +34,6 @@ Histogram filled(const std::vector<double>& values, std::size_t bins, const std:
   return histogram;
 }
 
-/// The quantile between the two nearest values (Hyndman & Fan 1996, type 7).
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
 }  // namespace
 
 Histogram sturges(const std::vector<double>& values) {
@@ -51,7 +45,7 @@ Histogram freedman_diaconis(const std::vector<double>& values) {
   std::vector<double> sorted = values;
   std::sort(sorted.begin(), sorted.end());
   if (!sorted.empty()) {
-    const double spread = quantile(sorted, 0.75) - quantile(sorted, 0.25);
+    const double spread = sorted_quantile(sorted, 0.75) - sorted_quantile(sorted, 0.25);
     const double width = 2.0 * spread / std::cbrt(static_cast<double>(sorted.size()));
     if (width > 0.0) {
       const double wanted = std::ceil((sorted.back() - sorted.front()) / width);

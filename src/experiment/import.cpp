@@ -10,9 +10,11 @@
 #include "core/files.hpp"
 #include "data/folder_names.hpp"
 #include "data/text.hpp"
+#include "experiment/import_columns.hpp"
+#include "experiment/import_digitised.hpp"
+#include "experiment/import_flights.hpp"
 #include "experiment/import_package.hpp"
-#include "experiment/import_readers.hpp"
-#include "experiment/import_words.hpp"
+#include "experiment/option_values.hpp"
 
 namespace recoil {
 namespace {
@@ -41,7 +43,7 @@ std::optional<double> stated_diameter(const ImportRequest& request, const std::s
     const auto pair = split_pair(word);
     if (pair && pair->first != series) continue;
     const double value =
-        value_with_unit(pair ? pair->second : word, ImportDimension::length, "--diameter");
+        value_with_unit(pair ? pair->second : word, Dimension::length, "--diameter");
     if (pair) return value;
     found = value;
   }
@@ -55,19 +57,19 @@ std::optional<double> diameter_in_name(const std::string& series) {
   std::smatch match;
   if (!std::regex_search(series, match, pattern)) return std::nullopt;
   const auto number = parse_number(match[2].str());
-  const auto factor = import_unit_factor(ImportDimension::length, match[3].str());
+  const auto factor = unit_factor(Dimension::length, match[3].str());
   return number && factor ? std::optional<double>(*number * *factor) : std::nullopt;
 }
 
 void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
   const StatedError error =
-      stated_error(request.diameter_error, ImportDimension::length, "--diameter-error");
+      stated_error(request.diameter_error, Dimension::length, "--diameter-error");
   std::vector<std::string> named;
   std::vector<std::string> series;
   bool asked = request.diameters.empty();
   for (const std::string& word : request.diameters) {  // also those that nothing will need
     const auto pair = split_pair(word);
-    value_with_unit(pair ? pair->second : word, ImportDimension::length, "--diameter");
+    value_with_unit(pair ? pair->second : word, Dimension::length, "--diameter");
   }
   for (ImportedPoint& point : imported.points) {
     if (std::find(series.begin(), series.end(), point.series) == series.end()) {
@@ -84,29 +86,27 @@ void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
     if (!point.diameter) {
       throw InputError({request.file.string(), point.line, 1},
                        fmt::format("the diameter of series {} is not known", quote(point.series)),
-                       "mass and adhesion follow from it",
-                       "give --diameter 4.9um, or --diameter \"SERIES=4.9um\" for each series");
+                       "", "give --diameter 4.9um, or --diameter \"SERIES=4.9um\" for each series");
     }
     if (error.stated() && !point.diameter_sd) point.diameter_sd = error.of(*point.diameter);
   }
   for (const std::string& word : request.diameters) {
     const auto pair = split_pair(word);
     if (!pair || std::find(series.begin(), series.end(), pair->first) != series.end()) continue;
-    throw InputError({}, fmt::format("--diameter {}: no such series", quote(word)),
-                     "its diameter would be lost", did_you_mean(pair->first, series));
+    throw InputError({}, fmt::format("--diameter {}: there is no such series", quote(word)), "",
+                     did_you_mean(pair->first, series));
   }
   if (!asked) {
-    imported.notes.emplace_back("--diameter was not used: the file has a diameter for every point");
+    imported.notes.push_back({ImportRemark::diameter_not_used});
   }
   if (!named.empty()) {
-    imported.notes.push_back(
-        fmt::format("diameters taken from the names of the series: {}", listed(named)));
+    imported.notes.push_back({ImportRemark::diameters_from_names, named});
   }
 }
 
 /// The scatter of the experiment on top of what the readings contribute.
 void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& points) {
-  const StatedError scatter = stated_error(request.scatter, ImportDimension::ratio, "--scatter");
+  const StatedError scatter = stated_error(request.scatter, Dimension::ratio, "--scatter");
   if (!scatter.stated()) return;
   for (ImportedPoint& point : points) {
     if (!point.restitution && !point.rebound_velocity) continue;
@@ -123,16 +123,6 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
                                    const fs::path& points_file,
                                    const std::vector<ImportedPoint>& points) {
   const Location& at = error.where();
-  std::string text = error.what();
-  const std::string prefix = at.file.empty() ? ""
-                             : at.line == 0
-                                 ? at.file + ": "
-                                 : fmt::format("{}:{}{}: ", at.file, at.line,
-                                               at.column > 0 ? fmt::format(":{}", at.column) : "");
-  if (text.starts_with(prefix)) text.erase(0, prefix.size());
-  const std::size_t why = text.find(" (");
-  const std::size_t end = text.find(") ", why);
-  if (why == std::string::npos || end == std::string::npos) throw error;
   // Nothing in the file is to blame for a material.
   Location place{at.file == points_file.string() ? request.file.string() : std::string()};
   const auto row = static_cast<std::size_t>(at.line) - 2;
@@ -140,22 +130,20 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
     place.line = points[row].line;
     place.column = 1;
   }
-  throw InputError(place, text.substr(0, why), text.substr(why + 2, end - why - 2),
-                   text.substr(end + 2));
+  throw InputError(place, error.problem(), error.why(), error.suggestion());
 }
 
 void require_free(const ImportRequest& request) {
   std::error_code failed;
   if (fs::exists(request.into, failed) && !fs::is_directory(request.into, failed)) {
-    throw InputError({request.into.string()}, "this is a file", "a dataset is a folder",
-                     "choose another --into");
+    throw InputError({request.into.string()}, "this is a file, not a folder",
+                     "a dataset is a folder", "choose another --into");
   }
   if (request.replace) return;
   for (const char* name : {package_file_name, "points.csv"}) {
     if (!fs::exists(request.into / name, failed)) continue;
-    throw InputError({(request.into / name).string()}, "there is a dataset here already",
-                     "points are not overwritten unasked",
-                     "add --replace to replace them, or choose another --into");
+    throw InputError({(request.into / name).string()}, "there is a dataset here already", "",
+                     "add --replace to replace its points, or choose another --into");
   }
 }
 
@@ -174,39 +162,23 @@ void refuse_reconstructed_points(const ImportRequest& request, const Dataset& im
   throw InputError(
       {request.file.string()},
       fmt::format("{} of {} points are those of the reconstruction", same, imported.points.size()),
-      "a recipe made them and nobody measured or digitised them",
+      "a recipe made them; nobody measured or digitised them",
       "import points of an experiment, or --provenance synthetic");
 }
 
 /// Keeps the recipe of a former reconstruction where nothing takes it for the folder's.
-void set_recipe_aside(const fs::path& folder, std::vector<std::string>& notes) {
+void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
   std::error_code failed;
   if (!fs::exists(folder / recipe_name, failed)) return;
   fs::rename(folder / recipe_name, folder / set_aside_recipe_name, failed);
   if (failed) {
-    throw InputError({(folder / recipe_name).string()}, "cannot set the recipe aside",
-                     failed.message(), "rename it by hand: the points are no longer its own");
+    throw InputError({(folder / recipe_name).string()}, "the recipe cannot be renamed",
+                     failed.message(), "rename it by hand, since the points are no longer its own");
   }
-  notes.push_back(
-      fmt::format("the folder is no reconstruction any more; its {} is kept as {}, for comparison "
-                  "only",
-                  recipe_name, set_aside_recipe_name));
+  notes.push_back({ImportRemark::recipe_set_aside});
 }
 
 }  // namespace
-
-std::vector<std::string> import_format_names() {
-  return {"webplotdigitizer", "heights", "intervals", "csv"};
-}
-
-ImportFormat import_format_named(const std::string& name) {
-  const std::vector<std::string> names = import_format_names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == name) return static_cast<ImportFormat>(i);
-  }
-  throw InputError({}, fmt::format("--format {}: no such format", quote(name)),
-                   "it says how the file is read", did_you_mean(name, names));
-}
 
 ImportResult import_points(const ImportRequest& request) {
   require_free(request);
@@ -220,7 +192,7 @@ ImportResult import_points(const ImportRequest& request) {
   ImportResult result;
   result.notes = std::move(imported.notes);
   const PointsText points = points_text(imported.points);
-  const std::string package = package_text(request, points, existing, result.notes);
+  const std::string package = imported_package(request, points, existing, result.notes);
   const fs::path points_file = request.into / (existing ? existing->points_path : "points.csv");
   try {
     result.dataset = parse_dataset(package, points.csv, request.into);

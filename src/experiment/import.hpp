@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
 #include "data/dataset.hpp"
 
 namespace recoil {
@@ -18,8 +21,11 @@ enum class ImportFormat {
 };
 
 /// The names of the formats on the command line.
-std::vector<std::string> import_format_names();
-ImportFormat import_format_named(const std::string& name);
+template <>
+struct NamesOf<ImportFormat> {
+  static constexpr std::array<std::string_view, 4> names = {"webplotdigitizer", "heights",
+                                                            "intervals", "csv"};
+};
 
 /// What to import, and everything that the file itself cannot tell, as on the command line. Values
 /// with units are words such as "4.9um", errors are "2%" (of the value) or "0.5mm".
@@ -54,10 +60,43 @@ struct ImportRequest {
   std::string gravity = "9.80665";        ///< [m/s2]
 };
 
+/// What was assumed, left out or found by a check.
+enum class ImportRemark {
+  diameter_not_used,     ///< --diameter, though every point has its own
+  diameters_from_names,  ///< `names`: the series whose names hold their diameters
+  columns_not_used,      ///< `names`
+  no_reading_error,      ///< of a figure
+  reading_error_alone,   ///< restitution_sd holds no scatter of the experiment
+  few_drops,             ///< fewer than five from some heights
+  no_drop_error,
+  without_air,      ///< V = sqrt(2 g h)
+  bounces_missing,  ///< `count` pairs of intervals left out
+  release_heights,  ///< `releases`: a check, no point rests on them
+  shared_bounces,   ///< errors of successive points are not independent
+  no_source,
+  licence_removed,  ///< that of the reconstruction
+  recipe_set_aside,
+};
+
+/// Launches from one stated height, if their first bounces were like their second ones.
+struct ReleaseCheck {
+  double height = 0.0;   ///< as stated [m]
+  double first = 0.0;    ///< mean e of the first bounce, with the stated height [1]
+  double second = 0.0;   ///< mean e of the second [1]
+  double missing = 0.0;  ///< by how much the ball seems to have fallen further [m]
+};
+
+struct ImportNote {
+  ImportRemark remark = ImportRemark::no_source;
+  std::vector<std::string> names = {};
+  std::size_t count = 0;
+  std::vector<ReleaseCheck> releases = {};
+};
+
 /// What was written.
 struct ImportResult {
-  Dataset dataset;                 ///< as `load_dataset` reads it
-  std::vector<std::string> notes;  ///< what was assumed, and what a check found, a sentence each
+  Dataset dataset;  ///< as `load_dataset` reads it
+  std::vector<ImportNote> notes;
 };
 
 /// Reads the points, makes them a dataset and writes it into the folder: points.csv, then

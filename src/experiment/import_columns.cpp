@@ -1,10 +1,11 @@
+#include "experiment/import_columns.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "data/text.hpp"
-#include "experiment/import_readers.hpp"
 #include "experiment/import_table.hpp"
 
 namespace recoil {
@@ -12,16 +13,16 @@ namespace {
 
 const std::vector<ImportQuantity>& known_quantities() {
   static const std::vector<ImportQuantity> known = {
-      {"series", ImportDimension::text},
-      {"diameter", ImportDimension::length},
-      {"incident_velocity", ImportDimension::velocity, true},
-      {"restitution", ImportDimension::ratio},
-      {"rebound_velocity", ImportDimension::velocity},
-      {"restitution_sd", ImportDimension::ratio},
-      {"velocity_sd", ImportDimension::velocity},
-      {"diameter_sd", ImportDimension::length},
-      {"events", ImportDimension::number},
-      {"captured", ImportDimension::number},
+      {"series", Dimension::text},
+      {"diameter", Dimension::length},
+      {"incident_velocity", Dimension::velocity, true},
+      {"restitution", Dimension::ratio},
+      {"rebound_velocity", Dimension::velocity},
+      {"restitution_sd", Dimension::ratio},
+      {"velocity_sd", Dimension::velocity},
+      {"diameter_sd", Dimension::length},
+      {"events", Dimension::count},
+      {"captured", Dimension::count},
   };
   return known;
 }
@@ -55,10 +56,10 @@ ImportedPoints read_columns(const ImportRequest& request,
   const ImportTable table(request.file, completed(request, package_map), known_quantities());
   if (table.has("restitution") == table.has("rebound_velocity")) {
     throw InputError({request.file.string(), 1, 1},
-                     table.has("restitution") ? "both restitution and rebound_velocity"
+                     table.has("restitution") ? "both restitution and rebound_velocity are there"
                                               : "which column is the rebound?",
-                     "the rebound is what is fitted, and two could contradict each other",
-                     "say it with --map restitution=COLUMN or rebound_velocity=COLUMN:m/s");
+                     table.has("restitution") ? "they could contradict each other" : "",
+                     "name one with --map restitution=COLUMN or rebound_velocity=COLUMN:m/s");
   }
   const std::string fallback =
       request.series.empty() ? request.file.stem().string() : request.series;
@@ -80,7 +81,7 @@ ImportedPoints read_columns(const ImportRequest& request,
     out.points.push_back(point);
   }
   const std::vector<std::string> unused = table.unused();
-  if (!unused.empty()) out.notes.push_back(fmt::format("columns not used: {}", listed(unused)));
+  if (!unused.empty()) out.notes.push_back({ImportRemark::columns_not_used, unused});
   return out;
 }
 

@@ -1,3 +1,5 @@
+#include "experiment/import_digitised.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "data/text.hpp"
-#include "experiment/import_readers.hpp"
 #include "experiment/import_table.hpp"
 
 namespace recoil {
@@ -60,7 +61,8 @@ std::map<std::string, FigureAxis> read_axes(const std::vector<std::string>& word
   for (const std::string& word : words) {
     const auto pair = split_pair(word);
     if (!pair || (pair->first != "x" && pair->first != "y")) {
-      throw InputError({}, fmt::format("--axis {}", quote(word)), "a figure has the axes x and y",
+      throw InputError({}, fmt::format("--axis {} names no axis", quote(word)),
+                       "a figure has the axes x and y",
                        "write --axis x=log,1,100 or --axis y=linear,0,1");
     }
     axes[pair->first] = read_axis(pair->first, pair->second);
@@ -78,21 +80,26 @@ class ReadingError {
     const bool percent = word.ends_with("%");
     const auto number = parse_number(word.substr(0, word.size() - (pixels ? 2 : 1)));
     if (!(pixels || percent) || !number || !(*number > 0.0)) {
-      throw InputError({}, fmt::format("--reading-error {}", quote(word)),
-                       "it is a part of the axis or a number of pixels",
-                       "write --reading-error 0.5% or --reading-error 2px");
+      throw InputError(
+          {},
+          fmt::format("--reading-error {} is neither a part of the axis nor a number of pixels",
+                      quote(word)),
+          "", "write --reading-error 0.5% or --reading-error 2px");
     }
     for (const char* name : {"x", "y"}) {
       if (!axes_.contains(name)) {
         throw InputError(
             {}, fmt::format("--reading-error without --axis {}=...", name),
-            "what a part of an axis is worth depends on its ends",
+            "a part of an axis means nothing without its ends",
             fmt::format("add --axis {}=log,MIN,MAX or --axis {}=linear,MIN,MAX", name, name));
       }
       if (pixels && !(axes_[name].pixels > 0.0)) {
-        throw InputError({}, fmt::format("--reading-error in pixels, --axis {} without", name),
-                         "the length of the axis in pixels is not known",
-                         fmt::format("write --axis {}=...,600px", name));
+        throw InputError(
+            {},
+            fmt::format(
+                "--reading-error is in pixels, but the length of --axis {} in pixels is not known",
+                name),
+            "", fmt::format("write --axis {}=...,600px", name));
       }
       fraction_[name] = pixels ? *number / axes_[name].pixels : *number / 100.0;
     }
@@ -125,19 +132,17 @@ std::map<std::string, Coordinate> read_coordinates(const std::vector<std::string
           pair && (pair->first == "incident_velocity" || pair->first == "rebound_velocity");
       if (!(velocity || (pair && pair->first == "restitution")) || (axis != "x" && axis != "y")) {
         throw InputError(
-            {}, fmt::format("--map {}", quote(entry)),
-            "a digitised figure has x and y, one of them the incident velocity",
+            {}, fmt::format("--map {} does not fit a figure", quote(entry)),
+            "it has x and y, one of them the incident velocity",
             "write incident_velocity=x:m/s and restitution=y or rebound_velocity=y:m/s");
       }
       Coordinate coordinate{pair->first, 1.0};
       if (const std::size_t at = pair->second.find(':'); at != std::string::npos) {
-        const ImportDimension dimension =
-            velocity ? ImportDimension::velocity : ImportDimension::ratio;
-        const auto factor = import_unit_factor(dimension, pair->second.substr(at + 1));
+        const Dimension dimension = velocity ? Dimension::velocity : Dimension::ratio;
+        const auto factor = unit_factor(dimension, pair->second.substr(at + 1));
         if (!factor) {
-          throw InputError({}, fmt::format("--map {}: unknown unit", entry),
-                           "it could not be converted",
-                           fmt::format("use {}", join(import_unit_names(dimension))));
+          throw InputError({}, fmt::format("--map {}: unknown unit", entry), "",
+                           fmt::format("use {}", join(unit_names(dimension))));
         }
         coordinate.factor = *factor;
       }
@@ -146,8 +151,8 @@ std::map<std::string, Coordinate> read_coordinates(const std::vector<std::string
   }
   const bool x_is = found["x"].quantity == "incident_velocity";
   if (x_is == (found["y"].quantity == "incident_velocity")) {
-    throw InputError({}, "--map: which axis is the incident velocity?",
-                     "one of x and y has to be it", "write incident_velocity=x:m/s");
+    throw InputError({}, "which axis is the incident velocity?", "",
+                     "write incident_velocity=x:m/s");
   }
   return found;
 }
@@ -175,7 +180,7 @@ Layout layout_of(const std::vector<CsvRow>& rows, const ImportRequest& request) 
   const std::size_t header = is_xy(first) ? 0 : 1;
   if (rows.size() <= header || !is_xy(rows[header])) {
     throw InputError({file, first.front().line, 1}, "this is not WebPlotDigitizer's CSV",
-                     "it has the names of the series in the first line and X,Y under each",
+                     "that has the names of the series in the first line and X,Y under each",
                      "export all series as CSV, or use --format csv with --map");
   }
   for (std::size_t k = 0; k + 1 < rows[header].size(); k += 2) {
@@ -204,8 +209,8 @@ ImportedPoints read_digitised(const ImportRequest& request) {
       if (!x_there && !y_there) continue;
       if (x_there != y_there) {
         throw InputError({file, row.front().line, row.back().column},
-                         fmt::format("half a point of '{}'", layout.series[s]),
-                         "a point has x and y", "remove the cell or complete it");
+                         fmt::format("a point of '{}' lacks x or y", layout.series[s]), "",
+                         "remove the cell or complete it");
       }
       ImportedPoint point;
       point.series = layout.series[s];
@@ -224,7 +229,7 @@ ImportedPoints read_digitised(const ImportRequest& request) {
         if (coordinate.quantity == "incident_velocity") {
           if (!(value > 0.0)) {
             throw InputError({file, cell.line, cell.column}, fmt::format("V = {:g} m/s", value),
-                             "an incident velocity is positive",
+                             "an incident velocity has to be positive",
                              "check the calibration of the axes, or remove the point");
           }
           point.velocity = value;
@@ -234,8 +239,8 @@ ImportedPoints read_digitised(const ImportRequest& request) {
         if (value < 0.0 && !(request.captured_below > 0.0)) {
           throw InputError({file, cell.line, cell.column},
                            fmt::format("{} = {:g}", coordinate.quantity, value),
-                           "a rebound is not negative, even when a mark on the axis is read so",
-                           "--captured-below 0.01 takes it as a capture, or remove the point");
+                           "a rebound cannot be negative",
+                           "take it as a capture with --captured-below 0.01, or remove the point");
         }
         if (coordinate.quantity == "restitution") {
           point.restitution = value;
@@ -261,16 +266,9 @@ ImportedPoints read_digitised(const ImportRequest& request) {
     }
   }
   if (!error.stated()) {
-    out.notes.emplace_back(
-        "no digitisation error: --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% would "
-        "turn one into velocity_sd and restitution_sd");
+    out.notes.push_back({ImportRemark::no_reading_error});
   } else if (request.scatter.empty()) {
-    out.notes.emplace_back(
-        "restitution_sd holds the error of the reading alone; the scatter of the experiment comes "
-        "on "
-        "top of it: state it with --scatter 10%, or let the fit estimate it with [noise] variance "
-        "= "
-        "\"constant\" or \"capture\"");
+    out.notes.push_back({ImportRemark::reading_error_alone});
   }
   return out;
 }

@@ -1,3 +1,5 @@
+#include "experiment/import_flights.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "data/text.hpp"
-#include "experiment/import_readers.hpp"
 #include "experiment/import_table.hpp"
 
 namespace recoil {
@@ -98,7 +99,7 @@ std::vector<Launch> gather_launches(const ImportTable& table, const ImportReques
 
 /// What the first two flights say of the height from which the ball was released, were its first
 /// bounce like its second.
-std::string release_check(const std::vector<Launch>& launches, double gravity) {
+std::vector<ReleaseCheck> release_check(const std::vector<Launch>& launches, double gravity) {
   struct Sum {
     double first = 0.0;    // e of the first bounce, with the stated height
     double second = 0.0;   // e of the second
@@ -118,45 +119,36 @@ std::string release_check(const std::vector<Launch>& launches, double gravity) {
     sum.missing += (first * first / (second * second) - 1.0) * *launch.release;
     sum.count += 1.0;
   }
-  if (by_height.empty()) return "";
-  std::vector<std::string> heights;
+  std::vector<ReleaseCheck> checks;
   for (const auto& [height, sum] : by_height) {
-    heights.push_back(
-        fmt::format("{:g} mm: e = {:.3f} at the first bounce, {:.3f} at the second, "
-                    "{:+.1f} mm",
-                    1e3 * height, sum.first / sum.count, sum.second / sum.count,
-                    1e3 * sum.missing / sum.count));
+    checks.push_back(
+        {height, sum.first / sum.count, sum.second / sum.count, sum.missing / sum.count});
   }
-  return fmt::format(
-      "release heights, a check (no point rests on them): what the ball seems to have fallen "
-      "further "
-      "than stated, were its first bounce like its second. {}. Alike at all heights it is an "
-      "offset "
-      "of the scale, such as another point of the ball",
-      fmt::join(heights, "; "));
+  return checks;
+}
+
+/// --gravity [m/s2].
+double gravity_of(const ImportRequest& request) {
+  const auto value = parse_number(request.gravity);
+  if (value && *value >= slowest_gravity && *value <= fastest_gravity) return *value;
+  throw InputError({},
+                   fmt::format("--gravity {} is no acceleration in m/s2", quote(request.gravity)),
+                   "", "write 9.80665 for standard gravity");
 }
 
 }  // namespace
 
-double gravity_of(const ImportRequest& request) {
-  const auto value = parse_number(request.gravity);
-  if (value && *value >= slowest_gravity && *value <= fastest_gravity) return *value;
-  throw InputError({}, fmt::format("--gravity {}", quote(request.gravity)),
-                   "it is an acceleration in m/s2", "9.80665 is standard gravity");
-}
-
 ImportedPoints read_heights(const ImportRequest& request) {
   const ImportTable table(request.file, request.map,
-                          {{"series", ImportDimension::text},
-                           {"diameter", ImportDimension::length},
-                           {"drop_height", ImportDimension::length, true},
-                           {"rebound_height", ImportDimension::length, true},
-                           {"drop_height_sd", ImportDimension::length},
-                           {"rebound_height_sd", ImportDimension::length}});
-  const StatedError drop =
-      stated_error(request.drop_error, ImportDimension::length, "--drop-error");
+                          {{"series", Dimension::text},
+                           {"diameter", Dimension::length},
+                           {"drop_height", Dimension::length, true},
+                           {"rebound_height", Dimension::length, true},
+                           {"drop_height_sd", Dimension::length},
+                           {"rebound_height_sd", Dimension::length}});
+  const StatedError drop = stated_error(request.drop_error, Dimension::length, "--drop-error");
   const StatedError rebound =
-      stated_error(request.rebound_error, ImportDimension::length, "--rebound-error");
+      stated_error(request.rebound_error, Dimension::length, "--rebound-error");
   const double g = gravity_of(request);
   ImportedPoints out;
   struct Group {
@@ -214,36 +206,30 @@ ImportedPoints read_heights(const ImportRequest& request) {
     if (request.average) group.point.events = n;
     out.points.push_back(group.point);
   }
-  if (few) {
-    out.notes.emplace_back(
-        "fewer than five drops from some heights: a standard error from so few may be anything; "
-        "--rebound-error sets the least");
-  }
+  if (few) out.notes.push_back({ImportRemark::few_drops});
   if (!drop.stated() && !table.has("drop_height_sd")) {
-    out.notes.emplace_back("no error of the drop height: --drop-error 1mm would state one");
+    out.notes.push_back({ImportRemark::no_drop_error});
   }
-  out.notes.emplace_back(
-      "V = sqrt(2 g h) leaves out the air, and heights have to be those of the same point of the "
-      "ball");
+  out.notes.push_back({ImportRemark::without_air});
   return out;
 }
 
 ImportedPoints read_intervals(const ImportRequest& request) {
   const ImportTable table(request.file, request.map,
-                          {{"launch", ImportDimension::text},
-                           {"bounce", ImportDimension::number},
-                           {"interval", ImportDimension::time},
-                           {"time", ImportDimension::time},
-                           {"release_height", ImportDimension::length},
-                           {"diameter", ImportDimension::length}});
+                          {{"launch", Dimension::text},
+                           {"bounce", Dimension::count},
+                           {"interval", Dimension::time},
+                           {"time", Dimension::time},
+                           {"release_height", Dimension::length},
+                           {"diameter", Dimension::length}});
   if (table.has("interval") == table.has("time")) {
     throw InputError(
         {request.file.string(), 1, 1},
-        table.has("time") ? "both intervals and times" : "which column has the intervals?",
-        "e is the ratio of successive intervals",
-        "say it with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
+        table.has("time") ? "both intervals and times are there"
+                          : "which column has the intervals?",
+        "", "name one with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
   }
-  const StatedError time = stated_error(request.time_error, ImportDimension::time, "--time-error");
+  const StatedError time = stated_error(request.time_error, Dimension::time, "--time-error");
   const double g = gravity_of(request);
   const std::vector<Launch> launches = gather_launches(table, request);
   ImportedPoints out;
@@ -276,17 +262,10 @@ ImportedPoints read_intervals(const ImportRequest& request) {
                      "e is the ratio of successive intervals",
                      "say with --map launch=COLUMN which rows belong together");
   }
-  if (gaps > 0) {
-    out.notes.push_back(
-        fmt::format("{} pairs of intervals with a bounce missing between them left "
-                    "out",
-                    gaps));
-  }
-  const std::string check = release_check(launches, g);
-  if (!check.empty()) out.notes.push_back(check);
-  out.notes.emplace_back(
-      "successive points of one launch share the time of a bounce, so their errors are not "
-      "independent (an e too high is followed by one too low); a fit takes them as such");
+  if (gaps > 0) out.notes.push_back({ImportRemark::bounces_missing, {}, gaps});
+  const std::vector<ReleaseCheck> releases = release_check(launches, g);
+  if (!releases.empty()) out.notes.push_back({ImportRemark::release_heights, {}, 0, releases});
+  out.notes.push_back({ImportRemark::shared_bounces});
   return out;
 }
 

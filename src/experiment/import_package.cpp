@@ -9,14 +9,15 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
+#include "data/datapackage_writer.hpp"
 #include "data/folder_names.hpp"
 #include "data/text.hpp"
-#include "experiment/import_words.hpp"
+#include "experiment/option_values.hpp"
 
 namespace recoil {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = PackageJson;
 
 // How the titles and sources of the shipped reconstructions say what they are.
 constexpr const char* title_claim = ": a reconstruction";
@@ -31,7 +32,7 @@ void remove_words(std::string& text, const std::string& words) {
 Json parse_json(const std::string& text, const std::filesystem::path& file) {
   Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) {
-    throw InputError({file.string()}, "this is not a JSON object", "it describes a material",
+    throw InputError({file.string()}, "this is not a JSON object", "",
                      "write {\"material\": ..., \"youngs_modulus\": ..., ...}");
   }
   return json;
@@ -47,7 +48,8 @@ Json material(const std::string& words, const std::string& option) {
   for (const std::string& part : split_list(words)) {
     const auto pair = split_pair(part);
     if (!pair) {
-      throw InputError({}, fmt::format("{}: {}", option, quote(part)), "it is a list of key=value",
+      throw InputError({}, fmt::format("{}: {} is not of the form key=value", option, quote(part)),
+                       "",
                        "write material=steel,density=7900,youngs_modulus=193e9,poisson_ratio=0.3");
     }
     const auto number = parse_number(pair->second);
@@ -56,23 +58,12 @@ Json material(const std::string& words, const std::string& option) {
   return json;
 }
 
-/// What a package says under `recoil`.
-Json system_of(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / package_file_name;
-  const Json json = parse_json(read_text_file(file), file);
-  if (!json.contains("recoil") || !json["recoil"].is_object()) {
-    throw InputError({file.string()}, "nothing under 'recoil'", "--like takes the materials of it",
-                     "name another dataset");
-  }
-  return json["recoil"];
-}
-
 Json recoil_block(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
                   const std::string& provenance) {
   Json block;
   block["provenance"] = provenance;
   Json stated = existing ? existing->json["recoil"] : Json::object();
-  if (!request.like.empty()) stated = system_of(request.like);
+  if (!request.like.empty()) stated = stated_system(request.like);
   if (!request.particle.empty()) stated["particle"] = material(request.particle, "--particle");
   if (!request.surface.empty()) stated["surface"] = material(request.surface, "--surface");
   if (request.adhesion_energy) stated["adhesion_energy"] = *request.adhesion_energy;
@@ -81,7 +72,7 @@ Json recoil_block(const ImportRequest& request, const std::optional<ExistingPack
     const bool sphere = std::string(body) == "particle";
     throw InputError(
         {}, fmt::format("the {} is not known", sphere ? "sphere's material" : "surface's material"),
-        sphere ? "mass and stiffness follow from it" : "the contact's stiffness follows from it",
+        "",
         fmt::format("give --{0} FILE.json, --{0} material=...,{1}youngs_modulus=...,poisson_ratio="
                     "..., or --like DIR",
                     body, sphere ? "density=...," : ""));
@@ -106,7 +97,7 @@ std::string provenance_for(const ImportRequest& request,
   }
   if (existing && existing->provenance == Provenance::reconstruction) return "digitised";
   if (existing) return to_string(existing->provenance);
-  throw InputError({}, "nobody says where these points come from", "every result repeats it",
+  throw InputError({}, "the provenance of these points is not known", "every result states it",
                    "give --provenance measured, or digitised when they were read off a figure");
 }
 
@@ -148,11 +139,11 @@ std::string description_of(const ImportRequest& request) {
 }
 
 Json sources_of(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
-                std::vector<std::string>& notes) {
+                std::vector<ImportNote>& notes) {
   Json sources = Json::array();
   for (const std::string& source : request.sources) sources.push_back({{"title", source}});
   if (!sources.empty()) return sources;
-  notes.emplace_back("no source is stated: --source \"Author (year), journal, figure\" would");
+  notes.push_back({ImportRemark::no_source});
   if (existing && existing->json.contains("sources")) {
     for (Json source : existing->json["sources"]) {
       if (source.contains("title") && source["title"].is_string()) {
@@ -220,7 +211,7 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
       {"captured", "", 1.0, [](const ImportedPoint& p) { return p.captured; }},
   };
   PointsText text;
-  text.fields.push_back({{"name", "series"}, {"type", "string"}});
+  text.fields.push_back(package_field("series", "string", ""));
   text.csv = "series";
   std::vector<const Output*> used;
   for (const Output& output : outputs) {
@@ -232,16 +223,12 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
     if (!any && !always) continue;
     used.push_back(&output);
     text.csv += fmt::format(",{}", output.name);
-    Json field = {{"name", output.name}, {"type", output.unit.empty() ? "integer" : "number"}};
-    if (!output.unit.empty()) field["unit"] = output.unit;
-    text.fields.push_back(field);
+    text.fields.push_back(
+        package_field(output.name, output.unit.empty() ? "integer" : "number", output.unit));
   }
   text.csv += '\n';
   for (const ImportedPoint& point : points) {
-    const bool plain = point.series.find_first_of(",\"\n\r") == std::string::npos;
-    std::string name;
-    for (const char c : point.series) name += c == '"' ? std::string("\"\"") : std::string(1, c);
-    text.csv += plain ? point.series : fmt::format("\"{}\"", name);
+    text.csv += csv_cell(point.series);
     for (const Output* output : used) {
       const auto value = output->value(point);
       text.csv += value ? "," + number_text(*value / output->factor) : std::string(",");
@@ -251,9 +238,9 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
   return text;
 }
 
-std::string package_text(const ImportRequest& request, const PointsText& points,
-                         const std::optional<ExistingPackage>& existing,
-                         std::vector<std::string>& notes) {
+std::string imported_package(const ImportRequest& request, const PointsText& points,
+                             const std::optional<ExistingPackage>& existing,
+                             std::vector<ImportNote>& notes) {
   const std::string provenance = provenance_for(request, existing);
   const bool was_reconstruction = existing && existing->provenance == Provenance::reconstruction;
   Json package = existing ? existing->json : Json::object();
@@ -267,21 +254,18 @@ std::string package_text(const ImportRequest& request, const PointsText& points,
   package["description"] = description_of(request);
   if (was_reconstruction && package.contains("licenses")) {
     package.erase("licenses");
-    notes.emplace_back(
-        "the licence of the reconstruction was removed: that of these points is not known");
+    notes.push_back({ImportRemark::licence_removed});
   }
   package["sources"] = sources_of(request, existing, notes);
-  const Json resource = {
-      {"name", "points"},    {"path", existing ? existing->points_path : "points.csv"},
-      {"format", "csv"},     {"mediatype", "text/csv"},
-      {"encoding", "utf-8"}, {"schema", {{"fields", points.fields}}}};
+  const Json resource =
+      csv_resource("points", existing ? existing->points_path : "points.csv", points.fields);
   if (existing) {
     package["resources"][0] = resource;
   } else {
     package["resources"] = Json::array({resource});
   }
   package["recoil"] = recoil_block(request, existing, provenance);
-  return package.dump(2) + "\n";
+  return package_text(package);
 }
 
 }  // namespace recoil

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "experiment/import_readers.hpp"
+#include "experiment/imported_points.hpp"
 
 /// The two files of an imported dataset.
 namespace recoil {
@@ -29,8 +29,8 @@ PointsText points_text(const std::vector<ImportedPoint>& points);
 
 /// datapackage.json.
 /// @throws InputError that names the option for a material or provenance that nobody stated.
-std::string package_text(const ImportRequest& request, const PointsText& points,
-                         const std::optional<ExistingPackage>& existing,
-                         std::vector<std::string>& notes);
+std::string imported_package(const ImportRequest& request, const PointsText& points,
+                             const std::optional<ExistingPackage>& existing,
+                             std::vector<ImportNote>& notes);
 
 }  // namespace recoil

@@ -41,8 +41,7 @@ std::vector<CsvRow> import_rows(const std::filesystem::path& file) {
     if (!is_empty(row)) rows.push_back(row);
   });
   if (rows.empty()) {
-    throw InputError({file.string(), 1, 1}, "the file is empty", "there is nothing to import",
-                     "export the points again");
+    throw InputError({file.string(), 1, 1}, "the file is empty", "", "export the points again");
   }
   return rows;
 }
@@ -52,7 +51,7 @@ double import_number(const CsvField& cell, const std::string& file, const std::s
   const bool comma = cell.text.find(',') != std::string::npos;
   throw InputError({file, cell.line, cell.column},
                    fmt::format("{} is not a number", quote(cell.text)),
-                   fmt::format("{} is a finite number", what),
+                   fmt::format("{} has to be a finite number", what),
                    comma ? "write decimals with a point" : "write a decimal number such as 4.9");
 }
 
@@ -90,12 +89,12 @@ ImportTable::ImportTable(const std::filesystem::path& file, const std::vector<st
     throw InputError({file_, header_.front().line, 1},
                      fmt::format("which column is {}?", quantity.name),
                      fmt::format("the header has {}", listed(names)),
-                     fmt::format("say it with --map {}=COLUMN{}", quantity.name,
-                                 quantity.dimension == ImportDimension::text ? "" : ":UNIT"));
+                     fmt::format("name it with --map {}=COLUMN{}", quantity.name,
+                                 quantity.dimension == Dimension::text ? "" : ":UNIT"));
   }
   if (rows_.empty()) {
-    throw InputError({file_, header_.front().line, 1}, "there is a header but no row below it",
-                     "there is nothing to import", "export the points again");
+    throw InputError({file_, header_.front().line, 1}, "there is a header but no row below it", "",
+                     "export the points again");
   }
 }
 
@@ -104,14 +103,15 @@ void ImportTable::add(const std::string& entry, const std::vector<ImportQuantity
   for (const ImportQuantity& quantity : known) names.push_back(quantity.name);
   const auto pair = split_pair(entry);
   if (!pair) {
-    throw InputError({}, fmt::format("--map {}", quote(entry)), "it ties a quantity to a column",
-                     fmt::format("write quantity=column:unit; known: {}", join(names)));
+    throw InputError({},
+                     fmt::format("--map {} is not of the form quantity=column:unit", quote(entry)),
+                     "", fmt::format("quantities are {}", join(names)));
   }
   const auto quantity = std::find_if(
       known.begin(), known.end(), [&](const ImportQuantity& q) { return q.name == pair->first; });
   if (quantity == known.end()) {
     throw InputError({}, fmt::format("--map: unknown quantity {}", quote(pair->first)),
-                     "this format has no such thing", did_you_mean(pair->first, names));
+                     "this format does not have it", did_you_mean(pair->first, names));
   }
   std::string column = pair->second;
   if (column.size() > 1 && column.front() == '"' && column.back() == '"') {
@@ -126,7 +126,7 @@ void ImportTable::add(const std::string& entry, const std::vector<ImportQuantity
   }
   Source source;
   source.dimension = quantity->dimension;
-  if (quantity->dimension == ImportDimension::text) {
+  if (quantity->dimension == Dimension::text) {
     for (std::size_t at = 0; at != std::string::npos;) {
       const std::size_t plus = column.find('+', at);
       source.at.push_back(
@@ -138,8 +138,7 @@ void ImportTable::add(const std::string& entry, const std::vector<ImportQuantity
     source.factor = unit_of(*quantity, unit, source.at.front());
   }
   if (!columns_.emplace(quantity->name, source).second) {
-    throw InputError({}, fmt::format("--map {}: given twice", quantity->name),
-                     "only one column could count", "remove one");
+    throw InputError({}, fmt::format("--map {} is given twice", quantity->name), "", "remove one");
   }
 }
 
@@ -150,28 +149,27 @@ std::size_t ImportTable::column_named(const std::string& name) const {
     names.push_back(header_[i].text);
   }
   throw InputError({file_, header_.front().line, 1},
-                   fmt::format("no column is called {}", quote(name)), "--map names it",
+                   fmt::format("no column is called {}", quote(name)), "--map asks for it",
                    did_you_mean(name, names));
 }
 
 double ImportTable::unit_of(const ImportQuantity& quantity, const std::string& unit,
                             std::size_t column) const {
   const bool plain =
-      quantity.dimension == ImportDimension::number || quantity.dimension == ImportDimension::ratio;
+      quantity.dimension == Dimension::count || quantity.dimension == Dimension::ratio;
   std::string name = unit.empty() ? unit_in_brackets(header_[column].text) : unit;
   if (name.empty() && plain) name = "1";
-  const std::vector<std::string> names = import_unit_names(quantity.dimension);
+  const std::vector<std::string> names = unit_names(quantity.dimension);
   if (name.empty()) {
     throw InputError(
         {file_, header_[column].line, header_[column].column},
-        fmt::format("the unit of {} is not stated", quote(header_[column].text)),
-        fmt::format("{} is converted by it: {}", quantity.name, join(names)),
+        fmt::format("the unit of {} is not stated", quote(header_[column].text)), "",
         fmt::format("write --map {}={}:UNIT", quantity.name, listed({header_[column].text})));
   }
-  if (const auto factor = import_unit_factor(quantity.dimension, name)) return *factor;
+  if (const auto factor = unit_factor(quantity.dimension, name)) return *factor;
   throw InputError({file_, header_[column].line, header_[column].column},
-                   fmt::format("{} in {}", quantity.name, quote(name)),
-                   "this unit is not known for it", fmt::format("use {}", join(names)));
+                   fmt::format("unknown unit {} of {}", quote(name), quantity.name), "",
+                   fmt::format("use {}", join(names)));
 }
 
 std::optional<double> ImportTable::value(std::size_t row, const std::string& quantity) const {
@@ -184,8 +182,7 @@ std::optional<double> ImportTable::value(std::size_t row, const std::string& qua
 
 double ImportTable::needed(std::size_t row, const std::string& quantity) const {
   if (const auto known = value(row, quantity)) return *known;
-  fail(row, quantity, fmt::format("{} is empty", quantity), "every row needs it",
-       "fill it in or remove the row");
+  fail(row, quantity, fmt::format("{} is empty", quantity), "", "fill it in or remove the row");
 }
 
 std::string ImportTable::text(std::size_t row, const std::string& quantity) const {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "data/csv_table.hpp"
-#include "experiment/import_words.hpp"
+#include "experiment/option_values.hpp"
 
 namespace recoil {
 
@@ -20,7 +20,7 @@ double import_number(const CsvField& cell, const std::string& file, const std::s
 /// A quantity that a format knows.
 struct ImportQuantity {
   std::string name;  ///< left of '=' in --map
-  ImportDimension dimension = ImportDimension::text;
+  Dimension dimension = Dimension::text;
   bool needed = false;
 };
 
@@ -53,7 +53,7 @@ class ImportTable {
  private:
   struct Source {
     std::vector<std::size_t> at;  ///< columns
-    ImportDimension dimension = ImportDimension::text;
+    Dimension dimension = Dimension::text;
     double factor = 1.0;
   };
 

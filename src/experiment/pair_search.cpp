@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/statistics.hpp"
 #include "experiment/flight.hpp"
 
 namespace recoil {
@@ -138,7 +139,7 @@ Refined refine_height(const std::vector<Link>& candidates, const std::vector<Eve
     result.height_spread = robust_sd(heights);
     result.diameter_spread = robust_sd(sizes);
     if (!options.refine) continue;
-    result.model.log_height = median_of(heights);
+    result.model.log_height = median(heights);
     // of a median of normal numbers
     result.log_height_sd = std::sqrt(M_PI / 2.0) * result.height_spread /
                            std::sqrt(static_cast<double>(chosen.size()));

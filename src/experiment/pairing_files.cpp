@@ -3,25 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
 #include "core/units.hpp"
-#include "data/json_document.hpp"
-#include "data/text.hpp"
+#include "data/datapackage_writer.hpp"
 
 namespace recoil {
 namespace {
-
-std::string quoted_cell(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    out += c;
-    if (c == '"') out += c;
-  }
-  return out + "\"";
-}
 
 std::string known(double value) { return value > 0.0 ? fmt::format("{:.4g}", value) : ""; }
 
@@ -38,14 +25,6 @@ std::string bins_csv(const std::vector<double>& values, double unit) {
   return out;
 }
 
-nlohmann::ordered_json field(const char* name, const char* type, const char* unit,
-                             const char* description) {
-  nlohmann::ordered_json object = {{"name", name}, {"type", type}};
-  if (*unit != '\0') object["unit"] = unit;
-  object["description"] = description;
-  return object;
-}
-
 std::string fate_of(const Unpaired& lone) {
   return lone.came_back ? "lost: came back" : "no rebound seen";
 }
@@ -57,7 +36,7 @@ std::string points_csv(const Averages& averages) {
       "series,diameter,incident_velocity,velocity_sd,restitution,restitution_sd,events,captured\n";
   for (const PointMean& point : averages.points) {
     const bool rebounds = point.rebounds > 0;
-    out += fmt::format("{},{:.5g},{:.6g},{},{},{},{},{}\n", quoted_cell(point.series),
+    out += fmt::format("{},{:.5g},{:.6g},{},{},{},{},{}\n", csv_cell(point.series),
                        point.diameter / units::um, point.velocity, known(point.velocity_sd),
                        rebounds ? fmt::format("{:.5g}", point.restitution) : "",
                        known(point.restitution_sd), point.events(), point.captured);
@@ -85,75 +64,62 @@ std::string impacts_csv(const EventTable& table, const PairResult& pairs) {
     const Event& down = events[impact.down];
     out +=
         fmt::format("{},{},{},{:.7f},{:.6g},{:.6g},{:.6g},{:.5g},{:.5g},{},{},rebounded\n",
-                    quoted_cell(table.series[down.series]), down.line, events[impact.up].line,
+                    csv_cell(table.series[down.series]), down.line, events[impact.up].line,
                     down.time, down.velocity, impact.incident, impact.rebound, impact.restitution,
                     impact.diameter / units::um, impact.number, impact.used ? 1 : 0);
   }
   for (const Unpaired& lone : pairs.unpaired) {
     const Event& down = events[lone.down];
     out += fmt::format("{},{},,{:.7f},{:.6g},{:.6g},,,{:.5g},{},{},{}\n",
-                       quoted_cell(table.series[down.series]), down.line, down.time, down.velocity,
+                       csv_cell(table.series[down.series]), down.line, down.time, down.velocity,
                        lone.incident, down.diameter / units::um, lone.number, lone.used ? 1 : 0,
                        fate_of(lone));
   }
   return out;
 }
 
-std::string package_json(const std::string& like_text, const std::string& like_file,
-                         const std::string& id, const std::string& provenance,
-                         const std::string& events_file, const std::string& description,
-                         double sizes_height) {
-  const JsonDocument document(like_text, like_file);
-  document.root().require("recoil", "it holds the materials",
-                          "name the folder of a dataset with the same materials");
-  nlohmann::ordered_json recoil = nlohmann::ordered_json::parse(like_text)["recoil"];
-  recoil["provenance"] = provenance;
-  const auto fields = nlohmann::ordered_json::array({
-      field("series", "string", "", "the run, and the size class where there are several"),
-      field("diameter", "number", "um", "mean over the impacts"),
-      field("incident_velocity", "number", "m/s", "mean normal velocity at the surface"),
-      field("velocity_sd", "number", "m/s", "standard error of that mean"),
-      field("restitution", "number", "1", "mean of rebound over incident velocity, rebounds only"),
-      field("restitution_sd", "number", "1", "standard error of that mean"),
-      field("events", "integer", "1", "rebounds and captures"),
-      field("captured", "integer", "1", "passages without a rebound, less those lost or too slow"),
+std::string package_json(const std::filesystem::path& like, const std::string& id,
+                         Provenance provenance, const std::string& events_file,
+                         const std::string& description, double sizes_height) {
+  PackageJson recoil = {{"provenance", to_string(provenance)}};
+  recoil.update(stated_system(like));
+  const auto fields = PackageJson::array({
+      package_field("series", "string", "", "the run, and the size class where there are several"),
+      package_field("diameter", "number", "um", "mean over the impacts"),
+      package_field("incident_velocity", "number", "m/s", "mean normal velocity at the surface"),
+      package_field("velocity_sd", "number", "m/s", "standard error of that mean"),
+      package_field("restitution", "number", "1",
+                    "mean of rebound over incident velocity, rebounds only"),
+      package_field("restitution_sd", "number", "1", "standard error of that mean"),
+      package_field("events", "integer", "1", "rebounds and captures"),
+      package_field("captured", "integer", "1",
+                    "passages without a rebound, less those lost or too slow"),
   });
-  const nlohmann::ordered_json source = {
-      {"title", fmt::format("{}, paired by recoil pair", events_file)}};
-  const nlohmann::ordered_json resource = {
-      {"name", "points"},        {"path", "points.csv"}, {"format", "csv"},
-      {"mediatype", "text/csv"}, {"encoding", "utf-8"},  {"schema", {{"fields", fields}}},
-  };
-  auto resources = nlohmann::ordered_json::array({resource});
+  const PackageJson source = {{"title", fmt::format("{}, paired by recoil pair", events_file)}};
+  PackageJson resources = PackageJson::array({csv_resource("points", "points.csv", fields)});
   if (sizes_height > 0.0) {
-    const auto bins = nlohmann::ordered_json::array({
-        field("lower", "number", "um", "lower end of the bin"),
-        field("upper", "number", "um", "its upper end"),
-        field("count", "integer", "1", "spheres in it"),
+    const auto bins = PackageJson::array({
+        package_field("lower", "number", "um", "lower end of the bin"),
+        package_field("upper", "number", "um", "its upper end"),
+        package_field("count", "integer", "1", "spheres in it"),
     });
-    resources.push_back({
-        {"name", "sizes"},
-        {"path", "sizes.csv"},
-        {"format", "csv"},
-        {"mediatype", "text/csv"},
-        {"encoding", "utf-8"},
-        {"title", "Size distribution of the incoming spheres"},
-        {"description",
-         fmt::format("first passages towards the surface in {}, rebounded or not", events_file)},
-        {"provenance", provenance},
-        {"probe_height", sizes_height},
-        {"schema", {{"fields", bins}}},
-    });
+    PackageJson sizes = csv_resource("sizes", "sizes.csv", bins);
+    sizes["title"] = "Size distribution of the incoming spheres";
+    sizes["description"] =
+        fmt::format("first passages towards the surface in {}, rebounded or not", events_file);
+    sizes["provenance"] = to_string(provenance);
+    sizes["probe_height"] = sizes_height;
+    resources.push_back(sizes);
   }
-  const nlohmann::ordered_json package = {
+  const PackageJson package = {
       {"name", id},
       {"title", fmt::format("Impacts paired from {}", events_file)},
       {"description", description},
-      {"sources", nlohmann::ordered_json::array({source})},
+      {"sources", PackageJson::array({source})},
       {"resources", resources},
       {"recoil", recoil},
   };
-  return package.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return package_text(package);
 }
 
 Distributions distributions(const EventTable& table, const PairResult& pairs) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "data/dataset.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/events.hpp"
 #include "experiment/histogram.hpp"
@@ -20,15 +21,14 @@ std::string points_csv(const Averages& averages);
 /// restitution, diameter, number of the impact, what became of it.
 std::string impacts_csv(const EventTable& table, const PairResult& pairs);
 
-/// `datapackage.json` for points_csv, with materials and overrides as `like_text` has them.
-/// @param id its name; @param provenance its `recoil.provenance`.
+/// `datapackage.json` for points_csv, with the materials and overrides of the dataset in `like`.
+/// @param id its name
 /// @param description what was done.
 /// @param sizes_height of the plane [m]: lists sizes.csv beside the points; 0 for no such file.
-/// @throws InputError when `like_text` is no data package with the key `recoil`.
-std::string package_json(const std::string& like_text, const std::string& like_file,
-                         const std::string& id, const std::string& provenance,
-                         const std::string& events_file, const std::string& description,
-                         double sizes_height = 0.0);
+/// @throws InputError when `like` has no data package with the key `recoil`.
+std::string package_json(const std::filesystem::path& like, const std::string& id,
+                         Provenance provenance, const std::string& events_file,
+                         const std::string& description, double sizes_height = 0.0);
 
 /// The distributions that the paper shows, SI units.
 struct Distributions {
@@ -46,8 +46,5 @@ std::string sizes_csv(const Distributions& distributions);
 /// CSV files by name: velocities-raw, velocities-paired, sizes-incoming and sizes-paired hold the
 /// bins of both rules (rule, lower, upper, middle, count, share), and sizes.csv see `sizes_csv`.
 std::map<std::string, std::string> histogram_files(const Distributions& distributions);
-
-/// The text that `recoil pair` prints.
-std::string describe(const EventTable& table, const PairResult& pairs, const Averages& averages);
 
 }  // namespace recoil

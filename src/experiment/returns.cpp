@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/statistics.hpp"
 #include "experiment/flight.hpp"
 
 namespace recoil {

@@ -1,24 +1,11 @@
 #include "experiment/spread.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
+#include "core/statistics.hpp"
+
 namespace recoil {
-
-double median_of(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-double robust_sd(std::vector<double> values) {
-  const double middle = median_of(values);
-  for (double& value : values) value = std::abs(value - middle);
-  return 1.4826 * median_of(values);
-}
 
 LocalSpread::LocalSpread(const std::vector<double>& x, const std::vector<double>& deviation,
                          double lowest, double highest) {
@@ -37,7 +24,7 @@ LocalSpread::LocalSpread(const std::vector<double>& x, const std::vector<double>
       places.push_back(x[order[i]]);
       values.push_back(deviation[order[i]]);
     }
-    x_.push_back(median_of(places));
+    x_.push_back(median(places));
     sd_.push_back(std::clamp(robust_sd(std::move(values)), lowest, highest));
   }
 }

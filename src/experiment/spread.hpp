@@ -4,12 +4,6 @@
 
 namespace recoil {
 
-/// The middle value; 0 for none. @param values are reordered.
-double median_of(std::vector<double>& values);
-
-/// Robust standard deviation about the median: 1.4826 times the median absolute deviation.
-double robust_sd(std::vector<double> values);
-
 /// How much a deviation scatters, as a piecewise linear function of a variable x: the robust
 /// standard deviation in classes of equal number, joined at the medians of the classes.
 class LocalSpread {

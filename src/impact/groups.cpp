@@ -22,24 +22,6 @@ ForceCoefficients coefficients(const ImpactConditions& c) {
 
 }  // namespace
 
-std::string to_string(AdhesionDampingPhase phase) {
-  return phase == AdhesionDampingPhase::rebound ? "rebound" : "both";
-}
-
-std::string to_string(ImpactOutcome outcome) {
-  switch (outcome) {
-    case ImpactOutcome::rebound:
-      return "rebound";
-    case ImpactOutcome::captured:
-      return "captured";
-    case ImpactOutcome::integration_failure:
-      return "integration failure";
-    case ImpactOutcome::step_limit:
-      return "step limit";
-  }
-  return "";
-}
-
 ImpactGroups impact_groups(const ImpactConditions& c) {
   const auto [A, B] = coefficients(c);
   return {c.hertz_damping * c.velocity, B * std::pow(A, -0.6) * std::pow(c.velocity, -0.8),

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
-#include <string>
+#include <string_view>
 #include <vector>
+
+#include "core/names.hpp"
 
 namespace recoil {
 
@@ -11,7 +13,10 @@ namespace recoil {
 /// e could exceed 1; `rebound` is their words ("acts during the rebound phase").
 enum class AdhesionDampingPhase { rebound, both };
 
-std::string to_string(AdhesionDampingPhase phase);
+template <>
+struct NamesOf<AdhesionDampingPhase> {
+  static constexpr std::array<std::string_view, 2> names = {"rebound", "both"};
+};
 
 /// One sphere about to hit one surface, in SI units.
 struct ImpactConditions {
@@ -56,7 +61,11 @@ double adhesion_velocity(const ImpactConditions& conditions);
 /// How an impact ended. The last two carry no answer and are never turned into numbers.
 enum class ImpactOutcome { rebound, captured, integration_failure, step_limit };
 
-std::string to_string(ImpactOutcome outcome);
+template <>
+struct NamesOf<ImpactOutcome> {
+  static constexpr std::array<std::string_view, 4> names = {"rebound", "captured",
+                                                            "integration failure", "step limit"};
+};
 
 /// Where the incident kinetic energy went, in units of m V^2 (so it starts with 1/2).
 struct EnergyBudget {

@@ -19,22 +19,13 @@ std::vector<Mechanism> all_mechanisms() {
   std::sort(all.begin(), all.end(), [](const Mechanism& a, const Mechanism& b) {
     return std::tie(a.info.place, a.info.id) < std::tie(b.info.place, b.info.id);
   });
+  for (Mechanism& mechanism : all) {
+    for (Parameter& parameter : mechanism.info.parameters) parameter.mechanism = &mechanism;
+  }
   return all;
 }
 
 }  // namespace
-
-std::string to_string(MechanismKind kind) {
-  switch (kind) {
-    case MechanismKind::physics:
-      return "physics";
-    case MechanismKind::measurement:
-      return "measurement";
-    case MechanismKind::description:
-      return "description";
-  }
-  return "";
-}
 
 const std::vector<Mechanism>& mechanism_catalogue() {
   static const std::vector<Mechanism> catalogue = all_mechanisms();

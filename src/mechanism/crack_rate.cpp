@@ -1,9 +1,8 @@
-#include <gsl/gsl_integration.h>
-
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "core/quadrature.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -21,16 +20,12 @@ const std::vector<Node>& nodes() {
   constexpr std::size_t count = 12;
   static const std::vector<Node> all = [] {
     std::vector<Node> made;
-    gsl_integration_glfixed_table* const table = gsl_integration_glfixed_table_alloc(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      double position = 0.0, weight = 0.0;
-      gsl_integration_glfixed_point(0.0, 1.0, i, &position, &weight, table);
+    for (const auto& [position, weight] : gauss_legendre(count)) {
       const double phi = 0.5 * std::numbers::pi * position;
       const double s = std::pow(std::sin(phi), 4);
       const double stretch = 2.0 * std::numbers::pi * std::pow(std::sin(phi), 3) * std::cos(phi);
       made.push_back({s, std::pow(s, 1.5), std::pow(s, 2.5), std::log(s), weight * stretch});
     }
-    gsl_integration_glfixed_table_free(table);
     return made;
   }();
   return all;

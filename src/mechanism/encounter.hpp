@@ -88,7 +88,7 @@ struct Encounter {
 
 /// What one point shows, when all that happened to its spheres is done.
 template <class T>
-struct Sight {
+struct Observed {
   T square;    ///< e^2, continued below zero [1]
   T velocity;  ///< measured incident velocity [m/s]
 };

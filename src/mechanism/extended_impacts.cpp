@@ -203,13 +203,13 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
         work.squares[k] = survivors_square<T>(siblings);
       }
     }
-    Sight<T> sight{work.squares.front(), work.encounters[i * nodes_].measured_velocity};
+    Observed<T> observed{work.squares.front(), work.encounters[i * nodes_].measured_velocity};
     along<T>(chain_, own, [&](const Mechanism& mechanism, std::span<const T> its) {
       const MechanismLaw<T>& law = mechanism.law<T>();
-      if (law.observe != nullptr) law.observe(sight, its);
+      if (law.observe != nullptr) law.observe(observed, its);
     });
-    answer.restitution_squared = value_of(sight.square);
-    keep_slopes(i, sight.square);
+    answer.restitution_squared = value_of(observed.square);
+    keep_slopes(i, observed.square);
     if (!std::isfinite(answer.restitution_squared)) {
       answer.outcome = ImpactOutcome::integration_failure;
     } else if (!(answer.restitution_squared > 0.0)) {

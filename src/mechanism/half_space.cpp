@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/roots.hpp"
 #include "mechanism/encounter.hpp"
 
 namespace recoil {
@@ -48,14 +49,9 @@ double half_space_radiation(double poisson_ratio) {
   const auto rayleigh = [&](double k2) {
     return (2.0 * k2 - 1.0) * (2.0 * k2 - 1.0) - 4.0 * k2 * std::sqrt((k2 - g2) * (k2 - 1.0));
   };
-  double low = 1.0;
   double high = 4.0;  // slower than half of c_T a Rayleigh wave is only for nu < -0.9
   while (rayleigh(high) > 0.0) high *= 2.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    (rayleigh(middle) > 0.0 ? low : high) = middle;
-  }
-  const double k2 = 0.5 * (low + high);
+  const double k2 = find_root(rayleigh, 1.0, high);
   const double root = std::sqrt((k2 - g2) * (k2 - 1.0));
   // dR / d(k^2); dR/dk is 2 k times that.
   const double slope =

@@ -6,7 +6,9 @@
 #include <tuple>
 #include <vector>
 
+#include "core/names.hpp"
 #include "mechanism/encounter.hpp"
+#include "mechanism/parameter.hpp"
 
 namespace recoil {
 
@@ -14,7 +16,11 @@ namespace recoil {
 /// named as a cause.
 enum class MechanismKind { physics, measurement, description };
 
-std::string to_string(MechanismKind kind);
+template <>
+struct NamesOf<MechanismKind> {
+  static constexpr std::array<std::string_view, 3> names = {"physics", "measurement",
+                                                            "description"};
+};
 
 /// Where on the way of a sphere a mechanism acts, from the outside in. On the way in mechanisms act
 /// in this order, on the way out in the reverse one; those at the same place in the order of their
@@ -32,28 +38,6 @@ enum class MechanismPlace {
   batch,      ///< what all points of a series share
 };
 
-/// Values that a parameter can physically have, and why.
-struct PlausibleRange {
-  double lower = 0.0;
-  double upper = 0.0;
-  std::string_view why;
-};
-
-struct MechanismParameter {
-  std::string_view name;  ///< as a fit file has it; unique in the catalogue
-  std::string_view unit;
-  std::string_view meaning;
-  double null_value = 0.0;  ///< here the mechanism vanishes
-  double initial = 0.0;     ///< where a fit starts
-  double lower = 0.0;       ///< bounds; also the domain of the formula
-  double upper = 0.0;
-  PlausibleRange plausible;
-  std::vector<double> starts = {};  ///< further ones worth trying
-  bool free = true;                 ///< fitted unless the fit file says otherwise
-  bool log_scale = false;           ///< positive over several decades: its logarithm is fitted
-  bool per_series = false;          ///< one value for every series
-};
-
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;
@@ -64,7 +48,9 @@ struct MechanismInfo {
   std::string_view source;
   std::string_view
       fingerprint;  ///< what it leaves in the data when the base model is fitted without it
-  std::vector<MechanismParameter> parameters = {};
+  std::vector<Parameter> parameters = {};
+  /// Does it say that the spheres of one point differ in size?
+  bool mixes_sizes = false;
 };
 
 /// The law of a mechanism for one number type; null where it does nothing. `own` holds its
@@ -73,7 +59,7 @@ template <class T>
 struct MechanismLaw {
   void (*before)(Encounter<T>&, std::span<const T> own) = nullptr;  ///< on the way in
   void (*after)(Encounter<T>&, std::span<const T> own) = nullptr;   ///< on the way out
-  void (*observe)(Sight<T>&, std::span<const T> own) = nullptr;
+  void (*observe)(Observed<T>&, std::span<const T> own) = nullptr;
   /// The sphere that lies z standard deviations from the typical one of its point.
   void (*vary)(Encounter<T>&, std::span<const T> own, double z) = nullptr;
 };
@@ -96,6 +82,7 @@ struct Mechanism {
     return std::get<MechanismLaw<T>>(laws);
   }
   bool spreads() const { return law<double>().vary != nullptr; }
+  bool is_batch() const { return info.place == MechanismPlace::batch; }
 };
 
 /// Every mechanism, in the order in which they act.
@@ -119,8 +106,8 @@ MechanismLaw<T> law_for() {
   if constexpr (requires(Encounter<T> & e, Own own) { Law::after(e, own); }) {
     law.after = [](Encounter<T>& e, Own own) { Law::after(e, own); };
   }
-  if constexpr (requires(Sight<T> & s, Own own) { Law::observe(s, own); }) {
-    law.observe = [](Sight<T>& s, Own own) { Law::observe(s, own); };
+  if constexpr (requires(Observed<T> & s, Own own) { Law::observe(s, own); }) {
+    law.observe = [](Observed<T>& s, Own own) { Law::observe(s, own); };
   }
   if constexpr (requires(Encounter<T> & e, Own own) { Law::vary(e, own, 0.0); }) {
     law.vary = [](Encounter<T>& e, Own own, double z) { Law::vary(e, own, z); };
@@ -131,8 +118,9 @@ MechanismLaw<T> law_for() {
 }  // namespace mechanism_detail
 
 /// `Law` has any of the functions of MechanismLaw as static templates over the number type. Each
-/// mechanism defines a function of the name of its id that returns make_mechanism<Law>(...); the
-/// list of ids stands in CMakeLists.txt and nowhere else.
+/// mechanism is one file, named like its id, which defines a function of that name that returns
+/// make_mechanism<Law>(...), and its line in CMakeLists.txt. Nothing else knows it: whatever is
+/// special about a mechanism is a field of its entry.
 template <class Law>
 Mechanism make_mechanism(MechanismInfo info) {
   Mechanism m;

@@ -62,7 +62,11 @@ Mechanism plastic_yield() {
                           "1.6 to 2.8 times the yield stress: from soft organic solids "
                           "(10 MPa) to hard ceramics (30 GPa)"},
             .starts = {3e7, 1e8, 1e9, 3e9},
-            .log_scale = true},
+            .log_scale = true,
+            // Frenkel 1926, Z. Phys. 37, 572-609: no solid resists a shear of more than about a
+            // tenth of its modulus; Tabor 1951, The Hardness of Metals: a contact flows at 2.8
+            // times the yield stress.
+            .modulus_limit = {0.3, "no solid resists more than about 0.3 of it"}},
            {.name = "yield_rate_exponent",
             .unit = "1",
             .meaning = "q, of the yield pressure with the impact velocity (p_Y is that at 1 m/s)",

@@ -37,6 +37,7 @@ Mechanism polydispersity() {
                       .plausible = {0.0, 0.5,
                                     "calibration spheres have 0.01 to 0.05, sieved powders 0.3"},
                       .starts = {0.02, 0.3}}},
+      .mixes_sizes = true,
   });
 }
 

@@ -9,7 +9,7 @@ constexpr double none_seen = 1e-12;
 
 struct ReboundTruncation {
   template <class T>
-  static void observe(Sight<T>& s, std::span<const T> own) {
+  static void observe(Observed<T>& s, std::span<const T> own) {
     const T slowest = own[0] / s.velocity;
     const T missing = s.square - slowest * slowest;
     if (!(value_of(s.square) > 0.0)) {
@@ -63,7 +63,8 @@ Mechanism rebound_truncation() {
             .lower = 0.005,
             .upper = 0.3,
             .plausible = {0.01, 0.3, "5 to 10 % is usual, more just above capture"},
-            .free = false}},
+            .free = false,
+            .is_scatter_of_rebounds = true}},
   });
 }
 

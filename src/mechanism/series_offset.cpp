@@ -8,7 +8,7 @@ constexpr double border = 0.1;
 
 struct SeriesOffset {
   template <class T>
-  static void observe(Sight<T>& s, std::span<const T> own) {
+  static void observe(Observed<T>& s, std::span<const T> own) {
     s.square = shifted_if_seen(s.square, own[0], T(border));
   }
 };

@@ -1,6 +1,9 @@
 #include "mechanism/survivors_mean.hpp"
 
 #include <cassert>
+#include <vector>
+
+#include "core/quadrature.hpp"
 
 namespace recoil {
 namespace {
@@ -31,7 +34,7 @@ Basis basis_at(double z) {
   return basis;
 }
 
-/// Gauss-Legendre points and weights on [0, 1], by Newton's method on the polynomial.
+/// Gauss-Legendre points and weights on [0, 1].
 constexpr std::size_t quadrature_points = 12;
 struct Quadrature {
   std::array<double, quadrature_points> at{};
@@ -43,24 +46,10 @@ struct Quadrature {
 const Quadrature& quadrature() {
   static const Quadrature rule = [] {
     Quadrature q;
-    constexpr int n = quadrature_points;
-    for (int i = 0; i < n; ++i) {
-      double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
-      double slope = 0.0;
-      for (int round = 0; round < 100; ++round) {
-        double p0 = 1.0;
-        double p1 = x;
-        for (int k = 2; k <= n; ++k) {
-          const double p2 = ((2.0 * k - 1.0) * x * p1 - (k - 1.0) * p0) / k;
-          p0 = p1;
-          p1 = p2;
-        }
-        slope = n * (x * p1 - p0) / (x * x - 1.0);
-        x -= p1 / slope;
-      }
-      const auto k = static_cast<std::size_t>(i);
-      q.at[k] = 0.5 * (1.0 - x);
-      q.weight[k] = 1.0 / ((1.0 - x * x) * slope * slope);
+    const std::vector<QuadratureNode> nodes = gauss_legendre(quadrature_points);
+    for (std::size_t k = 0; k < quadrature_points; ++k) {
+      q.at[k] = nodes[k].at;
+      q.weight[k] = nodes[k].weight;
       const double s2 = q.at[k] * q.at[k];
       q.whole_from_low[k] = basis_at(spread_reach * (2.0 * s2 - 1.0));
       q.whole_from_high[k] = basis_at(spread_reach * (1.0 - 2.0 * s2));
@@ -95,6 +84,7 @@ T crossing(std::span<const T> x) {
   double inside =
       value_of(x.front()) > value_of(x.back()) ? -spread_reach : spread_reach;  // comes back
   double outside = -inside;
+  // Halving by hand: inside the innermost loop of a fit, with all that is needed at hand.
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (inside + outside);
     const Basis basis = basis_at(middle);

@@ -6,7 +6,11 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "estimate/capture_velocity.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
 #include "predict/capture_dahneke.hpp"
 #include "predict/capture_jkr.hpp"
 #include "predict/capture_thornton_ning.hpp"
@@ -165,7 +169,7 @@ void add_older_models(const Dataset& dataset, const ContactProperties& contact, 
 
 }  // namespace
 
-std::vector<CaptureComparison> compare_captures(const FitResult& fitted, const Observations& data,
+std::vector<CaptureComparison> compare_captures(const FitResult& fitted,
                                                 const std::vector<Dataset>& datasets,
                                                 const BootstrapResult& bootstrap,
                                                 const CaptureComparisonOptions& options) {
@@ -183,7 +187,7 @@ std::vector<CaptureComparison> compare_captures(const FitResult& fitted, const O
     }
     for (const PublishedCapture& one : comparison.published) sizes.push_back(one.diameter);
     double fastest = 0.0;
-    for (const Observation& point : data.points) {
+    for (const Observation& point : fitted.data.points) {
       if (point.dataset != d) continue;
       sizes.push_back(point.diameter);
       fastest = std::max(fastest, point.velocity);

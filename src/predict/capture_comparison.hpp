@@ -43,7 +43,7 @@ struct CaptureComparisonOptions {
 /// the bond, which their authors took from elsewhere. Here e is the largest restitution that the
 /// fitted curve reaches in the range of the data at the reference diameter, and the energies are
 /// those of the JKR contact, so that both become JKR's velocity for e = 1.
-std::vector<CaptureComparison> compare_captures(const FitResult& fitted, const Observations& data,
+std::vector<CaptureComparison> compare_captures(const FitResult& fitted,
                                                 const std::vector<Dataset>& datasets,
                                                 const BootstrapResult& bootstrap,
                                                 const CaptureComparisonOptions& options = {});

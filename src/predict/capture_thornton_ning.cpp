@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/roots.hpp"
 #include "predict/capture_jkr.hpp"
 
 namespace recoil {
@@ -56,14 +57,9 @@ double thornton_ning_plastic_velocity(const CaptureContact& contact, double yiel
         elastic * elastic * std::pow(flattening(contact, yield_pressure, V), 4.0 / 3.0);
     return e * e * V * V / lost - 1.0;
   };
-  double low = elastic;
   double high = elastic;
   for (int i = 0; i < 60 && excess(high) < 0.0; ++i) high *= 2.0;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = std::sqrt(low * high);
-    (excess(middle) < 0.0 ? low : high) = middle;
-  }
-  return std::sqrt(low * high);
+  return high > elastic ? find_root(excess, elastic, high) : elastic;
 }
 
 }  // namespace recoil

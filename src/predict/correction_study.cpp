@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/files.hpp"
+#include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
 #include "experiment/pairing_files.hpp"
 
@@ -61,12 +62,10 @@ std::vector<std::optional<double>> errors_by_velocity(const KnownEvents& events,
 
 void fit_points(const FitSpec& spec, const Dataset& like, const KnownEvents& events,
                 const Averages& averages, CorrectionRow& row) {
-  const std::filesystem::path package = like.folder / "datapackage.json";
-  const Dataset dataset =
-      parse_dataset(package_json(read_text_file(package), package.string(), like.id,
-                                 to_string(like.provenance), events.table.file, "a study"),
-                    points_csv(averages), like.folder);
-  const FitResult fitted = fit(make_model(spec, {dataset}), gather({dataset}, spec.noise));
+  const Dataset dataset = parse_dataset(
+      package_json(like.folder, like.id, like.provenance, events.table.file, "a study"),
+      points_csv(averages), like.folder);
+  const FitResult fitted = fit(make_model(spec, {dataset}), gather({dataset}, spec));
   row.usable = fitted.usable;
   if (!fitted.usable) return;
   const std::size_t h = fitted.model.slot_C_H[0];

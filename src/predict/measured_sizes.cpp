@@ -10,6 +10,8 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/csv_table.hpp"
+#include "data/datapackage.hpp"
+#include "data/folder_names.hpp"
 #include "data/json_document.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
@@ -41,30 +43,25 @@ void read_resource(const JsonNode& resource, SizesResource& out) {
     out.probe_height = height->number();
     if (!(*out.probe_height >= 0.0 && *out.probe_height <= 1.0)) {
       height->fail(fmt::format("probe_height = {:g} m", *out.probe_height),
-                   "it lies above the surface, within a metre", "give it in m: 1 mm is 0.001");
+                   "it has to lie between 0 and 1 m", "give it in m: 1 mm is 0.001");
     }
   }
-  const auto schema = resource.find("schema");
-  const auto fields = schema ? schema->find("fields") : std::nullopt;
-  if (!fields) return;
-  for (const JsonNode& field : fields->items()) {
-    const std::string name = text_of(field, "name");
-    if (name == "diameter" || name == "lower") out.unit = text_of(field, "unit");
+  const std::map<std::string, std::string> units = field_units(resource);
+  for (const char* column : {"diameter", "lower"}) {
+    if (units.contains(column)) out.unit = units.at(column);
   }
 }
 
 SizesResource resource_beside(const std::filesystem::path& file) {
   SizesResource out;
-  const std::filesystem::path package = file.parent_path() / "datapackage.json";
+  const std::filesystem::path package = file.parent_path() / package_file_name;
   std::error_code failed;
   if (!std::filesystem::exists(package, failed)) return out;
   const std::string text = read_text_file(package);
   require_text(text, package.string());
   const JsonDocument document(text, package.string());
-  const auto resources = document.root().find("resources");
-  if (!resources) return out;
-  for (const JsonNode& resource : resources->items()) {
-    if (text_of(resource, "path") == file.filename().string()) read_resource(resource, out);
+  if (const auto resource = find_resource(document.root(), file.filename().string())) {
+    read_resource(*resource, out);
   }
   return out;
 }
@@ -85,8 +82,8 @@ class SizesReader {
     const double lower = size(row[diameter_ != no_column ? diameter_ : lower_]);
     const double upper = diameter_ != no_column ? lower : size(row[upper_]);
     if (upper < lower) {
-      fail(row[upper_], fmt::format("upper = {} below lower", row[upper_].text),
-           "a bin goes from its lower to its upper end", "exchange them");
+      fail(row[upper_], fmt::format("upper = {} lies below lower", row[upper_].text), "",
+           "exchange them");
     }
     const double weight = weight_ == no_column ? 1.0 : number(row[weight_]);
     if (weight < 0.0) {
@@ -104,11 +101,11 @@ class SizesReader {
 
   std::vector<SizeBin> finish() const {
     if (weights_.empty()) {
-      throw InputError({file_, 1, 1}, "no particles in this file",
-                       "the average is taken over its sizes", "give it the columns diameter,count");
+      throw InputError({file_, 1, 1}, "there are no particles in this file", "",
+                       "give it the columns diameter,count");
     }
     if (weights_.size() > most_sizes) {
-      throw InputError({file_}, fmt::format("{} different diameters", weights_.size()),
+      throw InputError({file_}, fmt::format("the file has {} different diameters", weights_.size()),
                        fmt::format("at most {} are simulated", most_sizes), "gather them in bins");
     }
     std::vector<SizeBin> bins;
@@ -139,7 +136,7 @@ class SizesReader {
   double number(const CsvField& cell) const {
     if (const auto value = parse_number(cell.text)) return *value;
     fail(cell, fmt::format("{} is not a number", quote(cell.text)),
-         "diameters and counts are finite numbers", "write a decimal number such as 49.5");
+         "diameters and counts have to be finite numbers", "write a decimal number such as 49.5");
   }
 
   void read_header(const CsvRow& row) {
@@ -147,18 +144,18 @@ class SizesReader {
     for (std::size_t i = 0; i < row.size(); ++i) {
       std::size_t* const column = column_named(row[i].text);
       if (column == nullptr) {
-        fail(row[i], fmt::format("unknown column {}", quote(row[i].text)),
-             "a size distribution has diameters and how many there are",
+        fail(row[i], fmt::format("unknown column {}", quote(row[i].text)), "",
              "known: diameter, lower, upper, count, weight, fraction");
       }
       if (*column != no_column) {
-        fail(row[i], "a second column of this kind", "only one could count", "remove one");
+        fail(row[i], fmt::format("{} is a second column of its kind", quote(row[i].text)), "",
+             "remove one");
       }
       *column = i;
     }
     if (diameter_ == no_column && (lower_ == no_column || upper_ == no_column)) {
-      fail(row.front(), "neither 'diameter' nor 'lower' and 'upper' is there",
-           "the sizes are read from them", "add it; its unit is um unless --unit says otherwise");
+      fail(row.front(), "neither 'diameter' nor 'lower' and 'upper' is there", "",
+           "add it; its unit is um unless --unit says otherwise");
     }
   }
 
@@ -220,8 +217,7 @@ MeasuredSizes load_sizes(const std::filesystem::path& file, const std::string& u
   const auto factor = unit_factor(Dimension::length, name);
   if (!factor) {
     throw InputError({file.string()}, fmt::format("unknown unit {} of the diameter", quote(name)),
-                     "it could not be converted",
-                     fmt::format("use {}", join(unit_names(Dimension::length))));
+                     "", fmt::format("use {}", join(unit_names(Dimension::length))));
   }
   SizesReader reader(file.string(), *factor);
   read_csv(text, file.string(), ',', [&](const CsvRow& row) { reader.row(row); });

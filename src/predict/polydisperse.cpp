@@ -7,7 +7,11 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "estimate/capture_velocity.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
 
 namespace recoil {
 namespace {
@@ -182,9 +186,8 @@ std::string words_of(CaptureConvention convention) {
   return "";
 }
 
-PolydispersePrediction predict_mixture(const FitResult& fitted, const Observations& data,
-                                       std::size_t dataset, const BootstrapResult& bootstrap,
-                                       const MeasuredSizes& sizes,
+PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t dataset,
+                                       const BootstrapResult& bootstrap, const MeasuredSizes& sizes,
                                        const PolydisperseOptions& options) {
   PolydispersePrediction out;
   out.dataset = dataset;
@@ -197,7 +200,7 @@ PolydispersePrediction predict_mixture(const FitResult& fitted, const Observatio
   std::vector<double> point_restitution;
   double slowest = INFINITY;
   double fastest = 0.0;
-  for (const Observation& point : data.points) {
+  for (const Observation& point : fitted.data.points) {
     if (point.dataset != dataset) continue;
     slowest = std::min(slowest, point.velocity);
     fastest = std::max(fastest, point.velocity);

@@ -88,9 +88,8 @@ struct PolydisperseOptions {
 ///
 /// The parameters are those of the fit as it stands, in which every point has the diameter that the
 /// dataset gives it.
-PolydispersePrediction predict_mixture(const FitResult& fitted, const Observations& data,
-                                       std::size_t dataset, const BootstrapResult& bootstrap,
-                                       const MeasuredSizes& sizes,
+PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t dataset,
+                                       const BootstrapResult& bootstrap, const MeasuredSizes& sizes,
                                        const PolydisperseOptions& options = {});
 
 }  // namespace recoil

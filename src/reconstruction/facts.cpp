@@ -31,8 +31,7 @@ void require_known_fact(const FactSpec& fact) {
   const FactKind* kind = find_kind(fact.id);
   if (kind == nullptr) {
     const std::string near = nearest_word(fact.id, all_ids());
-    throw InputError(fact.where, fmt::format("unknown fact '{}'", fact.id),
-                     "nothing would check it",
+    throw InputError(fact.where, fmt::format("unknown fact '{}'", fact.id), "",
                      near.empty() ? fmt::format("known: {}", fmt::join(all_ids(), ", "))
                                   : fmt::format("did you mean '{}'?", near));
   }
@@ -41,14 +40,13 @@ void require_known_fact(const FactSpec& fact) {
       throw InputError(fact.where,
                        fmt::format("the fact '{}' lacks the limit '{}'", fact.id, limit),
                        "a check without a threshold cannot fail",
-                       fmt::format("it takes: {}", fmt::join(kind->limits, ", ")));
+                       fmt::format("give {}", fmt::join(kind->limits, ", ")));
     }
   }
   for (const auto& [name, value] : fact.limits) {
     if (std::find(kind->limits.begin(), kind->limits.end(), name) == kind->limits.end()) {
       throw InputError(fact.where, fmt::format("the fact '{}' takes no limit '{}'", fact.id, name),
-                       "it would be ignored silently",
-                       fmt::format("it takes: {}", fmt::join(kind->limits, ", ")));
+                       "", fmt::format("it takes {}", fmt::join(kind->limits, ", ")));
     }
   }
 }

@@ -89,7 +89,8 @@ class FallingSphere {
 std::string draw_passages(const Recipe& recipe, std::uint64_t seed, int times) {
   if (!recipe.passages || !recipe.sizes) {
     throw InputError({recipe.file.string()}, "the recipe has no table [passages]",
-                     "it says what an instrument would record", "add it, and [sizes]");
+                     "without it nothing says what an instrument would record",
+                     "add it, and [sizes]");
   }
   const PassageDesign& design = *recipe.passages;
   std::vector<Passage> passages;

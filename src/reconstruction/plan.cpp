@@ -39,7 +39,7 @@ void average_over_sizes(const Recipe& recipe, PlannedPoint& point) {
     throw InputError(
         {recipe.file.string()},
         fmt::format("at {:g} m/s fewer than one impact in a hundred rebounds", point.velocity),
-        "a mean of rebounds would never be complete", "raise the lowest velocity");
+        "a mean of rebounds would take too many impacts", "raise the lowest velocity");
   }
   point.seen = part;
   point.restitution = first / part;

@@ -8,9 +8,10 @@
 
 #include "core/files.hpp"
 #include "core/units.hpp"
+#include "data/text.hpp"
+#include "data/toml_table.hpp"
 #include "reconstruction/facts.hpp"
 #include "reconstruction/plan.hpp"
-#include "reconstruction/toml_table.hpp"
 
 namespace recoil {
 namespace {
@@ -22,7 +23,8 @@ Material read_material(TomlTable table, bool with_density) {
   material.youngs_modulus = table.positive("youngs_modulus");
   material.poisson_ratio = table.number("poisson_ratio");
   if (!(material.poisson_ratio > -1.0 && material.poisson_ratio <= 0.5)) {
-    table.fail("poisson_ratio", "an isotropic solid has -1 < nu <= 0.5", "correct it");
+    table.fail("poisson_ratio", fmt::format("poisson_ratio = {:g}", material.poisson_ratio),
+               "an isotropic solid has -1 < nu <= 0.5", "correct it");
   }
   material.surface_energy = table.optional_positive("surface_energy");
   table.finish();
@@ -43,8 +45,8 @@ Truth read_ring_adhesion_truth(TomlTable& table, const Recipe& recipe) {
   truth.C_A = table.not_negative("C_A");
   const std::string phase = table.text("adhesion_damping_phase");
   if (phase != "rebound" && phase != "both") {
-    table.fail("adhesion_damping_phase", "adhesion is damped on rebound or in both phases",
-               "write \"rebound\" or \"both\"");
+    table.fail("adhesion_damping_phase", fmt::format("unknown phase {}", quote(phase)),
+               "adhesion is damped on rebound or in both phases", "write \"rebound\" or \"both\"");
   }
   truth.damped_in_both_phases = phase == "both";
   return truth;
@@ -66,7 +68,8 @@ Truth read_elastoplastic_truth(TomlTable& table, const Recipe& recipe) {
 Truth read_truth(TomlTable table, const Recipe& recipe) {
   const std::string model = table.text("model");
   if (model != "ring-adhesion" && model != "elastoplastic") {
-    table.fail("model", "no such truth", "write \"ring-adhesion\" or \"elastoplastic\"");
+    table.fail("model", fmt::format("unknown truth {}", quote(model)), "",
+               "write \"ring-adhesion\" or \"elastoplastic\"");
   }
   Truth truth = model == "ring-adhesion" ? read_ring_adhesion_truth(table, recipe)
                                          : read_elastoplastic_truth(table, recipe);
@@ -81,9 +84,13 @@ EventNoise read_noise(TomlTable table) {
   noise.events = static_cast<int>(table.whole("events", 1));
   noise.decimals = static_cast<int>(table.whole("decimals", 1));
   if (noise.relative == 0.0 && noise.floor == 0.0) {
-    table.fail("relative", "a point without noise has no standard deviation", "give it some");
+    table.fail("relative", "'relative' and 'floor' are both 0",
+               "a point without noise has no standard deviation", "give one of them a value");
   }
-  if (noise.decimals > 9) table.fail("decimals", "a table prints fewer", "write 3");
+  if (noise.decimals > 9) {
+    table.fail("decimals", fmt::format("decimals = {}", noise.decimals), "at most 9 are printed",
+               "write 3");
+  }
   table.finish();
   return noise;
 }
@@ -99,7 +106,8 @@ SizeDistribution read_sizes(TomlTable table) {
   const long first = std::lround(sizes.lower / units::um);
   const long last = std::lround(sizes.upper / units::um);
   if (first < 1 || last <= first || last > 10000) {
-    table.fail("upper", "sizes are whole micrometres from lower to upper", "write them in metres");
+    table.fail("upper", "'lower' and 'upper' do not hold whole micrometres from 1 to 10000", "",
+               "write both in metres, 'upper' above 'lower'");
   }
   double total = 0.0;
   for (long d = first; d <= last; ++d) {
@@ -122,7 +130,10 @@ PassageDesign read_passages(TomlTable table) {
   design.angle_sd = table.not_negative("angle_sd");
   design.seen = table.positive("seen");
   design.return_time = table.positive("return_time");
-  if (design.seen > 1.0) table.fail("seen", "it is a part of all passages", "write at most 1");
+  if (design.seen > 1.0) {
+    table.fail("seen", fmt::format("seen = {:g}", design.seen), "it is a share of all passages",
+               "write at most 1");
+  }
   table.finish();
   return design;
 }
@@ -144,7 +155,7 @@ std::vector<double> log_spaced(TomlTable table) {
   const double to = table.positive("to");
   const auto count = table.whole("count", 2);
   table.finish();
-  if (!(to > from)) table.fail("to", "it must lie above 'from'", "exchange them");
+  if (!(to > from)) table.fail("to", "'to' does not lie above 'from'", "", "exchange them");
   std::vector<double> velocities;
   for (std::int64_t i = 0; i < count; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(count - 1);
@@ -158,17 +169,22 @@ RecipeSeries read_series(TomlTable table) {
   series.name = table.text("name");
   series.diameter = table.positive("diameter");
   if (series.name.find_first_of(",\"\n") != std::string::npos) {
-    table.fail("name", "it becomes a cell of points.csv", "use no comma, quote or line break");
+    table.fail("name",
+               fmt::format("the name {} has a comma, a quote or a line break", quote(series.name)),
+               "it becomes a cell of points.csv", "choose another");
   }
   const bool spaced = table.has("velocity");
   if (spaced == table.has("drop_heights")) {
-    table.fail(spaced ? "drop_heights" : "velocity", "the velocities come from one of the two",
+    table.fail(spaced ? "drop_heights" : "velocity",
+               spaced ? "both 'velocity' and 'drop_heights' are given"
+                      : "neither 'velocity' nor 'drop_heights' is given",
+               "the velocities come from one of the two",
                "give velocity = { from, to, count } or drop_heights = [..]");
   }
   if (spaced) {
     series.velocities = log_spaced(table.table("velocity"));
   } else {
-    const std::vector<double> heights = *table.optional_numbers("drop_heights");
+    const std::vector<double> heights = *table.optional_positives("drop_heights");
     for (const double height : heights) {
       series.velocities.push_back(three_digits(std::sqrt(2.0 * standard_gravity * height)));
     }
@@ -198,7 +214,7 @@ std::vector<FactSpec> read_facts(TomlTable& root) {
     const FactSpec& fact = facts.back();
     const auto same = [&](const FactSpec& other) { return other.id == fact.id; };
     if (std::count_if(facts.begin(), facts.end(), same) > 1) {
-      throw InputError(fact.where, fmt::format("the fact '{}' stands here twice", fact.id),
+      throw InputError(fact.where, fmt::format("the fact '{}' is given twice", fact.id),
                        "each check has one set of limits", "remove one");
     }
   }
@@ -217,14 +233,17 @@ void read_root(TomlTable& root, Recipe& recipe) {
   if (auto passages = root.optional_table("passages")) recipe.passages = read_passages(*passages);
   if (auto pairing = root.optional_table("pairing")) {
     if (!recipe.passages || !recipe.sizes) {
-      root.fail("pairing", "it needs the passages that it pairs", "add [passages] and [sizes]");
+      root.fail("pairing", "[pairing] without [passages] and [sizes]", "there is nothing to pair",
+                "add them");
     }
     recipe.pairing = read_pairing(*pairing);
   }
   for (TomlTable& table : root.tables("series")) {
     recipe.series.push_back(read_series(std::move(table)));
   }
-  if (recipe.series.empty()) root.fail("series", "there is nothing to make", "add [[series]]");
+  if (recipe.series.empty()) {
+    root.fail("series", "there is no [[series]]", "there is nothing to make", "add one");
+  }
   recipe.facts = read_facts(root);
   root.finish();
 }
@@ -253,15 +272,9 @@ Recipe load_recipe(const std::filesystem::path& folder, const std::string& name)
                   .string();
   const std::string file = recipe.file.string();
   const std::string text = read_text_file(recipe.file, 1024 * 1024);
-  toml::table parsed;
-  try {
-    parsed = toml::parse(std::string_view(text), file);
-  } catch (const toml::parse_error& error) {
-    const toml::source_position begin = error.source().begin;
-    throw InputError({file, static_cast<int>(begin.line), static_cast<int>(begin.column)},
-                     std::string(error.description()), "it is not valid TOML", "correct the line");
-  }
-  TomlTable root(parsed, file, "the recipe");
+  const TomlReader reader(file);
+  const toml::table parsed = reader.parse(text);
+  TomlTable root(parsed, reader, "the recipe");
   read_root(root, recipe);
   recipe.plan = make_plan(recipe);
   return recipe;

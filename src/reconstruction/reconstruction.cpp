@@ -19,8 +19,10 @@ void require_same_design(const Dataset& original, const std::vector<GeneratedPoi
   const Location where{(original.folder / "points.csv").string()};
   const std::string suggestion = fmt::format("run: recoil reconstruct {}", recipe.folder.string());
   if (original.points.size() != points.size()) {
-    throw InputError(where, fmt::format("{} points", original.points.size()),
-                     fmt::format("the recipe makes {}", points.size()), suggestion);
+    throw InputError(where,
+                     fmt::format("there are {} points, but the recipe makes {}",
+                                 original.points.size(), points.size()),
+                     "", suggestion);
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ImpactPoint& there = original.points[i];
@@ -28,8 +30,8 @@ void require_same_design(const Dataset& original, const std::vector<GeneratedPoi
         same(there.incident_velocity, points[i].velocity)) {
       continue;
     }
-    throw InputError({where.file, there.line, 0}, "another diameter or velocity",
-                     "the recipe makes a different design", suggestion);
+    throw InputError({where.file, there.line, 0},
+                     "this point's diameter or velocity is not that of the recipe", "", suggestion);
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "reconstruction/gsl_tools.hpp"
+#include "core/roots.hpp"
 
 namespace recoil {
 namespace {
@@ -23,7 +23,7 @@ double damping_for(RingAdhesionTruth model, double RingAdhesionTruth::*coefficie
     upper *= 2.0;
     if (upper > 1000.0) return -1.0;
   }
-  return find_root(excess, 0.0, upper, "a damping coefficient", 1e-9);
+  return find_root(excess, 0.0, upper, 1e-9);
 }
 
 }  // namespace

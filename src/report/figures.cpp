@@ -89,8 +89,8 @@ PlotScript restitution_script(const Analysis& analysis, const Panel& panel, cons
   }
   if (!rows.rebounds.empty()) {
     c += data_block("points", rows.rebounds);
-    const std::string name = gnuplot_text(points_name(dataset, analysis.data.sd_stated));
-    if (analysis.data.sd_stated) {
+    const std::string name = gnuplot_text(points_name(dataset, analysis.fitted.data.sd_stated));
+    if (analysis.fitted.data.sd_stated) {
       layers.push_back(fmt::format(
           "$points using 1:($2-$3):(0):(2*$3) with vectors nohead lc rgb '{}' lw 1.2 notitle",
           style::ink));
@@ -125,11 +125,11 @@ std::string restitution_caption(const Analysis& analysis, const Panel& panel) {
   }
   double largest_sd = 0.0;
   for (const std::size_t i : panel.points) {
-    if (!analysis.data.points[i].censored) {
-      largest_sd = std::max(largest_sd, analysis.data.points[i].sd);
+    if (!analysis.fitted.data.points[i].censored) {
+      largest_sd = std::max(largest_sd, analysis.fitted.data.points[i].weights.sd);
     }
   }
-  if (analysis.data.sd_stated && largest_sd < hidden_sd) {
+  if (analysis.fitted.data.sd_stated && largest_sd < hidden_sd) {
     text += " The error bars are hidden behind the marks.";
   }
   if (panel.curve != nullptr && panel.curve->two_point.empty()) {

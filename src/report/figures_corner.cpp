@@ -32,7 +32,7 @@ Axis make_axis(const Analysis& analysis, std::size_t slot) {
   const ParameterSlot& parameter = analysis.fitted.model.slots[slot];
   Axis axis;
   axis.slot = slot;
-  axis.scale = style::scale_for(std::abs(analysis.fitted.theta[slot]), parameter.unit);
+  axis.scale = style::scale_for(std::abs(analysis.fitted.theta[slot]), parameter.parameter->unit);
   axis.label = fmt::format("{}  [{}]", style::symbol(parameter.name), axis.scale.unit);
   if (!parameter.dataset.empty()) {
     axis.label = fmt::format("{}\\n{}", parameter.dataset, axis.label);

@@ -6,6 +6,9 @@
 #include <map>
 
 #include "core/units.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/figure_style.hpp"
 #include "report/format.hpp"
@@ -55,7 +58,8 @@ Rows rows_of(const Diagnosis& d, std::size_t dataset) {
     rows.velocities.push_back(point.velocity);
     rows.diameters.push_back(point.diameter / unit);
     rows.misses.push_back({point.velocity, rows.diameters.back(), miss,
-                           point.sd > 0.0 ? miss / point.sd : 0.0, point.sd});
+                           point.weights.sd > 0.0 ? miss / point.weights.sd : 0.0,
+                           point.weights.sd});
   }
   return rows;
 }
@@ -178,10 +182,10 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
   for (const Observation& point : d.base.data.points) {
     if (point.dataset != dataset) continue;
     points[point.diameter].push_back(
-        {point.velocity, point.censored ? 0.0 : point.restitution, point.sd});
+        {point.velocity, point.censored ? 0.0 : point.restitution, point.weights.sd});
     series[point.diameter] = point.series;
-    top = std::max(top, point.restitution + 2.0 * point.sd);
-    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * point.sd);
+    top = std::max(top, point.restitution + 2.0 * point.weights.sd);
+    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * point.weights.sd);
   }
   // The axis begins at nothing, unless all points lie high above.
   const bool high = bottom > 0.7;

@@ -40,7 +40,7 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
   const ParameterSlot& parameter = analysis.fitted.model.slots[slot];
   const IntervalSet set = intervals_of(analysis, slot);
   const double estimate = analysis.fitted.theta[slot];
-  const style::Scale scale = style::scale_for(std::abs(estimate), parameter.unit);
+  const style::Scale scale = style::scale_for(std::abs(estimate), parameter.parameter->unit);
   const Kind kinds[] = {{"wald", "Wald", &set.wald},
                         {"profile", "profile", &set.profile},
                         {"percentile", "percentile", &set.percentile},

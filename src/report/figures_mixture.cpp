@@ -59,11 +59,11 @@ PlotScript script_of(const Analysis& analysis, const PolydispersePrediction& mix
 void add_points(const Analysis& analysis, std::size_t dataset, std::string& commands,
                 std::vector<std::string>& layers) {
   std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < analysis.data.points.size(); ++i) {
-    if (analysis.data.points[i].dataset == dataset) indices.push_back(i);
+  for (std::size_t i = 0; i < analysis.fitted.data.points.size(); ++i) {
+    if (analysis.fitted.data.points[i].dataset == dataset) indices.push_back(i);
   }
   commands += data_block("points", point_rows(analysis, indices).rebounds);
-  if (analysis.data.sd_stated) {
+  if (analysis.fitted.data.sd_stated) {
     layers.push_back(fmt::format(
         "$points using 1:($2-$3):(0):(2*$3) with vectors nohead lc rgb '{}' lw 1.2 notitle",
         style::ink));

@@ -75,7 +75,7 @@ std::vector<Quantity> quantities(const PairStudy& study) {
 std::vector<double> drawn_upper(const Analysis& a, const PairStudy& study) {
   std::set<double> all;
   for (const PairQuality& pair : study.pairs) {
-    all.insert(a.data.points[pair.high_point].velocity);
+    all.insert(a.fitted.data.points[pair.high_point].velocity);
   }
   const std::vector<double> sorted(all.begin(), all.end());
   if (sorted.size() <= shades.size()) return sorted;
@@ -110,10 +110,10 @@ struct Picture {
   std::vector<Quantity> all;
 
   double low(const PairQuality& pair) const {
-    return analysis.data.points[pair.low_point].velocity / unit;
+    return analysis.fitted.data.points[pair.low_point].velocity / unit;
   }
   double high(const PairQuality& pair) const {
-    return analysis.data.points[pair.high_point].velocity;
+    return analysis.fitted.data.points[pair.high_point].velocity;
   }
 
   std::size_t rows() const { return (all.size() + columns - 1) / columns; }

@@ -30,7 +30,7 @@ std::vector<std::vector<double>> cube_root_curve(double f0, double diameter, dou
 double velocity_for_history(const Analysis& analysis, std::size_t dataset) {
   double lower = INFINITY;
   double upper = 0.0;
-  for (const Observation& point : analysis.data.points) {
+  for (const Observation& point : analysis.fitted.data.points) {
     if (point.dataset != dataset) continue;
     lower = std::min(lower, point.velocity);
     upper = std::max(upper, point.velocity);
@@ -151,7 +151,7 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
 std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
   const ImpactModel& model = analysis.fitted.model;
   double largest_um = 0.0;
-  for (const Observation& point : analysis.data.points) {
+  for (const Observation& point : analysis.fitted.data.points) {
     largest_um = std::max(largest_um, point.diameter / 2.0 / units::um);
   }
   if (!(largest_um > 0.0)) return {};

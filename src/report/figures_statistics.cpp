@@ -27,7 +27,7 @@ struct ResidualRow {
 std::vector<ResidualRow> residual_rows(const Analysis& analysis, std::size_t dataset) {
   std::vector<ResidualRow> rows;
   const double unit = residual_unit(analysis);
-  const auto& points = analysis.data.points;
+  const auto& points = analysis.fitted.data.points;
   for (std::size_t i = 0; i < points.size() && i < analysis.fitted.residuals.size(); ++i) {
     if (points[i].dataset != dataset) continue;
     rows.push_back({points[i].velocity, points[i].diameter, analysis.fitted.residuals[i] / unit,
@@ -51,7 +51,7 @@ std::string residual_axis(const std::vector<ResidualRow>& rows) {
 }
 
 std::string residual_words(const Analysis& analysis) {
-  return analysis.data.sd_stated
+  return analysis.fitted.data.sd_stated
              ? "Residuals in standard deviations of each point (data minus fit)."
              : "Residuals in units of the noise level estimated from this fit (data minus fit), "
                "because no standard deviation is stated for every point.";
@@ -170,7 +170,7 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
   const double estimate = analysis.fitted.theta[slot];
   const IntervalSet set = intervals_of(analysis, slot);
   const Interval interval = recommended_interval(set);
-  const style::Scale scale = style::scale_for(std::abs(estimate), parameter.unit);
+  const style::Scale scale = style::scale_for(std::abs(estimate), parameter.parameter->unit);
   const std::vector<double> values =
       column(analysis.uncertainty.bootstrap.theta, slot, scale.factor);
 
@@ -227,7 +227,8 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
     caption += fmt::format(" {} of them lie outside this picture.", h.outside);
   }
   if (interval.available()) {
-    caption += fmt::format(" Recommended interval {} {}.", interval_text(interval), parameter.unit);
+    caption += fmt::format(" Recommended interval {} {}.", interval_text(interval),
+                           parameter.parameter->unit);
   } else if (!interval.why.empty()) {
     caption += fmt::format(" No recommended interval: {}.", interval.why);
   }

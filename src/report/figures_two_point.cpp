@@ -82,8 +82,8 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
   const std::size_t A = model.slot_C_A[comparison.dataset];
   const std::vector<double>& full = analysis.fitted.theta;
   const std::vector<double>& two = comparison.result.theta;
-  const style::Scale scale_H = style::scale_for(std::abs(full[H]), model.slots[H].unit);
-  const style::Scale scale_A = style::scale_for(std::abs(full[A]), model.slots[A].unit);
+  const style::Scale scale_H = style::scale_for(std::abs(full[H]), model.slots[H].parameter->unit);
+  const style::Scale scale_A = style::scale_for(std::abs(full[A]), model.slots[A].parameter->unit);
   const BootstrapResult& bootstrap = analysis.uncertainty.bootstrap;
   const Rows full_pairs = pairs(bootstrap.theta, H, A, scale_H.factor, scale_A.factor);
   const Rows two_pairs = comparison.dataset < bootstrap.two_point_theta.size()

@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_fit.hpp"
+#include "report/words_two_point.hpp"
 
 namespace recoil {
 namespace {
@@ -124,9 +127,18 @@ std::vector<std::pair<std::string, std::string>> provenances(const std::vector<D
 
 std::vector<std::string> all_warnings(const Analysis& analysis) {
   std::vector<std::string> warnings;
-  for (const Dataset& dataset : analysis.datasets) add_new(warnings, dataset.warnings);
-  add_new(warnings, analysis.data.warnings);
-  add_new(warnings, analysis.fitted.warnings);
+  for (const Dataset& dataset : analysis.datasets) {
+    for (const DatasetWarning& warning : dataset.warnings) {
+      add_new(warnings, {warning_sentence(warning)});
+    }
+  }
+  add_new(warnings, fit_warnings(analysis.fitted));
+  for (const TwoPointComparison& comparison : analysis.uncertainty.two_point) {
+    if (comparison.result.status == TwoPointStatus::converged) continue;
+    add_new(warnings,
+            {fmt::format("two-point iteration on {}: {}", analysis.datasets[comparison.dataset].id,
+                         two_point_words(analysis.fitted, comparison.dataset, comparison.result))});
+  }
   add_new(warnings, analysis.uncertainty.warnings);
   return warnings;
 }
@@ -164,7 +176,7 @@ ImpactConditions reference_conditions(const Analysis& analysis, std::size_t data
 
 double residual_unit(const Analysis& analysis) {
   const double scale = analysis.fitted.noise_scale;
-  return !analysis.data.sd_stated && std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
+  return !analysis.fitted.data.sd_stated && std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
 }
 
 }  // namespace recoil

@@ -96,7 +96,7 @@ Json fit_json(const FitResult& fitted, const std::vector<IntervalSet>& intervals
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     parameters[slot.label()] = {{"value", number_or_null(fitted.theta[j])},
-                                {"unit", slot.unit},
+                                {"unit", slot.parameter->unit},
                                 {"free", slot.free},
                                 {"std_error", number_or_null(fitted.std_error[j])}};
     if (j < intervals.size()) {

@@ -22,8 +22,8 @@ Json pair_json(const Analysis& a, const PairStudy& study, const PairQuality& pai
     ended[to_string(static_cast<TwoPointStatus>(status))] = pair.ended[status];
   }
   const bool answered = pair.measured.status == TwoPointStatus::converged;
-  return {{"low_velocity", a.data.points[pair.low_point].velocity},
-          {"high_velocity", a.data.points[pair.high_point].velocity},
+  return {{"low_velocity", a.fitted.data.points[pair.low_point].velocity},
+          {"high_velocity", a.fitted.data.points[pair.high_point].velocity},
           {"bias_C_H", optional_json(figures.bias_C_H)},
           {"bias_C_A", optional_json(figures.bias_C_A)},
           {"spread_C_H", optional_json(pair.C_H.spread)},

@@ -6,6 +6,8 @@
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/json_values.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_noise.hpp"
 
 namespace recoil {
 namespace {
@@ -76,7 +78,7 @@ Json parameter_json(const Analysis& a, std::size_t s) {
   const ParameterSlot& slot = f.model.slots[s];
   Json out;
   put(out, "value", f.theta[s], "the estimate is not finite");
-  out["unit"] = slot.unit;
+  out["unit"] = slot.parameter->unit;
   out["free"] = slot.free;
   const bool at_bound = s < f.at_bound.size() && f.at_bound[s];
   out["at_bound"] = at_bound;
@@ -163,13 +165,14 @@ Json goodness_json(const Analysis& a) {
   Json out;
   put(out, "chi2", f.chi2, "the sum of squares is not finite");
   out["dof"] = f.dof;
-  const bool defined = a.data.sd_stated && f.dof > 0;
+  const bool defined = a.fitted.data.sd_stated && f.dof > 0;
   put(out, "p_value", defined ? f.p_value : NAN,
-      a.data.sd_stated ? "no degrees of freedom are left"
-                       : "no standard deviations are stated: the noise is estimated from the fit");
+      a.fitted.data.sd_stated
+          ? "no degrees of freedom are left"
+          : "no standard deviations are stated: the noise is estimated from the fit");
   put(out, "rmse", f.rmse, "no point rebounded");
   put(out, "noise_scale", f.noise_scale, "the noise could not be estimated");
-  out["noise_text"] = f.noise_text;
+  out["noise_text"] = noise_words(f);
   return out;
 }
 
@@ -204,7 +207,7 @@ Json bootstrap_json(const Analysis& a) {
           {"scheme_why", bootstrap.scheme_why},
           {"replicates", bootstrap.replicates},
           {"failed", bootstrap.failed},
-          {"failures", failures_json(bootstrap.failures, a.data)},
+          {"failures", failures_json(bootstrap.failures, a.fitted.data)},
           {"mc_error_of_width",
            bootstrap.relative_error ? number_or_null(*bootstrap.relative_error) : Json(nullptr)},
           {"seed", bootstrap.seed},
@@ -280,7 +283,7 @@ std::string json_report(const Analysis& analysis) {
   out["covariance"] = matrix_json(analysis, false);
   out["correlation"] = matrix_json(analysis, true);
   out["derived"] = {{"capture_velocity", capture_json(analysis)}};
-  out["solver"] = {{"name", analysis.fitted.model.solver == Solver::fast ? "fast" : "reference"},
+  out["solver"] = {{"name", to_string(analysis.fitted.model.solver.kind)},
                    {"handovers", analysis.fitted.handovers}};
   out["goodness"] = goodness_json(analysis);
   out["noise"] = noise_json(analysis);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "report/words_two_point.hpp"
 
 namespace recoil {
 
@@ -40,8 +41,8 @@ Json numbers_json(const std::vector<double>& values) {
 namespace {
 
 Json point_json(const Analysis& a, std::size_t index) {
-  if (index >= a.data.points.size()) return nullptr;
-  const Observation& point = a.data.points[index];
+  if (index >= a.fitted.data.points.size()) return nullptr;
+  const Observation& point = a.fitted.data.points[index];
   return {{"incident_velocity", number_or_null(point.velocity)},
           {"restitution", number_or_null(point.restitution)},
           {"diameter_um", number_or_null(point.diameter / units::um)}};
@@ -56,7 +57,8 @@ Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
   const bool answered = two.status != TwoPointStatus::too_few_points;
   Json out;
   out["status"] = to_string(two.status);
-  out["text"] = two.text;
+  const std::string words = two_point_words(a.fitted, comparison.dataset, two);
+  out["text"] = words;
   out["iterations"] = two.iterations;
   out["diameter_um"] = number_or_null(two.diameter / units::um);
   out["low_point"] = answered ? point_json(a, two.low_point) : Json(nullptr);
@@ -64,14 +66,14 @@ Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
   Json parameters = Json::object();
   for (const std::size_t s : damping_slots(a, comparison.dataset)) {
     Json entry;
-    put(entry, "value", s < two.theta.size() ? two.theta[s] : NAN, two.text);
-    entry["unit"] = a.fitted.model.slots[s].unit;
+    put(entry, "value", s < two.theta.size() ? two.theta[s] : NAN, words);
+    entry["unit"] = a.fitted.model.slots[s].parameter->unit;
     put(entry, "spread", s < comparison.spread.size() ? comparison.spread[s] : NAN,
         "no replicate has an answer");
     parameters[a.fitted.model.slots[s].label()] = entry;
   }
   out["parameters"] = parameters;
-  put(out, "rmse", answered ? comparison.rmse : NAN, two.text);
+  put(out, "rmse", answered ? comparison.rmse : NAN, words);
   put(out, "held_out_rmse", comparison.held_out_rmse,
       comparison.held_out_why.empty() ? "no other diameter was predicted"
                                       : comparison.held_out_why);
@@ -147,8 +149,8 @@ Json residuals_json(const Analysis& a) {
   const auto at = [](const std::vector<double>& values, std::size_t i) {
     return i < values.size() ? number_or_null(values[i]) : Json(nullptr);
   };
-  for (std::size_t i = 0; i < a.data.points.size(); ++i) {
-    const Observation& point = a.data.points[i];
+  for (std::size_t i = 0; i < a.fitted.data.points.size(); ++i) {
+    const Observation& point = a.fitted.data.points[i];
     const Dataset& dataset = a.datasets[point.dataset];
     list.push_back(
         {{"dataset", dataset.id},
@@ -156,9 +158,10 @@ Json residuals_json(const Analysis& a) {
          {"diameter_um", number_or_null(point.diameter / units::um)},
          {"incident_velocity", number_or_null(point.velocity)},
          {"restitution", number_or_null(point.restitution)},
-         {"restitution_sd", a.data.sd_stated ? number_or_null(point.sd) : Json(nullptr)},
-         {"sd_used", number_or_null(point.sd)},
-         {"sd_of_e2_from_inputs", number_or_null(point.input_sd)},
+         {"restitution_sd",
+          a.fitted.data.sd_stated ? number_or_null(point.weights.sd) : Json(nullptr)},
+         {"sd_used", number_or_null(point.weights.sd)},
+         {"sd_of_e2_from_inputs", number_or_null(point.weights.input_sd)},
          {"captured", point.censored},
          {"captured_count", point.captured},
          {"events", point.events},

@@ -23,8 +23,8 @@ std::optional<double> relative_spread(const EstimateScatter& scatter, const Esti
 }
 
 std::string velocities(const Analysis& a, const PairQuality& pair) {
-  return fmt::format("{} and {} m/s", number(a.data.points[pair.low_point].velocity, 3),
-                     number(a.data.points[pair.high_point].velocity, 3));
+  return fmt::format("{} and {} m/s", number(a.fitted.data.points[pair.low_point].velocity, 3),
+                     number(a.fitted.data.points[pair.high_point].velocity, 3));
 }
 
 std::string estimate_words(const char* name, const std::optional<double>& bias,

@@ -14,7 +14,7 @@ constexpr std::size_t most_curve_points = 120;
 /// Every point goes to the panel of its dataset with the nearest diameter and, among equals, its
 /// own series.
 void distribute_points(const Analysis& analysis, std::vector<Panel>& panels) {
-  const auto& points = analysis.data.points;
+  const auto& points = analysis.fitted.data.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Panel* nearest = nullptr;
     double smallest = INFINITY;
@@ -65,11 +65,11 @@ Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::si
   double lower = INFINITY;
   double upper = 0.0;
   Axes axes;
-  for (const Observation& point : analysis.data.points) {
+  for (const Observation& point : analysis.fitted.data.points) {
     if (point.dataset != dataset) continue;
     lower = std::min(lower, point.velocity);
     upper = std::max(upper, point.velocity);
-    const double sd = analysis.data.sd_stated ? point.sd : 0.0;
+    const double sd = analysis.fitted.data.sd_stated ? point.weights.sd : 0.0;
     axes.top = std::max(axes.top, std::min(1.5, 1.03 * (point.restitution + sd)));
   }
   const double slowest = lower;
@@ -109,11 +109,11 @@ PointRows point_rows(const Analysis& analysis, const std::vector<std::size_t>& p
   PointRows rows;
   const std::size_t stride = points.size() / most_panel_points + 1;
   for (std::size_t k = 0; k < points.size(); k += stride) {
-    const Observation& point = analysis.data.points[points[k]];
+    const Observation& point = analysis.fitted.data.points[points[k]];
     if (point.censored) {
       rows.captures.push_back({point.velocity, 0.0});
     } else {
-      rows.rebounds.push_back({point.velocity, point.restitution, point.sd});
+      rows.rebounds.push_back({point.velocity, point.restitution, point.weights.sd});
     }
   }
   return rows;

@@ -6,6 +6,7 @@
 #include "report/format.hpp"
 #include "report/json_values.hpp"
 #include "report/prediction.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {

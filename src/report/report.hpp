@@ -17,7 +17,6 @@ namespace recoil {
 struct Analysis {
   FitSpec spec;
   std::vector<Dataset> datasets;
-  Observations data;
   FitResult fitted;
   UncertaintyResult uncertainty;
   std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution

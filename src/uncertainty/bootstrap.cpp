@@ -12,8 +12,9 @@
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
-#include "estimate/noise.hpp"
+#include "estimate/reweighting.hpp"
 #include "uncertainty/replicate_errors.hpp"
 
 namespace recoil {
@@ -28,7 +29,7 @@ constexpr auto between_saves = std::chrono::seconds(10);
 // Tolerance of the impacts in refits over that of the fit. It moves the estimates of a replicate by
 // about 1e-8 of themselves (measured on 60 points, f0 free), where they scatter by percents, and
 // saves a third of the time.
-constexpr double refit_loosened = 100.0;
+constexpr double refit_tolerance_factor = 100.0;
 // The two-point iteration costs several refits, and only its spread is wanted, which this many give
 // to 2 %.
 constexpr int most_two_point = 999;
@@ -36,8 +37,8 @@ constexpr int most_two_point = 999;
 constexpr auto worth_keeping = std::chrono::seconds(1);
 
 /// Weights of a replicate need no more digits than its own scatter has.
-SettleOptions settle_options() {
-  SettleOptions options;
+ReweightingOptions reweighting_options() {
+  ReweightingOptions options;
   options.minimiser = refit_options();
   options.parameters = 0.02;
   options.scale = 0.01;
@@ -50,9 +51,8 @@ SettleOptions settle_options() {
 class Workspace {
  public:
   explicit Workspace(const ResamplingPlan& plan) : plan_(plan), model_(plan.fitted->model) {
-    sample_ = *plan.data;
-    sample_.warnings.clear();
-    model_.loosened *= refit_loosened;
+    sample_ = plan.fitted->data;
+    model_.solver.tolerance_factor *= refit_tolerance_factor;
   }
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
@@ -61,9 +61,10 @@ class Workspace {
   LeastSquaresResult refit(std::uint64_t seed, std::uint64_t index) {
     resample(plan_, seed, index, sample_);
     if (sample_.weights_depend_on_fit()) {
-      Settled settled = settle(model_, sample_, plan_.fitted->theta, settle_options());
-      weighted_ = std::move(settled.data);
-      return std::move(settled.run);
+      ReweightedFit found =
+          reweighted_fit(model_, sample_, plan_.fitted->theta, reweighting_options());
+      weighted_ = std::move(found.data);
+      return std::move(found.run);
     }
     const bool same_design = plan_.scheme != Scheme::cases && plan_.scheme != Scheme::cluster;
     if (!problem_ || !same_design) problem_ = impact_problem(model_, sample_);
@@ -83,21 +84,22 @@ class Workspace {
 };
 
 /// Everything that decides a replicate's digits, hashed.
-std::string bootstrap_key(const FitResult& fitted, const Observations& data,
-                          const ResamplingPlan& plan, const UncertaintyOptions& options) {
+std::string bootstrap_key(const FitResult& fitted, const ResamplingPlan& plan,
+                          const UncertaintyOptions& options) {
   std::string text = fmt::format("{}|{}|{}|{}|{}|{:a}|", options.keep_key, options.seed,
                                  to_string(plan.scheme), static_cast<int>(fitted.model.phase),
-                                 static_cast<int>(fitted.model.solver), fitted.noise_scale);
+                                 to_string(fitted.model.solver.kind), fitted.noise_scale);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     text += fmt::format("{} {:a} {:a} {:a} {} {}|", slot.label(), fitted.theta[j], slot.lower,
                         slot.upper, slot.free, slot.log_scale);
   }
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const Observation& point = data.points[i];
-    text += fmt::format("{} {} {:a} {:a} {:a} {:a} {} {:a} {:a} {:a}|", point.dataset, point.series,
-                        point.diameter, point.velocity, point.restitution, point.sd, point.censored,
-                        fitted.prediction[i], fitted.residuals[i], fitted.leverage[i]);
+  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
+    const Observation& point = fitted.data.points[i];
+    text +=
+        fmt::format("{} {} {:a} {:a} {:a} {:a} {} {:a} {:a} {:a}|", point.dataset, point.series,
+                    point.diameter, point.velocity, point.restitution, point.weights.sd,
+                    point.censored, fitted.prediction[i], fitted.residuals[i], fitted.leverage[i]);
   }
   return sha256_hex(text);
 }
@@ -115,7 +117,8 @@ LeastSquaresOptions refit_options() {
 
 LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
                          std::span<const double> start) {
-  if (sample.weights_depend_on_fit()) return settle(model, sample, start, settle_options()).run;
+  if (sample.weights_depend_on_fit())
+    return reweighted_fit(model, sample, start, reweighting_options()).run;
   return minimise(impact_problem(model, sample), start, refit_options());
 }
 
@@ -123,17 +126,17 @@ bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted) {
   return refit.converged && (!refit.covariance.empty() || fitted.covariance.empty());
 }
 
-Bootstrap::Bootstrap(const FitResult& fitted, const Observations& data,
-                     const std::vector<CaptureEstimate>& capture, const UncertaintyOptions& options)
+Bootstrap::Bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
+                     const UncertaintyOptions& options)
     : fitted_(fitted),
       capture_(capture),
       options_(options),
-      plan_(plan_resampling(fitted, data, options.scheme)),
+      plan_(plan_resampling(fitted, options.scheme)),
       reference_covariance_(reference_covariance(fitted, plan_)) {
   table_.slots = fitted.theta.size();
   table_.derived = options.capture ? capture.size() : 0;
   if (options.keep.empty()) return;
-  key_ = bootstrap_key(fitted, data, plan_, options);
+  key_ = bootstrap_key(fitted, plan_, options);
   table_ = load_replicates(options.keep, key_, table_.slots, table_.derived);
 }
 
@@ -275,11 +278,10 @@ void bootstrap_two_point(const ResamplingPlan& plan, const std::vector<TwoPointR
   }
 }
 
-BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
-                          const std::vector<CaptureEstimate>& capture,
+BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
                           const std::vector<TwoPointResult>& two_point,
                           const UncertaintyOptions& options) {
-  Bootstrap run(fitted, data, capture, options);
+  Bootstrap run(fitted, capture, options);
   run.extend(options.replicates);
   BootstrapResult result = run.result();
   bootstrap_two_point(run.plan(), two_point, options, result);
@@ -289,7 +291,7 @@ BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
 std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threads) {
   std::vector<std::vector<double>> estimates(plan.units());
   parallel_over(estimates.size(), threads, [&](std::size_t unit) {
-    Observations rest = *plan.data;
+    Observations rest = plan.fitted->data;
     if (plan.scheme == Scheme::cluster) {
       const std::vector<std::size_t>& out = plan.clusters[unit];
       for (auto i = out.rbegin(); i != out.rend(); ++i) {

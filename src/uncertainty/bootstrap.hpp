@@ -10,7 +10,8 @@ namespace recoil {
 /// scatter has.
 LeastSquaresOptions refit_options();
 
-/// The refit of a sample from `start`, together with the weights that depend on it (`settle`).
+/// The refit of a sample from `start`, together with the weights that depend on it
+/// (`reweighted_fit`).
 LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
                          std::span<const double> start);
 
@@ -25,8 +26,8 @@ class Bootstrap {
  public:
   /// Prepares the scheme and takes over what an earlier run of the same bootstrap has left in
   /// `options.keep`. Fit, data and options have to outlive the object.
-  Bootstrap(const FitResult& fitted, const Observations& data,
-            const std::vector<CaptureEstimate>& capture, const UncertaintyOptions& options);
+  Bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
+            const UncertaintyOptions& options);
 
   /// Runs what is missing of the first `count` replicates.
   /// @throws Interrupted when the user stops it and `options.keep` says where to keep the finished
@@ -61,8 +62,7 @@ void bootstrap_two_point(const ResamplingPlan& plan, const std::vector<TwoPointR
                          const UncertaintyOptions& options, BootstrapResult& result);
 
 /// All of it in one call: `options.replicates` replicates, and the two-point iteration on them.
-BootstrapResult bootstrap(const FitResult& fitted, const Observations& data,
-                          const std::vector<CaptureEstimate>& capture,
+BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
                           const std::vector<TwoPointResult>& two_point,
                           const UncertaintyOptions& options);
 

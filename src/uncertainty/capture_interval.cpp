@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/capture_velocity.hpp"
 #include "uncertainty/replicate_errors.hpp"
 
 namespace recoil {

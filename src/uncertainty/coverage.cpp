@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/intervals.hpp"
@@ -45,14 +46,14 @@ Trial run_trial(const FitSpec& spec, const CoverageTruth& truth, const Uncertain
                 std::uint64_t index) {
   Trial trial;
   const std::vector<Dataset> datasets = truth.simulate(index);
-  const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+  const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec));
   if (!fitted.usable) return trial;
   UncertaintyOptions own = options;
   own.seed = options.seed + index;
   own.threads = 1;  // the data sets themselves run in parallel
   own.curves = false;
   own.two_point = false;
-  const UncertaintyResult result = assess_uncertainty(fitted, fitted.data, datasets, own);
+  const UncertaintyResult result = assess_uncertainty(fitted, datasets, own);
   trial.usable = true;
   trial.refits_failed = result.bootstrap.failed;
   trial.intervals = result.intervals;
@@ -121,7 +122,7 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
     if (!model.slots[j].free) continue;
     CoverageRow row;
     row.parameter = model.slots[j].label();
-    row.unit = model.slots[j].unit;
+    row.unit = model.slots[j].parameter->unit;
     row.truth = truth.theta[j];
     for (const Trial& trial : trials) {
       if (trial.usable && trial.identifiable[j]) ++row.identifiable;

@@ -124,7 +124,7 @@ std::vector<GridDesign> designs_named(const std::vector<std::string>& words) {
 FitSpec grid_spec(const FitSpec& spec, const GridDesign& design) {
   FitSpec own = spec;
   for (ParameterSpec& parameter : own.parameters) {
-    if (parameter.name != "f0") continue;
+    if (parameter.parameter->role != ParameterRole::adhesion_force) continue;
     parameter.free = design.adhesion_free;
     if (parameter.free && !(parameter.upper > parameter.lower)) {
       parameter.lower = 1e-6;
@@ -136,7 +136,7 @@ FitSpec grid_spec(const FitSpec& spec, const GridDesign& design) {
 
 CoverageTruth grid_truth(const FitSpec& spec, const Dataset& base, const GridDesign& design,
                          std::uint64_t seed) {
-  const EstimatedTruth found = truth_at_estimate(spec, {base}, gather({base}, spec.noise));
+  const EstimatedTruth found = truth_at_estimate(spec, {base}, gather({base}, spec));
   const Truth& truth = found.truths.front();
   CoverageTruth study;
   study.source =

@@ -118,8 +118,8 @@ std::vector<DesignPoint> design_points(const FitResult& fitted, const std::vecto
   std::vector<DesignPoint> design;
   for (const Observation& point : fitted.data.points) {
     const Truth& truth = truths[point.dataset];
-    DesignPoint made{true_restitution(truth, point.diameter, point.velocity), point.sd, point.sd,
-                     nullptr};
+    DesignPoint made{true_restitution(truth, point.diameter, point.velocity), point.weights.sd,
+                     point.weights.sd, nullptr};
     if (spread > 0.0 && point.counted) {
       auto& curve = curves[{point.dataset, point.diameter}];
       if (!curve) {
@@ -128,8 +128,8 @@ std::vector<DesignPoint> design_points(const FitResult& fitted, const std::vecto
                                                   fastest[{point.dataset, point.diameter}]);
       }
       made.curve = curve;
-      made.own_sd = std::sqrt(
-          std::max(0.0, point.sd * point.sd - mean_variance(*curve, point, spread, random)));
+      made.own_sd = std::sqrt(std::max(
+          0.0, point.weights.sd * point.weights.sd - mean_variance(*curve, point, spread, random)));
     }
     design.push_back(std::move(made));
   }
@@ -162,7 +162,7 @@ void simulate_point(const DesignPoint& design, double spread, RandomStream& rand
 
 CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        std::uint64_t seed) {
-  const auto [fitted, truths] = truth_at_estimate(spec, datasets, gather(datasets, spec.noise));
+  const auto [fitted, truths] = truth_at_estimate(spec, datasets, gather(datasets, spec));
   CoverageTruth truth;
   truth.source = "the fit's own estimate as truth, simulated independently of the fitter";
   truth.theta = fitted.theta;

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "core/parallel.hpp"
-#include "uncertainty/intervals.hpp"
+#include "core/statistics.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
 
 namespace recoil {
 namespace {
@@ -79,7 +81,7 @@ void drop_unanswered(RestitutionCurve& curve) {
 
 }  // namespace
 
-std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted, const Observations& data,
+std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted,
                                                  const std::vector<Dataset>& datasets,
                                                  const UncertaintyResult& so_far) {
   std::vector<RestitutionCurve> curves;
@@ -89,7 +91,7 @@ std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted, const 
     curve.diameter = capture.diameter;
     double slowest = 0.0;
     double fastest = 0.0;
-    for (const Observation& point : data.points) {
+    for (const Observation& point : fitted.data.points) {
       if (point.dataset != capture.dataset || point.diameter != capture.diameter) continue;
       if (curve.series.empty()) {
         curve.series = datasets[point.dataset].series[point.series];

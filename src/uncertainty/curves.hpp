@@ -6,7 +6,7 @@ namespace recoil {
 
 /// e(V) of every series from below capture (or the slowest point) to above the fastest point, with
 /// the pointwise percentile band of the bootstrap and the two-point curve of its dataset.
-std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted, const Observations& data,
+std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted,
                                                  const std::vector<Dataset>& datasets,
                                                  const UncertaintyResult& so_far);
 

@@ -31,7 +31,7 @@ struct Moments {
 };
 
 std::string describe(const ResamplingPlan& plan, const FailedReplicates::Suspect& suspect) {
-  const Observation& point = plan.data->points[suspect.point];
+  const Observation& point = plan.fitted->data.points[suspect.point];
   const bool counted = plan.scheme == Scheme::cases || plan.scheme == Scheme::cluster;
   const std::string place =
       fmt::format("point {} (d = {:.4g} um, V = {:.4g} m/s)", suspect.point + 1,
@@ -49,7 +49,7 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
   FailedReplicates result;
   result.index = std::move(index);
   if (result.index.empty()) return result;
-  const std::size_t n = plan.data->points.size();
+  const std::size_t n = plan.fitted->data.points.size();
   std::vector<Moments> failed(n);
   std::vector<Moments> usual(n);
   const auto add = [&](std::uint64_t replicate, std::vector<Moments>& to) {
@@ -80,7 +80,7 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
     most_unlike += (most_unlike.empty() ? "" : "; ") + describe(plan, ranked[k].second);
   }
   // The first failure once more, for what the minimiser has to say.
-  Observations sample = *plan.data;
+  Observations sample = plan.fitted->data;
   resample(plan, seed, result.index.front(), sample);
   const LeastSquaresResult again = refit(plan.fitted->model, sample, plan.fitted->theta);
   result.message =

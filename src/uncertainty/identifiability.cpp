@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
 
 namespace recoil {
 namespace {
@@ -19,9 +21,9 @@ constexpr double strong_correlation = 0.97;
 
 /// For every slot the change that alone would make up the whole loss 1 - e^2 at the point that it
 /// moves most: 1 / max_i |d ln(1 - e_i^2) / d theta_j| [slots]; 0 where nothing is moved.
-std::vector<double> loss_scales(const FitResult& fitted, const Observations& data) {
+std::vector<double> loss_scales(const FitResult& fitted) {
   std::vector<PointConditions> places;
-  for (const Observation& point : data.points) {
+  for (const Observation& point : fitted.data.points) {
     if (!point.censored) {
       places.push_back({point.dataset, point.diameter, point.velocity, point.series});
     }
@@ -100,13 +102,13 @@ void describe_correlations(const FitResult& fitted, const Information& informati
 }
 
 /// How far the points reach down to the capture velocity, and what more of them would do.
-void describe_reach(const FitResult& fitted, const Observations& data,
-                    const std::vector<CaptureEstimate>& capture, const Information& information,
-                    bool wanting, std::vector<std::string>& sentences) {
+void describe_reach(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
+                    const Information& information, bool wanting,
+                    std::vector<std::string>& sentences) {
   double nearest = INFINITY;
   for (const CaptureEstimate& at : capture) {
     if (!at.found || !(at.value > 0.0)) continue;
-    for (const Observation& point : data.points) {
+    for (const Observation& point : fitted.data.points) {
       if (point.dataset == at.dataset && point.diameter == at.diameter) {
         nearest = std::min(nearest, point.velocity / at.value);
       }
@@ -158,7 +160,7 @@ const Interval& recommended_interval(const IntervalSet& set) {
   return set.wald;
 }
 
-Identifiability judge_identifiability(const FitResult& fitted, const Observations& data,
+Identifiability judge_identifiability(const FitResult& fitted,
                                       const std::vector<IntervalSet>& intervals,
                                       const std::vector<CaptureEstimate>& capture,
                                       const std::vector<NoiseAlternative>& alternatives) {
@@ -166,8 +168,8 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
   std::vector<std::string> sentences, not_trusted;
   int free_count = 0;
   int good = 0;
-  const std::vector<double> scales = loss_scales(fitted, data);
-  const double widened = student_factor(data.sd_stated ? 0 : fitted.dof);
+  const std::vector<double> scales = loss_scales(fitted);
+  const double widened = student_factor(fitted.data.sd_stated ? 0 : fitted.dof);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     result.parameter.push_back(false);
@@ -179,7 +181,7 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
                  std::max(std::abs(fitted.theta[j]), scales[j]));
     const double factor =
         alternatives.empty() ? 1.0 : undecided_factor(terms_of_slot(alternatives, j));
-    if (problem.empty() && data.noise.event_spread > widest_spread) {
+    if (problem.empty() && fitted.data.noise.event_spread > widest_spread) {
       not_trusted.push_back(slot.label());
     } else if (problem.empty() && factor > undecided) {
       sentences.push_back(undecided_words(slot.label(), factor));
@@ -197,7 +199,7 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
   }
   if (!not_trusted.empty()) {
     sentences.push_back(wide_spread_words(fmt::format("{}", fmt::join(not_trusted, " and of ")),
-                                          data.noise.event_spread));
+                                          fitted.data.noise.event_spread));
   }
   result.verdict = good == free_count ? "identifiable" : good > 0 ? "partly" : "not_identifiable";
   if (free_count == 0) result.verdict = "identifiable";
@@ -205,9 +207,9 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
     sentences.push_back(free_count == 0 ? "nothing was free"
                                         : "every free parameter is determined");
   }
-  result.information = information_at(fitted, data, places_of(capture));
+  result.information = information_at(fitted, places_of(capture));
   describe_correlations(fitted, result.information, sentences);
-  describe_reach(fitted, data, capture, result.information, good < free_count, sentences);
+  describe_reach(fitted, capture, result.information, good < free_count, sentences);
   result.text = fmt::format("{}.", fmt::join(sentences, "; "));
   return result;
 }

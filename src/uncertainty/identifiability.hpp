@@ -20,7 +20,7 @@ namespace recoil {
 /// interval may be too narrow or too wide.
 /// Nor may the capture velocity scatter by more than `widest_spread` from impact to impact.
 /// @param alternatives of `noise_alternatives`; may be left out where the noise is stated
-Identifiability judge_identifiability(const FitResult& fitted, const Observations& data,
+Identifiability judge_identifiability(const FitResult& fitted,
                                       const std::vector<IntervalSet>& intervals,
                                       const std::vector<CaptureEstimate>& capture,
                                       const std::vector<NoiseAlternative>& alternatives = {});

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "estimate/impact_problem.hpp"
+#include "estimate/predictor.hpp"
 
 namespace recoil {
 namespace {
@@ -156,16 +157,16 @@ Observation planned(const Observations& data, const CapturePlace& place, double 
   moved.velocity = velocity;
   moved.censored = false;
   moved.captured = 0;
-  moved.scatter = 0.0;
+  moved.weights.scatter = 0.0;
   return moved;
 }
 
-std::vector<PlannedPoints> plans_for(const FitResult& fitted, const Observations& data,
+std::vector<PlannedPoints> plans_for(const FitResult& fitted,
                                      const std::vector<CapturePlace>& places,
                                      const Eigen::MatrixXd& fisher,
                                      const std::vector<std::size_t>& inner) {
   double fastest = 0.0;
-  for (const Observation& o : data.points) fastest = std::max(fastest, o.velocity);
+  for (const Observation& o : fitted.data.points) fastest = std::max(fastest, o.velocity);
   std::vector<PlannedPoints> plans;
   for (const CapturePlace& place : places) {
     if (!(place.velocity > 0.0)) continue;
@@ -175,8 +176,8 @@ std::vector<PlannedPoints> plans_for(const FitResult& fitted, const Observations
     }
     velocities.push_back(fastest);
     for (const double velocity : velocities) {
-      Observations more = data;
-      more.points = {planned(data, place, velocity)};
+      Observations more = fitted.data;
+      more.points = {planned(fitted.data, place, velocity)};
       more.points.front().restitution =
           predict(fitted.model, fitted.theta, place.dataset, place.diameter, velocity, false)
               .restitution();
@@ -191,20 +192,19 @@ std::vector<PlannedPoints> plans_for(const FitResult& fitted, const Observations
 
 }  // namespace
 
-Information information_at(const FitResult& fitted, const Observations& data,
-                           const std::vector<CapturePlace>& capture) {
+Information information_at(const FitResult& fitted, const std::vector<CapturePlace>& capture) {
   Information information;
   const std::vector<std::size_t> inner = inner_slots(fitted);
   information.relative_sd.assign(fitted.theta.size(), 0.0);
-  if (inner.empty() || data.points.empty()) return information;
-  const Eigen::MatrixXd jacobian = logarithmic_jacobian(fitted, data, inner);
+  if (inner.empty() || fitted.data.points.empty()) return information;
+  const Eigen::MatrixXd jacobian = logarithmic_jacobian(fitted, fitted.data, inner);
   const Eigen::MatrixXd fisher = jacobian.transpose() * jacobian;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fisher);
   information.directions = directions_of(eigen, fitted, inner);
   const double smallest = eigen.eigenvalues().minCoeff();
   information.condition = smallest > 0.0 ? eigen.eigenvalues().maxCoeff() / smallest : INFINITY;
   information.relative_sd = relative_deviations(fisher, fitted.theta.size(), inner);
-  information.plans = plans_for(fitted, data, capture, fisher, inner);
+  information.plans = plans_for(fitted, capture, fisher, inner);
   const auto worst =
       std::max_element(information.relative_sd.begin(), information.relative_sd.end()) -
       information.relative_sd.begin();

@@ -40,7 +40,6 @@ struct CapturePlace {
   double diameter = 0.0;
   double velocity = 0.0;
 };
-Information information_at(const FitResult& fitted, const Observations& data,
-                           const std::vector<CapturePlace>& capture);
+Information information_at(const FitResult& fitted, const std::vector<CapturePlace>& capture);
 
 }  // namespace recoil

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/roots.hpp"
+#include "core/statistics.hpp"
+
 namespace recoil {
 namespace {
 
@@ -26,45 +29,7 @@ double distribution_inverse(double p, int dof) {
   return dof > 0 ? gsl_cdf_tdist_Pinv(p, dof) : gsl_cdf_ugaussian_Pinv(p);
 }
 
-/// The rank of the p-quantile among `count` ascending values, from 0, clamped.
-double clamped_rank(double rank, std::size_t count) {
-  return std::clamp(rank, 0.0, static_cast<double>(count) - 1.0);
-}
-
-double at_rank(std::span<const double> ascending, double rank) {
-  const std::size_t below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, ascending.size() - 1);
-  const double part = rank - static_cast<double>(below);
-  return ascending[below] + part * (ascending[above] - ascending[below]);
-}
-
 }  // namespace
-
-double sorted_quantile(std::span<const double> ascending, double p) {
-  const double rank = p * (static_cast<double>(ascending.size()) + 1.0) - 1.0;
-  return at_rank(ascending, clamped_rank(rank, ascending.size()));
-}
-
-ShareLimits share_limits(int part, int whole) {
-  const double n = whole;
-  const double share = part / n;
-  const double z = gsl_cdf_ugaussian_Pinv(0.975);
-  const double middle = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
-  const double half =
-      z / (1.0 + z * z / n) * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
-  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
-}
-
-double quantile_error(std::span<const double> ascending, double p, double rank_sd) {
-  const double count = static_cast<double>(ascending.size());
-  const double sd = rank_sd < 0.0 ? std::sqrt(count * p * (1.0 - p)) : rank_sd;
-  const double rank = p * (count + 1.0) - 1.0;
-  const double low = clamped_rank(rank - sd, ascending.size());
-  const double high = clamped_rank(rank + sd, ascending.size());
-  if (!(high > low)) return 0.0;
-  // Where the sample ends before one standard deviation, what is left of it stands for the whole.
-  return (at_rank(ascending, high) - at_rank(ascending, low)) * sd / (high - low);
-}
 
 Interval percentile_interval(std::vector<double> replicates, double level) {
   if (replicates.size() < fewest_replicates) return missing("fewer than 39 usable replicates");
@@ -205,18 +170,18 @@ Interval averaged_wald_interval(std::span<const WaldTerm> terms, double level, d
       low = std::min(low, own);
       high = std::max(high, own);
     }
-    constexpr int halvings = 60;
-    for (int i = 0; i < halvings; ++i) {
-      const double middle = 0.5 * (low + high);
+    const auto excess = [&](double value) {
       double below = 0.0;
       for (const WaldTerm& term : terms) {
         if (!(term.std_error > 0.0)) continue;
         below +=
-            term.weight / total * distribution((middle - term.estimate) / term.std_error, term.dof);
+            term.weight / total * distribution((value - term.estimate) / term.std_error, term.dof);
       }
-      (below < p ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
+      return below - p;
+    };
+    // All alike: the ends are where that is but for rounding.
+    const double found = low < high ? find_root(excess, low, high) : low;
+    return std::isnan(found) ? 0.5 * (low + high) : found;
   };
   interval.lower = std::max(lower, end(0.5 - level / 2.0));
   interval.upper = std::min(upper, end(0.5 + level / 2.0));
@@ -228,17 +193,14 @@ double profile_quantile(double level, int dof, double distance) {
   if (distance * distance >= far) return far;
   const double on_bound = level > 0.5 ? std::pow(distribution_inverse(level, dof), 2) : 0.0;
   if (!(distance > 0.0)) return on_bound;
-  // The probability rises with c: bisection between the two ends.
-  double low = on_bound;
-  double high = far;
-  constexpr int halvings = 50;
-  for (int i = 0; i < halvings; ++i) {
-    const double c = 0.5 * (low + high);
-    const double held = distribution(std::sqrt(c), dof) -
-                        distribution(-(c + distance * distance) / (2.0 * distance), dof);
-    (held < level ? low : high) = c;
-  }
-  return 0.5 * (low + high);
+  // The probability rises with c; at the ends it may be the level already, but for rounding.
+  const auto excess = [&](double c) {
+    return distribution(std::sqrt(c), dof) -
+           distribution(-(c + distance * distance) / (2.0 * distance), dof) - level;
+  };
+  if (!(excess(on_bound) < 0.0)) return on_bound;
+  if (!(excess(far) > 0.0)) return far;
+  return find_root(excess, on_bound, far);
 }
 
 std::vector<double> leverages(std::span<const double> jacobian,

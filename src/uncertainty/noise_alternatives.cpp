@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimate/noise.hpp"
+#include "estimate/reweighting.hpp"
 
 namespace recoil {
 namespace {
@@ -14,7 +14,7 @@ constexpr double negligible = 1e-3;  // weight
 constexpr double plausible = 0.05;
 
 double total_criterion(const VarianceCandidate& candidate) {
-  return candidate.criterion + handicap(candidate.function);
+  return candidate.criterion + penalty_of(candidate.function);
 }
 
 }  // namespace
@@ -78,14 +78,21 @@ std::string undecided_words(const std::string& what, double factor) {
       what, factor);
 }
 
+static std::string_view mechanism_of_sizes() {
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    if (mechanism.info.mixes_sizes) return mechanism.info.id;
+  }
+  return "";
+}
+
 std::string wide_spread_words(const std::string& what, double event_spread) {
   if (event_spread <= widest_spread) return "";
   return fmt::format(
       "the interval of {} is not to be trusted: from impact to impact the capture velocity "
       "scatters by {:.0f} %, and what is assumed of the survivors holds up to {:.0f} %; if spheres "
       "of several sizes stand in one point, put them into classes of size (recoil pair "
-      "--size-edges), or fit their spread (mechanisms = [\"polydispersity\"])",
-      what, 100.0 * event_spread, 100.0 * widest_spread);
+      "--size-edges), or fit their spread (mechanisms = [\"{}\"])",
+      what, 100.0 * event_spread, 100.0 * widest_spread, mechanism_of_sizes());
 }
 
 Interval wald_over_noise(const std::vector<NoiseAlternative>& alternatives, std::size_t j,

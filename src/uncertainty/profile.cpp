@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "estimate/impact_problem.hpp"
-#include "estimate/reweigh.hpp"
+#include "estimate/weights.hpp"
 
 namespace recoil {
 namespace {
@@ -19,13 +19,13 @@ constexpr double end_tolerance = 1e-3;  // of the rise at an interval's end
 
 class Profile {
  public:
-  Profile(const FitResult& fitted, const Observations& data, std::size_t slot)
-      : fitted_(fitted), data_(data), slot_(slot) {
+  Profile(const FitResult& fitted, std::size_t slot)
+      : fitted_(fitted), data_(fitted.data), slot_(slot) {
     problem_ = impact_problem(fitted.model, data_);
     problem_.fixed[slot] = true;
     options_.covariance = false;
     options_.function_tolerance = 1e-10;
-    least_ = fitted.chi2 + event_spread_offset(data);
+    least_ = fitted.chi2 + event_spread_offset(fitted.data);
   }
 
   /// chi2 minimised over the others (and the spread of the impacts) with the slot at `value`, above
@@ -79,9 +79,9 @@ class Allowance {
 
 /// The standard error that the slot would have if it were not held by its bound: from J'J over it
 /// and the other parameters that move. 0 when that is singular.
-double free_standard_error(const FitResult& fitted, const Observations& data, std::size_t slot) {
+double free_standard_error(const FitResult& fitted, std::size_t slot) {
   if (fitted.std_error[slot] > 0.0) return fitted.std_error[slot];
-  const LeastSquaresProblem problem = impact_problem(fitted.model, data);
+  const LeastSquaresProblem problem = impact_problem(fitted.model, fitted.data);
   const std::size_t n = problem.residual_count;
   const std::size_t p = fitted.theta.size();
   std::vector<double> residuals(n);
@@ -108,9 +108,8 @@ double free_standard_error(const FitResult& fitted, const Observations& data, st
   return information > singular * own.norm() ? fitted.noise_scale / information : 0.0;
 }
 
-Allowance allowance(const FitResult& fitted, const Observations& data, std::size_t slot,
-                    double level, double error) {
-  const int dof = data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
+Allowance allowance(const FitResult& fitted, std::size_t slot, double level, double error) {
+  const int dof = fitted.data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
   return {fitted.model.slots[slot], level, dof, fitted.noise_scale * fitted.noise_scale, error};
 }
 
@@ -128,7 +127,8 @@ std::optional<End> find_end(Profile& profile, const FitResult& fitted, std::size
   double inside = fitted.theta[slot];
   double outside = inside;
   if (inside == bound) return End{bound, true};
-  // sqrt(rise) is nearly linear in the parameter, so the false position converges at once.
+  // sqrt(rise) is nearly linear in the parameter, so the false position converges at once; by hand,
+  // since every value is a fit that may fail, and the end is known by the rise, not by its place.
   const auto excess = [&](double rise, double value) {
     return std::sqrt(std::max(rise, 0.0)) - std::sqrt(allowed(value));
   };
@@ -169,12 +169,11 @@ std::optional<End> find_end(Profile& profile, const FitResult& fitted, std::size
 
 }  // namespace
 
-Interval profile_interval(const FitResult& fitted, const Observations& data, std::size_t slot,
-                          double level) {
+Interval profile_interval(const FitResult& fitted, std::size_t slot, double level) {
   Interval interval;
-  const double error = free_standard_error(fitted, data, slot);
-  const Allowance allowed = allowance(fitted, data, slot, level, error);
-  Profile profile(fitted, data, slot);
+  const double error = free_standard_error(fitted, slot);
+  const Allowance allowed = allowance(fitted, slot, level, error);
+  Profile profile(fitted, slot);
   const double value = fitted.theta[slot];
   double stride = error > 0.0 ? error : 0.1 * std::abs(value);
   if (!(stride > 0.0)) {
@@ -195,12 +194,11 @@ Interval profile_interval(const FitResult& fitted, const Observations& data, std
   return interval;
 }
 
-std::vector<ProfilePoint> profile_curve(const FitResult& fitted, const Observations& data,
-                                        std::size_t slot, double level, const Interval& interval) {
+std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slot, double level,
+                                        const Interval& interval) {
   if (!interval.available() || !(fitted.noise_scale > 0.0)) return {};
-  Profile profile(fitted, data, slot);
-  const Allowance allowed =
-      allowance(fitted, data, slot, level, free_standard_error(fitted, data, slot));
+  Profile profile(fitted, slot);
+  const Allowance allowed = allowance(fitted, slot, level, free_standard_error(fitted, slot));
   const ParameterSlot& parameter = fitted.model.slots[slot];
   const double estimate = fitted.theta[slot];
   const double scale = fitted.noise_scale * fitted.noise_scale;

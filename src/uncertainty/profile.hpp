@@ -15,13 +15,12 @@ namespace recoil {
 ///
 /// An end that reaches the parameter's bound stays there: shape "one-sided" for one such end,
 /// "flat" for both, "bounded" for none. @pre the slot is free
-Interval profile_interval(const FitResult& fitted, const Observations& data, std::size_t slot,
-                          double level);
+Interval profile_interval(const FitResult& fitted, std::size_t slot, double level);
 
 /// The profile of one slot from below `interval` to above it, or to the parameter's bounds: 29
 /// points where there is room, ascending, the estimate among them. A side on which a refit fails
 /// ends there; empty without an interval. @pre the slot is free
-std::vector<ProfilePoint> profile_curve(const FitResult& fitted, const Observations& data,
-                                        std::size_t slot, double level, const Interval& interval);
+std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slot, double level,
+                                        const Interval& interval);
 
 }  // namespace recoil

@@ -2,9 +2,10 @@
 
 #include <cmath>
 
+#include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
-#include "estimate/noise.hpp"
-#include "estimate/reweigh.hpp"
+#include "estimate/misfit.hpp"
+#include "estimate/weights.hpp"
 #include "uncertainty/intervals.hpp"
 
 namespace recoil {
@@ -33,7 +34,7 @@ std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Ob
 
 std::vector<double> reference_covariance(const FitResult& fitted, const ResamplingPlan& plan) {
   if (!uses_sandwich(plan.scheme) || fitted.covariance.empty()) return fitted.covariance;
-  const LeastSquaresProblem problem = impact_problem(fitted.model, *plan.data);
+  const LeastSquaresProblem problem = impact_problem(fitted.model, plan.fitted->data);
   LeastSquaresResult at_fit;
   at_fit.theta = fitted.theta;
   at_fit.residuals.resize(problem.residual_count);
@@ -43,9 +44,9 @@ std::vector<double> reference_covariance(const FitResult& fitted, const Resampli
   for (std::size_t k = 0; k < fitted.spread_covariance.size(); ++k) {
     at_fit.covariance[k] -= fitted.spread_covariance[k];
   }
-  const double scaled = scaled_covariance(*plan.data, {1.0}, fitted.noise_scale).front();
+  const double scaled = scaled_covariance(plan.fitted->data, {1.0}, fitted.noise_scale).front();
   for (double& entry : at_fit.covariance) entry /= scaled;
-  return replicate_covariance(at_fit, *plan.data, fitted, plan);
+  return replicate_covariance(at_fit, plan.fitted->data, fitted, plan);
 }
 
 std::vector<double> roots_of_diagonal(std::span<const double> covariance, std::size_t p) {

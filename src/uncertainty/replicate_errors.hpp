@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/resample.hpp"
 

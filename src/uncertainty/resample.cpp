@@ -7,7 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "estimate/noise.hpp"
+#include "estimate/residual.hpp"
+#include "estimate/simulated_observation.hpp"
 
 namespace recoil {
 namespace {
@@ -16,15 +17,14 @@ constexpr double most_leverage = 0.99;  // a point that the fit passes through s
 
 /// r_i / (1 - h_i)^power of every point; captured ones get 0. Where impacts differ the residual of
 /// the fit is that of the count, too, which is drawn anew: the survivors' mean has its own.
-std::vector<double> scaled_residuals(const FitResult& fitted, const Observations& data,
-                                     double power) {
-  std::vector<double> scaled(data.points.size(), 0.0);
+std::vector<double> scaled_residuals(const FitResult& fitted, double power) {
+  std::vector<double> scaled(fitted.data.points.size(), 0.0);
   for (std::size_t i = 0; i < scaled.size(); ++i) {
-    const Observation& point = data.points[i];
+    const Observation& point = fitted.data.points[i];
     if (point.censored) continue;
-    if (point.scatter > 0.0) {
+    if (point.weights.scatter > 0.0) {
       const double expected = expected_restitution(point, fitted.prediction_squared[i]);
-      scaled[i] = (point.restitution - expected) / point.mean_sd;
+      scaled[i] = (point.restitution - expected) / point.weights.mean_sd;
       continue;
     }
     const double h = std::min(fitted.leverage[i], most_leverage);
@@ -34,11 +34,11 @@ std::vector<double> scaled_residuals(const FitResult& fitted, const Observations
 }
 
 /// The scaled residuals of the points that rebounded, less their mean.
-std::vector<double> residual_pool(const FitResult& fitted, const Observations& data) {
-  const std::vector<double> scaled = scaled_residuals(fitted, data, 0.5);
+std::vector<double> residual_pool(const FitResult& fitted) {
+  const std::vector<double> scaled = scaled_residuals(fitted, 0.5);
   std::vector<double> pool;
   for (std::size_t i = 0; i < scaled.size(); ++i) {
-    if (!data.points[i].censored) pool.push_back(scaled[i]);
+    if (!fitted.data.points[i].censored) pool.push_back(scaled[i]);
   }
   double mean = 0.0;
   for (const double r : pool) mean += r / static_cast<double>(pool.size());
@@ -61,7 +61,7 @@ std::vector<std::vector<std::size_t>> series_of(const Observations& data) {
 void disturb(const ResamplingPlan& plan, std::size_t i, double noise, RandomStream& random,
              Observations& sample) {
   Observation& point = sample.points[i];
-  if (point.scatter > 0.0 && point.counted) {
+  if (point.weights.scatter > 0.0 && point.counted) {
     const double m = plan.fitted->prediction_squared[i];
     point = redraw_captures(point, m, random.uniform());
     point.restitution =
@@ -72,7 +72,7 @@ void disturb(const ResamplingPlan& plan, std::size_t i, double noise, RandomStre
   }
   if (point.censored) return;
   const double expected = expected_restitution(point, plan.fitted->prediction_squared[i]);
-  point.restitution = std::max(0.0, expected + point.sd * noise);
+  point.restitution = std::max(0.0, expected + point.weights.sd * noise);
 }
 
 std::string reason(Scheme scheme) {
@@ -97,7 +97,7 @@ std::string reason(Scheme scheme) {
 }  // namespace
 
 std::size_t ResamplingPlan::units() const {
-  return scheme == Scheme::cluster ? clusters.size() : data->points.size();
+  return scheme == Scheme::cluster ? clusters.size() : fitted->data.points.size();
 }
 
 std::string scheme_obstacle(Scheme scheme, const Observations& data) {
@@ -112,25 +112,24 @@ std::string scheme_obstacle(Scheme scheme, const Observations& data) {
   return "";
 }
 
-ResamplingPlan plan_resampling(const FitResult& fitted, const Observations& data, Scheme asked) {
+ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
   ResamplingPlan plan;
   plan.fitted = &fitted;
-  plan.data = &data;
   plan.scheme = asked;
   std::string chosen = "asked for";
   if (asked == Scheme::automatic) {
-    const bool residuals = scheme_obstacle(Scheme::wild, data).empty();
-    plan.scheme = data.sd_stated || !residuals ? Scheme::parametric : Scheme::wild;
-    chosen = data.sd_stated ? "every point states its standard deviation"
+    const bool residuals = scheme_obstacle(Scheme::wild, fitted.data).empty();
+    plan.scheme = fitted.data.sd_stated || !residuals ? Scheme::parametric : Scheme::wild;
+    chosen = fitted.data.sd_stated ? "every point states its standard deviation"
              : residuals
                  ? "no standard deviations are stated, so the scatter need not be equal everywhere"
                  : "no point rebounded, so there are no residuals";
   }
   plan.why = fmt::format("{}: {}", chosen, reason(plan.scheme));
-  if (plan.scheme == Scheme::residual) plan.residuals = residual_pool(fitted, data);
-  if (plan.scheme == Scheme::wild) plan.residuals = scaled_residuals(fitted, data, 1.0);
+  if (plan.scheme == Scheme::residual) plan.residuals = residual_pool(fitted);
+  if (plan.scheme == Scheme::wild) plan.residuals = scaled_residuals(fitted, 1.0);
   if (plan.scheme == Scheme::cluster) {
-    plan.clusters = series_of(data);
+    plan.clusters = series_of(fitted.data);
     constexpr std::size_t few_clusters = 10;
     if (plan.clusters.size() < few_clusters) {
       plan.why += fmt::format("; {} series are few for that: intervals come out too narrow",
@@ -141,22 +140,23 @@ ResamplingPlan plan_resampling(const FitResult& fitted, const Observations& data
 }
 
 void resample_parametric(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
-  sample.points = plan.data->points;
+  sample.points = plan.fitted->data.points;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    sample.points[i] = simulate_observation(
-        plan.data->points[i], plan.fitted->prediction_squared[i], plan.fitted->noise_scale, random);
+    sample.points[i] =
+        simulate_observation(plan.fitted->data.points[i], plan.fitted->prediction_squared[i],
+                             plan.fitted->noise_scale, plan.fitted->data.noise.student, random);
   }
 }
 
 void resample_residual(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
-  sample.points = plan.data->points;
+  sample.points = plan.fitted->data.points;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     disturb(plan, i, plan.residuals[random.below(plan.residuals.size())], random, sample);
   }
 }
 
 void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
-  sample.points = plan.data->points;
+  sample.points = plan.fitted->data.points;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
     disturb(plan, i, sign * plan.residuals[i], random, sample);
@@ -164,7 +164,7 @@ void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observation
 }
 
 void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
-  const std::vector<Observation>& points = plan.data->points;
+  const std::vector<Observation>& points = plan.fitted->data.points;
   sample.points.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     sample.points.push_back(points[random.below(points.size())]);
@@ -175,7 +175,7 @@ void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observa
   sample.points.clear();
   for (std::size_t k = 0; k < plan.clusters.size(); ++k) {
     for (const std::size_t i : plan.clusters[random.below(plan.clusters.size())]) {
-      sample.points.push_back(plan.data->points[i]);
+      sample.points.push_back(plan.fitted->data.points[i]);
     }
   }
 }
@@ -202,7 +202,7 @@ void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t inde
 
 std::vector<double> disturbance(const ResamplingPlan& plan, std::uint64_t seed,
                                 std::uint64_t index) {
-  const std::size_t n = plan.data->points.size();
+  const std::size_t n = plan.fitted->data.points.size();
   std::vector<double> values(n, 0.0);
   if (plan.scheme == Scheme::cases || plan.scheme == Scheme::cluster) {
     // The same draws as in `resample_cases` and `resample_clusters`, counted.
@@ -222,7 +222,8 @@ std::vector<double> disturbance(const ResamplingPlan& plan, std::uint64_t seed,
   resample(plan, seed, index, sample);
   for (std::size_t i = 0; i < n; ++i) {
     if (sample.points[i].censored) continue;
-    values[i] = (sample.points[i].restitution - plan.fitted->prediction[i]) / sample.points[i].sd;
+    values[i] =
+        (sample.points[i].restitution - plan.fitted->prediction[i]) / sample.points[i].weights.sd;
   }
   return values;
 }

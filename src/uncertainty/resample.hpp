@@ -9,13 +9,12 @@
 
 namespace recoil {
 
-/// What a scheme draws from, prepared once for all replicates. Refers to the fit and its data,
-/// which have to outlive it.
+/// What a scheme draws from, prepared once for all replicates. Refers to the fit, which
+/// has to outlive it.
 struct ResamplingPlan {
   Scheme scheme = Scheme::parametric;  ///< never automatic
   std::string why;                     ///< in a sentence, with what was asked for or the rule
   const FitResult* fitted = nullptr;
-  const Observations* data = nullptr;
   std::vector<double> residuals;  ///< residual: the pool; wild: one for each point [weighted]
   std::vector<std::vector<std::size_t>> clusters;  ///< the points of each series that has any
 
@@ -30,7 +29,7 @@ std::string scheme_obstacle(Scheme scheme, const Observations& data);
 /// deviation, and wild otherwise: without stated deviations nobody has said that the scatter is the
 /// same everywhere, and wild is the scheme that does not need it.
 /// @pre scheme_obstacle(asked, data) is empty
-ResamplingPlan plan_resampling(const FitResult& fitted, const Observations& data, Scheme asked);
+ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked);
 
 // The schemes. Each fills `sample.points` from the plan and one stream of random numbers; whatever
 // else `sample` holds is left alone. In the first three a captured point stays a captured point and

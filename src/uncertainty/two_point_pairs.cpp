@@ -5,8 +5,11 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "core/statistics.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
 #include "uncertainty/bootstrap.hpp"
-#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {
@@ -18,7 +21,7 @@ constexpr double least_ratio = 1.5;
 constexpr std::size_t most_judged = 60;    // of a kind
 constexpr std::size_t fewest_answers = 9;  // for a median and quartiles that deserve the name
 // The solver's tolerance over its own: moves e^2 by 1e-8 where the noise moves it by 1e-2.
-constexpr double loosened = 100.0;
+constexpr double tolerance_factor = 100.0;
 constexpr double normal_quartiles = 1.3489795;  // distance of the quartiles of the normal law [sd]
 
 EstimateScatter scatter(std::vector<double> values) {
@@ -50,19 +53,19 @@ struct Series {
 
 /// Variance of a new measurement of e [1]: that of the point and that of its velocity and diameter.
 double new_noise(const FitResult& fitted, const Observation& point, double restitution_squared) {
-  const double e = std::max(std::sqrt(std::max(restitution_squared, 0.0)), point.sd);
-  const double of_input = e > 0.0 ? point.input_sd / (2.0 * e) : 0.0;
-  return std::pow(fitted.noise_scale * point.sd, 2) + std::pow(of_input, 2);
+  const double e = std::max(std::sqrt(std::max(restitution_squared, 0.0)), point.weights.sd);
+  const double of_input = e > 0.0 ? point.weights.input_sd / (2.0 * e) : 0.0;
+  return std::pow(fitted.noise_scale * point.weights.sd, 2) + std::pow(of_input, 2);
 }
 
-Series make_series(const FitResult& fitted, const Observations& data, const PairSeries& at) {
+Series make_series(const FitResult& fitted, const PairSeries& at) {
   Series series;
   series.at = at;
   std::vector<std::size_t> candidates;
   std::vector<std::size_t> same;
   std::vector<std::size_t> others;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const Observation& point = data.points[i];
+  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
+    const Observation& point = fitted.data.points[i];
     if (point.dataset != at.dataset || point.censored) continue;
     (point.diameter == at.diameter ? same : others).push_back(i);
     if (point.diameter == at.diameter && fitted.prediction_squared[i] > 0.0 &&
@@ -71,14 +74,14 @@ Series make_series(const FitResult& fitted, const Observations& data, const Pair
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(), [&](std::size_t a, std::size_t b) {
-    return data.points[a].velocity < data.points[b].velocity;
+    return fitted.data.points[a].velocity < fitted.data.points[b].velocity;
   });
   series.candidates = candidates.size();
   series.points = evenly(candidates, most_points);
   for (std::size_t low = 0; low < series.points.size(); ++low) {
     for (std::size_t high = low + 1; high < series.points.size(); ++high) {
-      const bool apart = data.points[series.points[high]].velocity >=
-                         least_ratio * data.points[series.points[low]].velocity;
+      const bool apart = fitted.data.points[series.points[high]].velocity >=
+                         least_ratio * fitted.data.points[series.points[low]].velocity;
       if (apart) series.pairs.emplace_back(low, high);
     }
   }
@@ -86,7 +89,8 @@ Series make_series(const FitResult& fitted, const Observations& data, const Pair
   series.judged_of_series = series.judged.size();
   for (const std::size_t i : evenly(others, most_judged)) series.judged.push_back(i);
   for (const std::size_t i : series.judged) {
-    series.new_noise.push_back(new_noise(fitted, data.points[i], fitted.prediction_squared[i]));
+    series.new_noise.push_back(
+        new_noise(fitted, fitted.data.points[i], fitted.prediction_squared[i]));
   }
   return series;
 }
@@ -147,7 +151,7 @@ struct Simulation {
 Simulation simulate(const ResamplingPlan& plan, const ImpactModel& model,
                     const std::vector<Series>& all, std::uint64_t seed, std::uint64_t index) {
   RandomStream random(seed, RandomPurpose::two_point_pairs, index);
-  Observations sample = *plan.data;
+  Observations sample = plan.fitted->data;
   resample_parametric(plan, random, sample);
   Simulation made;
   for (const Series& series : all) {
@@ -164,12 +168,12 @@ Simulation simulate(const ResamplingPlan& plan, const ImpactModel& model,
 
 class Study {
  public:
-  Study(const FitResult& fitted, const Observations& data, const ImpactModel& model,
-        const Series& series)
-      : data_(data), model_(model), series_(series) {
+  Study(const FitResult& fitted, const ImpactModel& model, const Series& series)
+      : data_(fitted.data), model_(model), series_(series) {
     for (const std::size_t i : series.judged) {
-      fitted_e_.push_back(expected_restitution(data.points[i], fitted.prediction_squared[i]));
-      measured_e_.push_back(data.points[i].restitution);
+      fitted_e_.push_back(
+          expected_restitution(fitted.data.points[i], fitted.prediction_squared[i]));
+      measured_e_.push_back(fitted.data.points[i].restitution);
     }
   }
 
@@ -278,20 +282,20 @@ double PairQuality::without_answer() const {
   return all > 0 ? 1.0 - static_cast<double>(converged) / all : 0.0;
 }
 
-std::vector<PairStudy> study_two_point_pairs(const FitResult& fitted, const Observations& data,
+std::vector<PairStudy> study_two_point_pairs(const FitResult& fitted,
                                              const std::vector<PairSeries>& series,
                                              const PairStudyOptions& options) {
   std::vector<Series> all;
   if (options.simulations > 0) {
     for (const PairSeries& at : series) {
-      Series made = make_series(fitted, data, at);
+      Series made = make_series(fitted, at);
       if (!made.pairs.empty()) all.push_back(std::move(made));
     }
   }
   if (all.empty()) return {};
   ImpactModel model = fitted.model;
-  model.loosened = loosened;
-  const ResamplingPlan plan = plan_resampling(fitted, data, Scheme::parametric);
+  model.solver.tolerance_factor = tolerance_factor;
+  const ResamplingPlan plan = plan_resampling(fitted, Scheme::parametric);
   std::vector<Simulation> simulations(static_cast<std::size_t>(options.simulations));
   parallel_over(simulations.size(), options.threads, [&](std::size_t i) {
     simulations[i] = simulate(plan, model, all, options.seed, i);
@@ -299,7 +303,7 @@ std::vector<PairStudy> study_two_point_pairs(const FitResult& fitted, const Obse
 
   std::vector<PairStudy> studies;
   for (std::size_t s = 0; s < all.size(); ++s) {
-    const Study study(fitted, data, model, all[s]);
+    const Study study(fitted, model, all[s]);
     studies.push_back(study.full(fitted, simulations));
     std::vector<PairQuality>& pairs = studies.back().pairs;
     pairs.resize(all[s].pairs.size());

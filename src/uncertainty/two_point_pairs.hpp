@@ -77,7 +77,7 @@ struct PairStudyOptions {
 /// so the full fit, which has seen a first measurement of those points, is not favoured. Of each
 /// kind of points at most 60, evenly spaced, are judged.
 /// @return one study per series that has a pair; none without simulations
-std::vector<PairStudy> study_two_point_pairs(const FitResult& fitted, const Observations& data,
+std::vector<PairStudy> study_two_point_pairs(const FitResult& fitted,
                                              const std::vector<PairSeries>& series,
                                              const PairStudyOptions& options);
 

@@ -50,7 +50,6 @@ void withhold(Interval& interval, const std::string& why) {
 
 /// The intervals that need no replicates: profile and Wald.
 std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative>& alternatives,
-                                              const Observations& data,
                                               const UncertaintyOptions& options) {
   const FitResult& fitted = alternatives.front().fitted;
   std::vector<IntervalSet> sets(fitted.theta.size());
@@ -66,9 +65,9 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative
     }
     set.wald = wald_over_noise(alternatives, j, options.level);
     if (options.profile) {
-      set.profile = profile_interval(fitted, data, j, options.level);
+      set.profile = profile_interval(fitted, j, options.level);
       if (options.curves) {
-        set.profile_curve = profile_curve(fitted, data, j, options.level, set.profile);
+        set.profile_curve = profile_curve(fitted, j, options.level, set.profile);
       }
     } else {
       set.profile.why = "not asked for";
@@ -136,8 +135,8 @@ Interval studentized_capture(const BootstrapResult& boot, std::size_t k, double 
 }
 
 /// What the replicates made so far say about the intervals.
-void read_off(const FitResult& fitted, const Observations& data,
-              const std::vector<std::vector<double>>& delete_one, UncertaintyResult& result) {
+void read_off(const FitResult& fitted, const std::vector<std::vector<double>>& delete_one,
+              UncertaintyResult& result) {
   const UncertaintyOptions& options = result.options;
   BootstrapResult& boot = result.bootstrap;
   double worst = 0.0;
@@ -149,7 +148,7 @@ void read_off(const FitResult& fitted, const Observations& data,
          {&set.wald, &set.profile, &set.percentile, &set.bca, &set.studentized}) {
       note_bounds(*interval, slot);
     }
-    recommend(set, data.sd_stated);
+    recommend(set, fitted.data.sd_stated);
     if (!slot.free) continue;
     worst = std::max(
         {worst, relative_error(set.percentile), relative_error(recommended_interval(set))});
@@ -158,7 +157,7 @@ void read_off(const FitResult& fitted, const Observations& data,
   for (std::size_t j = 0; j < slots.size(); ++j) {
     if (!slots[j].free) continue;
     result.intervals[j].disagreement =
-        explain_disagreement(fitted, j, result.intervals, data.sd_stated, options.level);
+        explain_disagreement(fitted, j, result.intervals, fitted.data.sd_stated, options.level);
   }
   const bool nothing_free =
       std::none_of(slots.begin(), slots.end(), [](const ParameterSlot& slot) { return slot.free; });
@@ -179,7 +178,7 @@ void read_off(const FitResult& fitted, const Observations& data,
     if (!capture.studentized.available() && capture.studentized.why.empty()) {
       capture.studentized.why = capture.percentile.why;
     }
-    recommend_capture(fitted, data.sd_stated, capture);
+    recommend_capture(fitted, fitted.data.sd_stated, capture);
     worst = std::max(worst, relative_error(capture.interval));
   }
   if (worst > 0.0) boot.relative_error = worst;
@@ -208,17 +207,17 @@ Split split_by_diameter(const Observations& data, std::size_t dataset, double di
   return split;
 }
 
-TwoPointComparison compare_two_point(const FitResult& fitted, const Observations& data,
-                                     std::size_t dataset) {
+TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset) {
   TwoPointComparison comparison;
   comparison.dataset = dataset;
   const double diameter = fitted.model.contacts[dataset].reference_diameter;
-  comparison.result = two_point(fitted.model, data, dataset, diameter);
-  const Split split = split_by_diameter(data, dataset, comparison.result.diameter);
-  comparison.full_rmse = root_mean_square(fitted.model, fitted.theta, data, split.all);
+  comparison.result = two_point(fitted.model, fitted.data, dataset, diameter);
+  const Split split = split_by_diameter(fitted.data, dataset, comparison.result.diameter);
+  comparison.full_rmse = root_mean_square(fitted.model, fitted.theta, fitted.data, split.all);
   const bool answered = comparison.result.status != TwoPointStatus::too_few_points;
   if (answered) {
-    comparison.rmse = root_mean_square(fitted.model, comparison.result.theta, data, split.all);
+    comparison.rmse =
+        root_mean_square(fitted.model, comparison.result.theta, fitted.data, split.all);
   }
   if (split.unseen.empty()) {
     comparison.held_out_why = "the dataset has a single diameter: nothing is held out";
@@ -226,11 +225,11 @@ TwoPointComparison compare_two_point(const FitResult& fitted, const Observations
   }
   if (answered) {
     comparison.held_out_rmse =
-        root_mean_square(fitted.model, comparison.result.theta, data, split.unseen);
+        root_mean_square(fitted.model, comparison.result.theta, fitted.data, split.unseen);
   }
-  Observations seen = data;
+  Observations seen = fitted.data;
   seen.points.clear();
-  for (const std::size_t i : split.seen) seen.points.push_back(data.points[i]);
+  for (const std::size_t i : split.seen) seen.points.push_back(fitted.data.points[i]);
   // Parameters of other datasets stay out of this: only what this diameter can tell is refitted.
   ImpactModel alone = fitted.model;
   for (std::size_t j = 0; j < alone.slots.size(); ++j) {
@@ -241,7 +240,7 @@ TwoPointComparison compare_two_point(const FitResult& fitted, const Observations
   const FitResult on_one = fit(alone, seen);
   if (on_one.usable) {
     comparison.full_held_out_rmse =
-        root_mean_square(fitted.model, on_one.theta, data, split.unseen);
+        root_mean_square(fitted.model, on_one.theta, fitted.data, split.unseen);
   } else {
     comparison.held_out_why = "the full fit of that diameter alone failed: " + on_one.failure;
   }
@@ -259,7 +258,7 @@ void add_spread(UncertaintyResult& result, std::size_t slots) {
   }
 }
 
-void add_warnings(UncertaintyResult& result, const std::vector<Dataset>& datasets) {
+void add_warnings(UncertaintyResult& result) {
   const BootstrapResult& boot = result.bootstrap;
   if (boot.failed > failures_to_warn * boot.replicates) {
     result.warnings.push_back(
@@ -275,11 +274,6 @@ void add_warnings(UncertaintyResult& result, const std::vector<Dataset>& dataset
         "than the {:.1f} % wanted",
         boot.replicates, 100.0 * *boot.relative_error, 100.0 * result.options.wanted_error));
   }
-  for (const TwoPointComparison& comparison : result.two_point) {
-    if (comparison.result.status == TwoPointStatus::converged) continue;
-    result.warnings.push_back(fmt::format("two-point iteration on {}: {}",
-                                          datasets[comparison.dataset].id, comparison.result.text));
-  }
   for (const CaptureEstimate& capture : result.capture) {
     if (capture.found && !capture.interval.note.empty()) {
       result.warnings.push_back(
@@ -293,8 +287,7 @@ void add_warnings(UncertaintyResult& result, const std::vector<Dataset>& dataset
 
 }  // namespace
 
-UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations& data,
-                                     const std::vector<Dataset>& datasets,
+UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<Dataset>& datasets,
                                      const UncertaintyOptions& options) {
   UncertaintyResult result;
   result.options = options;
@@ -302,16 +295,16 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations
   result.capture = capture_estimates(alternatives, options.level, datasets);
   std::vector<TwoPointResult> two_points;
   for (std::size_t d = 0; options.two_point && d < datasets.size(); ++d) {
-    result.two_point.push_back(compare_two_point(fitted, data, d));
+    result.two_point.push_back(compare_two_point(fitted, d));
     two_points.push_back(result.two_point.back().result);
   }
-  result.intervals = likelihood_intervals(alternatives, data, options);
-  Bootstrap boot(fitted, data, result.capture, options);
+  result.intervals = likelihood_intervals(alternatives, options);
+  Bootstrap boot(fitted, result.capture, options);
   const auto delete_one = jackknife(boot.plan(), options.threads);
   for (int count = options.replicates_auto ? fewest_automatic : options.replicates;;) {
     boot.extend(count);
     result.bootstrap = boot.result();
-    read_off(fitted, data, delete_one, result);
+    read_off(fitted, delete_one, result);
     const double error = result.bootstrap.relative_error.value_or(0.0);
     if (!options.replicates_auto || error <= options.wanted_error || count >= most_automatic) break;
     count = more_replicates(count, error, options.wanted_error);
@@ -323,13 +316,13 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations
     series.push_back({comparison.dataset, comparison.result.diameter});
   }
   result.pairs =
-      study_two_point_pairs(fitted, data, series,
+      study_two_point_pairs(fitted, series,
                             {std::min(options.pair_simulations, result.bootstrap.replicates),
                              options.seed, options.threads});
   result.identifiability =
-      judge_identifiability(fitted, data, result.intervals, result.capture, alternatives);
-  if (options.curves) result.curves = restitution_curves(fitted, data, datasets, result);
-  add_warnings(result, datasets);
+      judge_identifiability(fitted, result.intervals, result.capture, alternatives);
+  if (options.curves) result.curves = restitution_curves(fitted, datasets, result);
+  add_warnings(result);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "estimate/fit.hpp"
+#include "estimate/point_conditions.hpp"
 #include "estimate/scheme.hpp"
 #include "estimate/two_point.hpp"
 #include "uncertainty/information.hpp"
@@ -161,8 +162,7 @@ struct UncertaintyResult {
 
 /// Everything that follows a fit: bootstrap, intervals, capture velocities, bands, two-point
 /// spread.
-UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations& data,
-                                     const std::vector<Dataset>& datasets,
+UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<Dataset>& datasets,
                                      const UncertaintyOptions& options);
 
 }  // namespace recoil

@@ -1,6 +1,5 @@
 // The benchmark's data, its arithmetic and its table. Nothing here is timed.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
 #include <filesystem>
@@ -15,6 +14,7 @@
 #include "core/files.hpp"
 #include "design.hpp"
 #include "measure.hpp"
+#include "support/temporary_folder.hpp"
 #include "table.hpp"
 
 namespace recoil::bench {
@@ -25,13 +25,7 @@ namespace fs = std::filesystem;
 /// A folder with the peers' case, removed afterwards.
 class PeerCase : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string place = (fs::temp_directory_path() / "recoil-benchmark-XXXXXX").string();
-    ASSERT_NE(mkdtemp(place.data()), nullptr);
-    folder_ = place;
-    write_peer_case(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { write_peer_case(folder_.path()); }
 
   /// The columns of points.csv after the series, line by line.
   std::vector<std::vector<double>> rows() const {
@@ -50,7 +44,7 @@ class PeerCase : public ::testing::Test {
     return table;
   }
 
-  fs::path folder_;
+  support::TemporaryFolder folder_;
 };
 
 TEST_F(PeerCase, HasFourDiametersOfFifteenVelocitiesAboveCapture) {
@@ -103,8 +97,9 @@ TEST_F(PeerCase, ThePeersAreToldWhatRecoilIsTold) {
             model.contacts.at(0).reference_diameter);
   std::string csv = "density,stiffness,reference_diameter,start_C_H,start_C_A,start_f0\n";
   for (const ParameterSlot& slot : model.slots) {
-    EXPECT_TRUE(slot.free) << slot.name;
-    EXPECT_EQ(constants.at("start").at(slot.name).get<double>(), slot.initial) << slot.name;
+    EXPECT_TRUE(slot.free) << slot.parameter->name;
+    EXPECT_EQ(constants.at("start").at(slot.parameter->name).get<double>(), slot.initial)
+        << slot.parameter->name;
   }
   EXPECT_EQ(read_text_file(folder_ / "constants.csv"),
             csv + "1350,1789000000,4.9e-06,0.0015,0.06,8\n");

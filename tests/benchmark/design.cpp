@@ -121,8 +121,9 @@ class RestitutionTable {
 FitSpec large_spec(int free_parameters) {
   FitSpec spec;
   spec.id = "large";
-  for (const ParameterEntry& entry : parameter_catalogue()) {
-    ParameterSpec parameter{entry.name, entry.initial, entry.lower, entry.upper};
+  for (const Parameter& entry : base_parameters()) {
+    ParameterSpec parameter = default_of(entry);
+    parameter.free = true;
     parameter.initial_stated = true;
     const Start start;
     if (entry.name == "C_H") {

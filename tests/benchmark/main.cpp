@@ -116,24 +116,24 @@ std::vector<int> thread_counts() {
 }
 
 /// The refits alone, as `recoil fit` runs them.
-BootstrapResult refit_all(const FitResult& fitted, const Observations& data, int threads) {
+BootstrapResult refit_all(const FitResult& fitted, int threads) {
   UncertaintyOptions options;
   options.replicates = replicates;
   options.threads = threads;
-  return bootstrap(fitted, data, {}, {}, options);
+  return bootstrap(fitted, {}, {}, options);
 }
 
 std::string bootstrap_name(int threads) { return fmt::format("bootstrap/threads:{}", threads); }
 
-void register_bootstrap(const FitResult& fitted, const Observations& data) {
+void register_bootstrap(const FitResult& fitted) {
   // A first run says how long it takes, and wakes the threads.
-  const double pilot = seconds_of([&] { refit_all(fitted, data, 0); });
+  const double pilot = seconds_of([&] { refit_all(fitted, 0); });
   const int repetitions = std::clamp(static_cast<int>(4.0 / pilot), 3, 25);
   for (const int threads : thread_counts()) {
     benchmark::RegisterBenchmark(bootstrap_name(threads).c_str(),
-                                 [&fitted, &data, threads](benchmark::State& state) {
+                                 [&fitted, threads](benchmark::State& state) {
                                    for (auto _ : state) {
-                                     benchmark::DoNotOptimize(refit_all(fitted, data, threads));
+                                     benchmark::DoNotOptimize(refit_all(fitted, threads));
                                    }
                                    state.counters["each"] = time_of_each(replicates);
                                  })
@@ -159,7 +159,7 @@ Json bootstrap_results(const FitResult& fitted, const Observations& data, const 
           {"points", data.points.size()},
           {"threads", all["threads"]},
           {"free_parameters", fitted.theta.size()},
-          {"failed", refit_all(fitted, data, 0).failed},
+          {"failed", refit_all(fitted, 0).failed},
           {"scaling", scaling}};
 }
 
@@ -181,7 +181,7 @@ int run_all(const fs::path& program, const fs::path& root, std::size_t most_poin
   const Case peer_case = load_case(folder / "fit.toml");
   const FitResult fitted = fit(peer_case.model, peer_case.data);
   if (!fitted.usable) throw ComputationError("the benchmark's own data: " + fitted.failure);
-  register_bootstrap(fitted, peer_case.data);
+  register_bootstrap(fitted);
   Keeper keeper;
   benchmark::RunSpecifiedBenchmarks(&keeper);
   results["impact_with_gradient"] = impact_results(impacts, keeper);

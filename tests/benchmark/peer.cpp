@@ -42,7 +42,7 @@ LeastSquaresOptions peer_options() {
 class Comparison {
  public:
   explicit Comparison(const Case& the_case) : case_(the_case), exact_(the_case.model) {
-    exact_.solver = Solver::reference;
+    exact_.solver.kind = Solver::reference;
     FitOptions options;
     options.several_starts = false;
     const FitResult fitted = fit(exact_, case_.data, options);

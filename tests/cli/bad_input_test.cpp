@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "program.hpp"
+#include "support/workplace.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using program::Outcome;
-using program::Workplace;
+using support::Outcome;
+using support::Workplace;
 
 /// The grammar of every complaint, and that nothing else happened.
 void expect_refusal(const Outcome& run, const std::vector<std::string>& words) {
@@ -64,7 +64,7 @@ const std::vector<FileMistake>& file_mistakes() {
              "series,diameter,incident_velocity,restitution,restitution_sd,events,captured\n"),
        {"points.csv"}},
       {"points_missing",
-       [](const Workplace& p) { fs::remove(p.folder() / kPoints); },
+       [](const Workplace& p) { fs::remove(p.path() / kPoints); },
        {"points.csv"}},
       {"points_missing_column",
        change(kPoints, "incident_velocity", "speed"),
@@ -104,12 +104,12 @@ const std::vector<FileMistake>& file_mistakes() {
       {"points_latin1", change(kPoints, "large", "gro\xdf"), {"points.csv:6", "UTF-8"}},
       {"points_one_endless_line", write(kPoints, std::string(1'000'000, 'a')), {"points.csv"}},
       {"points_huge",
-       [](const Workplace& p) { fs::resize_file(p.folder() / kPoints, 3ULL << 30U); },
+       [](const Workplace& p) { fs::resize_file(p.path() / kPoints, 3ULL << 30U); },
        {"points.csv"}},
       // datapackage.json
       {"package_empty", write(kPackage, ""), {"datapackage.json", "empty"}},
       {"package_missing",
-       [](const Workplace& p) { fs::remove(p.folder() / kPackage); },
+       [](const Workplace& p) { fs::remove(p.path() / kPackage); },
        {"datapackage.json"}},
       {"package_not_json", change(kPackage, "\"title\":", "\"title\""), {"datapackage.json:3"}},
       {"package_unknown_unit",
@@ -281,7 +281,7 @@ TEST(BadInput, TheExampleItselfIsGood) {
   EXPECT_EQ(place.run({"check", "data"}).status, 0);
   const Outcome run = place.run({"fit", "fit.toml", "--out", "result"});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(fs::is_regular_file(place.folder() / "result/fit.json"));
+  EXPECT_TRUE(fs::is_regular_file(place.path() / "result/fit.json"));
   EXPECT_EQ(place.run(simulate("2", "4")).status, 0);
 }
 

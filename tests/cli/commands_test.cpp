@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "program.hpp"
+#include "support/workplace.hpp"
 
 namespace {
 
-using program::Outcome;
-using program::Workplace;
+using support::Outcome;
+using support::Workplace;
 
 /// The number behind `key` at the start of a line.
 double number_after(const std::string& text, const std::string& key) {
@@ -156,7 +156,7 @@ TEST(CommandLine, SuggestsTheNearestOption) {
 
 TEST(CommandLine, OutputThatCannotBeWrittenIsNotSuccess) {
   const Workplace place;
-  const std::string command = "cd '" + place.folder().string() +
+  const std::string command = "cd '" + place.path().string() +
                               "' && '" RECOIL_BINARY "' check data > /dev/full 2> complaint.txt";
   EXPECT_NE(std::system(command.c_str()), 0);
   EXPECT_NE(place.read("complaint.txt").find("could not be written"), std::string::npos);

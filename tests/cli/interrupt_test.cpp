@@ -12,13 +12,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "program.hpp"
+#include "support/workplace.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using program::Outcome;
-using program::Workplace;
+using support::Outcome;
+using support::Workplace;
 
 /// Starts the command in `place` with both outputs in files of that folder.
 pid_t start(const Workplace& place, std::vector<std::string> words) {
@@ -28,7 +28,7 @@ pid_t start(const Workplace& place, std::vector<std::string> words) {
   std::vector<char*> argv = {binary.data()};
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  if (chdir(place.folder().c_str()) != 0) _exit(127);
+  if (chdir(place.path().c_str()) != 0) _exit(127);
   dup2(open("/dev/null", O_RDONLY), 0);
   dup2(open("out.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
   dup2(open("err.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
@@ -61,7 +61,7 @@ int stopped_long_fit(const Workplace& place, const std::string& out) {
     status = stopped_after(
         place, {"fit", "fit.toml", "--out", out, "--replicates", "1000000", "--threads", "2"},
         std::chrono::milliseconds(delay), SIGINT);
-    if (kept_replicates(place.folder() / out / "replicates.json") > 10) break;
+    if (kept_replicates(place.path() / out / "replicates.json") > 10) break;
   }
   return status;
 }
@@ -81,7 +81,7 @@ TEST(Interrupt, KeepsFinishedReplicatesAndEndsAsTheSignalWould) {
   for (const std::string& name : place.listing()) {
     EXPECT_EQ(name.find(".part"), std::string::npos) << name;
   }
-  EXPECT_FALSE(fs::exists(place.folder() / "out/fit.json"));
+  EXPECT_FALSE(fs::exists(place.path() / "out/fit.json"));
 }
 
 TEST(Interrupt, TheNextRunGoesOnAndNoByteTellsOfIt) {
@@ -96,11 +96,10 @@ TEST(Interrupt, TheNextRunGoesOnAndNoByteTellsOfIt) {
   // Stop it twice, each time a little later, or until it gets through.
   int stops = 0;
   std::size_t most_kept = 0;
-  for (int delay = 60;
-       stops < 2 && !fs::exists(place.folder() / "broken/fit.json") && delay < 30000;
+  for (int delay = 60; stops < 2 && !fs::exists(place.path() / "broken/fit.json") && delay < 30000;
        delay = delay * 3 / 2) {
     const int status = stopped_after(place, broken, std::chrono::milliseconds(delay), SIGTERM);
-    const fs::path kept = place.folder() / "broken/replicates.json";
+    const fs::path kept = place.path() / "broken/replicates.json";
     if (!WIFSIGNALED(status) || !fs::exists(kept)) continue;
     ++stops;
     const auto table = nlohmann::json::parse(place.read("broken/replicates.json"));
@@ -110,14 +109,14 @@ TEST(Interrupt, TheNextRunGoesOnAndNoByteTellsOfIt) {
   EXPECT_GE(stops, 1);
   ASSERT_EQ(place.run(broken).status, 0);
   EXPECT_EQ(place.read("broken/fit.json"), place.read("whole/fit.json"));
-  EXPECT_FALSE(fs::exists(place.folder() / "broken/replicates.json"));
+  EXPECT_FALSE(fs::exists(place.path() / "broken/replicates.json"));
 }
 
 TEST(Interrupt, WhatAnotherRunLeftIsNotMistakenForOurs) {
   const Workplace place;
   const int status = stopped_long_fit(place, "out");
   ASSERT_TRUE(WIFSIGNALED(status));
-  ASSERT_TRUE(fs::exists(place.folder() / "out/replicates.json"));
+  ASSERT_TRUE(fs::exists(place.path() / "out/replicates.json"));
   const std::vector<std::string> other = {"--replicates", "39", "--seed", "7"};
   std::vector<std::string> here = {"fit", "fit.toml", "--out", "out"};
   std::vector<std::string> fresh = {"fit", "fit.toml", "--out", "fresh"};

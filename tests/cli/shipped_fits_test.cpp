@@ -1,15 +1,14 @@
 // What ./run makes of the shipped fits, with few replicates: pages that open and say what they are.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <vector>
+
+#include "support/command.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
@@ -20,32 +19,26 @@ const char* const shipped[] = {
     "wall1990-mica",      "wall1990-molybdenum",   "wall1990-silicon",
 };
 
-std::string read(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-int run(const std::string& command) { return WEXITSTATUS(std::system(command.c_str())); }
-
 TEST(ShippedFits, ReportsOpenInABrowserAndSayReconstruction) {
-  const fs::path out =
-      fs::temp_directory_path() / ("recoil-shipped-fits-" + std::to_string(getpid()));
-  fs::remove_all(out);
-  const std::string report = "cd '" RECOIL_SOURCE_DIR "' && '" RECOIL_BINARY
-                             "' report --replicates 39 --out '" +
-                             out.string() + "' > '" + out.string() + ".log'";
-  ASSERT_EQ(run(report), 0);
+  const support::TemporaryFolder out;
+  const auto report = [&] {
+    return support::run_recoil({"report", "--replicates", "39", "--out", out.path()},
+                               RECOIL_SOURCE_DIR);
+  };
+  ASSERT_EQ(report().status, 0);
 
-  std::string pages = "'" + (out / "index.html").string() + "'";
+  std::vector<std::string> browser = {
+      "python3", RECOIL_SOURCE_DIR "/tests/report/open_in_chromium.py", out / "index.html"};
   for (const std::string id : shipped) {
     const fs::path page = out / (id + ".html");
     ASSERT_TRUE(fs::exists(page)) << id;
     EXPECT_LT(fs::file_size(page), 1000000U) << id;
-    pages += " '" + page.string() + "'";
+    browser.push_back(page);
     for (const fs::path& file : {page, out / id / "fit.json", out / id / "fit.txt"}) {
-      EXPECT_NE(read(file).find("not one of them was measured"), std::string::npos) << file;
+      EXPECT_NE(support::text_of(file).find("not one of them was measured"), std::string::npos)
+          << file;
     }
-    const auto fit = nlohmann::json::parse(read(out / id / "fit.json"));
+    const auto fit = nlohmann::json::parse(support::text_of(out / id / "fit.json"));
     EXPECT_EQ(fit["dataset"]["provenance"], "reconstruction") << id;
     EXPECT_EQ(fit["bootstrap"]["failed"], 0) << id;
     EXPECT_TRUE(fit["two_point"]["parameters"].is_object()) << id;
@@ -59,28 +52,22 @@ TEST(ShippedFits, ReportsOpenInABrowserAndSayReconstruction) {
     }
   }
   EXPECT_LT(fs::file_size(out / "index.html"), 1000000U);
-  EXPECT_EQ(run("python3 '" RECOIL_SOURCE_DIR "/tests/report/open_in_chromium.py' " + pages), 0);
+  EXPECT_EQ(support::run_command(browser, out.path()).status, 0);
 
   // A second run finds everything current.
-  ASSERT_EQ(run(report), 0);
-  const std::string log = read(out.string() + ".log");
-  EXPECT_EQ(log.find(".html: written"), log.find("index.html: written") + 5) << log;
-  fs::remove_all(out);
-  fs::remove(out.string() + ".log");
+  const support::Outcome second = report();
+  ASSERT_EQ(second.status, 0);
+  EXPECT_EQ(second.out.find(".html: written"), second.out.find("index.html: written") + 5)
+      << second.out;
 }
 
 /// diagnosis.json of a fit.
 nlohmann::json diagnosed(const std::string& fit) {
-  const fs::path out =
-      fs::temp_directory_path() / ("recoil-shipped-diagnosis-" + std::to_string(getpid()));
-  fs::create_directories(out);
-  EXPECT_EQ(run("cd '" RECOIL_SOURCE_DIR "' && '" RECOIL_BINARY "' diagnose " + fit + " --out '" +
-                out.string() + "' > '" + (out / "log").string() + "' 2>&1"),
-            0)
-      << read(out / "log");
-  auto answer = nlohmann::json::parse(read(out / "diagnosis.json"));
-  fs::remove_all(out);
-  return answer;
+  const support::TemporaryFolder out;
+  const support::Outcome run =
+      support::run_recoil({"diagnose", fit, "--out", out.path()}, RECOIL_SOURCE_DIR);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return nlohmann::json::parse(out.read("diagnosis.json"));
 }
 
 // Its recipe put yielding and adhesion hysteresis there: no single mechanism explains it, and the

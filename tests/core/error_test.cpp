@@ -12,13 +12,13 @@ std::string message(const Location& where, const std::string& problem, const std
 
 TEST(InputError, FollowsTheGrammar) {
   EXPECT_EQ(message({"a.csv", 3, 7}, "problem", "why", "do this"),
-            "a.csv:3:7: problem (why) do this");
+            "a.csv:3:7: problem (why); do this");
 }
 
 TEST(InputError, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(message({"a.csv", 3, 0}, "problem", "why", ""), "a.csv:3: problem (why)");
-  EXPECT_EQ(message({"a.csv"}, "problem", "", "do this"), "a.csv: problem do this");
-  EXPECT_EQ(message({}, "problem", "why", "do this"), "problem (why) do this");
+  EXPECT_EQ(message({"a.csv"}, "problem", "", "do this"), "a.csv: problem; do this");
+  EXPECT_EQ(message({}, "problem", "why", "do this"), "problem (why); do this");
   EXPECT_EQ(message({"a.csv", 0, 7}, "problem", "", ""), "a.csv: problem");
 }
 
@@ -30,8 +30,11 @@ TEST(InputError, IsOneLineWhateverTheFileContains) {
   }
 }
 
-TEST(InputError, KeepsItsPlace) {
-  const InputError error({"a.csv", 3, 7}, "problem", "why", "do this");
+TEST(InputError, KeepsItsParts) {
+  const InputError error({"a.csv", 3, 7}, "a (b); c", "d (e)", "f; g");
+  EXPECT_EQ(error.problem(), "a (b); c");
+  EXPECT_EQ(error.why(), "d (e)");
+  EXPECT_EQ(error.suggestion(), "f; g");
   EXPECT_EQ(error.where().file, "a.csv");
   EXPECT_EQ(error.where().line, 3);
   EXPECT_EQ(error.where().column, 7);

@@ -14,6 +14,7 @@ TEST(Units, ConvertToSi) {
   EXPECT_EQ(unit_factor(Dimension::ratio, "1"), 1.0);
   EXPECT_EQ(unit_factor(Dimension::ratio, "%"), 1e-2);
   EXPECT_EQ(unit_factor(Dimension::count, "1"), 1.0);
+  EXPECT_EQ(unit_factor(Dimension::time, "ms"), 1e-3);
 }
 
 TEST(Units, KeepDimensionsApart) {

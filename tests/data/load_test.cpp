@@ -8,8 +8,8 @@
 namespace recoil {
 namespace {
 
-using example::changed;
 using example::DatasetFolder;
+using support::changed;
 
 TEST(LoadDataset, ConvertsEveryColumnToSi) {
   const DatasetFolder folder;
@@ -159,12 +159,15 @@ TEST(LoadDataset, WarnsOncePerPeculiarity) {
   const Dataset dataset = load_dataset(folder.path());
   ASSERT_EQ(dataset.points.size(), 5U);
   ASSERT_EQ(dataset.warnings.size(), 4U);
-  EXPECT_TRUE(
-      dataset.warnings[0].starts_with("3 points with a restitution above 1 (first in line 2)"));
-  EXPECT_NE(dataset.warnings[1].find("restitution of 0"), std::string::npos);
-  EXPECT_NE(dataset.warnings[1].find("in line 4"), std::string::npos);
-  EXPECT_NE(dataset.warnings[2].find("above 1 mm"), std::string::npos);
-  EXPECT_NE(dataset.warnings[3].find("as an earlier one (in line 5)"), std::string::npos);
+  const auto expect = [&](std::size_t i, PointRemark remark, std::size_t count, int line) {
+    EXPECT_EQ(dataset.warnings[i].remark, remark);
+    EXPECT_EQ(dataset.warnings[i].count, count);
+    EXPECT_EQ(dataset.warnings[i].first_line, line);
+  };
+  expect(0, PointRemark::restitution_above_one, 3, 2);
+  expect(1, PointRemark::unmarked_zero, 1, 4);
+  expect(2, PointRemark::unusual_diameter, 1, 6);
+  expect(3, PointRemark::repeated, 1, 5);
 }
 
 TEST(LoadDataset, DistinctDiametersAscend) {

@@ -1,14 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <ostream>
-
 #include "dataset_folder.hpp"
 
 namespace example {
-
-void PrintTo(const Mistake& mistake, std::ostream* stream) { *stream << mistake.name; }
-
 namespace {
+
+using support::changed;
+using support::Mistake;
 
 namespace fs = std::filesystem;
 
@@ -17,7 +15,7 @@ class PointsMistake : public testing::TestWithParam<Mistake> {};
 TEST_P(PointsMistake, IsOneClearLine) {
   const Mistake& mistake = GetParam();
   const DatasetFolder folder(package, changed(points, mistake.old_text, mistake.new_text));
-  expect_message(folder.failure(), mistake);
+  folder.expect(mistake);
 }
 
 const Mistake mistakes[] = {
@@ -121,35 +119,30 @@ const Mistake mistakes[] = {
      "small,1.27,1.25,,,,20,20\rsmall,x,1,1,,,,\n", "points.csv:4:7: ", "'x'", "such as"},
 };
 
-std::string name_of(const testing::TestParamInfo<Mistake>& tested) { return tested.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Each, PointsMistake, testing::ValuesIn(mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Each, PointsMistake, testing::ValuesIn(mistakes), support::name_of);
 
 TEST(PointsFile, EmptyOrWithoutPoints) {
   const std::string header = points.substr(0, points.find('\n') + 1);
-  expect_message(DatasetFolder(package, "").failure(),
-                 {"", "", "", "points.csv:1:1: ", "the file is empty", "give it a header"});
-  expect_message(DatasetFolder(package, "\n \n\r\n").failure(),
-                 {"", "", "", "points.csv:1:1: ", "the file is empty", "give it a header"});
-  expect_message(DatasetFolder(package, header).failure(),
-                 {"", "", "", "points.csv:1:1: ", "no point below it", "one line for each point"});
-  expect_message(DatasetFolder(package, "\n" + header).failure(),
-                 {"", "", "", "points.csv:2:1: ", "no point below it", "one line for each point"});
+  DatasetFolder(package, "")
+      .expect({"", "", "", "points.csv:1:1: ", "the file is empty", "give it a header"});
+  DatasetFolder(package, "\n \n\r\n")
+      .expect({"", "", "", "points.csv:1:1: ", "the file is empty", "give it a header"});
+  DatasetFolder(package, header)
+      .expect({"", "", "", "points.csv:1:1: ", "no point below it", "one line for each point"});
+  DatasetFolder(package, "\n" + header)
+      .expect({"", "", "", "points.csv:2:1: ", "no point below it", "one line for each point"});
 }
 
 TEST(PointsFile, BinaryMissingOrHuge) {
-  expect_message(DatasetFolder(package, std::string("\x7f"
-                                                    "ELF\0\1",
-                                                    6))
-                     .failure(),
-                 {"", "", "", "points.csv: ", "byte 5 is NUL", "UTF-8"});
+  DatasetFolder(package, std::string("\x7f"
+                                     "ELF\0\1",
+                                     6))
+      .expect({"", "", "", "points.csv: ", "not a text file", "UTF-8"});
   const DatasetFolder folder;
   fs::resize_file(folder.path() / "points.csv", 1ULL << 32);  // sparse
-  expect_message(folder.failure(),
-                 {"", "", "", "points.csv: ", "the file has 4294 MB", "split it"});
+  folder.expect({"", "", "", "points.csv: ", "the file has 4294 MB", "split it"});
   fs::remove(folder.path() / "points.csv");
-  expect_message(
-      folder.failure(),
+  folder.expect(
       {"", "", "", "datapackage.json:7:13: ", "there is no file 'points.csv'", "add the file"});
 }
 
@@ -158,9 +151,9 @@ TEST(PointsFile, ReboundTooFast) {
       changed(package, R"("restitution", "type": "number", "unit": "1")",
               R"("rebound_velocity", "type": "number", "unit": "m/s")");
   const std::string rows = changed(points, "restitution", "rebound_velocity");
-  expect_message(DatasetFolder(with_rebound, changed(rows, "0.71", "3.01")).failure(),
-                 {"", "", "", "points.csv:2:16: ", "rebound_velocity = 3.01 m/s", "incident"});
-  EXPECT_EQ(DatasetFolder(with_rebound, changed(rows, "0.71", "3.0")).failure(), "loaded");
+  DatasetFolder(with_rebound, changed(rows, "0.71", "3.01"))
+      .expect({"", "", "", "points.csv:2:16: ", "rebound_velocity = 3.01 m/s", "incident"});
+  EXPECT_FALSE(DatasetFolder(with_rebound, changed(rows, "0.71", "3.0")).error());
 }
 
 }  // namespace

@@ -60,8 +60,8 @@ rc::Gen<Row> any_row() {
   });
 }
 
-const std::string si_package = example::changed(
-    example::changed(example::changed(example::package, R"("unit": "um")", R"("unit": "m")"),
+const std::string si_package = support::changed(
+    support::changed(support::changed(example::package, R"("unit": "um")", R"("unit": "m")"),
                      R"("restitution_sd", "type": "number", "unit": "%")",
                      R"("restitution_sd", "type": "number", "unit": "1")"),
     R"({ "name": "velocity_sd", "type": "number", "unit": "cm/s" },)", "");

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "diagnosis/candidate.hpp"
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "diagnosis/extended_toml.hpp"
 #include "quick_diagnosis.hpp"
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {

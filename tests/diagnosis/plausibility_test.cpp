@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {

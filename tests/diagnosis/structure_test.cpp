@@ -27,7 +27,7 @@ struct Case {
         point.diameter = 1e-6 * std::pow(2.0, static_cast<double>(s));
         point.velocity = std::pow(1.4, static_cast<double>(v));
         point.restitution = 0.7;
-        point.sd = 0.02;
+        point.weights.sd = 0.02;
         data.points.push_back(point);
       }
     }

@@ -8,8 +8,9 @@
 #include <string>
 
 #include "diagnosis/verdict_words.hpp"
+#include "estimate/capture_velocity.hpp"
 #include "quick_diagnosis.hpp"
-#include "synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {

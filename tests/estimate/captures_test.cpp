@@ -7,9 +7,12 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
-#include "estimate/noise.hpp"
-#include "synthetic.hpp"
+#include "estimate/residual.hpp"
+#include "estimate/reweighting.hpp"
+#include "estimate/simulated_observation.hpp"
+#include "support/synthetic.hpp"
 
 namespace recoil {
 namespace {
@@ -18,44 +21,44 @@ namespace {
 Observation mixed_point() {
   Observation point;
   point.restitution = 0.36;
-  point.sd = 0.03;
-  point.mean_sd = 0.03;
+  point.weights.sd = 0.03;
+  point.weights.mean_sd = 0.03;
   point.events = 20;
   point.captured = 6;
   point.counted = true;
-  point.scatter = 0.15;
-  point.shift = -0.01;
+  point.weights.scatter = 0.15;
+  point.weights.shift = -0.01;
   return point;
 }
 
 TEST(Captures, CountsAloneGiveTheBinomialEstimate) {
   Observation point = mixed_point();
-  point.mean_sd = 1e4;  // the mean says nothing
+  point.weights.mean_sd = 1e4;  // the mean says nothing
   locate_peak(point);
   const double u = gsl_cdf_ugaussian_Pinv(14.0 / 20.0);
-  EXPECT_NEAR(point.peak.at, u * point.scatter - point.shift, 1e-7);
+  EXPECT_NEAR(point.weights.peak.at, u * point.weights.scatter - point.weights.shift, 1e-7);
   // r^2 is the deviance of 6 in 20 under p = 1/2: 2 (6 ln 0.6 + 14 ln 1.4), at u = 0.
-  const double r = weighted_residual(point, -point.shift).value;
+  const double r = weighted_residual(point, -point.weights.shift).value;
   EXPECT_NEAR(r * r, 2.0 * (6.0 * std::log(0.6) + 14.0 * std::log(1.4)), 1e-6);
   EXPECT_GT(r, 0.0);  // the point lies above
 }
 
 TEST(Captures, AllCapturedIsTobitToThePowerOfTheCountWhereImpactsDiffer) {
   Observation point;
-  point.sd = 0.01;
-  point.scatter = 0.02;
+  point.weights.sd = 0.01;
+  point.weights.scatter = 0.02;
   point.censored = true;
   point.events = point.captured = 7;
   // At m = 0 each impact is captured with probability 1/2.
   EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(14.0 * std::log(2.0)), 1e-12);
   // What all impacts of the point share leaves a single one: n_eff -> 1.
-  point.input_sd = 100.0;
+  point.weights.input_sd = 100.0;
   EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(2.0 * std::log(2.0)), 1e-5);
 }
 
 TEST(Captures, AllCapturedIsOneObservationWhereNothingIsKnownOfTheImpacts) {
   Observation point;
-  point.sd = 0.1;
+  point.weights.sd = 0.1;
   point.censored = true;
   point.events = point.captured = 40;
   EXPECT_NEAR(weighted_residual(point, 0.0).value, std::sqrt(2.0 * std::log(2.0)), 1e-12);
@@ -70,11 +73,12 @@ TEST(Captures, ResidualIsTheSignedRootOfTheDevianceAndSmooth) {
     Observation point = mixed_point();
     point.counted = counted;
     locate_peak(point);
-    const double unit = 1.0 / std::sqrt(0.5 * point.peak.curvature);
+    const double unit = 1.0 / std::sqrt(0.5 * point.weights.peak.curvature);
     for (const double away : {-3.0, -0.5, -2e-3, -0.9e-3, 0.0, 0.5e-3, 1.1e-3, 0.2, 4.0}) {
-      const double m = point.peak.at + away * unit;
+      const double m = point.weights.peak.at + away * unit;
       const WeightedResidual at = weighted_residual(point, m);
-      EXPECT_NEAR(at.value * at.value, event_deviance(point, m) - point.peak.deviance, 1e-9);
+      EXPECT_NEAR(at.value * at.value, event_deviance(point, m) - point.weights.peak.deviance,
+                  1e-9);
       EXPECT_EQ(at.value > 0.0, away < 0.0);
       const double h = 0.02 * unit;
       const double difference =
@@ -281,10 +285,10 @@ TEST(Captures, WithoutAMixedPointNothingRemainsOfTheSpread) {
     if (!point.censored) point.captured = 0;
   }
   EXPECT_TRUE(replicate.weights_depend_on_fit());
-  const Settled settled = settle(fitted.model, replicate, fitted.theta);
+  const ReweightedFit settled = reweighted_fit(fitted.model, replicate, fitted.theta);
   EXPECT_TRUE(settled.run.converged) << settled.run.message;
   EXPECT_EQ(settled.data.noise.event_spread, 0.0);
-  for (const Observation& point : settled.data.points) EXPECT_EQ(point.scatter, 0.0);
+  for (const Observation& point : settled.data.points) EXPECT_EQ(point.weights.scatter, 0.0);
 }
 
 TEST(Captures, TheRoundsEndAtOnePlaceFromWhereverTheyStart) {
@@ -299,7 +303,7 @@ TEST(Captures, TheRoundsEndAtOnePlaceFromWhereverTheyStart) {
       for (std::size_t j = 0; j < 2; ++j) start[j] *= factor;
       Observations again = gather({data});
       again.noise.event_spread = 0.05 * factor;
-      const Settled settled = settle(fitted.model, again, start);
+      const ReweightedFit settled = reweighted_fit(fitted.model, again, start);
       EXPECT_TRUE(settled.run.converged && settled.at_rest);
       for (std::size_t j = 0; j < 3; ++j) {
         EXPECT_NEAR((settled.run.theta[j] - fitted.theta[j]) / fitted.std_error[j], 0.0, 0.02);
@@ -313,7 +317,7 @@ TEST(Captures, AreDrawnAsTheyAreFitted) {
   // Simulated points have the binomial count and the survivors' mean that the likelihood expects.
   Observation point = mixed_point();
   const double m = 0.06;
-  const double p = gsl_cdf_ugaussian_Q((m + point.shift) / point.scatter);
+  const double p = gsl_cdf_ugaussian_Q((m + point.weights.shift) / point.weights.scatter);
   const double expected = expected_restitution(point, m);
   constexpr int draws = 4000;
   double captured = 0.0;
@@ -321,14 +325,14 @@ TEST(Captures, AreDrawnAsTheyAreFitted) {
   int means = 0;
   for (int i = 0; i < draws; ++i) {
     RandomStream random(3, RandomPurpose::bootstrap, static_cast<std::uint64_t>(i));
-    const Observation drawn = simulate_observation(point, m, 1.0, random);
+    const Observation drawn = simulate_observation(point, m, 1.0, std::nullopt, random);
     captured += static_cast<double>(drawn.captured) / draws;
     EXPECT_EQ(drawn.censored, drawn.captured == 20);
     if (drawn.censored) continue;
     mean += drawn.restitution;
     ++means;
     // As many as scatter now: sd_1 / sqrt(n - k).
-    EXPECT_NEAR(drawn.sd, 0.03 * std::sqrt(14.0 / drawn.rebounds()), 1e-12);
+    EXPECT_NEAR(drawn.weights.sd, 0.03 * std::sqrt(14.0 / drawn.rebounds()), 1e-12);
   }
   EXPECT_NEAR(captured, 20.0 * p, 4.0 * std::sqrt(20.0 * p * (1.0 - p) / draws));
   EXPECT_NEAR(mean / means, expected, 4.0 * 0.035 / std::sqrt(draws));

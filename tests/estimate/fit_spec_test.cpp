@@ -1,20 +1,20 @@
 #include "estimate/fit_spec.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
-#include <fstream>
-#include <ostream>
-#include <regex>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "support/mistake.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace recoil {
 namespace {
 
 namespace fs = std::filesystem;
+using support::changed;
+using support::Mistake;
 
 const std::string full = R"(dataset = "../datasets/quartz"
 [model]
@@ -36,22 +36,8 @@ velocity_relative_sd = 0.02
 diameter_errors = false
 )";
 
-std::string changed(std::string text, const std::string& old_text, const std::string& new_text) {
-  const std::size_t at = text.find(old_text);
-  if (at == std::string::npos) {
-    ADD_FAILURE() << "the example has no '" << old_text << "'";
-    return text;
-  }
-  return text.replace(at, old_text.size(), new_text);
-}
-
-std::string failure(const std::string& text) {
-  try {
-    parse_fit(text, "fit.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "parsed";
+std::optional<InputError> error_in(const std::string& text) {
+  return support::error_of([&] { parse_fit(text, "fit.toml"); });
 }
 
 TEST(ParseFit, ReadsEveryKey) {
@@ -64,7 +50,7 @@ TEST(ParseFit, ReadsEveryKey) {
   EXPECT_TRUE(spec.mechanisms.empty());
   ASSERT_EQ(spec.parameters.size(), 3U);
   const ParameterSpec& c_a = spec.parameters[1];
-  EXPECT_EQ(c_a.name, "C_A");
+  EXPECT_EQ(c_a.parameter->name, "C_A");
   EXPECT_EQ(c_a.initial, 0.1);
   EXPECT_EQ(c_a.lower, 0.01);
   EXPECT_EQ(c_a.upper, 5.0);
@@ -79,7 +65,7 @@ TEST(ParseFit, ReadsEveryKey) {
   EXPECT_EQ(spec.uncertainty.level, 0.9);
   EXPECT_EQ(spec.uncertainty.seed, 7U);
   EXPECT_EQ(spec.noise.variance, VarianceFunction::capture);
-  EXPECT_EQ(spec.noise.variance_place.line, 14);
+  EXPECT_EQ(spec.variance_place.line, 14);
   EXPECT_TRUE(spec.noise.student);
   EXPECT_EQ(spec.noise.student_dof, 5.0);
   EXPECT_TRUE(spec.noise.velocity_errors);
@@ -93,10 +79,10 @@ TEST(ParseFit, EveryKeyButDatasetHasADefault) {
   const FitSpec spec = parse_fit("dataset = \"d\"\n", "fit.toml");
   EXPECT_EQ(spec.datasets[0], fs::path("d"));
   EXPECT_EQ(spec.phase, AdhesionDampingPhase::rebound);
-  ASSERT_EQ(spec.parameters.size(), parameter_catalogue().size());
+  ASSERT_EQ(spec.parameters.size(), base_parameters().size());
   for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
-    const ParameterEntry& entry = parameter_catalogue()[i];
-    EXPECT_EQ(spec.parameters[i].name, entry.name);
+    const Parameter& entry = base_parameters()[i];
+    EXPECT_EQ(spec.parameters[i].parameter, &entry);
     EXPECT_EQ(spec.parameters[i].initial, entry.initial);
     EXPECT_EQ(spec.parameters[i].lower, entry.lower);
     EXPECT_EQ(spec.parameters[i].upper, entry.upper);
@@ -138,12 +124,12 @@ TEST(ParseFit, BootstrapMayBeLeftOut) {
 }
 
 TEST(ParameterCatalogue, IsConsistent) {
-  const auto& catalogue = parameter_catalogue();
+  const auto& catalogue = base_parameters();
   ASSERT_EQ(catalogue.size(), 3U);
   EXPECT_EQ(catalogue[0].name, "C_H");
   EXPECT_EQ(catalogue[1].name, "C_A");
   EXPECT_EQ(catalogue[2].name, "f0");
-  for (const ParameterEntry& entry : catalogue) {
+  for (const Parameter& entry : catalogue) {
     EXPECT_FALSE(entry.unit.empty());
     EXPECT_FALSE(entry.meaning.empty());
     EXPECT_LT(entry.lower, entry.upper);
@@ -155,33 +141,11 @@ TEST(ParameterCatalogue, IsConsistent) {
   EXPECT_FALSE(catalogue[2].free) << "f0 follows from eq. 12 unless a fit asks for more";
 }
 
-/// A mistake: what is replaced by what in the full example, and what the message has.
-struct Mistake {
-  std::string name;
-  std::string old_text;
-  std::string new_text;
-  std::string begin;
-  std::string word;
-  std::string hint;
-};
-
-void PrintTo(const Mistake& mistake, std::ostream* stream) { *stream << mistake.name; }
-
-void expect_message(const std::string& message, const Mistake& mistake) {
-  EXPECT_TRUE(message.starts_with(mistake.begin)) << message << "\nshould begin " << mistake.begin;
-  EXPECT_NE(message.find(mistake.word), std::string::npos) << message;
-  EXPECT_NE(message.find(mistake.hint), std::string::npos) << message;
-  EXPECT_EQ(message.find_first_of("\n\r\t"), std::string::npos) << message;
-  EXPECT_LT(message.size(), 300U) << message;
-  static const std::regex grammar(R"([^:]+(:\d+:\d+)?: .+ \(.+\) .+)");
-  EXPECT_TRUE(std::regex_match(message, grammar)) << message;
-}
-
 class FitMistake : public testing::TestWithParam<Mistake> {};
 
 TEST_P(FitMistake, IsOneClearLine) {
   const Mistake& mistake = GetParam();
-  expect_message(failure(changed(full, mistake.old_text, mistake.new_text)), mistake);
+  expect_mistake(error_in(changed(full, mistake.old_text, mistake.new_text)), mistake);
 }
 
 const std::string c_h = "C_H = { initial = 2e-3, bounds = [0, 0.5] }";
@@ -206,31 +170,29 @@ const Mistake mistakes[] = {
     {"unknown_uncertainty_key", "replicates", "replicats",
      "fit.toml:10:1: ", "unknown key 'replicats'", "did you mean 'replicates'?"},
     // The datasets.
-    {"dataset_number", "\"../datasets/quartz\"", "7", "fit.toml:1:11: ", "'dataset' is of the type",
+    {"dataset_number", "\"../datasets/quartz\"", "7", "fit.toml:1:11: ", "'dataset' is a number",
      "for example"},
     {"dataset_empty", "\"../datasets/quartz\"", "\"\"", "fit.toml:1:11: ", "names no folder",
      "write the path"},
     {"dataset_empty_list", "\"../datasets/quartz\"", "[]", "fit.toml:1:11: ", "empty list",
      "name at least one"},
     {"dataset_list_of_numbers", "\"../datasets/quartz\"", "[\"a\", 3]",
-     "fit.toml:1:17: ", "'dataset' is of the type", "for example"},
+     "fit.toml:1:17: ", "'dataset' is a number", "for example"},
     {"dataset_twice", "\"../datasets/quartz\"", "[\"a\", \"./b/../a/\"]",
      "fit.toml:1:17: ", "stands here twice", "remove one"},
     {"dataset_two_lines", "../datasets", "a\\nb", "fit.toml:1:11: ", "names no folder", "write"},
     // The model.
     {"model_no_table", "[model]\nadhesion_damping_phase = \"both\"\nmechanisms = []", "model = 3",
-     "fit.toml:2:9: ", "'model' is of the type integer", "[model]"},
+     "fit.toml:2:9: ", "'model' is a number", "[model]"},
     {"phase_unknown", "\"both\"", "\"rebouns\"", "fit.toml:3:26: ", "unknown phase 'rebouns'",
      "did you mean 'rebound'?"},
-    {"phase_number", "\"both\"", "1", "fit.toml:3:26: ", "is of the type integer", "\"rebound\""},
+    {"phase_number", "\"both\"", "1", "fit.toml:3:26: ", "is a number", "\"rebound\""},
     {"mechanism_unknown", "[]", "[\"jkr_histeresis\"]", "fit.toml:4:15: ", "'jkr_histeresis'",
      "did you mean 'jkr_hysteresis'?"},
-    {"mechanisms_string", "[]", "\"none\"", "fit.toml:4:14: ", "is of the type string",
-     "mechanisms = []"},
+    {"mechanisms_string", "[]", "\"none\"", "fit.toml:4:14: ", "is a text", "mechanisms = []"},
     // The parameters.
-    {"parameter_number", c_h, "C_H = 2e-3", "fit.toml:6:7: ", "'C_H' is of the type", "initial ="},
-    {"initial_text", "2e-3", "\"much\"", "fit.toml:6:19: ", "'initial' is of the type string",
-     "for example"},
+    {"parameter_number", c_h, "C_H = 2e-3", "fit.toml:6:7: ", "'C_H' is a number", "initial ="},
+    {"initial_text", "2e-3", "\"much\"", "fit.toml:6:19: ", "'initial' is a text", "for example"},
     {"initial_nan", "2e-3", "nan", "fit.toml:6:19: ", "'initial' is nan", "write a number"},
     {"initial_infinite", "2e-3", "inf", "fit.toml:6:19: ", "'initial' is inf", "write a number"},
     {"initial_negative", "2e-3", "-2e-3", "fit.toml:6:19: ", "'initial' of 'C_H' is -0.002 s/m",
@@ -251,12 +213,10 @@ const Mistake mistakes[] = {
     {"bounds_beyond_exact_doubles", "[0, 0.5]", "[44444444442603404, 0.5]",
      "fit.toml:6:34: ", "are the wrong way round", "write bounds = [0.5, 4.44444e+16]"},
     {"bounds_number", "[0, 0.5]", "1", "fit.toml:6:34: ", "not a pair", "for example"},
-    {"bounds_text", "[0, 0.5]", "[0, \"1\"]", "fit.toml:6:38: ", "is of the type string",
-     "for example"},
+    {"bounds_text", "[0, 0.5]", "[0, \"1\"]", "fit.toml:6:38: ", "is a text", "for example"},
     {"log_bound_zero", "[1, 20]", "[0, 20]", "fit.toml:8:44: ", "the lower bound of 'f0' is 0",
      "1e-06"},
-    {"free_number", "free = true", "free = 1", "fit.toml:8:15: ", "is of the type integer",
-     "free = false"},
+    {"free_number", "free = true", "free = 1", "fit.toml:8:15: ", "is a number", "free = false"},
     {"per_unknown", "per = \"dataset\"", "per = \"series\"", "fit.toml:7:50: ", "per = 'series'",
      "per = \"dataset\""},
     // The uncertainty.
@@ -264,7 +224,7 @@ const Mistake mistakes[] = {
     {"replicates_negative", "499", "-5", "fit.toml:10:14: ", "replicates = -5", "1999 is usual"},
     {"replicates_huge", "499", "9000000000", "fit.toml:10:14: ", "replicates = 9000000000",
      "1999 is usual"},
-    {"replicates_fraction", "499", "499.5", "fit.toml:10:14: ", "is of the type floating-point",
+    {"replicates_fraction", "499", "499.5", "fit.toml:10:14: ", "is a number, not a whole number",
      "for example"},
     {"level_per_cent", "0.9", "95", "fit.toml:11:9: ", "level = 95", "95 % is written 0.95"},
     {"level_zero", "0.9", "0.0", "fit.toml:11:9: ", "level = 0", "0.95 is usual"},
@@ -276,7 +236,7 @@ const Mistake mistakes[] = {
      "unknown key 'velocity_relativ_sd'", "did you mean 'velocity_relative_sd'?"},
     {"variance_unknown", "\"capture\"", "\"captured\"",
      "fit.toml:14:12: ", "unknown variance function 'captured'", "did you mean 'capture'?"},
-    {"variance_number", "\"capture\"", "2", "fit.toml:14:12: ", "is of the type integer", "auto"},
+    {"variance_number", "\"capture\"", "2", "fit.toml:14:12: ", "is a number", "auto"},
     {"residuals_unknown", "\"student\"", "\"studnt\"",
      "fit.toml:15:13: ", "unknown distribution 'studnt'", "did you mean 'student'?"},
     {"student_dof_alone", "residuals = \"student\"\n", "",
@@ -287,21 +247,19 @@ const Mistake mistakes[] = {
      "0.02"},
     {"velocity_sd_negative", "= 0.02", "= -0.02",
      "fit.toml:17:24: ", "velocity_relative_sd = -0.02", "0.02"},
-    {"diameter_errors_number", "errors = false", "errors = 0",
-     "fit.toml:18:19: ", "is of the type integer", "diameter_errors = false"},
+    {"diameter_errors_number", "errors = false", "errors = 0", "fit.toml:18:19: ", "is a number",
+     "diameter_errors = false"},
     {"error_size_of_an_ignored_error", "errors = false",
      "errors = false\ndiameter_relative_sd = 0.1",
      "fit.toml:19:24: ", "'diameter_relative_sd' though diameter_errors = false", "remove one"},
-    {"seed_fraction", "seed = 7", "seed = 7.5", "fit.toml:12:8: ", "is of the type floating-point",
-     "for example"},
+    {"seed_fraction", "seed = 7", "seed = 7.5",
+     "fit.toml:12:8: ", "is a number, not a whole number", "for example"},
 };
 
-std::string name_of(const testing::TestParamInfo<Mistake>& tested) { return tested.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Each, FitMistake, testing::ValuesIn(mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Each, FitMistake, testing::ValuesIn(mistakes), support::name_of);
 
 TEST(ParseFit, NeedsADataset) {
-  expect_message(failure(""),
+  expect_mistake(error_in(""),
                  {"", "", "", "fit.toml:1:1: ", "'dataset' is missing", "add dataset"});
 }
 
@@ -310,37 +268,26 @@ TEST(ParseFit, SurvivesTheLossOfAnyByte) {
     std::string text = full;
     text.erase(i, 1);
     for (const std::string& damaged : {text, full.substr(0, i)}) {
-      const std::string message = failure(damaged);
-      EXPECT_TRUE(message == "parsed" || message.starts_with("fit.toml:")) << message;
+      const std::string message = support::message_of([&] { parse_fit(damaged, "fit.toml"); });
+      EXPECT_TRUE(message == "no error" || message.starts_with("fit.toml:")) << message;
       EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message;
     }
   }
 }
 
 TEST(LoadFit, LooksForTheDatasetsFromTheFilesFolder) {
-  std::string name = (fs::temp_directory_path() / "recoil-fit-XXXXXX").string();
-  ASSERT_NE(mkdtemp(name.data()), nullptr);
-  const fs::path folder = name;
+  const support::TemporaryFolder folder;
   fs::create_directories(folder / "datasets" / "quartz");
-  fs::create_directories(folder / "fits");
   const fs::path file = folder / "fits" / "one.toml";
-  const auto message = [&](const std::string& text) {
-    std::ofstream(file) << text;
-    try {
-      const FitSpec spec = load_fit(file);
-      EXPECT_TRUE(fs::equivalent(spec.datasets[0], folder / "datasets" / "quartz"));
-      EXPECT_EQ(spec.sha256, sha256_hex(text));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("loaded");
-  };
-  EXPECT_EQ(message(full), "loaded");
-  expect_message(message("dataset = [\"../datasets/quartz\",\n  \"../datasets/mica\"]\n"),
+  folder.write("fits/one.toml", full);
+  const FitSpec spec = load_fit(file);
+  EXPECT_TRUE(fs::equivalent(spec.datasets[0], folder / "datasets" / "quartz"));
+  EXPECT_EQ(spec.sha256, sha256_hex(full));
+  folder.write("fits/one.toml", "dataset = [\"../datasets/quartz\",\n  \"../datasets/mica\"]\n");
+  expect_mistake(support::error_of([&] { load_fit(file); }),
                  {"", "", "", file.string() + ":2:3: ", "there is no folder", "correct the path"});
   fs::remove(file);
   EXPECT_THROW(load_fit(file), InputError);
-  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "estimate/noise.hpp"
-#include "one_size.hpp"
+#include "support/one_size.hpp"
 
 namespace recoil {
 namespace {
@@ -92,7 +91,7 @@ TEST(InputErrors, EffectiveVarianceIsTheSlopeTimesTheError) {
     };
     const double in_velocity = 0.5 * (square(1.02, 1.0) - square(0.98, 1.0));
     const double in_diameter = 0.5 * (square(1.0, 1.04) - square(1.0, 0.96));
-    EXPECT_NEAR(point.input_sd / std::hypot(in_velocity, in_diameter), 1.0, 2e-2) << i;
+    EXPECT_NEAR(point.weights.input_sd / std::hypot(in_velocity, in_diameter), 1.0, 2e-2) << i;
   }
 }
 
@@ -104,11 +103,7 @@ TEST(InputErrors, ErrorsTooLargeForAFirstOrderAreWarnedOf) {
   }
   const FitResult result = fit_to(data);
   ASSERT_TRUE(result.usable);
-  bool warned = false;
-  for (const std::string& line : result.warnings) {
-    warned = warned || line.find("effective variance") != std::string::npos;
-  }
-  EXPECT_TRUE(warned);
+  EXPECT_GT(result.strained_points, 0);
   EXPECT_FALSE(std::isnan(result.chi2));
 }
 

@@ -33,10 +33,10 @@ class SolverAgreement : public testing::TestWithParam<std::string> {
   }
 
   /// One descent from 30 % beside the estimate.
-  FitResult refit(Solver solver, double loosened) const {
+  FitResult refit(Solver solver, double tolerance_factor) const {
     ImpactModel model = model_;
-    model.solver = solver;
-    model.loosened = loosened;
+    model.solver.kind = solver;
+    model.solver.tolerance_factor = tolerance_factor;
     FitOptions options;
     options.several_starts = false;
     options.start = best_.theta;

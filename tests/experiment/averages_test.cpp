@@ -99,6 +99,20 @@ TEST(Averages, CapturedIsWhatTheLostCannotExplain) {
   EXPECT_NEAR(result.unresolved, 1.0, 1e-12);
 }
 
+// With a thousand lost in one bin exp(-mean) is zero, and a tail summed from there is 1.
+TEST(Averages, CapturesAreFoundAmongThousands) {
+  Made made;
+  for (int i = 0; i < 3000; ++i) made.rebound(1.0, i % 2 == 0 ? 0.78 : 0.82);
+  for (int i = 0; i < 2500; ++i) made.stay(1.0);
+  made.pairs.missed_share = 0.25;  // 3000 * 0.25 / 0.75 = 1000 lost
+  AverageOptions by;
+  by.per_bin = 10000;
+  const Averages result = average(made.events, {"run"}, made.pairs, by);
+  ASSERT_EQ(result.points.size(), 1U);
+  EXPECT_NEAR(result.lost, 1000.0, 1e-9);
+  EXPECT_EQ(result.captured, 1500U);
+}
+
 TEST(Averages, SlowReboundsAreExpectedBelowTheLimit) {
   Made made;
   made.pairs.height = 0.09 / (2.0 * 9.80665);  // sqrt(2 g h) = 0.3 m/s: e below 0.3 unseen at 1 m/s

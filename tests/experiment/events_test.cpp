@@ -63,7 +63,7 @@ TEST(Events, UnitsFromThePackageBesideTheFile) {
       parse_events("time,velocity,diameter\n5,1,0.05\n", "dir/e.csv", package, {});
   EXPECT_DOUBLE_EQ(table.events[0].time, 5e-6);
   EXPECT_DOUBLE_EQ(table.events[0].diameter, 5e-5);
-  EXPECT_EQ(table.provenance, "synthetic");
+  EXPECT_EQ(table.provenance, recoil::Provenance::synthetic);
   // The option goes before the package.
   EventFormat format;
   format.units = {{"time", "s"}};

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "../cli/program.hpp"
 #include "import_folder.hpp"
+#include "support/workplace.hpp"
 
 namespace {
 
@@ -79,16 +79,16 @@ TEST(Replace, ReconstructSaysThatItIsNoneAndSiblingsStillCompare) {
   const Place place;
   copy_datasets(place);
   recoil::import_points(replacement(place, "wall1990-molybdenum", kPoints));
-  const program::Workplace at;
+  const support::Workplace at;
   const auto folder = [&](const char* id) { return (place.folder() / "datasets" / id).string(); };
-  const program::Outcome none = at.run({"reconstruct", folder("wall1990-molybdenum"), "--check"});
+  const support::Outcome none = at.run({"reconstruct", folder("wall1990-molybdenum"), "--check"});
   EXPECT_EQ(none.status, 2);
   EXPECT_THAT(none.err, HasSubstr("this is no reconstruction (it has no recipe.toml)"));
   EXPECT_THAT(none.err, HasSubstr("recipe-set-aside.toml"));
   // Writing is refused as well: the new points stay.
   EXPECT_EQ(at.run({"reconstruct", folder("wall1990-molybdenum")}).status, 2);
   EXPECT_EQ(recoil::load_dataset(folder("wall1990-molybdenum")).points.size(), 4U);
-  const program::Outcome sibling = at.run({"reconstruct", folder("wall1990-mica"), "--check"});
+  const support::Outcome sibling = at.run({"reconstruct", folder("wall1990-mica"), "--check"});
   EXPECT_EQ(sibling.status, 0) << sibling.err;
 }
 
@@ -107,9 +107,9 @@ TEST(Replace, TheCommandLine) {
   const Place place;
   copy_datasets(place);
   place.write("fig7.csv", "2.58 um,,4.90 um,\nX,Y,X,Y\n2.1,0.31,1.2,0.35\n5,0.72,4.9,0.81\n");
-  const program::Workplace at;
+  const support::Workplace at;
   const std::string into = (place.folder() / "datasets/wall1990-molybdenum").string();
-  const program::Outcome run = at.run(
+  const support::Outcome run = at.run(
       {"import", (place.folder() / "fig7.csv").string(), "--format", "webplotdigitizer", "--into",
        into, "--replace", "--axis", "x=log,1,100", "--axis", "y=linear,0,1", "--reading-error",
        "0.5%", "--source", "Wall et al. (1990), figure 7", "--title", "Wall et al. on molybdenum"});
@@ -117,7 +117,7 @@ TEST(Replace, TheCommandLine) {
   EXPECT_THAT(run.out, HasSubstr("provenance  digitised"));
   EXPECT_THAT(run.out, HasSubstr("Wall et al. (1990), figure 7"));
   EXPECT_EQ(at.run({"check", into}).status, 0);
-  const program::Outcome wrong = at.run({"import", "x.csv", "--format", "pictures", "--into", "d"});
+  const support::Outcome wrong = at.run({"import", "x.csv", "--format", "pictures", "--into", "d"});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("known: webplotdigitizer, heights, intervals, csv"));
 }

@@ -42,13 +42,6 @@ TEST(Matching, ExchangedByHand) {
   EXPECT_EQ(expected_exchanged(alone, choose_links(alone, 4, 18.0), 4), 0.0);
 }
 
-TEST(Spread, RobustByHand) {
-  std::vector<double> values = {3.0, 1.0, 100.0, 2.0};
-  EXPECT_DOUBLE_EQ(median_of(values), 2.5);
-  EXPECT_NEAR(robust_sd({1.0, 2.0, 3.0, 4.0, 1000.0}), 1.4826, 1e-12);
-  EXPECT_EQ(robust_sd({}), 0.0);
-}
-
 TEST(Spread, FollowsAVariable) {
   std::vector<double> x;
   std::vector<double> deviation;

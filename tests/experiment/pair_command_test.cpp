@@ -4,15 +4,15 @@
 #include <set>
 #include <sstream>
 
-#include "../cli/program.hpp"
 #include "core/files.hpp"
 #include "event_stream.hpp"
 #include "predict/measured_sizes.hpp"
+#include "support/workplace.hpp"
 
 namespace {
 
-using program::Outcome;
-using program::Workplace;
+using support::Outcome;
+using support::Workplace;
 
 const std::string kUnits = "time=s,velocity=m/s,tangential_velocity=m/s,diameter=um";
 

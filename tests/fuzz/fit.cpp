@@ -12,20 +12,20 @@ namespace {
 
 void require_sound(const recoil::FitSpec& spec) {
   fuzz::require(!spec.datasets.empty(), "datasets");
-  const std::vector<recoil::ParameterEntry> entries = recoil::parameters_with(spec.mechanisms);
+  const std::vector<const recoil::Parameter*> entries = recoil::parameters_with(spec.mechanisms);
   fuzz::require(spec.parameters.size() == entries.size(), "all parameters");
   for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
     const recoil::ParameterSpec& parameter = spec.parameters[i];
-    const recoil::ParameterEntry& entry = entries[i];
-    fuzz::require(parameter.name == entry.name, "order of the catalogue");
-    const double lowest = entry.mechanism.empty() ? 0.0 : entry.lower;
+    const recoil::Parameter& entry = *entries[i];
+    fuzz::require(parameter.parameter == &entry, "order of the catalogue");
+    const double lowest = entry.mechanism == nullptr ? 0.0 : entry.lower;
     fuzz::require(parameter.initial >= lowest && std::isfinite(parameter.initial), "initial");
     fuzz::require(parameter.lower >= lowest && parameter.lower < parameter.upper, "bounds");
     fuzz::require(std::isfinite(parameter.upper), "upper bound");
     fuzz::require(!entry.log_scale || parameter.lower > 0.0, "logarithm");
     const bool inside =
         parameter.initial >= parameter.lower && parameter.initial <= parameter.upper;
-    const bool derived = entry.name == "f0" && !parameter.initial_stated;
+    const bool derived = parameter.is_derived();
     fuzz::require(!parameter.free || derived || inside, "initial value within the bounds");
   }
   const recoil::UncertaintySpec& uncertainty = spec.uncertainty;

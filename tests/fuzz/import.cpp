@@ -3,38 +3,28 @@
 // the format; the rest is the file.
 #include "experiment/import.hpp"
 
-#include <unistd.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "check.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path& place() {
-  static const fs::path folder =
-      fs::temp_directory_path() / ("recoil-fuzz-import-" + std::to_string(getpid()));
-  return folder;
-}
-
-recoil::ImportRequest request_for(const std::string& format) {
+recoil::ImportRequest request_for(const std::string& format, const fs::path& place) {
   recoil::ImportRequest request;
-  request.file = place() / "input.csv";
-  request.into = place() / "made";
+  request.file = place / "input.csv";
+  request.into = place / "made";
   request.diameters = {"2um"};
   request.particle = "material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35";
   request.surface = "material=silicon,youngs_modulus=131e9,poisson_ratio=0.28";
   request.provenance = "measured";
   request.sources = {"a test"};
-  for (const std::string& name : recoil::import_format_names()) {
-    if (format == name) request.format = recoil::import_format_named(name);
-  }
+  request.format = recoil::value_named<recoil::ImportFormat>(format).value_or(request.format);
   switch (request.format) {
     case recoil::ImportFormat::webplotdigitizer:
       request.axes = {"x=log,1,100", "y=linear,0,1"};
@@ -61,11 +51,9 @@ recoil::ImportRequest request_for(const std::string& format) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string input(reinterpret_cast<const char*>(data), size);
   const std::size_t line = input.find('\n');
-  const recoil::ImportRequest request = request_for(input.substr(0, line));
-  fs::remove_all(place());
-  fs::create_directories(place());
-  std::ofstream(request.file, std::ios::binary)
-      << (line == std::string::npos ? std::string() : input.substr(line + 1));
+  const support::TemporaryFolder place;
+  const recoil::ImportRequest request = request_for(input.substr(0, line), place.path());
+  support::write_text(request.file, line == std::string::npos ? "" : input.substr(line + 1));
   try {
     const recoil::ImportResult result = recoil::import_points(request);
     fuzz::require(!result.dataset.points.empty(), "points");
@@ -75,6 +63,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require_one_line(error);
     fuzz::require(!fs::exists(request.into / "datapackage.json"), "a refusal writes nothing");
   }
-  fs::remove_all(place());
   return 0;
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.hpp"
 #include "counting.hpp"
-#include "uncertainty/intervals.hpp"
 
 namespace hidden {
 

@@ -7,7 +7,7 @@
 
 #include "impact/fast_solver.hpp"
 #include "impact/impact.hpp"
-#include "independent_impact.hpp"
+#include "support/independent_impact.hpp"
 
 namespace recoil {
 namespace {

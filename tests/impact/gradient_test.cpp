@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "impact/impact.hpp"
-#include "independent_impact.hpp"
+#include "support/independent_impact.hpp"
 
 namespace recoil {
 namespace {

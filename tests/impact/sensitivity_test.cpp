@@ -10,7 +10,7 @@
 
 #include "impact/contact.hpp"
 #include "impact/fast_solver.hpp"
-#include "independent_impact.hpp"
+#include "support/independent_impact.hpp"
 
 namespace recoil {
 namespace {

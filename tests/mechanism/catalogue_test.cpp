@@ -22,15 +22,15 @@ const Surroundings kSoft = one_point::around(one_point::fluorescein());
 const Base kBase{3e-3, 0.05, 8.9};
 constexpr double kDiameter = 4.9e-6;
 
-std::vector<double> values_of(const Mechanism& m, double MechanismParameter::*which) {
+std::vector<double> values_of(const Mechanism& m, double Parameter::*which) {
   std::vector<double> values;
-  for (const MechanismParameter& p : m.info.parameters) values.push_back(p.*which);
+  for (const Parameter& p : m.info.parameters) values.push_back(p.*which);
   return values;
 }
 
 /// Values at which the mechanism is at work: its starts, and what starts at its null value moved.
 std::vector<double> at_work(const Mechanism& m) {
-  std::vector<double> values = values_of(m, &MechanismParameter::initial);
+  std::vector<double> values = values_of(m, &Parameter::initial);
   if (m.info.id == "series_offset") values = {0.03};
   if (m.info.id == "size_law") values = {0.5};
   if (m.info.id == "probe_plane") values = {2e-3};
@@ -59,7 +59,7 @@ TEST(Catalogue, HoldsTheIdsThatPeopleScriptAgainst) {
 
 TEST(Catalogue, EntriesAreCompleteAndConsistent) {
   std::set<std::string_view> names;
-  for (const ParameterEntry& entry : parameter_catalogue()) names.insert(entry.name);
+  for (const Parameter& entry : base_parameters()) names.insert(entry.name);
   std::size_t directions = base_directions;
   for (const Mechanism& m : mechanism_catalogue()) {
     for (const std::string_view text :
@@ -67,7 +67,7 @@ TEST(Catalogue, EntriesAreCompleteAndConsistent) {
       EXPECT_GT(text.size(), 7U) << m.info.id;
     }
     ASSERT_FALSE(m.info.parameters.empty()) << m.info.id;
-    for (const MechanismParameter& p : m.info.parameters) {
+    for (const Parameter& p : m.info.parameters) {
       EXPECT_TRUE(names.insert(p.name).second) << p.name << " is there twice";
       EXPECT_FALSE(p.unit.empty() || p.meaning.empty() || p.plausible.why.empty()) << p.name;
       EXPECT_LT(p.lower, p.upper) << p.name;
@@ -88,7 +88,7 @@ TEST(Catalogue, TheReadmeListsIt) {
   const std::string readme{std::istreambuf_iterator<char>(file), {}};
   for (const Mechanism& m : mechanism_catalogue()) {
     EXPECT_NE(readme.find("| `" + std::string(m.info.id) + "` |"), std::string::npos) << m.info.id;
-    for (const MechanismParameter& p : m.info.parameters) {
+    for (const Parameter& p : m.info.parameters) {
       EXPECT_NE(readme.find("`" + std::string(p.name) + "`"), std::string::npos) << p.name;
     }
   }
@@ -107,7 +107,7 @@ class EveryMechanism : public testing::TestWithParam<std::string> {};
 TEST_P(EveryMechanism, VanishesAtItsNullValue) {
   const Mechanism& m = *find_mechanism(GetParam());
   // A mechanism vanishes when the first of its parameters does, whatever the others are.
-  std::vector<double> own = values_of(m, &MechanismParameter::initial);
+  std::vector<double> own = values_of(m, &Parameter::initial);
   own.front() = m.info.parameters.front().null_value;
   for (const double V : {0.4, 0.9, 1.27, 1.5, 6.0, 90.0}) {
     ImpactConditions c{2.58e-6, V, kSoft.density, kSoft.stiffness, 0.0, kBase.C_H, kBase.C_A};

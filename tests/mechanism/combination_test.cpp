@@ -124,7 +124,7 @@ TEST(Combination, AllAtOnceGiveAnAnswerWithFiniteSlopes) {
   std::vector<double> own;
   for (const Mechanism& m : mechanism_catalogue()) {
     ids.emplace_back(m.info.id);
-    for (const MechanismParameter& p : m.info.parameters) own.push_back(p.initial);
+    for (const Parameter& p : m.info.parameters) own.push_back(p.initial);
   }
   const one_point::Answer answer = one_point::ask(kSoft, ids, own, 4.9e-6, 8.0, {3e-3, 0.02, 8.9});
   ASSERT_TRUE(answer.usable);

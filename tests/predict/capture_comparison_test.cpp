@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../estimate/synthetic.hpp"
+#include "support/synthetic.hpp"
 
 namespace {
 
@@ -34,7 +34,7 @@ const CaptureCurve& curve(const CaptureComparison& of, const std::string& id) {
 
 TEST(CaptureComparison, OursIsTheCaptureOfTheOtherSimulator) {
   const Exact exact;
-  const auto all = recoil::compare_captures(exact.fitted, exact.data, exact.datasets, {});
+  const auto all = recoil::compare_captures(exact.fitted, exact.datasets, {});
   ASSERT_EQ(all.size(), 1U);
   recoil::RingAdhesionTruth ring;
   ring.density = 1350.0;
@@ -59,7 +59,7 @@ TEST(CaptureComparison, OursIsTheCaptureOfTheOtherSimulator) {
 
 TEST(CaptureComparison, OlderModelsLoseMoreThanJkr) {
   const Exact exact;
-  const auto all = recoil::compare_captures(exact.fitted, exact.data, exact.datasets, {});
+  const auto all = recoil::compare_captures(exact.fitted, exact.datasets, {});
   for (std::size_t k = 0; k < all[0].diameter.size(); ++k) {
     const double jkr = curve(all[0], "jkr").velocity[k];
     const double wall = curve(all[0], "wall").velocity[k];
@@ -80,7 +80,7 @@ TEST(CaptureComparison, TheBandHoldsTheReplicates) {
     theta[1] *= 0.95 + 0.001 * i;
     bootstrap.theta.push_back(theta);
   }
-  const auto all = recoil::compare_captures(exact.fitted, exact.data, exact.datasets, bootstrap);
+  const auto all = recoil::compare_captures(exact.fitted, exact.datasets, bootstrap);
   const CaptureCurve& ours = curve(all[0], "fit");
   ASSERT_EQ(ours.lower.size(), ours.velocity.size());
   for (std::size_t k = 0; k < ours.velocity.size(); ++k) {
@@ -95,7 +95,7 @@ TEST(CaptureComparison, WithoutAdhesionThereIsNone) {
   exact.datasets[0].system.adhesion_energy = 0.0;
   exact.datasets[0].system.adhesion_force_f0.reset();
   exact.fitted.model = recoil::make_model(recoil::synthetic::spec(), exact.datasets);
-  EXPECT_TRUE(recoil::compare_captures(exact.fitted, exact.data, exact.datasets, {}).empty());
+  EXPECT_TRUE(recoil::compare_captures(exact.fitted, exact.datasets, {}).empty());
 }
 
 }  // namespace

@@ -3,12 +3,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
-#include <fstream>
 
-#include "core/error.hpp"
+#include "support/mistake.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
@@ -19,30 +18,15 @@ using recoil::MeasuredSizes;
 /// A folder of its own with a sizes.csv in it.
 class Sizes : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string place = (fs::temp_directory_path() / "recoil-sizes-XXXXXX").string();
-    ASSERT_NE(mkdtemp(place.data()), nullptr);
-    folder_ = place;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
   MeasuredSizes read(const std::string& text, const std::string& unit = "") const {
-    write("sizes.csv", text);
+    folder_.write("sizes.csv", text);
     return load_sizes(folder_ / "sizes.csv", unit);
   }
   std::string complaint(const std::string& text, const std::string& unit = "") const {
-    try {
-      read(text, unit);
-    } catch (const recoil::InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+    return support::message_of([&] { read(text, unit); });
   }
 
-  fs::path folder_;
+  support::TemporaryFolder folder_;
 };
 
 TEST_F(Sizes, CountsOfDiameters) {
@@ -80,8 +64,9 @@ TEST_F(Sizes, SingleDiametersAreOneParticleEach) {
 
 TEST_F(Sizes, TheUnitIsThatOfTheOptionThenOfThePackage) {
   EXPECT_DOUBLE_EQ(read("diameter\n2\n", "mm").bins[0].diameter, 2e-3);
-  write("datapackage.json",
-        R"({"resources": [{"path": "points.csv"}, {"path": "sizes.csv", "provenance": "measured",
+  folder_.write(
+      "datapackage.json",
+      R"({"resources": [{"path": "points.csv"}, {"path": "sizes.csv", "provenance": "measured",
             "description": "by PDPA", "probe_height": 0.002,
             "schema": {"fields": [{"name": "diameter", "unit": "mm"}]}}]})");
   const MeasuredSizes sizes = read("diameter\n0.05\n");

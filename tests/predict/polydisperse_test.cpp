@@ -5,8 +5,9 @@
 
 #include <cmath>
 
-#include "../estimate/synthetic.hpp"
 #include "estimate/observations.hpp"
+#include "estimate/predictor.hpp"
+#include "support/synthetic.hpp"
 
 namespace {
 
@@ -53,8 +54,7 @@ PolydispersePrediction predicted(const Exact& exact, double height, int threads 
   options.probe_height = height;
   options.threads = threads;
   options.velocities = 25;
-  return recoil::predict_mixture(exact.fitted, exact.data, 0, exact.bootstrap, three_sizes(),
-                                 options);
+  return recoil::predict_mixture(exact.fitted, 0, exact.bootstrap, three_sizes(), options);
 }
 
 TEST(Mixture, IsTheSumOverItsSizes) {
@@ -130,8 +130,7 @@ TEST(Mixture, PointsOfOneSizeLieOnItsCurve) {
   recoil::MeasuredSizes one;
   one.bins = {{4.9e-6, 7.0, 0.0}};
   one.smallest = one.largest = 4.9e-6;
-  const auto mixture =
-      recoil::predict_mixture(exact.fitted, exact.data, 0, exact.bootstrap, one, {});
+  const auto mixture = recoil::predict_mixture(exact.fitted, 0, exact.bootstrap, one, {});
   ASSERT_TRUE(mixture.miss_single.rmse.has_value());
   EXPECT_LT(*mixture.miss_single.rmse, 1e-6);
   EXPECT_EQ(mixture.miss_single.points, exact.design.velocities.size());

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "../cli/program.hpp"
+#include "support/workplace.hpp"
 
 namespace {
 
-using program::Outcome;
-using program::Workplace;
+using support::Outcome;
+using support::Workplace;
 
 const std::vector<std::string> kQuick = {"--replicates", "59", "--threads", "2"};
 

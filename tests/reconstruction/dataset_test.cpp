@@ -13,9 +13,9 @@
 namespace recoil {
 namespace {
 
+using support::text_of;
 using testing::CopiedDatasets;
 using testing::dataset_folder;
-using testing::text_of;
 
 /// The points as the recipe says that they are made: from events where it has a table [pairing].
 PairedPoints made_by(const Recipe& recipe) {
@@ -96,7 +96,7 @@ TEST(Reconstruction, TamperedPointsAreFound) {
   const std::string text = text_of(copies.folder(id) / "points.csv");
   const std::string line =
       text.substr(text.find('\n') + 1, text.find('\n', text.find('\n') + 1) - text.find('\n') - 1);
-  copies.replace(id, "points.csv", line, line + "0");
+  copies.change(id + "/points.csv", line, line + "0");
   const ReconstructionResult result = reconstruct(copies.folder(id), true, pair_passages);
   EXPECT_FALSE(result.good());
   EXPECT_FALSE(result.identical);
@@ -109,9 +109,9 @@ TEST(Reconstruction, TamperedPointsAreFound) {
 
 TEST(Reconstruction, TamperedRecipesAreFound) {
   const CopiedDatasets copies;
-  copies.replace("wall1990-mica", "recipe.toml", "seed = 199003", "seed = 199004");
+  copies.change("wall1990-mica/recipe.toml", "seed = 199003", "seed = 199004");
   EXPECT_FALSE(reconstruct(copies.folder("wall1990-mica"), true, pair_passages).identical);
-  copies.replace("dahneke1975-quartz", "recipe.toml", "C_A = 3.8e-3  ", "C_A = 4.8e-3  ");
+  copies.change("dahneke1975-quartz/recipe.toml", "C_A = 3.8e-3  ", "C_A = 4.8e-3  ");
   EXPECT_FALSE(reconstruct(copies.folder("dahneke1975-quartz"), true, pair_passages).identical);
 }
 
@@ -125,29 +125,27 @@ TEST(Reconstruction, ATruthThatContradictsAFactIsFound) {
   };
   CopiedDatasets copies;
   // A yield pressure that does not rise leaves far less than half of the energy at 100 m/s.
-  copies.replace("wall1990-molybdenum", "recipe.toml", "rate_exponent = 0.295",
-                 "rate_exponent = 0.05");
+  copies.change("wall1990-molybdenum/recipe.toml", "rate_exponent = 0.295", "rate_exponent = 0.05");
   EXPECT_TRUE(fails(copies, "wall1990-molybdenum", "high-velocity-loss"));
   EXPECT_TRUE(fails(copies, "wall1990-molybdenum", "target-independence"));
   // A sibling that differs at high velocity is seen from the other target too.
   EXPECT_TRUE(fails(copies, "wall1990-mica", "target-independence"));
   // Work of parting that does not rise with velocity lets the paper's curve run far too low.
-  copies.replace("wall1990-mica", "recipe.toml", "hysteresis_exponent = 0.42",
-                 "hysteresis_exponent = 0");
+  copies.change("wall1990-mica/recipe.toml", "hysteresis_exponent = 0.42",
+                "hysteresis_exponent = 0");
   EXPECT_TRUE(fails(copies, "wall1990-mica", "two-point-runs-low"));
   EXPECT_TRUE(fails(copies, "wall1990-mica", "two-point-agrees"));
   EXPECT_TRUE(fails(copies, "wall1990-mica", "capture-slope"));
   // Spheres that never yield lose nothing to flow: not near capture, nor ever more with velocity.
-  copies.replace("wall1990-silicon", "recipe.toml", "static_yield_pressure = 35.3e6",
-                 "static_yield_pressure = 35.3e9");
+  copies.change("wall1990-silicon/recipe.toml", "static_yield_pressure = 35.3e6",
+                "static_yield_pressure = 35.3e9");
   EXPECT_TRUE(fails(copies, "wall1990-silicon", "plastic-loss-near-capture"));
   EXPECT_TRUE(fails(copies, "wall1990-silicon", "highest-restitution"));
   // Starting below the capture velocity makes captures.
-  copies.replace("dahneke1975-quartz", "recipe.toml", "from = 2.5", "from = 0.5");
+  copies.change("dahneke1975-quartz/recipe.toml", "from = 2.5", "from = 0.5");
   EXPECT_TRUE(fails(copies, "dahneke1975-quartz", "no-capture"));
   // The K that follows from E and nu does not give the capture range that was simulated.
-  copies.replace("li1999-sst65-silicon", "recipe.toml", "stiffness_K = 11.4e9",
-                 "stiffness_K = 114e9");
+  copies.change("li1999-sst65-silicon/recipe.toml", "stiffness_K = 11.4e9", "stiffness_K = 114e9");
   EXPECT_TRUE(fails(copies, "li1999-sst65-silicon", "capture-range"));
 }
 

@@ -5,9 +5,9 @@
 
 #include <ostream>
 
-#include "core/error.hpp"
 #include "recipe_folder.hpp"
 #include "reconstruction/reconstruction.hpp"
+#include "support/mistake.hpp"
 
 namespace recoil {
 namespace {
@@ -25,18 +25,15 @@ class RecipeMistakes : public ::testing::TestWithParam<Mistake> {};
 TEST_P(RecipeMistakes, AreOneLineWithItsPlace) {
   const Mistake& mistake = GetParam();
   const CopiedDatasets copies;
-  copies.replace(mistake.id, "recipe.toml", mistake.from, mistake.to);
-  try {
-    load_recipe(copies.folder(mistake.id));
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find(mistake.says), std::string::npos) << text;
-    EXPECT_NE(text.find("recipe.toml:"), std::string::npos) << text;
-    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-    EXPECT_GT(error.where().line, 0) << text;
-    EXPECT_GT(error.where().column, 0) << text;
-  }
+  copies.change(mistake.id + "/recipe.toml", mistake.from, mistake.to);
+  const auto error = support::error_of([&] { load_recipe(copies.folder(mistake.id)); });
+  ASSERT_TRUE(error) << "accepted";
+  const std::string text = error->what();
+  EXPECT_NE(text.find(mistake.says), std::string::npos) << text;
+  EXPECT_TRUE(error->where().file.ends_with("recipe.toml")) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  EXPECT_GT(error->where().line, 0) << text;
+  EXPECT_GT(error->where().column, 0) << text;
 }
 
 const std::string wall = "wall1990-mica";
@@ -50,12 +47,13 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"extra_key", wall, "decimals = 3", "decimals = 3\nbias = 1", "unknown key 'bias'"},
         Mistake{"no_toml", wall, "seed = ", "seed = = ", "not valid TOML"},
         Mistake{"negative_seed", wall, "seed = ", "seed = -", "whole number"},
-        Mistake{"text_for_number", wall, "floor = 0.01", "floor = \"0.01\"", "not a finite number"},
+        Mistake{"text_for_number", wall, "floor = 0.01", "floor = \"0.01\"", "not a number"},
         Mistake{"nan", wall, "floor = 0.01", "floor = nan", "not a finite number"},
         Mistake{"negative", wall, "density = 1350", "density = -1350", "above zero"},
-        Mistake{"no_noise", ring_adhesion_made, "relative = 0.02", "relative = 0", "without noise"},
+        Mistake{"no_noise", ring_adhesion_made, "relative = 0.02", "relative = 0",
+                "standard deviation"},
         Mistake{"poisson", wall, "poisson_ratio = 0.33", "poisson_ratio = 0.8", "isotropic"},
-        Mistake{"no_such_truth", wall, "\"elastoplastic\"", "\"magic\"", "no such truth"},
+        Mistake{"no_such_truth", wall, "\"elastoplastic\"", "\"magic\"", "unknown truth"},
         Mistake{"no_such_phase", ring_adhesion_made, "\"rebound\"", "\"never\"", "rebound"},
         Mistake{"unknown_fact", wall, "\"capture-slope\"", "\"capture-slop\"",
                 "did you mean 'capture-slope'"},
@@ -86,7 +84,7 @@ TEST(Recipe, MissingOnesAreSaid) {
 
 TEST(Recipe, ImpactsThatAreHardlyEverSeenAreRefused) {
   const CopiedDatasets copies;
-  copies.replace(mixed, "recipe.toml", "probe_height = 1e-3", "probe_height = 1e-1");
+  copies.change(mixed + "/recipe.toml", "probe_height = 1e-3", "probe_height = 1e-1");
   EXPECT_THROW(load_recipe(copies.folder(mixed)), InputError);
 }
 

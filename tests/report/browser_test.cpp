@@ -2,19 +2,18 @@
 // purpose.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/files.hpp"
 #include "document/html.hpp"
 #include "example_analysis.hpp"
 #include "report/experiment_figures.hpp"
 #include "report/index_document.hpp"
 #include "report/svg_plot.hpp"
+#include "support/command.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace recoil {
 namespace {
@@ -29,24 +28,14 @@ class Browser : public testing::Test {
     index_ = html_index({{"page.html", summary_of(analysis), thumbnail(analysis)}});
   }
 
-  void SetUp() override {
-    folder_ =
-        fs::temp_directory_path() / (std::string("recoil-browser-") +
-                                     testing::UnitTest::GetInstance()->current_test_info()->name() +
-                                     "-" + std::to_string(getpid()));
-    fs::remove_all(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// 0 when Chromium is content with `html`.
   int open(const std::string& html, int figures) {
     const fs::path file = folder_ / "page.html";
-    write_whole_file(file, html);
-    const std::string command = "python3 '" RECOIL_SOURCE_DIR
-                                "/tests/report/open_in_chromium.py' --figures " +
-                                std::to_string(figures) + " '" + file.string() + "'";
-    const int status = std::system(command.c_str());
-    return WEXITSTATUS(status);
+    folder_.write("page.html", html);
+    return support::run_command({"python3", RECOIL_SOURCE_DIR "/tests/report/open_in_chromium.py",
+                                 "--figures", std::to_string(figures), file.string()},
+                                folder_.path())
+        .status;
   }
 
   static std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -57,7 +46,7 @@ class Browser : public testing::Test {
 
   static inline std::string page_;
   static inline std::string index_;
-  fs::path folder_;
+  support::TemporaryFolder folder_;
 };
 
 TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 15), 0); }

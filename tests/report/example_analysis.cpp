@@ -25,11 +25,11 @@ Dataset sphere_dataset(const std::string& id, const std::string& surface, double
   return dataset;
 }
 
-ParameterSlot slot(const std::string& name, const std::string& unit, double initial, double upper,
-                   bool free) {
+ParameterSlot slot(ParameterRole role, double initial, double upper, bool free) {
   ParameterSlot s;
-  s.name = name;
-  s.unit = unit;
+  for (const Parameter& parameter : base_parameters()) {
+    if (parameter.role == role) s.parameter = &parameter;
+  }
   s.initial = initial;
   s.upper = upper;
   s.free = free;
@@ -91,7 +91,7 @@ void add_dataset(Analysis& a, std::size_t k, const std::array<double, 3>& theta,
         point.incident_velocity = 0.6 * capture;
         point.restitution = 0.0;
         point.captured = point.events;
-      } else if (a.data.sd_stated) {
+      } else if (a.fitted.data.sd_stated) {
         point.restitution_sd = noise;
       }
       dataset.points.push_back(point);
@@ -101,13 +101,13 @@ void add_dataset(Analysis& a, std::size_t k, const std::array<double, 3>& theta,
       seen.diameter = point.diameter;
       seen.velocity = point.incident_velocity;
       seen.restitution = point.restitution;
-      seen.sd = a.data.sd_stated ? noise : 1.0;
+      seen.weights.sd = a.fitted.data.sd_stated ? noise : 1.0;
       seen.censored = point.all_captured();
-      a.data.points.push_back(seen);
+      a.fitted.data.points.push_back(seen);
       const double fitted = seen.censored ? 0.0 : truth;
       a.fitted.prediction.push_back(fitted);
       a.fitted.prediction_squared.push_back(fitted * fitted);
-      a.fitted.residuals.push_back((point.restitution - fitted) / seen.sd);
+      a.fitted.residuals.push_back((point.restitution - fitted) / seen.weights.sd);
       a.fitted.leverage.push_back(0.02 + 0.02 * i);
     }
     RestitutionCurve curve;
@@ -140,7 +140,6 @@ void add_two_point(Analysis& a, std::size_t k, double C_H, double C_A) {
   TwoPointComparison comparison;
   comparison.dataset = k;
   comparison.result.status = TwoPointStatus::converged;
-  comparison.result.text = "nothing changes any more after 6 rounds";
   comparison.result.diameter = 4.9e-6;
   comparison.result.low_point = 32 * k + 16;
   comparison.result.high_point = 32 * k + 23;
@@ -269,8 +268,9 @@ Analysis four_diameters() {
   ImpactModel& model = a.fitted.model;
   model.contacts = {derive_contact(a.datasets[0].system, 4.9e-6)};
   const double f0 = model.contacts[0].adhesion_force;
-  model.slots = {slot("C_H", "s/m", 3e-3, 1.0, true), slot("C_A", "s/m", 3e-2, 10.0, true),
-                 slot("f0", "N/m", f0, 1e4, false)};
+  model.slots = {slot(ParameterRole::hertz_damping, 3e-3, 1.0, true),
+                 slot(ParameterRole::adhesion_damping, 3e-2, 10.0, true),
+                 slot(ParameterRole::adhesion_force, f0, 1e4, false)};
   model.slot_C_H = {0};
   model.slot_C_A = {1};
   model.slot_f0 = {2};
@@ -290,15 +290,17 @@ Analysis two_datasets() {
   a.datasets = {sphere_dataset("example-molybdenum", "molybdenum", 320e9),
                 sphere_dataset("example-silicon", "silicon", 131e9)};
   a.datasets[1].provenance = Provenance::measured;
-  a.data.sd_stated = false;
+  a.fitted.data.sd_stated = false;
   ImpactModel& model = a.fitted.model;
   for (const Dataset& dataset : a.datasets) {
     model.contacts.push_back(derive_contact(dataset.system, 4.9e-6));
   }
   model.contacts[1].contradictions = {
       "stiffness_K = 11.4 GPa is stated, but the elastic constants give K = 113 GPa"};
-  model.slots = {slot("C_H", "s/m", 3e-3, 1.0, true), slot("C_A", "s/m", 3e-2, 10.0, true),
-                 slot("f0", "N/m", 8.9, 1e4, true), slot("f0", "N/m", 6.6, 1e4, true)};
+  model.slots = {slot(ParameterRole::hertz_damping, 3e-3, 1.0, true),
+                 slot(ParameterRole::adhesion_damping, 3e-2, 10.0, true),
+                 slot(ParameterRole::adhesion_force, 8.9, 1e4, true),
+                 slot(ParameterRole::adhesion_force, 6.6, 1e4, true)};
   model.slots[2].dataset = a.datasets[0].id;
   model.slots[3].dataset = a.datasets[1].id;
   model.slot_C_H = {0, 0};
@@ -309,15 +311,12 @@ Analysis two_datasets() {
   add_dataset(a, 1, {0.00312, 0.0487, 5.9}, {0.0046, 0.062}, true);
   add_statistics(a, {0.00021, 0.0023, 0.4, 0.3});
   a.fitted.noise_scale = noise;
-  a.fitted.noise_text = "no deviations are stated; the noise is estimated from the residuals";
+  a.fitted.noise_verdict = NoiseVerdict::estimated;
   add_two_point(a, 0, 0.0046, 0.062);
   add_pairs(a, 0);
   add_two_point(a, 1, 0.0041, 0.055);
   add_pairs(a, 1);
   a.uncertainty.two_point[1].result.status = TwoPointStatus::no_adhesion_damping;
-  a.uncertainty.two_point[1].result.text = "no C_A >= 0 gives the e of the lowest velocity";
-  a.data.warnings = {"some points lack a standard deviation, so all are weighted equally"};
-  a.fitted.data = a.data;
   return a;
 }
 

@@ -98,7 +98,8 @@ TEST(JsonReport, RepeatsTheNumbersExactly) {
   EXPECT_EQ(fit["dataset"]["provenance"], "reconstruction");
   EXPECT_EQ(fit["dataset"]["points"], 32);
   EXPECT_EQ(fit["bootstrap"]["seed"], 20260101);
-  EXPECT_EQ(fit["two_point"]["low_point"]["restitution"], analysis.data.points[16].restitution);
+  EXPECT_EQ(fit["two_point"]["low_point"]["restitution"],
+            analysis.fitted.data.points[16].restitution);
   EXPECT_EQ(fit["two_point"]["low_point"]["diameter_um"], 4.90e-6 / 1e-6);
   EXPECT_EQ(fit["curve"].size(), 4U * 81U);
   EXPECT_EQ(fit["residuals"].size(), 32U);

@@ -80,8 +80,8 @@ TEST(PairKeys, StandBesideTheTwoPointComparison) {
     EXPECT_EQ(two["pairs_study"]["full"]["held_out_rmse"]["series"], 0.031);
   }
   const auto& pair = fit["two_point"]["pairs"][2];  // worse = 1
-  EXPECT_EQ(pair["low_velocity"], analysis.data.points[16].velocity);
-  EXPECT_EQ(pair["high_velocity"], analysis.data.points[23].velocity);
+  EXPECT_EQ(pair["low_velocity"], analysis.fitted.data.points[16].velocity);
+  EXPECT_EQ(pair["high_velocity"], analysis.fitted.data.points[23].velocity);
   EXPECT_NEAR(pair["bias_C_H"].get<double>(), 0.0, 1e-12);
   EXPECT_NEAR(pair["bias_C_A"].get<double>(), -0.04, 1e-12);
   EXPECT_EQ(pair["spread_C_A"], 5e-3);

@@ -2,13 +2,12 @@
 #include "uncertainty/bootstrap.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
-#include "noisy_case.hpp"
+#include "support/noisy_case.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace recoil {
 namespace {
@@ -18,24 +17,9 @@ using synthetic::Case;
 using synthetic::noisy_case;
 using synthetic::small;
 
-/// A folder of its own, removed at the end.
-class Folder {
- public:
-  Folder() {
-    std::string place = (fs::temp_directory_path() / "recoil-boot-XXXXXX").string();
-    if (mkdtemp(place.data()) == nullptr) throw std::runtime_error("no folder to work in");
-    path_ = place;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path file() const { return path_ / "replicates.json"; }
-
- private:
-  fs::path path_;
+/// A folder for kept replicates.
+struct Folder : support::TemporaryFolder {
+  fs::path file() const { return path() / "replicates.json"; }
 };
 
 TEST(Bootstrap, ExtendingIsTheSameAsOneRun) {
@@ -43,11 +27,11 @@ TEST(Bootstrap, ExtendingIsTheSameAsOneRun) {
   for (const Scheme scheme : {Scheme::parametric, Scheme::residual, Scheme::wild, Scheme::cases}) {
     UncertaintyOptions options = small(1);
     options.scheme = scheme;
-    Bootstrap whole(c.fitted, c.data, {}, options);
+    Bootstrap whole(c.fitted, {}, options);
     whole.extend(30);
     UncertaintyOptions threads = options;
     threads.threads = 3;
-    Bootstrap parts(c.fitted, c.data, {}, threads);
+    Bootstrap parts(c.fitted, {}, threads);
     parts.extend(7);
     parts.extend(30);
     EXPECT_EQ(whole.result().theta, parts.result().theta) << to_string(scheme);
@@ -88,7 +72,7 @@ TEST(ReplicateTable, DamagedFilesAreNotTrusted) {
         R"({"key": "key", "replicates": [[-1]]})", R"({"key": "key", "replicates": [7]})",
         R"({"key": "key", "replicates": [[99999999999]]})",
         R"({"key": "key", "replicates": [[0, ["a"], [1]]]})"}) {
-    std::ofstream(folder.file()) << text;
+    folder.write("replicates.json", text);
     EXPECT_EQ(load_replicates(folder.file(), "key", 1).finished(), 0U) << text;
   }
 }
@@ -98,7 +82,7 @@ TEST(Bootstrap, GoesOnFromFinishedReplicates) {
   const Folder folder;
   UncertaintyOptions options = small(0);
   options.keep = folder.file();
-  Bootstrap first(c.fitted, c.data, {}, options);
+  Bootstrap first(c.fitted, {}, options);
   first.extend(12);
   const BootstrapResult whole = first.result();
   // A quick run writes nothing by itself. Put a mark into a file of finished replicates: it shows
@@ -110,29 +94,29 @@ TEST(Bootstrap, GoesOnFromFinishedReplicates) {
   for (std::size_t i = 0; i < 5; ++i) table.state[i] = ReplicateTable::State::usable;
   table.theta.assign(15, 0.125);
   save_replicates(folder.file(), first.key(), table);
-  Bootstrap second(c.fitted, c.data, {}, options);
+  Bootstrap second(c.fitted, {}, options);
   second.extend(12);
   EXPECT_EQ(second.result().theta[4], std::vector<double>(3, 0.125));
   EXPECT_EQ(second.result().theta[5], whole.theta[5]);
   // Another seed, scheme, point or program is another bootstrap.
   UncertaintyOptions other = options;
   other.seed = 2;
-  EXPECT_NE(Bootstrap(c.fitted, c.data, {}, other).key(), first.key());
+  EXPECT_NE(Bootstrap(c.fitted, {}, other).key(), first.key());
   other = options;
   other.scheme = Scheme::wild;
-  EXPECT_NE(Bootstrap(c.fitted, c.data, {}, other).key(), first.key());
+  EXPECT_NE(Bootstrap(c.fitted, {}, other).key(), first.key());
   other = options;
   other.keep_key = "a later version";
-  EXPECT_NE(Bootstrap(c.fitted, c.data, {}, other).key(), first.key());
+  EXPECT_NE(Bootstrap(c.fitted, {}, other).key(), first.key());
   Case moved = c;
-  moved.data.points[0].restitution += 1e-15;
-  EXPECT_NE(Bootstrap(c.fitted, moved.data, {}, options).key(), first.key());
+  moved.fitted.data.points[0].restitution += 1e-15;
+  EXPECT_NE(Bootstrap(moved.fitted, {}, options).key(), first.key());
 }
 
 TEST(Failures, TheDisturbedPointIsFound) {
   // Claim that the replicates in which point 5 was drawn far up failed: it has to stand out.
   const Case c = noisy_case();
-  const ResamplingPlan plan = plan_resampling(c.fitted, c.data, Scheme::parametric);
+  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::parametric);
   std::vector<std::uint64_t> claimed;
   for (std::uint64_t r = 0; r < 999; ++r) {
     if (disturbance(plan, 3, r)[5] > 1.8) claimed.push_back(r);
@@ -163,7 +147,7 @@ TEST(Failures, TenPercentWithholdOnePercentWarns) {
   options.replicates = 99;
   options.curves = false;
   options.two_point = false;
-  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, options);
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, options);
   EXPECT_NEAR(result.bootstrap.failed, 49.5, 20.0);  // four standard errors of a fair coin
   EXPECT_NE(result.bootstrap.failures.text.find("do not determine"), std::string::npos)
       << result.bootstrap.failures.text;
@@ -186,12 +170,12 @@ TEST(Automatic, AddsBatchesUntilTheErrorIsSmall) {
   options.capture = false;
   options.curves = false;
   options.two_point = false;
-  const UncertaintyResult loose = assess_uncertainty(c.fitted, c.data, c.datasets, options);
+  const UncertaintyResult loose = assess_uncertainty(c.fitted, c.datasets, options);
   ASSERT_TRUE(loose.bootstrap.relative_error);
   EXPECT_LE(*loose.bootstrap.relative_error, 0.04);
   EXPECT_EQ(loose.bootstrap.replicates, 999);  // 2.7 / sqrt(999) / 3.9 = 2.2 % for a normal one
   options.wanted_error = 0.02;
-  const UncertaintyResult tight = assess_uncertainty(c.fitted, c.data, c.datasets, options);
+  const UncertaintyResult tight = assess_uncertainty(c.fitted, c.datasets, options);
   EXPECT_LE(*tight.bootstrap.relative_error, 0.02);
   EXPECT_GT(tight.bootstrap.replicates, 999);
   EXPECT_EQ((tight.bootstrap.replicates + 1) % 1000, 0);

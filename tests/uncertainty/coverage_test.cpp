@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/coverage_grid.hpp"
@@ -65,10 +66,10 @@ TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
     }
     const CaptureVelocity v = capture_velocity(fitted.model, fitted.theta, 0, at.diameter);
     unknowing += std::pow(off / logarithmic_error(v, less), 2) / sets;
-    Observations fixed = fitted.data;
-    fixed.noise.event_spread = 0.0;  // the weights stay, and nothing renews them
+    FitResult fixed = fitted;
+    fixed.data.noise.event_spread = 0.0;  // the weights stay, and nothing renews them
     for (const bool settled : {true, false}) {
-      const Interval profile = profile_interval(fitted, settled ? fitted.data : fixed, 1, 0.95);
+      const Interval profile = profile_interval(settled ? fitted : fixed, 1, 0.95);
       ASSERT_TRUE(profile.available()) << profile.why;
       const bool holds = *profile.lower <= truth.theta[1] && truth.theta[1] <= *profile.upper;
       (settled ? held : held_fixed) += holds ? 1 : 0;

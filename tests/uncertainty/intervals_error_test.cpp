@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "core/statistics.hpp"
 #include "uncertainty/intervals.hpp"
 
 namespace recoil {

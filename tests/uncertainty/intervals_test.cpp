@@ -16,15 +16,6 @@ std::vector<double> one_to(int n) {
   return values;
 }
 
-TEST(Quantile, FollowsTheBPlusOneRule) {
-  const std::vector<double> values = one_to(99);  // (99 + 1) p is a whole number for p = 0.025 * 4
-  EXPECT_DOUBLE_EQ(sorted_quantile(values, 0.05), 5.0);
-  EXPECT_DOUBLE_EQ(sorted_quantile(values, 0.5), 50.0);
-  EXPECT_DOUBLE_EQ(sorted_quantile(values, 0.975), 97.5);
-  EXPECT_DOUBLE_EQ(sorted_quantile(values, 0.0), 1.0);
-  EXPECT_DOUBLE_EQ(sorted_quantile(values, 1.0), 99.0);
-}
-
 TEST(Percentile, OfAThousandNineHundredNinetyNine) {
   const Interval interval = percentile_interval(one_to(1999), 0.95);
   EXPECT_NEAR(*interval.lower, 50.0, 1e-9);
@@ -122,22 +113,6 @@ TEST(Wald, TailAreasAreAveragedOverDescriptions) {
               1e-8);
   const std::vector<WaldTerm> first = {{0.4, 5.0, 0.0, 10}, {0.6, 1.0, 0.1, 10}};
   EXPECT_FALSE(averaged_wald_interval(first, 0.95, 0.0, 10.0).available());
-}
-
-// Newcombe (1998), Stat. Med. 17, 857-872, table I, score method.
-TEST(ShareLimits, AreThoseOfTheScore) {
-  const struct {
-    int part, whole;
-    double lower, upper;
-  } published[] = {{81, 263, 0.2553, 0.3662},
-                   {15, 148, 0.0624, 0.1605},
-                   {0, 20, 0.0, 0.1611},
-                   {1, 29, 0.0061, 0.1718}};
-  for (const auto& row : published) {
-    const ShareLimits limits = share_limits(row.part, row.whole);
-    EXPECT_NEAR(limits.lower, row.lower, 5e-5) << row.part;
-    EXPECT_NEAR(limits.upper, row.upper, 5e-5) << row.part;
-  }
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "estimate/noise.hpp"
-#include "one_size.hpp"
+#include "estimate/reweighting.hpp"
+#include "support/one_size.hpp"
 
 namespace recoil {
 namespace {
@@ -32,7 +32,7 @@ TEST(NoiseAlternatives, WeighAsTheirCriteriaDo) {
     const auto total = [&](const FitResult& of) {
       for (const VarianceCandidate& candidate : fitted.data.noise.candidates) {
         if (candidate.function == of.data.noise.variance) {
-          return candidate.criterion + handicap(candidate.function);
+          return candidate.criterion + penalty_of(candidate.function);
         }
       }
       return std::nan("");

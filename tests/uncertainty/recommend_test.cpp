@@ -22,9 +22,9 @@ struct Example {
 /// Two free parameters at 1 and 2 with errors 0.1, and intervals that agree.
 Example agreeing() {
   Example made;
-  for (const char* name : {"C_H", "C_A"}) {
+  for (const std::size_t k : {0, 1}) {
     ParameterSlot slot;
-    slot.name = name;
+    slot.parameter = &base_parameters()[k];
     slot.upper = 10.0;
     made.fitted.model.slots.push_back(slot);
   }

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "noisy_case.hpp"
+#include "support/noisy_case.hpp"
 
 namespace recoil {
 namespace {
@@ -40,9 +40,9 @@ double leverage_scaled(const FitResult& fitted, std::size_t i, double power) {
 
 TEST(Plan, AutomaticFollowsWhatIsStated) {
   Case c = with_capture();
-  EXPECT_EQ(plan_resampling(c.fitted, c.data, Scheme::automatic).scheme, Scheme::parametric);
-  c.data.sd_stated = false;
-  const ResamplingPlan plan = plan_resampling(c.fitted, c.data, Scheme::automatic);
+  EXPECT_EQ(plan_resampling(c.fitted, Scheme::automatic).scheme, Scheme::parametric);
+  c.fitted.data.sd_stated = false;
+  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::automatic);
   EXPECT_EQ(plan.scheme, Scheme::wild);
   EXPECT_NE(plan.why.find("no standard deviations"), std::string::npos) << plan.why;
 }
@@ -59,13 +59,14 @@ TEST(Plan, ObstaclesAreNamed) {
 
 TEST(Parametric, HasTheStatedMomentsAndKeepsCaptures) {
   const Case c = with_capture();
-  const ResamplingPlan plan = plan_resampling(c.fitted, c.data, Scheme::parametric);
+  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::parametric);
   double sum = 0.0;
   double square = 0.0;
   constexpr int count = 4000;
   for (int r = 0; r < count; ++r) {
     const Observations sample = drawn(plan, static_cast<std::uint64_t>(r));
-    const double z = (sample.points[3].restitution - c.fitted.prediction[3]) / c.data.points[3].sd;
+    const double z =
+        (sample.points[3].restitution - c.fitted.prediction[3]) / c.data.points[3].weights.sd;
     sum += z;
     square += z * z;
     ASSERT_TRUE(sample.points.back().censored);
@@ -77,7 +78,7 @@ TEST(Parametric, HasTheStatedMomentsAndKeepsCaptures) {
 
 TEST(Residual, DrawsFromTheCentredPool) {
   const Case c = with_capture();
-  const ResamplingPlan plan = plan_resampling(c.fitted, c.data, Scheme::residual);
+  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::residual);
   std::vector<double> pool;
   for (std::size_t i = 0; i + 1 < c.data.points.size(); ++i) {
     pool.push_back(leverage_scaled(c.fitted, i, 0.5));
@@ -87,7 +88,7 @@ TEST(Residual, DrawsFromTheCentredPool) {
   const Observations sample = drawn(plan, 5);
   for (std::size_t i = 0; i < pool.size(); ++i) {
     const double rho =
-        (sample.points[i].restitution - c.fitted.prediction[i]) / c.data.points[i].sd;
+        (sample.points[i].restitution - c.fitted.prediction[i]) / c.data.points[i].weights.sd;
     const bool known = std::any_of(pool.begin(), pool.end(),
                                    [&](double r) { return std::abs(r - mean - rho) < 1e-9; });
     EXPECT_TRUE(known) << i;
@@ -96,13 +97,13 @@ TEST(Residual, DrawsFromTheCentredPool) {
 
 TEST(Wild, KeepsEachResidualUpToItsSign) {
   const Case c = with_capture();
-  const ResamplingPlan plan = plan_resampling(c.fitted, c.data, Scheme::wild);
+  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::wild);
   int positive = 0;
   for (std::uint64_t r = 0; r < 200; ++r) {
     const Observations sample = drawn(plan, r);
     for (std::size_t i = 0; i + 1 < c.data.points.size(); ++i) {
       const double moved =
-          (sample.points[i].restitution - c.fitted.prediction[i]) / c.data.points[i].sd;
+          (sample.points[i].restitution - c.fitted.prediction[i]) / c.data.points[i].weights.sd;
       const double own = leverage_scaled(c.fitted, i, 1.0);
       EXPECT_NEAR(std::abs(moved), std::abs(own), 1e-9);
       positive += moved * own > 0.0 ? 1 : 0;
@@ -113,7 +114,7 @@ TEST(Wild, KeepsEachResidualUpToItsSign) {
 
 TEST(Cases, DrawWholePointsCapturedOnesToo) {
   const Case c = with_capture();
-  const ResamplingPlan plan = plan_resampling(c.fitted, c.data, Scheme::cases);
+  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::cases);
   std::map<double, double> restitution_at;  // velocities are distinct within a diameter
   for (const Observation& point : c.data.points) {
     restitution_at[point.velocity + point.diameter] = point.restitution;
@@ -132,7 +133,7 @@ TEST(Cases, DrawWholePointsCapturedOnesToo) {
 
 TEST(Cluster, DrawsWholeSeries) {
   const Case c = with_capture();  // series 0 has eight points with the captured one, series 1 seven
-  const ResamplingPlan plan = plan_resampling(c.fitted, c.data, Scheme::cluster);
+  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::cluster);
   EXPECT_EQ(plan.units(), 2U);
   std::set<std::size_t> sizes;
   for (std::uint64_t r = 0; r < 50; ++r) sizes.insert(drawn(plan, r).points.size());
@@ -142,7 +143,7 @@ TEST(Cluster, DrawsWholeSeries) {
 TEST(Disturbance, AgreesWithWhatWasDrawn) {
   const Case c = with_capture();
   for (const Scheme scheme : {Scheme::cases, Scheme::cluster}) {
-    const ResamplingPlan plan = plan_resampling(c.fitted, c.data, scheme);
+    const ResamplingPlan plan = plan_resampling(c.fitted, scheme);
     const Observations sample = drawn(plan, 9);
     const std::vector<double> extra = disturbance(plan, 1, 9);
     for (std::size_t i = 0; i < c.data.points.size(); ++i) {
@@ -157,8 +158,9 @@ TEST(Disturbance, AgreesWithWhatWasDrawn) {
 }
 
 TEST(Schemes, NamesGoBothWays) {
-  for (const std::string& name : scheme_names()) EXPECT_EQ(to_string(*scheme_named(name)), name);
-  EXPECT_FALSE(scheme_named("jackknife"));
+  for (const std::string& name : all_names<Scheme>())
+    EXPECT_EQ(to_string(*value_named<Scheme>(name)), name);
+  EXPECT_FALSE(value_named<Scheme>("jackknife"));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Replicates scatter as the linearised errors say, where the problem is nearly linear.
 #include <gtest/gtest.h>
 
-#include "noisy_case.hpp"
+#include "support/noisy_case.hpp"
 
 namespace recoil {
 namespace {
@@ -16,7 +16,7 @@ TEST(Bootstrap, SpreadMatchesTheLinearisedError) {
   UncertaintyOptions options = small(0);
   options.replicates = 299;
   options.curves = false;
-  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, options);
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, options);
   EXPECT_EQ(result.bootstrap.failed, 0);
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_NEAR(result.two_point[0].full_spread[j] / c.fitted.std_error[j], 1.0, 0.12);

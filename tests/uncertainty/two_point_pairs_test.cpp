@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "noisy_case.hpp"
+#include "estimate/predictor.hpp"
+#include "support/noisy_case.hpp"
 
 namespace recoil {
 namespace {
@@ -27,8 +28,7 @@ Case exact_case(double sd) {
 
 std::vector<PairStudy> study(const Case& c, int simulations, int threads = 0,
                              std::uint64_t seed = 5) {
-  return study_two_point_pairs(c.fitted, c.fitted.data, {{0, 4.9e-6}},
-                               {simulations, seed, threads});
+  return study_two_point_pairs(c.fitted, {{0, 4.9e-6}}, {simulations, seed, threads});
 }
 
 TEST(TwoPointPairs, TogetherAndAloneGiveTheSameDigits) {
@@ -241,9 +241,9 @@ TEST(TwoPointPairs, AreNotMadeWhenNotAskedFor) {
   UncertaintyOptions options = synthetic::small(0);
   options.profile = options.curves = options.capture = false;
   options.two_point = false;
-  EXPECT_TRUE(assess_uncertainty(c.fitted, c.fitted.data, c.datasets, options).pairs.empty());
+  EXPECT_TRUE(assess_uncertainty(c.fitted, c.datasets, options).pairs.empty());
   options.two_point = true;
-  const UncertaintyResult with = assess_uncertainty(c.fitted, c.fitted.data, c.datasets, options);
+  const UncertaintyResult with = assess_uncertainty(c.fitted, c.datasets, options);
   ASSERT_EQ(with.pairs.size(), 1U);
   EXPECT_EQ(with.pairs[0].simulations, 39) << "no more than replicates";
 }

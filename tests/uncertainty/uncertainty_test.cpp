@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-#include "noisy_case.hpp"
+#include "estimate/predictor.hpp"
+#include "support/noisy_case.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/profile.hpp"
@@ -20,8 +21,8 @@ using synthetic::small;
 
 TEST(Bootstrap, EveryDigitIsTheSameAtAnyThreadCount) {
   const Case c = noisy_case();
-  const UncertaintyResult one = assess_uncertainty(c.fitted, c.data, c.datasets, small(1));
-  const UncertaintyResult four = assess_uncertainty(c.fitted, c.data, c.datasets, small(4));
+  const UncertaintyResult one = assess_uncertainty(c.fitted, c.datasets, small(1));
+  const UncertaintyResult four = assess_uncertainty(c.fitted, c.datasets, small(4));
   EXPECT_EQ(one.bootstrap.theta, four.bootstrap.theta);
   EXPECT_EQ(one.bootstrap.two_point_theta, four.bootstrap.two_point_theta);
   EXPECT_EQ(one.intervals[0].bca.lower, four.intervals[0].bca.lower);
@@ -33,8 +34,8 @@ TEST(Bootstrap, SeedChangesTheReplicatesOnly) {
   const Case c = noisy_case();
   UncertaintyOptions other = small(0);
   other.seed = 1;
-  const UncertaintyResult a = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
-  const UncertaintyResult b = assess_uncertainty(c.fitted, c.data, c.datasets, other);
+  const UncertaintyResult a = assess_uncertainty(c.fitted, c.datasets, small(0));
+  const UncertaintyResult b = assess_uncertainty(c.fitted, c.datasets, other);
   EXPECT_NE(a.bootstrap.theta, b.bootstrap.theta);
   EXPECT_EQ(a.intervals[0].wald.lower, b.intervals[0].wald.lower);
   EXPECT_EQ(a.intervals[0].profile.lower, b.intervals[0].profile.lower);
@@ -42,7 +43,7 @@ TEST(Bootstrap, SeedChangesTheReplicatesOnly) {
 
 TEST(Capture, StudentizedAndDeltaRestOnTheSameError) {
   const Case c = noisy_case();
-  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
   for (std::size_t k = 0; k < result.capture.size(); ++k) {
     const CaptureEstimate& at = result.capture[k];
     EXPECT_NEAR(std::log(*at.delta.upper / at.value) / 1.959963985,
@@ -83,13 +84,13 @@ double largest_effect(const Case& c, std::size_t slot) {
 
 TEST(Identifiability, AsksForAnErrorBelowATenthOfTheLossScale) {
   Case c = noisy_case();
-  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
   for (const std::size_t slot : {std::size_t{0}, std::size_t{1}}) {
     const double scale = std::max(1.0 / largest_effect(c, slot), c.fitted.theta[slot]);
     for (const double part : {0.099, 0.101}) {
       c.fitted.std_error[slot] = part * scale;
       const Identifiability verdict =
-          judge_identifiability(c.fitted, c.data, result.intervals, result.capture);
+          judge_identifiability(c.fitted, result.intervals, result.capture);
       EXPECT_EQ(verdict.parameter[slot], part < 0.1) << slot;
     }
   }
@@ -97,11 +98,10 @@ TEST(Identifiability, AsksForAnErrorBelowATenthOfTheLossScale) {
 
 TEST(Identifiability, AKnownUpperLimitIsKnowledge) {
   Case c = noisy_case();
-  UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
   c.fitted.std_error[0] = 1e-6;
   result.intervals[0].profile.lower = 0.0;
-  const Identifiability verdict =
-      judge_identifiability(c.fitted, c.data, result.intervals, result.capture);
+  const Identifiability verdict = judge_identifiability(c.fitted, result.intervals, result.capture);
   EXPECT_TRUE(verdict.parameter[0]);
   EXPECT_NE(verdict.text.find("C_H is consistent with zero"), std::string::npos) << verdict.text;
   EXPECT_NE(verdict.text.find("upper limit"), std::string::npos) << verdict.text;
@@ -109,11 +109,11 @@ TEST(Identifiability, AKnownUpperLimitIsKnowledge) {
 
 TEST(Identifiability, DoesNotTrustSurvivorsOfImpactsThatDifferMuch) {
   Case c = noisy_case();
-  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
   for (const double spread : {0.15, 0.3}) {
     c.data.noise.event_spread = c.fitted.data.noise.event_spread = spread;
     const Identifiability verdict =
-        judge_identifiability(c.fitted, c.data, result.intervals, result.capture);
+        judge_identifiability(c.fitted, result.intervals, result.capture);
     EXPECT_EQ(verdict.parameter[0], spread < 0.2) << verdict.text;
     EXPECT_EQ(verdict.text.find("scatters by 30 %") != std::string::npos, spread > 0.2);
     const std::string note =
@@ -125,7 +125,7 @@ TEST(Identifiability, DoesNotTrustSurvivorsOfImpactsThatDifferMuch) {
 TEST(Profile, RisesByTheQuantileAtItsEnds) {
   const Case c = noisy_case();
   for (std::size_t slot = 0; slot < 2; ++slot) {
-    const Interval interval = profile_interval(c.fitted, c.data, slot, 0.95);
+    const Interval interval = profile_interval(c.fitted, slot, 0.95);
     ASSERT_TRUE(interval.available()) << interval.why;
     EXPECT_EQ(interval.shape, "bounded");
     for (const double end : {*interval.lower, *interval.upper}) {
@@ -145,8 +145,8 @@ TEST(Profile, CurveIsTheRiseOfRefitsWithTheSlotHeld) {
   const Case c = noisy_case();
   const double scale = c.fitted.noise_scale * c.fitted.noise_scale;
   for (std::size_t slot = 0; slot < 2; ++slot) {
-    const Interval interval = profile_interval(c.fitted, c.data, slot, 0.95);
-    const std::vector<ProfilePoint> curve = profile_curve(c.fitted, c.data, slot, 0.95, interval);
+    const Interval interval = profile_interval(c.fitted, slot, 0.95);
+    const std::vector<ProfilePoint> curve = profile_curve(c.fitted, slot, 0.95, interval);
     ASSERT_EQ(curve.size(), 29U);
     EXPECT_EQ(curve[14].value, c.fitted.theta[slot]);
     EXPECT_EQ(curve[14].rise, 0.0);
@@ -181,12 +181,12 @@ TEST(Profile, StopsAtABoundAndSaysSo) {
   c.datasets = {synthetic::dataset(design)};
   c.data = gather(c.datasets);
   c.fitted = fit(make_model(synthetic::spec(), c.datasets), c.data);
-  const Interval interval = profile_interval(c.fitted, c.data, 1, 0.95);
+  const Interval interval = profile_interval(c.fitted, 1, 0.95);
   ASSERT_TRUE(interval.available());
   EXPECT_EQ(*interval.lower, 0.0);
   EXPECT_EQ(interval.shape, "one-sided");
   EXPECT_GT(*interval.upper, 0.0);
-  const std::vector<ProfilePoint> curve = profile_curve(c.fitted, c.data, 1, 0.95, interval);
+  const std::vector<ProfilePoint> curve = profile_curve(c.fitted, 1, 0.95, interval);
   for (const ProfilePoint& point : curve) EXPECT_GE(point.value, 0.0);
 }
 
@@ -208,12 +208,12 @@ TEST(Profile, ExcludesTheBoundAsAOneSidedTestWould) {
   // Two-sided everywhere else, a truth on the bound can only be missed from above: the limit is
   // 1.645 errors, not 1.960 (see profile_quantile).
   const Case clear = above_the_bound(1.75);
-  const Interval apart = profile_interval(clear.fitted, clear.data, 0, 0.95);
+  const Interval apart = profile_interval(clear.fitted, 0, 0.95);
   ASSERT_TRUE(apart.available());
   EXPECT_GT(*apart.lower, 0.0);
   EXPECT_EQ(apart.shape, "bounded");
   const Case close = above_the_bound(1.55);
-  const Interval reaching = profile_interval(close.fitted, close.data, 0, 0.95);
+  const Interval reaching = profile_interval(close.fitted, 0, 0.95);
   ASSERT_TRUE(reaching.available());
   EXPECT_EQ(*reaching.lower, 0.0);
   EXPECT_EQ(reaching.shape, "one-sided");
@@ -221,7 +221,7 @@ TEST(Profile, ExcludesTheBoundAsAOneSidedTestWould) {
 
 TEST(Assessment, HoldsOutDiametersAndExplainsMissingIntervals) {
   const Case c = noisy_case();
-  const UncertaintyResult result = assess_uncertainty(c.fitted, c.data, c.datasets, small(0));
+  const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
   const TwoPointComparison& comparison = result.two_point.front();
   ASSERT_EQ(comparison.result.status, TwoPointStatus::converged);
   ASSERT_TRUE(comparison.held_out_rmse && comparison.full_held_out_rmse);

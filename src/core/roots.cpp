@@ -1,0 +1,67 @@
+#include "core/roots.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "core/gsl_errors.hpp"
+
+namespace recoil {
+namespace {
+
+using Function = std::function<double(double)>;
+
+double call(double x, void* function) { return (*static_cast<const Function*>(function))(x); }
+
+}  // namespace
+
+double find_root(const Function& function, double lower, double upper, double tolerance) {
+  gsl_errors_are_values();
+  const double at_lower = function(lower);
+  const double at_upper = function(upper);
+  if (at_lower == 0.0) return lower;
+  if (at_upper == 0.0) return upper;
+  if (!((at_lower < 0.0 && at_upper > 0.0) || (at_lower > 0.0 && at_upper < 0.0))) return NAN;
+
+  gsl_function wrapped{call, const_cast<Function*>(&function)};
+  const std::unique_ptr<gsl_root_fsolver, decltype(&gsl_root_fsolver_free)> solver(
+      gsl_root_fsolver_alloc(gsl_root_fsolver_brent), &gsl_root_fsolver_free);
+  if (gsl_root_fsolver_set(solver.get(), &wrapped, lower, upper) != GSL_SUCCESS) return NAN;
+  constexpr int most_steps = 200;  // halving alone takes 60 to the last digit
+  for (int step = 0; step < most_steps; ++step) {
+    if (gsl_root_fsolver_iterate(solver.get()) != GSL_SUCCESS) return NAN;
+    const double left = gsl_root_fsolver_x_lower(solver.get());
+    const double right = gsl_root_fsolver_x_upper(solver.get());
+    if (gsl_root_test_interval(left, right, 0.0, tolerance) == GSL_SUCCESS) break;
+  }
+  return gsl_root_fsolver_root(solver.get());
+}
+
+double find_minimum(const Function& function, double lower, double upper, double tolerance) {
+  constexpr double golden = std::numbers::phi - 1.0;
+  double x1 = upper - golden * (upper - lower);
+  double x2 = lower + golden * (upper - lower);
+  double f1 = function(x1);
+  double f2 = function(x2);
+  while (upper - lower > tolerance) {
+    if (f1 < f2) {
+      upper = x2;
+      x2 = x1;
+      f2 = f1;
+      x1 = upper - golden * (upper - lower);
+      f1 = function(x1);
+    } else {
+      lower = x1;
+      x1 = x2;
+      f1 = f2;
+      x2 = lower + golden * (upper - lower);
+      f2 = function(x2);
+    }
+  }
+  return 0.5 * (lower + upper);
+}
+
+}  // namespace recoil

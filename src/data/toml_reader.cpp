@@ -1,0 +1,115 @@
+#include "data/toml_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/text.hpp"
+
+namespace recoil {
+namespace {
+
+/// What a person calls a type of TOML.
+const char* type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
+  }
+}
+
+}  // namespace
+
+Location TomlReader::at(const toml::source_region& region) const {
+  return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+toml::table TomlReader::parse(const std::string& text) const {
+  require_text(text, file_);
+  try {
+    return toml::parse(text, file_);
+  } catch (const toml::parse_error& error) {
+    throw InputError(at(error.source()), shortened(printable(error.description()), 120),
+                     "the file is not valid TOML", "correct this line");
+  }
+}
+
+void TomlReader::fail(const toml::node& node, const std::string& problem, const std::string& why,
+                      const std::string& suggestion) const {
+  throw InputError(at(node.source()), problem, why, suggestion);
+}
+
+void TomlReader::wrong_type(const toml::node& node, const std::string& name,
+                            const std::string& wanted, const std::string& example) const {
+  fail(node, fmt::format("'{}' is {}, not {}", name, type_name(node), wanted), "",
+       fmt::format("write for example {}", example));
+}
+
+void TomlReader::allow_only(const toml::table& table, const std::string& name,
+                            const std::vector<std::string>& known) const {
+  for (const auto& [key, value] : table) {
+    const std::string word(key.str());
+    if (std::find(known.begin(), known.end(), word) != known.end()) continue;
+    throw InputError(at(key.source()), fmt::format("unknown key {} in {}", quote(word), name), "",
+                     did_you_mean(word, known));
+  }
+}
+
+const toml::table* TomlReader::table(const toml::table& parent, const std::string& name) const {
+  const toml::node* const node = parent.get(name);
+  return node == nullptr ? nullptr : &table(*node, name);
+}
+
+const toml::table& TomlReader::table(const toml::node& node, const std::string& name) const {
+  if (!node.is_table()) wrong_type(node, name, "a table", fmt::format("[{}]", name));
+  return *node.as_table();
+}
+
+const toml::array& TomlReader::array(const toml::node& node, const std::string& name,
+                                     const std::string& example) const {
+  if (!node.is_array()) wrong_type(node, name, "a list", example);
+  return *node.as_array();
+}
+
+std::string TomlReader::string(const toml::node& node, const std::string& name,
+                               const std::string& example) const {
+  if (!node.is_string()) wrong_type(node, name, "a text in quotes", example);
+  return node.as_string()->get();
+}
+
+double TomlReader::number(const toml::node& node, const std::string& name) const {
+  if (!node.is_number()) wrong_type(node, name, "a number", fmt::format("{} = 0.5", name));
+  if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
+  const double value = node.as_floating_point()->get();
+  if (!std::isfinite(value)) {
+    fail(node, fmt::format("'{}' is {}, not a finite number", name, value), "", "write a number");
+  }
+  return value;
+}
+
+std::int64_t TomlReader::integer(const toml::node& node, const std::string& name) const {
+  if (!node.is_integer()) {
+    wrong_type(node, name, "a whole number", fmt::format("{} = 1999", name));
+  }
+  return node.as_integer()->get();
+}
+
+bool TomlReader::boolean(const toml::node& node, const std::string& name) const {
+  if (!node.is_boolean()) {
+    wrong_type(node, name, "true or false", fmt::format("{} = false", name));
+  }
+  return node.as_boolean()->get();
+}
+
+}  // namespace recoil

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace recoil {
+
+/// Reads values out of a TOML file that a person wrote: whatever is not as it has to be throws an
+/// InputError with file, line and column. `TomlTable` reads a table key by key on top of it.
+class TomlReader {
+ public:
+  explicit TomlReader(std::string file) : file_(std::move(file)) {}
+
+  const std::string& file() const { return file_; }
+  Location at(const toml::source_region& region) const;
+
+  /// The whole file. @throws InputError when `text` is not TOML or not UTF-8
+  toml::table parse(const std::string& text) const;
+
+  [[noreturn]] void fail(const toml::node& node, const std::string& problem, const std::string& why,
+                         const std::string& suggestion) const;
+  [[noreturn]] void wrong_type(const toml::node& node, const std::string& name,
+                               const std::string& wanted, const std::string& example) const;
+
+  /// Refuses keys of `table` (called `name` in the message) that are not in `known`.
+  void allow_only(const toml::table& table, const std::string& name,
+                  const std::vector<std::string>& known) const;
+
+  /// The table `name` of `parent`, or null when there is none.
+  const toml::table* table(const toml::table& parent, const std::string& name) const;
+  const toml::table& table(const toml::node& node, const std::string& name) const;
+  const toml::array& array(const toml::node& node, const std::string& name,
+                           const std::string& example) const;
+  std::string string(const toml::node& node, const std::string& name,
+                     const std::string& example) const;
+  double number(const toml::node& node, const std::string& name) const;  ///< finite
+  std::int64_t integer(const toml::node& node, const std::string& name) const;
+  bool boolean(const toml::node& node, const std::string& name) const;
+
+ private:
+  std::string file_;
+};
+
+}  // namespace recoil

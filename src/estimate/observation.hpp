@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+
+#include "estimate/point_conditions.hpp"
+
+namespace recoil {
+
+/// What was measured at one point.
+struct MeasuredPoint {
+  std::size_t dataset = 0;
+  std::size_t series = 0;
+  double diameter = 0.0;     ///< [m]
+  double velocity = 0.0;     ///< [m/s]
+  double restitution = 0.0;  ///< mean e of the impacts that rebounded [1]
+  bool censored = false;     ///< all spheres of this point were captured
+
+  int events = 1;                 ///< impacts, captured ones included
+  int captured = 0;               ///< how many of them were captured
+  bool counted = false;           ///< captures were counted: `captured = 0` is a measurement
+  bool rebound_measured = false;  ///< e is the quotient of two velocities: it shares the error of V
+  double velocity_sd = 0.0;       ///< [m/s]; 0: none
+  double diameter_sd = 0.0;       ///< [m]; 0: none
+
+  int rebounds() const { return events - captured; }
+  /// Are there both rebounds and captures among the impacts of this point?
+  bool mixed() const { return captured > 0 && !censored; }
+  PointConditions conditions() const { return {dataset, diameter, velocity, series}; }
+};
+
+/// The predicted e^2 at which one point is most likely, and the deviance D = -2 ln L there.
+struct DeviancePeak {
+  double at = 0.0;         ///< [1]
+  double deviance = 0.0;   ///< D(at)
+  double curvature = 0.0;  ///< D''(at), > 0
+  double third = 0.0;      ///< D'''(at)
+};
+
+/// What weights one point. All but a stated `sd` is renewed round by round at the parameters of the
+/// round before, see `renew_weights`.
+struct PointWeights {
+  double sd = 0.0;          ///< standard deviation of the mean e: stated, or estimated [1]
+  double proximity = 0.0;   ///< to capture, (V* / V)^2, at most 1; only where noise is estimated
+  double input_sd = 0.0;    ///< sd of e^2 that the errors of V and d cause [1]
+  double input_bias = 0.0;  ///< what the curvature of e^2 over these errors amounts to [1]
+  double scatter = 0.0;     ///< sd of e^2 from impact to impact [1]; 0: not in use
+  double shift = 0.0;       ///< mean e^2 of the impacts minus that of the mean impact [1]
+  double mean_sd = 0.0;     ///< sd of the mean e with its share of input_sd, beside scatter [1]
+  DeviancePeak peak;        ///< where scatter is in use and some sphere rebounded
+};
+
+/// A point as the estimator sees it.
+struct Observation : MeasuredPoint {
+  PointWeights weights;
+
+  /// Standard deviation of a single impact's e [1]: n independent impacts make a mean of sd.
+  double event_sd() const;
+};
+
+}  // namespace recoil

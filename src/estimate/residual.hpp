@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "estimate/observation.hpp"
+#include "estimate/student.hpp"
+
+namespace recoil {
+
+/// The weighted residual of one point and its derivative with respect to the predicted e^2: the
+/// signed root of its deviance, r = sign(m_best - m) sqrt(D(m) - D(m_best)), so that the sum of r^2
+/// is -2 ln likelihood but for a constant.
+///
+/// A mean of rebounds. With y = e^2 - sigma^2 (unbiased for the square of the mean), m the
+/// predicted e^2, continued below zero for a capture, and tau = input_sd,
+///   r = (y - m) / sqrt(sigma^2 ((e + psi(m))^2 + 2 sigma^2) + tau^2),
+///   psi(m) = sqrt((m + sqrt(m^2 + sigma^4)) / 2).
+/// Away from capture psi = sqrt(m) and r is (e - e_model) / sigma: the Gaussian residual, without
+/// the bias of weights taken from noisy points. Through capture it stays smooth, and its variance
+/// is that of e^2, 4 e^2 sigma^2 + 2 sigma^4 (the floor).
+///
+/// All n captured: the Tobit residual sqrt(-2 n_eff ln Phi(-m / s)), which vanishes where the model
+/// captures. Where the impacts differ (`scatter`), s^2 = scatter^2 + tau^2, and what they share
+/// (tau) makes them fewer: n_eff = 1 + (n - 1) scatter^2 / s^2. Where nothing is known of that, the
+/// point is one observation, s^2 = 2 sigma^4 + tau^2 that of the mean: errors of measuring e, of
+/// which sigma sqrt(n) may consist, let no sphere stick, and taken for impacts that differ they
+/// would hold a captured point far below the capture velocity.
+///
+/// Impacts that differ (`scatter` > 0): every impact has its own x = m + shift + scatter z, z
+/// normal; x < 0 is captured, else e = sqrt(x). With u = (m + shift) / scatter,
+///   D = -2 (k ln Phi(-u) + (n - k) ln Phi(u)) + (e - sqrt(scatter) G(u))^2 / mean_sd^2,
+/// G of `root_of_positive_normal`: the mean of the survivors is compared with the expected mean of
+/// survivors, which lies above the curve close to capture. The counts are left out where nobody
+/// counted.
+///
+/// Student's t (`student`): r becomes sign(r) c sqrt((nu + 1) ln(1 + r^2 / nu)), see StudentNoise.
+WeightedResidual weighted_residual(const Observation& point, double restitution_squared,
+                                   const std::optional<StudentNoise>& student = std::nullopt);
+
+/// Finds `peak` of a point with scatter, for its present weights.
+void locate_peak(Observation& point);
+
+/// The deviance of a point with scatter (see above), constants left out.
+double event_deviance(const Observation& point, double restitution_squared);
+
+/// Standard deviation of the mean e of the survivors of a point with scatter [1]: its own, but no
+/// less than what the scatter alone makes of so few (with two or three survivors a deviation stated
+/// from their differences may be anything).
+double survivors_sd(const Observation& point, double restitution_squared);
+
+/// What the mean e of the rebounds of this point should be where the model predicts
+/// `restitution_squared`: sqrt(e^2), or the mean of the survivors [1].
+double expected_restitution(const Observation& point, double restitution_squared);
+
+}  // namespace recoil

@@ -1,0 +1,202 @@
+#include "estimate/reweighting.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "estimate/impact_problem.hpp"
+#include "estimate/misfit.hpp"
+#include "estimate/weights.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int most_rounds = 25;
+constexpr double least_scale = 1e-6;  // of e: no measurement is better
+
+/// The steps of the parameters in units of their standard errors (of their values, without one).
+std::vector<double> relative_steps(const LeastSquaresResult& run,
+                                   const std::vector<double>& before) {
+  const std::size_t p = before.size();
+  std::vector<double> steps(p, 0.0);
+  for (std::size_t j = 0; j < p; ++j) {
+    const double error = run.covariance.empty() ? 0.0 : std::sqrt(run.covariance[j * p + j]);
+    const double unit = error > 0.0 ? error : std::abs(run.theta[j]);
+    const double step = run.theta[j] - before[j];
+    if (step != 0.0) steps[j] = step / unit;
+  }
+  return steps;
+}
+
+double largest(const std::vector<double>& steps) {
+  double most = 0.0;
+  for (const double step : steps) most = std::max(most, std::abs(step));
+  return most;
+}
+
+/// Where the rounds lead when each of their steps is the same part of the one before (Aitken): the
+/// weights and the parameters may creep towards each other by a fifth of the way at a time.
+class Extrapolation {
+ public:
+  /// The start of the next round after one from `before` to `run.theta`.
+  std::vector<double> next(const ImpactModel& model, const LeastSquaresResult& run,
+                           const std::vector<double>& before, std::vector<double> steps) {
+    double dot = 0.0;
+    double square = 0.0;
+    for (std::size_t j = 0; j < last_.size(); ++j) {
+      dot += steps[j] * last_[j];
+      square += last_[j] * last_[j];
+    }
+    const double ratio = square > 0.0 ? dot / square : 0.0;
+    constexpr double slow = 0.3;
+    constexpr double steady = 0.95;  // beyond it the steps do not shrink, and lead nowhere
+    std::vector<double> theta = run.theta;
+    if (!(ratio > slow && ratio < steady)) {
+      last_ = std::move(steps);
+      return theta;
+    }
+    last_.clear();  // the step after a leap says nothing about the series
+    for (std::size_t j = 0; j < theta.size(); ++j) {
+      const ParameterSlot& slot = model.slots[j];
+      if (!slot.free || run.at_bound[j]) continue;
+      const double leap = theta[j] + ratio / (1.0 - ratio) * (theta[j] - before[j]);
+      if (leap > slot.lower && leap < slot.upper) theta[j] = leap;
+    }
+    return theta;
+  }
+
+ private:
+  std::vector<double> last_;
+};
+
+ReweightedFit reweight_with(const ImpactModel& model, Observations data,
+                            std::span<const double> start, const ReweightingOptions& options) {
+  ReweightedFit result;
+  result.data = std::move(data);
+  std::vector<double> theta(start.begin(), start.end());
+  double& noise_scale = result.data.noise.scale;
+  Extrapolation extrapolation;
+  for (int round = 0; round < most_rounds; ++round) {
+    const auto predicted = renew_weights(model, theta, result.data);
+    if (!predicted) {
+      result.run.converged = false;
+      result.run.message = "the model has no answer beside a point, where the weights need one";
+      return result;
+    }
+    result.run = minimise(impact_problem(model, result.data), theta, options.minimiser);
+    if (!result.run.converged) return result;
+    double scale = 1.0;
+    if (!result.data.sd_stated) {
+      scale = misfit(result.data, result.run.residuals, *predicted, model.free_count()).scale();
+      // Data without noise would let the scale shrink for ever.
+      result.at_rest = noise_scale * scale < least_scale;
+      if (result.at_rest) break;
+    }
+    std::vector<double> steps = relative_steps(result.run, theta);
+    result.at_rest = largest(steps) < options.parameters && std::abs(scale - 1.0) < options.scale;
+    if (result.at_rest) break;
+    theta = extrapolation.next(model, result.run, theta, std::move(steps));
+    noise_scale *= scale;
+  }
+  return result;
+}
+
+/// -2 ln restricted likelihood but for a constant that the variance functions share.
+double restricted_criterion(const ImpactModel& model, const ReweightedFit& result) {
+  const LeastSquaresResult& run = result.run;
+  const auto& points = result.data.points;
+  const std::optional<StudentNoise>& student = result.data.noise.student;
+  const double unit = student ? student->calibration() : 1.0;
+  double criterion = run.sum_of_squares / unit;
+  for (const Observation& point : points) {
+    if (point.censored) continue;
+    if (point.weights.scatter > 0.0)
+      criterion += point.weights.peak.deviance;  // the residual is what lies above
+    criterion +=
+        2.0 * std::log(point.weights.scatter > 0.0 ? point.weights.mean_sd : point.weights.sd);
+  }
+  const std::size_t p = run.theta.size();
+  std::vector<std::size_t> free;
+  for (std::size_t j = 0; j < p; ++j) {
+    if (model.slots[j].free) free.push_back(j);
+  }
+  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(points.size()),
+                           static_cast<Eigen::Index>(free.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          run.jacobian[i * p + free[k]];
+    }
+  }
+  if (free.empty()) return criterion;
+  const Eigen::VectorXd diagonal =
+      jacobian.householderQr().matrixQR().diagonal().cwiseAbs().array().log();
+  const double log_determinant = 2.0 * diagonal.sum();
+  return std::isfinite(log_determinant) ? criterion + log_determinant : criterion;
+}
+
+}  // namespace
+
+double penalty_of(VarianceFunction function) {
+  switch (function) {
+    case VarianceFunction::constant:
+    case VarianceFunction::capture:
+      return 2.0;
+    case VarianceFunction::proportional:
+      return 4.0;
+    case VarianceFunction::steep:
+    case VarianceFunction::stated:
+      break;
+  }
+  return 0.0;
+}
+
+double choice_margin(const NoiseModel& noise) {
+  double own = 0.0;
+  double other = INFINITY;
+  for (const VarianceCandidate& candidate : noise.candidates) {
+    if (candidate.function == noise.variance) {
+      own = candidate.criterion + penalty_of(candidate.function);
+    } else {
+      other = std::min(other, candidate.criterion + penalty_of(candidate.function));
+    }
+  }
+  return std::isfinite(other) ? other - own : 0.0;
+}
+
+ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
+                             std::span<const double> start, const ReweightingOptions& options) {
+  if (!data.weights_depend_on_fit()) {
+    ReweightedFit result{{}, std::move(data), true};
+    result.run = minimise(impact_problem(model, result.data), start, options.minimiser);
+    return result;
+  }
+  if (data.sd_stated || data.spec.variance) {
+    return reweight_with(model, std::move(data), start, options);
+  }
+  std::optional<ReweightedFit> best;
+  double best_criterion = INFINITY;
+  std::vector<VarianceCandidate> candidates;
+  for (const VarianceFunction function :
+       {VarianceFunction::constant, VarianceFunction::proportional, VarianceFunction::capture,
+        VarianceFunction::steep}) {
+    Observations own = data;
+    own.noise.variance = function;
+    ReweightedFit result = reweight_with(model, std::move(own), start, options);
+    if (!result.run.converged) {
+      if (!best) best = std::move(result);
+      continue;
+    }
+    const double criterion = restricted_criterion(model, result);
+    candidates.push_back({function, result.data.noise.scale, criterion});
+    if (criterion + penalty_of(function) < best_criterion) {
+      best_criterion = criterion + penalty_of(function);
+      best = std::move(result);
+    }
+  }
+  best->data.noise.candidates = std::move(candidates);
+  return std::move(*best);
+}
+
+}  // namespace recoil

@@ -1,0 +1,325 @@
+#include "estimate/weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/roots.hpp"
+#include "estimate/capture_velocity.hpp"
+#include "estimate/impact_problem.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
+#include "estimate/survivors.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double proportional_floor = 0.1;  // e below which relative noise stays as it is
+constexpr double steepness = 2.0;           // of ln sd in (V* / V)^2
+constexpr double first_spread = 0.05;       // omega of the first round
+constexpr double near_reach = 0.7;          // in ln omega: a factor of two
+constexpr double least_spread = 2e-3;
+constexpr double largest_spread = 0.6;
+// Where e^2 exceeds its scatter so many times, survivors are all there are: sqrt(e^2) is their mean
+// to a relative 1 / (8 * 30^2) = 1.4e-4.
+constexpr double far_from_capture = 30.0;
+
+/// e^2 at one point and its first two derivatives in the logarithm of V or d.
+struct Local {
+  double value = 0.0;
+  double slope = 0.0;
+  double bend = 0.0;
+};
+
+/// sd of a mean of `rebounds` impacts at predicted e^2 = m.
+double function_sd(VarianceFunction function, double scale, double m, double proximity,
+                   int rebounds) {
+  const double s = scale / std::sqrt(static_cast<double>(std::max(1, rebounds)));
+  const double square = std::max(m, 0.0);
+  if (function == VarianceFunction::proportional) {
+    return s * std::sqrt(square + proportional_floor * proportional_floor);
+  }
+  if (function == VarianceFunction::capture) {
+    // 4 e^2 sd^2 + 2 sd^4 = s^2, the variance of e^2 for a normal e.
+    return s * std::sqrt(0.5 / (square + std::sqrt(square * square + 0.5 * s * s)));
+  }
+  if (function == VarianceFunction::steep) return s * std::exp(steepness * proximity);
+  return s;
+}
+
+/// Over what step in ln V or ln d an error of this relative size is felt.
+double error_step(double relative) {
+  constexpr double shortest = 1e-3;
+  constexpr double longest = 0.3;
+  return std::clamp(relative, shortest, longest);
+}
+
+/// Everything is asked of the model at once, in the order in which it is needed.
+class Renewal {
+ public:
+  enum class What { everything, event_spread };
+
+  explicit Renewal(Observations& data, What what = What::everything)
+      : data_(data), everything_(what == What::everything) {
+    for (const Observation& point : data.points) {
+      mixed_ = mixed_ || point.mixed();
+    }
+    if (!mixed_) forget_scatter();
+    if (mixed_ && !(data.noise.event_spread > 0.0)) data.noise.event_spread = first_spread;
+  }
+
+  /// Where the answers of the model are needed.
+  std::vector<PointConditions> questions() const {
+    std::vector<PointConditions> all;
+    const auto beside = [&](const Observation& p, double h, bool in_velocity) {
+      for (const double factor : {std::exp(h), std::exp(-h)}) {
+        all.push_back({p.dataset, p.diameter * (in_velocity ? 1.0 : factor),
+                       p.velocity * (in_velocity ? factor : 1.0), p.series});
+      }
+    };
+    for (const Observation& p : data_.points) {
+      all.push_back(p.conditions());
+      if (everything_ && p.velocity_sd > 0.0)
+        beside(p, error_step(p.velocity_sd / p.velocity), true);
+      if (everything_ && p.diameter_sd > 0.0)
+        beside(p, error_step(p.diameter_sd / p.diameter), false);
+      if (mixed_) beside(p, std::sqrt(3.0) * data_.noise.event_spread, true);
+    }
+    return all;
+  }
+
+  /// @returns the predicted e^2 of the points
+  std::vector<double> learn(const std::vector<Prediction>& answers) {
+    auto next = answers.begin();
+    const auto value = [&] { return (next++)->restitution_squared; };
+    const auto local = [&](double middle, double h) {
+      const double more = value();
+      const double less = value();
+      return Local{middle, (more - less) / (2.0 * h), (more - 2.0 * middle + less) / (h * h)};
+    };
+    std::vector<double> predicted;
+    std::vector<Local> locals;
+    for (Observation& point : data_.points) {
+      const double m = value();
+      predicted.push_back(m);
+      if (everything_) set_errors(point, m, local);
+      if (mixed_) locals.push_back(local(m, std::sqrt(3.0) * data_.noise.event_spread));
+    }
+    if (mixed_) estimate_scatter(locals);
+    return predicted;
+  }
+
+  /// The data with event_spread times `factor` and nothing else changed.
+  Observations with_spread(const std::vector<Prediction>& answers, double factor) const {
+    Observations changed = data_;
+    changed.noise.event_spread *= factor;
+    for (std::size_t i = 0; i < changed.points.size(); ++i) {
+      const double middle = answers[3 * i].restitution_squared;
+      const double more = answers[3 * i + 1].restitution_squared;
+      const double less = answers[3 * i + 2].restitution_squared;
+      const double h = std::sqrt(3.0) * data_.noise.event_spread;
+      Observation& point = changed.points[i];
+      if (!(point.weights.scatter > 0.0)) continue;
+      set_scatter(point,
+                  {middle, (more - less) / (2.0 * h), (more - 2.0 * middle + less) / (h * h)},
+                  changed.noise.event_spread);
+      if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
+    }
+    return changed;
+  }
+
+ private:
+  /// A replicate may have no point with both rebounds and captures though its original had one.
+  void forget_scatter() {
+    data_.noise.event_spread = 0.0;
+    for (Observation& point : data_.points) {
+      point.weights.scatter = 0.0;
+      point.weights.shift = 0.0;
+    }
+  }
+
+  /// The estimated sd and the effective variance of one point where e^2 is `m`; `local` gives the
+  /// next derivatives.
+  template <class NextLocal>
+  void set_errors(Observation& point, double m, const NextLocal& local) const {
+    if (!data_.sd_stated) {
+      point.weights.sd =
+          function_sd(data_.noise.variance, data_.noise.scale, m, point.weights.proximity,
+                      point.censored ? point.events : point.rebounds());
+    }
+    double variance = 0.0;
+    point.weights.input_bias = 0.0;
+    for (const bool in_velocity : {true, false}) {
+      const double relative =
+          in_velocity ? point.velocity_sd / point.velocity : point.diameter_sd / point.diameter;
+      if (!(relative > 0.0)) continue;
+      const Local at = local(m, error_step(relative));
+      const double shared = in_velocity && point.rebound_measured ? 2.0 * std::max(m, 0.0) : 0.0;
+      variance += std::pow((at.slope + shared) * relative, 2);
+      point.weights.input_bias += 0.5 * at.bend * relative * relative;
+    }
+    point.weights.input_sd = std::sqrt(variance);
+  }
+
+  void set_scatter(Observation& point, const Local& at, double spread) const {
+    const double square = spread * spread;
+    point.weights.shift = 0.5 * square * at.bend;
+    point.weights.scatter =
+        std::sqrt(square * at.slope * at.slope + 0.5 * square * square * at.bend * at.bend);
+    const double u = (at.value + point.weights.shift) / point.weights.scatter;
+    if (!(u < far_from_capture) && point.captured == 0) {
+      point.weights.scatter = 0.0;
+      point.weights.shift = 0.0;
+      return;
+    }
+    const double slope = root_of_positive_normal(u).slope / std::sqrt(point.weights.scatter);
+    point.weights.mean_sd =
+        std::hypot(survivors_sd(point, at.value), slope * point.weights.input_sd);
+  }
+
+  double deviance(const std::vector<Local>& locals, double log_spread) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < locals.size(); ++i) {
+      Observation point = data_.points[i];
+      set_scatter(point, locals[i], std::exp(log_spread));
+      if (point.weights.scatter > 0.0) {
+        sum += event_deviance(point, locals[i].value);
+        if (!point.censored) sum += 2.0 * std::log(point.weights.mean_sd / point.weights.sd);
+      } else {
+        sum += std::pow(
+            (point.restitution - expected_restitution(point, locals[i].value)) / point.weights.sd,
+            2);
+      }
+    }
+    return sum;
+  }
+
+  /// omega by maximum likelihood at these parameters, and what follows for every point.
+  void estimate_scatter(const std::vector<Local>& locals) {
+    double& spread = data_.noise.event_spread;
+    spread = std::exp(lowest(locals));
+    for (std::size_t i = 0; i < locals.size(); ++i) {
+      Observation& point = data_.points[i];
+      set_scatter(point, locals[i], spread);
+      if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
+    }
+  }
+
+  /// The minimum of the deviance in ln omega: near the omega of the round before or, where that
+  /// lies on a slope, anywhere; by the golden section.
+  double lowest(const std::vector<Local>& locals) const {
+    const double before = std::log(data_.noise.event_spread);
+    constexpr double tolerance = 1e-3;  // of omega, relative
+    const auto at = [&](double log_spread) { return deviance(locals, log_spread); };
+    const double near =
+        find_minimum(at, std::max(before - near_reach, std::log(least_spread)),
+                     std::min(before + near_reach, std::log(largest_spread)), tolerance);
+    if (std::abs(near - before) < 0.95 * near_reach) return near;
+    constexpr int grid = 12;
+    const double from = std::log(least_spread);
+    const double stride = (std::log(largest_spread) - from) / grid;
+    int best = 0;
+    double best_value = INFINITY;
+    for (int i = 0; i <= grid; ++i) {
+      const double value = at(from + i * stride);
+      if (value < best_value) {
+        best = i;
+        best_value = value;
+      }
+    }
+    return find_minimum(at, from + std::max(best - 1, 0) * stride,
+                        from + std::min(best + 1, grid) * stride, tolerance);
+  }
+
+  Observations& data_;
+  bool everything_;
+  bool mixed_ = false;  ///< some point has both rebounds and captures
+};
+
+}  // namespace
+
+namespace {
+
+std::optional<std::vector<double>> renew(const ImpactModel& model, std::span<const double> theta,
+                                         Renewal renewal) {
+  const std::vector<Prediction> answers = predict(model, theta, renewal.questions(), false);
+  for (const Prediction& answer : answers) {
+    if (!answer.usable()) return std::nullopt;
+  }
+  return renewal.learn(answers);
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
+                                                 std::span<const double> theta,
+                                                 Observations& data) {
+  if (!data.sd_stated) {
+    for (Observation& point : data.points) {
+      const double ratio =
+          weakly_damped_capture(model, theta, point.dataset, point.diameter) / point.velocity;
+      point.weights.proximity = std::min(1.0, ratio * ratio);
+    }
+  }
+  return renew(model, theta, Renewal(data));
+}
+
+bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,
+                        Observations& data) {
+  if (!(data.noise.event_spread > 0.0)) return true;
+  return renew(model, theta, Renewal(data, Renewal::What::event_spread)).has_value();
+}
+
+std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<const double> theta,
+                                            const Observations& data, std::span<const double> C) {
+  if (!(data.noise.event_spread > 0.0) || C.empty()) return {};
+  Observations own = data;
+  const Renewal renewal(own, Renewal::What::event_spread);
+  const std::vector<Prediction> answers = predict(model, theta, renewal.questions(), false);
+  for (const Prediction& answer : answers) {
+    if (!answer.usable()) return {};
+  }
+  const std::size_t n = data.points.size();
+  const std::size_t p = theta.size();
+  constexpr double step = 0.1;
+  std::vector<double> deviance;             // T at ln omega - step, 0, + step
+  std::vector<std::vector<double>> slopes;  // half of dT / d theta there
+  for (const double by : {-step, 0.0, step}) {
+    const Observations there = renewal.with_spread(answers, std::exp(by));
+    std::vector<double> residuals(n);
+    std::vector<double> jacobian(n * p);
+    if (!impact_problem(model, there).evaluate(theta, residuals, jacobian)) return {};
+    deviance.push_back(event_spread_offset(there));
+    slopes.emplace_back(p, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      deviance.back() += residuals[i] * residuals[i];
+      for (std::size_t j = 0; j < p; ++j) slopes.back()[j] += residuals[i] * jacobian[i * p + j];
+    }
+  }
+  double information = 0.5 * (deviance[2] - 2.0 * deviance[1] + deviance[0]) / (step * step);
+  std::vector<double> b(p, 0.0);
+  for (std::size_t j = 0; j < p; ++j) {
+    for (std::size_t k = 0; k < p; ++k) {
+      b[j] -= C[j * p + k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);
+    }
+  }
+  for (std::size_t k = 0; k < p; ++k) {
+    information += b[k] * (slopes[2][k] - slopes[0][k]) / (2.0 * step);  // - g'C g
+  }
+  const double variance = 1.0 / std::max(information, 1.0);
+  std::vector<double> added(p * p);
+  for (std::size_t j = 0; j < p; ++j) {
+    for (std::size_t k = 0; k < p; ++k) added[j * p + k] = variance * b[j] * b[k];
+  }
+  return added;
+}
+
+double event_spread_offset(const Observations& data) {
+  double sum = 0.0;
+  for (const Observation& point : data.points) {
+    if (!(point.weights.scatter > 0.0) || point.censored) continue;
+    sum += point.weights.peak.deviance + 2.0 * std::log(point.weights.mean_sd / point.weights.sd);
+  }
+  return sum;
+}
+
+}  // namespace recoil

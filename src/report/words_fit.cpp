@@ -1,0 +1,96 @@
+#include "report/words_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/words_noise.hpp"
+
+namespace recoil {
+namespace {
+
+void add_about_data(const Observations& data, std::vector<std::string>& warnings) {
+  if (data.sd_stated) return;
+  if (data.sd_set_aside > 0) {
+    warnings.push_back(fmt::format(
+        "the standard deviations that {} points state (restitution_sd) are set aside: {}",
+        data.sd_set_aside,
+        data.spec.variance ? "the fit asks for an estimated variance function"
+                           : fmt::format("{} others state none, and two kinds of weights would not "
+                                         "be comparable",
+                                         data.sd_missing)));
+  }
+  warnings.emplace_back(
+      "the noise is estimated from the residuals: the fit cannot be tested against it");
+}
+
+void add_about_starts(const FitResult& fitted, std::vector<std::string>& warnings) {
+  for (const StartSummary& start : fitted.starts) {
+    for (const std::size_t j : start.differing) {
+      warnings.push_back(
+          fmt::format("tie: another start ends with the same chi2 at {} = {:.4g} instead of {:.4g}",
+                      fitted.model.slots[j].label(), start.end[j], fitted.best_start().end[j]));
+    }
+  }
+  const auto count = [&](StartOutcome outcome) {
+    return std::count_if(fitted.starts.begin(), fitted.starts.end(),
+                         [&](const StartSummary& start) { return start.outcome == outcome; });
+  };
+  if (const auto failed = count(StartOutcome::not_converged); failed > 0) {
+    warnings.push_back(
+        fmt::format("{} of {} starts did not converge", failed, fitted.starts.size()));
+  }
+  if (const auto worse = count(StartOutcome::worse); worse > 0) {
+    warnings.push_back(
+        fmt::format("{} of {} starts ended in a worse local minimum", worse, fitted.starts.size()));
+  }
+}
+
+void add_about_bounds(const FitResult& fitted, std::vector<std::string>& warnings) {
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    if (!fitted.at_bound[j]) continue;
+    const ParameterSlot& slot = fitted.model.slots[j];
+    const bool low = fitted.theta[j] <= 0.5 * (slot.lower + slot.upper);
+    warnings.push_back(fmt::format(
+        "{} rests on its {} bound {:.4g} {}: it has no symmetric error, and the errors of the "
+        "others are conditional on it",
+        slot.label(), low ? "lower" : "upper", low ? slot.lower : slot.upper,
+        slot.parameter->unit));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> fit_warnings(const FitResult& fitted) {
+  std::vector<std::string> warnings;
+  add_about_data(fitted.data, warnings);
+  if (fitted.unused_counts) {
+    warnings.push_back(fmt::format(
+        "{} says how the impacts of a point differ: the counts of captured spheres at {} points "
+        "with rebounds are not used beside it",
+        fitted.unused_counts->mechanism->info.id, fitted.unused_counts->points));
+  }
+  if (!fitted.usable) return warnings;
+  if (!fitted.weights_at_rest) {
+    warnings.emplace_back(
+        "the weights of the points still moved when their rounds ran out: the estimate depends on "
+        "where they stopped");
+  }
+  if (fitted.noise_verdict == NoiseVerdict::exceeded) warnings.push_back(widened_words(fitted));
+  if (fitted.strained_points > 0) {
+    warnings.push_back(fmt::format(
+        "at {} points the curve bends so much over the errors of velocity or diameter that their "
+        "effective variance (first order) is biased by more than {:.1g} standard deviations: close "
+        "to capture these errors are too large for it",
+        fitted.strained_points, strained_bias));
+  }
+  if (fitted.covariance.empty()) {
+    warnings.emplace_back(
+        "the points do not determine all free parameters (J'J is singular): no standard errors");
+  }
+  add_about_starts(fitted, warnings);
+  add_about_bounds(fitted, warnings);
+  return warnings;
+}
+
+}  // namespace recoil

@@ -1,0 +1,73 @@
+#include "report/words_import.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/units.hpp"
+#include "data/folder_names.hpp"
+#include "data/text.hpp"
+
+namespace recoil {
+namespace {
+
+std::string release_words(const ReleaseCheck& check) {
+  return fmt::format("{:g} mm: e = {:.3f} at the first bounce, {:.3f} at the second, {:+.1f} mm",
+                     check.height / units::mm, check.first, check.second,
+                     check.missing / units::mm);
+}
+
+}  // namespace
+
+std::string note_sentence(const ImportNote& note) {
+  switch (note.remark) {
+    case ImportRemark::diameter_not_used:
+      return "--diameter was not used: the file has a diameter for every point";
+    case ImportRemark::diameters_from_names:
+      return fmt::format("diameters were taken from the names of the series: {}",
+                         listed(note.names));
+    case ImportRemark::columns_not_used:
+      return fmt::format("columns not used: {}", listed(note.names));
+    case ImportRemark::no_reading_error:
+      return "no error of the digitisation is known: --axis x=log,1,100 --axis y=linear,0,1 "
+             "--reading-error 0.5% would turn one into velocity_sd and restitution_sd";
+    case ImportRemark::reading_error_alone:
+      return "restitution_sd holds the error of the reading alone; the scatter of the experiment "
+             "comes on top of it: state it with --scatter 10%, or let the fit estimate it with "
+             "[noise] variance = \"constant\" or \"capture\"";
+    case ImportRemark::few_drops:
+      return "from some heights there are fewer than five drops, too few for a standard error; "
+             "--rebound-error sets the least";
+    case ImportRemark::no_drop_error:
+      return "no error of the drop height is known: --drop-error 1mm would state one";
+    case ImportRemark::without_air:
+      return "V = sqrt(2 g h) leaves out the air, and both heights have to be those of the same "
+             "point of the ball";
+    case ImportRemark::bounces_missing:
+      return fmt::format("{} {} of intervals left out, because a bounce between them is missing",
+                         note.count, note.count == 1 ? "pair" : "pairs");
+    case ImportRemark::release_heights: {
+      std::vector<std::string> heights;
+      for (const ReleaseCheck& check : note.releases) heights.push_back(release_words(check));
+      return fmt::format(
+          "release heights, a check on which no point rests: by how much the ball seems to have "
+          "fallen further than stated, if its first bounce was like its second. {}. The same at "
+          "all heights would be an offset of the scale, such as another point of the ball",
+          fmt::join(heights, "; "));
+    }
+    case ImportRemark::shared_bounces:
+      return "successive points of one launch share the time of a bounce, so their errors are not "
+             "independent (an e too high is followed by one too low); a fit takes them as "
+             "independent";
+    case ImportRemark::no_source:
+      return "no source is stated: --source \"Author (year), journal, figure\" would state one";
+    case ImportRemark::licence_removed:
+      return "the licence of the reconstruction was removed: that of these points is not known";
+    case ImportRemark::recipe_set_aside:
+      return fmt::format(
+          "the folder is no reconstruction any more; its {} is kept as {}, for comparison only",
+          recipe_name, set_aside_recipe_name);
+  }
+  return "";
+}
+
+}  // namespace recoil
