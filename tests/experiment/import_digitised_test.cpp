@@ -27,7 +27,7 @@ TEST(Digitised, SeveralSeriesOfDifferentLength) {
   const Place place;
   auto request = place.request(kTwoSeries, kFormat);
   request.diameters = {"small=2.58um", "large=4.9 um"};
-  request.provenance.clear();
+  request.provenance.reset();
   const Dataset made = recoil::import_points(request).dataset;
   EXPECT_EQ(made.provenance, recoil::Provenance::digitised);
   EXPECT_EQ(made.series, (std::vector<std::string>{"small", "large"}));

@@ -99,7 +99,7 @@ TEST(Replace, PointsOfTheRecipeDoNotBecomeDigitised) {
   auto request = replacement(place, "wall1990-mica", own);
   EXPECT_THAT(complaint(request), HasSubstr("60 of 60 points are those of the reconstruction"));
   EXPECT_TRUE(place.has("datasets/wall1990-mica/recipe.toml"));
-  request.provenance = "synthetic";
+  request.provenance = recoil::Provenance::synthetic;
   EXPECT_EQ(complaint(request), "no complaint");
 }
 

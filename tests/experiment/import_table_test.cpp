@@ -103,7 +103,7 @@ TEST(Table, WhatNobodySaidIsAskedFor) {
               }),
               testing::StartsWith("recoil.particle.density = 2 kg/m3"));
   EXPECT_THAT(without([](Request& r) { r.surface.clear(); }), HasSubstr("give --surface FILE"));
-  EXPECT_THAT(without([](Request& r) { r.provenance.clear(); }),
+  EXPECT_THAT(without([](Request& r) { r.provenance.reset(); }),
               HasSubstr("give --provenance measured"));
   EXPECT_THAT(
       without([](Request& r) { r.particle = "material=x,youngs_modulus=1e9,poisson_ratio=0"; }),
