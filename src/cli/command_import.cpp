@@ -17,6 +17,7 @@ struct ImportFlags {
   ImportRequest request;
   std::string file;
   std::string format;
+  std::string provenance;
   std::string into;
   std::string like;
 };
@@ -31,6 +32,7 @@ void run_import(ImportFlags flags) {
                      "", did_you_mean(flags.format, all_names<ImportFormat>()));
   }
   flags.request.format = *format;
+  flags.request.provenance = value_named<Provenance>(flags.provenance);
   const ImportResult result = import_points(flags.request);
   fmt::print("{}", describe(result.dataset));
   for (const ImportNote& note : result.notes) fmt::print("note: {}\n", note_sentence(note));
@@ -80,7 +82,7 @@ void add_import(CLI::App& program) {
   command->add_option("--like", flags->like, "take the materials of this dataset");
   command->add_option("--adhesion-energy", r.adhesion_energy, "[J/m2]; 0: no adhesion");
   command
-      ->add_option("--provenance", r.provenance,
+      ->add_option("--provenance", flags->provenance,
                    "measured, digitised or synthetic (default: that of the format)")
       ->check(CLI::IsMember({"measured", "digitised", "synthetic"}));
   command->add_option("--title", r.title, "of the dataset");

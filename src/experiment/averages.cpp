@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/statistics.hpp"
 #include "core/units.hpp"
@@ -87,28 +88,16 @@ struct Moments {
   double sd = 0.0;
 };
 
+/// Of the values that are known: not negative.
 template <class Value>
 Moments moments_of(const std::vector<Arrival>& all, std::size_t begin, std::size_t end,
                    const Value& value) {
-  double sum = 0.0;
-  double n = 0.0;
+  std::vector<double> known;
   for (std::size_t i = begin; i < end; ++i) {
-    if (const double x = value(all[i]); x >= 0.0) {
-      sum += x;
-      ++n;
-    }
+    if (const double x = value(all[i]); x >= 0.0) known.push_back(x);
   }
-  Moments result;
-  if (n == 0.0) return result;
-  result.mean = sum / n;
-  if (n < 2.0) return result;
-  double squares = 0.0;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (const double x = value(all[i]); x >= 0.0) squares += (x - result.mean) * (x - result.mean);
-  }
-  result.sd = std::sqrt(squares / (n - 1.0));
-  if (result.sd < 1e-9 * result.mean) result.sd = 0.0;  // alike but for rounding
-  return result;
+  const Moments result = {mean(known), standard_deviation(known)};
+  return result.sd < 1e-9 * result.mean ? Moments{result.mean, 0.0} : result;  // but for rounding
 }
 
 /// Divides the unpaired of a bin among lost, too slow and captured.
@@ -122,7 +111,7 @@ void sort_unpaired(PointMean& point, double lost_share, double height, double by
     const double distance = (point.restitution - slowest) / point.scatter;
     point.slow_known = distance >= 1.0;
     if (point.slow_known) {
-      const double hidden = 0.5 * std::erfc(distance / std::sqrt(2.0));
+      const double hidden = 0.5 * std::erfc(distance / std::numbers::sqrt2);
       point.too_slow = rebounds * hidden / (1.0 - hidden);
     }
   }

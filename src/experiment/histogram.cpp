@@ -14,7 +14,7 @@ std::size_t sturges_bins(std::size_t n) {
   return static_cast<std::size_t>(std::ceil(1.0 + std::log2(static_cast<double>(n)) - 1e-9));
 }
 
-Histogram filled(const std::vector<double>& values, std::size_t bins, const std::string& rule) {
+Histogram filled(const std::vector<double>& values, std::size_t bins, HistogramRule rule) {
   Histogram histogram;
   histogram.rule = rule;
   if (values.empty()) return histogram;
@@ -37,7 +37,8 @@ Histogram filled(const std::vector<double>& values, std::size_t bins, const std:
 }  // namespace
 
 Histogram sturges(const std::vector<double>& values) {
-  return filled(values, sturges_bins(std::max<std::size_t>(values.size(), 1)), "sturges");
+  return filled(values, sturges_bins(std::max<std::size_t>(values.size(), 1)),
+                HistogramRule::sturges);
 }
 
 Histogram freedman_diaconis(const std::vector<double>& values) {
@@ -52,7 +53,7 @@ Histogram freedman_diaconis(const std::vector<double>& values) {
       bins = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(most_bins)));
     }
   }
-  return filled(values, bins, "freedman-diaconis");
+  return filled(values, bins, HistogramRule::freedman_diaconis);
 }
 
 }  // namespace recoil

@@ -1,14 +1,25 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <string>
+#include <string_view>
 #include <vector>
+
+#include "core/names.hpp"
 
 namespace recoil {
 
+/// How the number of bins is found.
+enum class HistogramRule { sturges, freedman_diaconis };
+
+template <>
+struct NamesOf<HistogramRule> {
+  static constexpr std::array<std::string_view, 2> names = {"sturges", "freedman-diaconis"};
+};
+
 /// Counts in bins of equal width from the smallest to the largest value.
 struct Histogram {
-  std::string rule;  ///< "sturges" or "freedman-diaconis"
+  HistogramRule rule = HistogramRule::sturges;
   double lower = 0.0;
   double width = 1.0;
   std::vector<std::size_t> counts;

@@ -45,7 +45,7 @@ struct ImportRequest {
   std::filesystem::path like;             ///< a dataset whose materials are the same
   std::optional<double> adhesion_energy;  ///< [J/m2]; 0: no adhesion
 
-  std::string provenance;  ///< empty: that of the format
+  std::optional<Provenance> provenance;  ///< that of the format when it is not stated
   std::string title;
   std::vector<std::string> sources;
 

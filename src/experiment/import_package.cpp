@@ -59,9 +59,9 @@ Json material(const std::string& words, const std::string& option) {
 }
 
 Json recoil_block(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
-                  const std::string& provenance) {
+                  Provenance provenance) {
   Json block;
-  block["provenance"] = provenance;
+  block["provenance"] = to_string(provenance);
   Json stated = existing ? existing->json["recoil"] : Json::object();
   if (!request.like.empty()) stated = stated_system(request.like);
   if (!request.particle.empty()) stated["particle"] = material(request.particle, "--particle");
@@ -83,20 +83,20 @@ Json recoil_block(const ImportRequest& request, const std::optional<ExistingPack
   return block;
 }
 
-std::string provenance_for(const ImportRequest& request,
-                           const std::optional<ExistingPackage>& existing) {
-  if (!request.provenance.empty()) return request.provenance;
+Provenance provenance_for(const ImportRequest& request,
+                          const std::optional<ExistingPackage>& existing) {
+  if (request.provenance) return *request.provenance;
   switch (request.format) {
     case ImportFormat::webplotdigitizer:
-      return "digitised";
+      return Provenance::digitised;
     case ImportFormat::heights:
     case ImportFormat::intervals:
-      return "measured";
+      return Provenance::measured;
     case ImportFormat::csv:
       break;
   }
-  if (existing && existing->provenance == Provenance::reconstruction) return "digitised";
-  if (existing) return to_string(existing->provenance);
+  if (existing && existing->provenance == Provenance::reconstruction) return Provenance::digitised;
+  if (existing) return existing->provenance;
   throw InputError({}, "the provenance of these points is not known", "every result states it",
                    "give --provenance measured, or digitised when they were read off a figure");
 }
@@ -241,7 +241,7 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
 std::string imported_package(const ImportRequest& request, const PointsText& points,
                              const std::optional<ExistingPackage>& existing,
                              std::vector<ImportNote>& notes) {
-  const std::string provenance = provenance_for(request, existing);
+  const Provenance provenance = provenance_for(request, existing);
   const bool was_reconstruction = existing && existing->provenance == Provenance::reconstruction;
   Json package = existing ? existing->json : Json::object();
   if (!package.contains("name")) package["name"] = name_for(request.into);

@@ -17,7 +17,7 @@ std::string bins_csv(const std::vector<double>& values, double unit) {
   for (const Histogram& histogram : {sturges(values), freedman_diaconis(values)}) {
     for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
       out += fmt::format(
-          "{},{:.6g},{:.6g},{:.6g},{},{:.6g}\n", histogram.rule, histogram.edge(i) / unit,
+          "{},{:.6g},{:.6g},{:.6g},{},{:.6g}\n", name_of(histogram.rule), histogram.edge(i) / unit,
           histogram.edge(i + 1) / unit, histogram.middle(i) / unit, histogram.counts[i],
           static_cast<double>(histogram.counts[i]) / static_cast<double>(values.size()));
     }

@@ -51,7 +51,7 @@ std::vector<Link> chosen_of(const std::vector<Link>& links, std::size_t passages
 /// probe volume where it is taken, which at low speed changes it by g dh / v^2.
 double local_scatter(double velocity_sd, double speed, double height, const PairModel& model) {
   const double place = height * model.height_sd.at(std::log(speed));
-  return std::hypot(velocity_sd, std::min(flight::gravity * place / (speed * speed), 0.2));
+  return std::hypot(velocity_sd, std::min(standard_gravity * place / (speed * speed), 0.2));
 }
 
 /// Returns with the time above the plane multiplied by `scale`; nothing when it takes too long.

@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/dataset.hpp"
-#include "dataset_folder.hpp"
+#include "support/dataset_folder.hpp"
 
 namespace recoil {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "dataset_folder.hpp"
+#include "support/dataset_folder.hpp"
 
 namespace example {
 namespace {

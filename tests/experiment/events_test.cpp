@@ -111,22 +111,22 @@ TEST(Events, RunsHaveTheirOwnTime) {
 }
 
 TEST(Events, MistakesOfTheUser) {
-  EXPECT_NE(complaint("time,velocity\n1,2\n").find("dir/e.csv:1:1: no column 'diameter'"),
+  EXPECT_NE(complaint("time,velocity\n1,2\n").find("dir/e.csv:1:1: there is no column 'diameter'"),
             std::string::npos);
   EXPECT_NE(complaint("time,velocity,diameter\n1,2,3\n", {}).find("the unit of 'time'"),
             std::string::npos);
   EventFormat wrong = plain_units();
   wrong.units["diameter"] = "m/s";
-  EXPECT_NE(complaint("time,velocity,diameter\n1,2,3\n", wrong).find("use um, mm, m"),
+  EXPECT_NE(complaint("time,velocity,diameter\n1,2,3\n", wrong).find("use um"),
             std::string::npos);
   EventFormat unknown = plain_units();
   unknown.units["velocty"] = "m/s";
   EXPECT_NE(complaint("time,velocity,diameter\n1,2,3\n", unknown).find("did you mean 'velocity'?"),
             std::string::npos);
   EXPECT_NE(complaint("").find("the file is empty"), std::string::npos);
-  EXPECT_NE(complaint("time,velocity,diameter\n").find("no events"), std::string::npos);
+  EXPECT_NE(complaint("time,velocity,diameter\n").find("no row below it"), std::string::npos);
   const std::string commas = complaint("time;velocity;diameter\n1,5;2;3\n1,6;2;3\n1;2;3\n");
-  EXPECT_NE(commas.find("dir/e.csv:2:1: time is '1,5' (like this, 2 of 3 rows"), std::string::npos)
+  EXPECT_NE(commas.find("dir/e.csv:2:1: time is '1,5' (2 of 3 rows"), std::string::npos)
       << commas;
 }
 

@@ -27,7 +27,7 @@ TEST(Digitised, SeveralSeriesOfDifferentLength) {
   const Place place;
   auto request = place.request(kTwoSeries, kFormat);
   request.diameters = {"small=2.58um", "large=4.9 um"};
-  request.provenance.clear();
+  request.provenance.reset();
   const Dataset made = recoil::import_points(request).dataset;
   EXPECT_EQ(made.provenance, recoil::Provenance::digitised);
   EXPECT_EQ(made.series, (std::vector<std::string>{"small", "large"}));
@@ -58,7 +58,7 @@ TEST(Digitised, PixelsNeedTheLengthOfTheAxis) {
   auto request = place.request(kTwoSeries, kFormat);
   request.axes = {"x=linear,0,100,800px", "y=linear,0,1"};
   request.reading_error = "2px";
-  EXPECT_THAT(complaint(request), HasSubstr("--axis y without"));
+  EXPECT_THAT(complaint(request), HasSubstr("the length of --axis y in pixels"));
   request.axes[1] = "y=linear,0,1,500px";
   const Dataset made = recoil::import_points(request).dataset;
   EXPECT_NEAR(*made.points[0].velocity_sd, 0.25, 1e-9);
@@ -116,7 +116,7 @@ TEST(Digitised, SemicolonsAndMistakes) {
               HasSubstr("input.csv:3:3: 'abc' is not a number"));
   EXPECT_THAT(complaint(other.request("V,e\n2,0.5\n", kFormat)),
               HasSubstr("this is not WebPlotDigitizer's CSV"));
-  EXPECT_THAT(complaint(other.request("s,\nX,Y\n2,\n", kFormat)), HasSubstr("half a point of 's'"));
+  EXPECT_THAT(complaint(other.request("s,\nX,Y\n2,\n", kFormat)), HasSubstr("a point of 's' lacks x or y"));
   auto request = other.request("2,0.5\n", kFormat);
   request.reading_error = "0.5%";
   EXPECT_THAT(complaint(request), HasSubstr("--reading-error without --axis x"));

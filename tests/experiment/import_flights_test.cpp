@@ -164,7 +164,7 @@ TEST(Intervals, WhatIsAskedFor) {
   EXPECT_THAT(complaint(request), HasSubstr("--gravity 'fast'"));
   request.gravity = "9.8";
   request.time_error = "3";
-  EXPECT_THAT(complaint(request), HasSubstr("--time-error '3': no number with a unit"));
+  EXPECT_THAT(complaint(request), HasSubstr("--time-error '3' is no number with a unit"));
   auto doubled = place.request("t\n0.2\n0.4\n", ImportFormat::intervals);
   doubled.map = {"interval=t:s"};
   EXPECT_THAT(complaint(doubled), HasSubstr("input.csv:3:1: restitution = 2"));

@@ -13,7 +13,7 @@ recoil::ImportRequest Place::request(const std::string& text, recoil::ImportForm
   request.diameters = {"2um"};
   request.particle = "material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35";
   request.surface = "material=silicon,youngs_modulus=131e9,poisson_ratio=0.28";
-  request.provenance = "measured";
+  request.provenance = recoil::Provenance::measured;
   request.sources = {"A test"};
   return request;
 }

@@ -83,7 +83,7 @@ TEST(Replace, ReconstructSaysThatItIsNoneAndSiblingsStillCompare) {
   const auto folder = [&](const char* id) { return (place.folder() / "datasets" / id).string(); };
   const support::Outcome none = at.run({"reconstruct", folder("wall1990-molybdenum"), "--check"});
   EXPECT_EQ(none.status, 2);
-  EXPECT_THAT(none.err, HasSubstr("this is no reconstruction (it has no recipe.toml)"));
+  EXPECT_THAT(none.err, HasSubstr("this is no reconstruction"));
   EXPECT_THAT(none.err, HasSubstr("recipe-set-aside.toml"));
   // Writing is refused as well: the new points stay.
   EXPECT_EQ(at.run({"reconstruct", folder("wall1990-molybdenum")}).status, 2);
@@ -99,7 +99,7 @@ TEST(Replace, PointsOfTheRecipeDoNotBecomeDigitised) {
   auto request = replacement(place, "wall1990-mica", own);
   EXPECT_THAT(complaint(request), HasSubstr("60 of 60 points are those of the reconstruction"));
   EXPECT_TRUE(place.has("datasets/wall1990-mica/recipe.toml"));
-  request.provenance = "synthetic";
+  request.provenance = recoil::Provenance::synthetic;
   EXPECT_EQ(complaint(request), "no complaint");
 }
 

@@ -22,7 +22,7 @@ recoil::ImportRequest request_for(const std::string& format, const fs::path& pla
   request.diameters = {"2um"};
   request.particle = "material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35";
   request.surface = "material=silicon,youngs_modulus=131e9,poisson_ratio=0.28";
-  request.provenance = "measured";
+  request.provenance = recoil::Provenance::measured;
   request.sources = {"a test"};
   request.format = recoil::value_named<recoil::ImportFormat>(format).value_or(request.format);
   switch (request.format) {

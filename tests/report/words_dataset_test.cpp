@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "../data/dataset_folder.hpp"
+#include "support/dataset_folder.hpp"
 
 namespace recoil {
 namespace {

@@ -1,4 +1,4 @@
-#include "dataset_folder.hpp"
+#include "support/dataset_folder.hpp"
 
 #include "data/dataset.hpp"
 
