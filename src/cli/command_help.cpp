@@ -27,7 +27,7 @@ void list_topics() {
 
 void print_topic(const CLI::App& program, const std::string& topic) {
   if (const ManualPage* page = find_manual_page(topic)) {
-    fmt::print("{}", terminal_text(page->text));
+    fmt::print("{}", terminal_markdown(page->text));
     return;
   }
   std::vector<std::string> known = manual_topics();

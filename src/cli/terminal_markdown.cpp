@@ -3,17 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
+
+#include "document/terminal.hpp"
 
 namespace recoil {
 namespace {
 
 using Cells = std::vector<std::string>;
-
-constexpr std::size_t least_column = 8;
-constexpr std::size_t longest_undivided = 40;
-constexpr std::string_view column_gap = "  ";
 
 bool starts_with(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -88,40 +85,6 @@ std::string plain(std::string_view text) {
   return out;
 }
 
-/// Where a word that is too long for a line is divided: after the last comma or point that fits.
-std::size_t division(std::string_view word, std::size_t width) {
-  const std::size_t after = word.substr(0, width).find_last_of(",./");
-  return after == std::string_view::npos || after < width / 2 ? width : after + 1;
-}
-
-/// Words of `text` in lines of at most `width` columns; a longer word is divided.
-std::vector<std::string> filled(std::string_view text, std::size_t width) {
-  std::vector<std::string> lines;
-  std::string line;
-  while (true) {
-    text = trimmed(text);
-    if (text.empty()) break;
-    const bool too_long = width_of(text.substr(0, text.find(' '))) > width && width > 1;
-    const std::string_view word =
-        text.substr(0, too_long && line.empty() ? division(text, width) : text.find(' '));
-    if (!line.empty() && width_of(line) + 1 + width_of(word) > width) {
-      lines.push_back(std::move(line));
-      line.clear();
-      continue;
-    }
-    text.remove_prefix(word.size());
-    line += (line.empty() ? "" : " ") + std::string(word);
-  }
-  if (!line.empty()) lines.push_back(std::move(line));
-  return lines;
-}
-
-std::size_t longest_word(std::string_view text) {
-  std::size_t longest = 0;
-  for (const std::string& word : filled(text, 1)) longest = std::max(longest, width_of(word));
-  return longest;
-}
-
 bool is_table_row(std::string_view line) { return starts_with(line, "|"); }
 
 bool is_rule(const Cells& row) {
@@ -149,73 +112,19 @@ Cells cells_of(std::string_view line) {
   return cells;
 }
 
-/// Natural widths where they fit; otherwise the widest columns give way, but not below a column of
-/// some words or their longest word.
-std::vector<std::size_t> column_widths(const std::vector<Cells>& rows, std::size_t width) {
-  std::vector<std::size_t> natural, least;
-  for (const Cells& row : rows) {
-    natural.resize(std::max(natural.size(), row.size()), 0);
-    least.resize(natural.size(), least_column);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      natural[i] = std::max(natural[i], width_of(row[i]));
-      least[i] = std::clamp(longest_word(row[i]), least[i], longest_undivided);
-    }
+Table table_of(const std::vector<Cells>& rows) {
+  Table table;
+  for (const std::string& heading : rows.front()) {
+    table.columns.push_back({.heading = heading, .words = true});
   }
-  const auto total = [&] {
-    return std::accumulate(natural.begin(), natural.end(), std::size_t{0}) +
-           column_gap.size() * natural.size();
-  };
-  while (total() > width + column_gap.size()) {
-    std::size_t widest = natural.size();
-    for (std::size_t i = 0; i < natural.size(); ++i) {
-      if (natural[i] <= least[i]) continue;
-      if (widest == natural.size() || natural[i] > natural[widest]) widest = i;
-    }
-    if (widest == natural.size()) break;  // nothing gives way any more
-    --natural[widest];
+  for (std::size_t r = 1; r < rows.size(); ++r) {
+    std::vector<Cell> cells;
+    for (const std::string& text : rows[r])
+      cells.push_back(text.empty() ? Cell(Sentence(" ")) : Cell(Sentence(text)));
+    cells.resize(table.columns.size());
+    table.rows.push_back(std::move(cells));
   }
-  return natural;
-}
-
-std::string without_trailing_blanks(std::string line) {
-  line.erase(line.find_last_not_of(' ') + 1);
-  return line;
-}
-
-std::string table_text(const std::vector<Cells>& rows, std::size_t width) {
-  const std::vector<std::size_t> widths = column_widths(rows, width);
-  const bool wraps = std::any_of(rows.begin(), rows.end(), [&](const Cells& row) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      if (width_of(row[i]) > widths[i]) return true;
-    }
-    return false;
-  });
-  std::string out;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    std::vector<std::vector<std::string>> columns;
-    std::size_t height = 1;
-    for (std::size_t i = 0; i < rows[r].size(); ++i) {
-      columns.push_back(filled(rows[r][i], widths[i]));
-      height = std::max(height, columns.back().size());
-    }
-    for (std::size_t k = 0; k < height; ++k) {
-      std::string line;
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        const std::string cell = k < columns[i].size() ? columns[i][k] : std::string();
-        line += cell + std::string(widths[i] - std::min(widths[i], width_of(cell)), ' ');
-        line += column_gap;
-      }
-      out += without_trailing_blanks(line) + "\n";
-    }
-    if (r == 0) {
-      std::string rule;
-      for (const std::size_t column : widths) rule += std::string(column, '-') + "  ";
-      out += without_trailing_blanks(rule) + "\n";
-    } else if (wraps && r + 1 < rows.size()) {
-      out += "\n";
-    }
-  }
-  return out;
+  return table;
 }
 
 /// How far "- text", "* text" or "1. text" indents what belongs to it; 0 for other lines.
@@ -230,8 +139,7 @@ std::size_t bullet_width(std::string_view line) {
 
 class Renderer {
  public:
-  Renderer(std::string_view markdown, std::size_t width)
-      : lines_(lines_of(markdown)), width_(width) {}
+  explicit Renderer(std::string_view markdown) : lines_(lines_of(markdown)) {}
 
   std::string text() {
     while (at_ < lines_.size()) {
@@ -299,7 +207,7 @@ class Renderer {
       const Cells row = cells_of(lines_[at_]);
       if (!is_rule(row)) rows.push_back(row);
     }
-    out_ += table_text(rows, width_);
+    if (!rows.empty()) out_ += terminal_text(table_of(rows), 0);
   }
 
   /// The lines from here that continue a paragraph, joined.
@@ -319,24 +227,18 @@ class Renderer {
     if (!in_list_) begin_block();
     const std::string mark = lines_[at_].substr(0, bullet);
     lines_[at_] = lines_[at_].substr(bullet);
-    std::string text = joined_lines();
-    std::string indent = mark;
-    for (const std::string& line : filled(plain(text), width_ - bullet)) {
-      out_ += indent + line + "\n";
-      indent.assign(bullet, ' ');
-    }
+    out_ += mark + wrap(plain(joined_lines()), terminal_columns, bullet) + "\n";
     in_list_ = true;
   }
 
   void paragraph() {
     begin_block();
     const std::size_t before = at_;
-    for (const std::string& line : filled(plain(joined_lines()), width_)) out_ += line + "\n";
+    out_ += wrap(plain(joined_lines()), terminal_columns, 0) + "\n";
     if (at_ == before) ++at_;
   }
 
   std::vector<std::string> lines_;
-  std::size_t width_;
   std::size_t at_ = 0;
   bool in_list_ = false;
   std::string out_;
@@ -344,8 +246,6 @@ class Renderer {
 
 }  // namespace
 
-std::string terminal_text(std::string_view markdown, std::size_t width) {
-  return Renderer(markdown, width).text();
-}
+std::string terminal_markdown(std::string_view markdown) { return Renderer(markdown).text(); }
 
 }  // namespace recoil
