@@ -16,5 +16,7 @@ void add_import(CLI::App& program);
 void add_predict(CLI::App& program);
 void add_report(CLI::App& program);
 void add_pair(CLI::App& program);
+/// The manual; made last, since it lists the others.
+void add_help(CLI::App& program);
 
 }  // namespace recoil

@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(
       "Exit status: 0 done, 2 the input or the command line is wrong, 3 no usable answer.\n"
-      "recoil COMMAND --help shows an example of each.");
+      "recoil COMMAND --help shows an example of each, recoil help the pages of the manual.");
   recoil::add_check(program);
   recoil::add_simulate(program);
   recoil::add_fit(program);
@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
   recoil::add_predict(program);
   recoil::add_report(program);
   recoil::add_pair(program);
+  recoil::add_help(program);
   try {
     program.parse(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -1,112 +1,141 @@
-// The README's tour is run exactly as it is printed, and its links lead somewhere.
+// The README's tour is run exactly as it is printed, its links lead somewhere, and its numbers are
+// those of the reports.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <string>
 #include <vector>
 
+#include "page.hpp"
 #include "tree.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A fenced block: its language, its text, and the file name in backticks that ends, with a colon
-/// or a full stop, the nearest paragraph before it.
-struct Block {
-  std::string language;
-  std::string text;
-  std::string file;
-};
-
-/// The blocks of the section whose heading begins with `heading`.
-std::vector<Block> blocks_of_section(const std::string& heading) {
-  static const std::regex name(R"re(`([A-Za-z0-9_./-]+\.(?:csv|json|toml))`)re");
-  std::vector<Block> blocks;
-  bool inside_section = false;
-  bool inside_block = false;
-  std::string paragraph;
-  for (const std::string& line : tree::lines_of(tree::text_of(tree::root() / "README.md"))) {
-    if (!inside_block && line.rfind("## ", 0) == 0) inside_section = line.rfind(heading, 0) == 0;
-    if (!inside_section) continue;
-    if (line.rfind("```", 0) == 0) {
-      inside_block = !inside_block;
-      if (!inside_block) continue;
-      std::smatch match;
-      const bool named = std::regex_search(paragraph, match, name);
-      blocks.push_back({line.substr(3), "", named ? match[1].str() : ""});
-      paragraph.clear();
-    } else if (inside_block) {
-      blocks.back().text += line + "\n";
-    } else if (!line.empty()) {
-      paragraph += line + "\n";
-    } else if (paragraph.find('`') == std::string::npos) {
-      paragraph.clear();
-    }
-  }
-  return blocks;
-}
+fs::path readme() { return tree::root() / "README.md"; }
 
 TEST(Readme, TheTourRunsAsPrinted) {
-  std::string place = (fs::temp_directory_path() / "recoil-readme-XXXXXX").string();
-  ASSERT_NE(mkdtemp(place.data()), nullptr);
-  const fs::path folder = place;
-  fs::create_directories(folder / "build/release");
-  fs::create_symlink(RECOIL_BINARY, folder / "build/release/recoil");
-
-  int files = 0;
-  int commands = 0;
-  for (const Block& block : blocks_of_section("## Five minutes")) {
-    if (block.language != "sh") {
-      ASSERT_FALSE(block.file.empty()) << "no file name before the block\n" << block.text;
-      fs::create_directories((folder / block.file).parent_path());
-      std::ofstream(folder / block.file) << block.text;
-      ++files;
-      continue;
-    }
-    for (const std::string& line : tree::lines_of(block.text)) {
-      const std::string log = (folder / "log").string();
-      const std::string command = "cd '" + place + "' && " + line + " >log 2>&1 </dev/null";
-      EXPECT_EQ(std::system(command.c_str()), 0) << line << "\n" << tree::text_of(log);
-      // Nobody may take the example for a measurement.
-      if (line.find(" check ") != std::string::npos || line.find(" fit ") != std::string::npos) {
-        EXPECT_NE(tree::text_of(log).find("synthetic"), std::string::npos) << line;
-      }
-      ++commands;
-    }
-  }
-  EXPECT_EQ(files, 3);
-  EXPECT_EQ(commands, 4);
-  EXPECT_TRUE(fs::is_regular_file(folder / "my-result/fit.json"));
-  EXPECT_TRUE(fs::is_regular_file(folder / "my-pages/my-spheres.html"));
-  EXPECT_TRUE(fs::is_regular_file(folder / "my-pages/index.html"));
-  if (!HasFailure()) fs::remove_all(folder);
+  const page::Sandbox sandbox;
+  const page::Sandbox::Counts counts = sandbox.follow(page::blocks_of(readme()));
+  EXPECT_EQ(counts.files, 3);
+  EXPECT_EQ(counts.scripts, 1);
+  // Nobody may take the example for a measurement.
+  EXPECT_NE(counts.output.find("synthetic"), std::string::npos);
+  EXPECT_TRUE(fs::is_regular_file(sandbox.folder() / "my-result/fit.json"));
+  EXPECT_TRUE(fs::is_regular_file(sandbox.folder() / "my-pages/my-spheres.html"));
+  EXPECT_TRUE(fs::is_regular_file(sandbox.folder() / "my-pages/index.html"));
 }
+
+TEST(Readme, IsShort) { EXPECT_LE(tree::lines_of(tree::text_of(readme())).size(), 200U); }
 
 TEST(Readme, LinksLeadSomewhere) {
   static const std::regex link(R"re(\]\(([^)#:]+)\))re");
-  const std::string text = tree::text_of(tree::root() / "README.md");
-  for (auto it = std::sregex_iterator(text.begin(), text.end(), link); it != std::sregex_iterator();
-       ++it) {
-    const std::string target = (*it)[1].str();
-    EXPECT_TRUE(fs::exists(tree::root() / target)) << "README.md links to " << target;
+  std::vector<fs::path> pages = {readme()};
+  for (const auto& entry : fs::directory_iterator(tree::root() / "docs")) {
+    pages.push_back(entry.path());
+  }
+  ASSERT_GT(pages.size(), 20U);
+  for (const fs::path& file : pages) {
+    const std::string text = tree::text_of(file);
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), link);
+         it != std::sregex_iterator(); ++it) {
+      const std::string target = (*it)[1].str();
+      EXPECT_TRUE(fs::exists(file.parent_path() / target)) << file << " links to " << target;
+    }
   }
 }
 
 TEST(Readme, NamesEveryShippedDataset) {
-  const std::string text = tree::text_of(tree::root() / "README.md");
-  std::size_t count = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(tree::root() / "datasets")) {
+  for (const fs::path& file : {readme(), tree::root() / "docs/reconstruct.md"}) {
+    const std::string text = tree::text_of(file);
+    std::size_t count = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(tree::root() / "datasets")) {
+      if (!entry.is_directory()) continue;
+      const std::string row = "| `" + entry.path().filename().string() + "` |";
+      EXPECT_NE(text.find(row), std::string::npos) << file << " lacks the row " << row;
+      ++count;
+    }
+    EXPECT_EQ(count, 6U);
+  }
+}
+
+TEST(Readme, NamesEveryFolderOfTheSource) {
+  const std::string text = tree::text_of(readme());
+  for (const fs::directory_entry& entry : fs::directory_iterator(tree::root() / "src")) {
     if (!entry.is_directory()) continue;
     const std::string row = "| `" + entry.path().filename().string() + "` |";
-    EXPECT_NE(text.find(row), std::string::npos) << "the README's table lacks " << row;
-    ++count;
+    EXPECT_NE(text.find(row), std::string::npos) << "the README lacks the row " << row;
   }
-  EXPECT_EQ(count, 6U);
+}
+
+/// What the table of the shipped designs has to say of one parameter.
+std::string coverage_words(const std::string& recommended, const std::string& warned) {
+  return recommended + " %" + (std::stod(warned) >= 90.0 ? ", warned" : "");
+}
+
+TEST(Readme, CoverageIsThatOfTheStudy) {
+  const auto study = page::table_of(tree::root() / "reports/coverage-designs.md", "| design |");
+  for (const fs::path& file : {readme(), tree::root() / "docs/coverage.md"}) {
+    for (const std::vector<std::string>& row : page::table_of(file, "| design")) {
+      ASSERT_EQ(row.size(), 4U);
+      const std::string design = row[0].substr(1, row[0].find('`', 1) - 1);
+      int compared = 0;
+      for (const std::vector<std::string>& found : study) {
+        if (found.at(0) != design) continue;
+        const std::size_t column = found[1] == "C_H" ? 1 : found[1] == "C_A" ? 2 : 3;
+        EXPECT_EQ(row[column], coverage_words(found.at(4), found.at(3)))
+            << file << " " << design << " " << found[1];
+        ++compared;
+      }
+      EXPECT_GE(compared, 3) << design;
+    }
+  }
+}
+
+TEST(Readme, TheGridOfCoverageIsThatOfTheStudy) {
+  static const std::regex grid(
+      R"re(coverage-grid-n(\d+)-(\w+)\.md\): (\d+) data sets per design; of 42 rows (\d+) \w+, in (\d+) more the verdict warns, (\d+) are too narrow and (\d+) too wide)re");
+  const auto rows = page::table_of(tree::root() / "docs/coverage.md", "| noise | points");
+  const std::string study = tree::text_of(tree::root() / "reports/coverage.md");
+  std::size_t compared = 0;
+  for (auto it = std::sregex_iterator(study.begin(), study.end(), grid);
+       it != std::sregex_iterator(); ++it) {
+    for (const std::vector<std::string>& row : rows) {
+      if (row.at(0) != (*it)[2] || row.at(1) != (*it)[1]) continue;
+      for (std::size_t i = 2; i < 7; ++i) EXPECT_EQ(row.at(i), (*it)[i + 1]) << row[1] << row[0];
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, rows.size());
+}
+
+/// "**65 %**, 86 of 132 (47 % at 10)" and "65 % (57 to 73), 86 of 132": the two numbers.
+std::string share_in(const std::string& cell) {
+  static const std::regex share(R"re((\d+) %.*?(\d+) of (\d+))re");
+  std::smatch match;
+  return std::regex_search(cell, match, share)
+             ? match[1].str() + " %, " + match[2].str() + " of " + match[3].str()
+             : cell;
+}
+
+TEST(Readme, DiagnosisIsThatOfTheStudy) {
+  const auto study = page::table_of(tree::root() / "reports/hidden-effects.md", "| bar |");
+  const auto manual = page::table_of(tree::root() / "docs/diagnose.md", "| several diameters");
+  ASSERT_EQ(manual.size(), study.size()) << "one row for every bar, in the same order";
+  for (std::size_t i = 0; i < study.size(); ++i) {
+    EXPECT_EQ(share_in(manual[i].at(2)), share_in(study[i].at(2))) << manual[i][0];
+  }
+  for (const std::vector<std::string>& row : page::table_of(readme(), "| several diameters")) {
+    bool found = false;
+    for (const std::vector<std::string>& other : manual) {
+      if (other.at(0) != row.at(0)) continue;
+      EXPECT_EQ(share_in(row.at(2)), share_in(other.at(2))) << row[0];
+      found = true;
+    }
+    EXPECT_TRUE(found) << "docs/diagnose.md has no row " << row[0];
+  }
 }
 
 }  // namespace

@@ -68,13 +68,16 @@ TEST(Words, NothingIsLeftOpenInTheCode) {
 }
 
 TEST(Words, OneVersionEverywhere) {
-  // The version stands in CMakeLists.txt; the changelog must know it.
+  // The version stands in CMakeLists.txt; the changelog and the citation know it.
   const std::string cmake = tree::text_of(tree::root() / "CMakeLists.txt");
   const std::size_t begin = cmake.find("VERSION ", cmake.find("project(recoil")) + 8;
   const std::string version = cmake.substr(begin, cmake.find_first_of(" \n)", begin) - begin);
   const std::string changelog = tree::text_of(tree::root() / "CHANGELOG.md");
   EXPECT_NE(changelog.find("## [" + version + "]"), std::string::npos)
       << "CHANGELOG.md has no section for version " << version;
+  EXPECT_NE(tree::text_of(tree::root() / "CITATION.cff").find("\nversion: " + version + "\n"),
+            std::string::npos)
+      << "CITATION.cff names another version";
 }
 
 TEST(Words, LicenseIsTheGpl3) {

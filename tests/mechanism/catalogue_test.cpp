@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <set>
 
@@ -81,17 +80,6 @@ TEST(Catalogue, EntriesAreCompleteAndConsistent) {
     }
   }
   EXPECT_LE(directions, ManyDirections().slope.size()) << "ManyDirections is too narrow";
-}
-
-TEST(Catalogue, TheReadmeListsIt) {
-  std::ifstream file(RECOIL_SOURCE_DIR "/README.md");
-  const std::string readme{std::istreambuf_iterator<char>(file), {}};
-  for (const Mechanism& m : mechanism_catalogue()) {
-    EXPECT_NE(readme.find("| `" + std::string(m.info.id) + "` |"), std::string::npos) << m.info.id;
-    for (const Parameter& p : m.info.parameters) {
-      EXPECT_NE(readme.find("`" + std::string(p.name) + "`"), std::string::npos) << p.name;
-    }
-  }
 }
 
 TEST(Catalogue, TheChainDoesNotDependOnTheOrderInTheFile) {

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/manual.hpp"
+#include "cli/reference.hpp"
+#include "cli/terminal_markdown.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "data/text.hpp"
+
+namespace recoil {
+namespace {
+
+void list_topics() {
+  fmt::print("Pages of the manual; recoil help TOPIC prints one.\n\n");
+  std::size_t width = 0;
+  for (const ManualPage& page : manual_pages()) width = std::max(width, page.topic.size());
+  for (const ManualPage& page : manual_pages()) {
+    fmt::print("  {:<{}}  {}\n", page.topic, width, page.title());
+  }
+  fmt::print("\nThe options of a command: recoil COMMAND --help\n");
+}
+
+void print_topic(const CLI::App& program, const std::string& topic) {
+  if (const ManualPage* page = find_manual_page(topic)) {
+    fmt::print("{}", terminal_markdown(page->text));
+    return;
+  }
+  std::vector<std::string> known = manual_topics();
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == topic) {
+      fmt::print("{}", command->help("recoil"));
+      return;
+    }
+    known.push_back(command->get_name());
+  }
+  const std::string near = nearest_word(topic, known);
+  throw InputError(
+      {}, fmt::format("no page {}", quote(topic)), "the manual does not have it",
+      near.empty() ? "recoil help lists the pages" : fmt::format("did you mean {}?", near));
+}
+
+/// Brings the tables that are made from the code up to date in every page of `folder`.
+void write_pages(const CLI::App& program, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> pages;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  }
+  std::sort(pages.begin(), pages.end());
+  for (const std::filesystem::path& page : pages) {
+    const std::string before = read_text_file(page);
+    const std::string after = with_reference_blocks(before, page.string(), program);
+    if (after == before) continue;
+    write_whole_file(page, after);
+    fmt::print("wrote {}\n", page.string());
+  }
+}
+
+}  // namespace
+
+void add_help(CLI::App& program) {
+  struct Options {
+    std::string topic;
+    std::string folder;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command = program.add_subcommand("help", "print a page of the manual");
+  command->add_option("TOPIC", options->topic, "the page; without it, the list of all");
+  command->add_option("--write-docs", options->folder, "the tables that are made from the code")
+      ->check(CLI::ExistingDirectory)
+      ->group("");
+  command->footer(
+      "The pages are those of docs/, carried along in the program.\n\n"
+      "  recoil help\n"
+      "  recoil help noise");
+  command->callback([options, &program] {
+    if (!options->folder.empty()) {
+      write_pages(program, options->folder);
+    } else if (options->topic.empty()) {
+      list_topics();
+    } else {
+      print_topic(program, options->topic);
+    }
+  });
+}
+
+}  // namespace recoil
