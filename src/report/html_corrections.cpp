@@ -72,6 +72,22 @@ std::string change_of_fit(const CorrectionRow& base, const CorrectionRow& row) {
 
 }  // namespace
 
+std::string words_of(Correction left_out) {
+  switch (left_out) {
+    case Correction::none_left_out:
+      return "all corrections";
+    case Correction::probe_plane:
+      return "velocities taken at the measuring plane";
+    case Correction::second_impacts:
+      return "second and further impacts left in";
+    case Correction::survivors:
+      return "captured spheres not counted";
+    case Correction::all_left_out:
+      return "none of the three corrections";
+  }
+  return "";
+}
+
 std::string study_words(const CorrectionStudy& study) {
   return fmt::format(
       "{:g} spheres seen to rebound per drop height, {}", study.rebounds_per_velocity,
@@ -91,6 +107,12 @@ std::vector<std::string> correction_words(const CorrectionStudy& study) {
 }
 
 std::string corrections_section(const Analysis& analysis) {
+  if (analysis.corrections_outdated) {
+    return fmt::format(
+        "<p>What each correction does was studied for another fit, dataset or recipe than these. "
+        "<code>recoil_study corrections {}</code> studies it again.</p>\n",
+        escape_html(analysis.spec.file.string()));
+  }
   if (analysis.corrections.empty()) return "";
   std::string out =
       "<p>" +

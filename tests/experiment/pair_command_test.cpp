@@ -6,8 +6,8 @@
 
 #include "../cli/program.hpp"
 #include "core/files.hpp"
-#include "event_stream.hpp"
 #include "predict/measured_sizes.hpp"
+#include "studies/synthetic/event_stream.hpp"
 
 namespace {
 
