@@ -15,6 +15,12 @@ std::string percentage(int part, int whole) {
                      100.0 * limits.upper);
 }
 
+std::string truth_words(TruthOrigin origin) {
+  return origin == TruthOrigin::recipe
+             ? "truth and noise from the recipe, another seed for each"
+             : "the fit's own estimate as truth, simulated independently of the fitter";
+}
+
 }  // namespace
 
 std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
@@ -23,7 +29,7 @@ std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
       "## Coverage of the intervals of `{}`\n\n{} data sets; {}. Level {:.0f} %, {} bootstrap "
       "replicates each, seed {}. {} fits and {} refits failed. In square brackets: "
       "the 95 % limits of each share (Wilson).\n\n",
-      spec.id, result.datasets, result.truth_source, 100.0 * options.uncertainty.level,
+      spec.id, result.datasets, truth_words(result.truth_origin), 100.0 * options.uncertainty.level,
       options.uncertainty.replicates, options.uncertainty.seed, result.failed,
       result.refits_failed);
   text +=

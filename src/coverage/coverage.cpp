@@ -103,7 +103,7 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
   }
   CoverageResult result;
   result.datasets = options.datasets;
-  result.truth_source = truth.source;
+  result.truth_origin = truth.origin;
   for (const Trial& trial : trials) {
     result.failed += trial.usable ? 0 : 1;
     result.refits_failed += trial.refits_failed;

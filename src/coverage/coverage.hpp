@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
 #include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
@@ -27,11 +30,21 @@ struct CoverageRow {
   std::vector<CoverageCell> cells;
 };
 
+/// Where the true parameters, and with them the simulated data, come from.
+enum class TruthOrigin {
+  recipe,   ///< the recipe of a reconstruction: its parameters, simulator and noise
+  estimate  ///< the fit's own estimate, simulated independently of the fitter
+};
+template <>
+struct NamesOf<TruthOrigin> {
+  static constexpr std::array<std::string_view, 2> names = {"recipe", "estimate"};
+};
+
 struct CoverageResult {
   int datasets = 0;
-  int failed = 0;            ///< data sets whose fit gave no answer
-  int refits_failed = 0;     ///< bootstrap refits that failed, over all data sets
-  std::string truth_source;  ///< where truth and simulated data come from
+  int failed = 0;         ///< data sets whose fit gave no answer
+  int refits_failed = 0;  ///< bootstrap refits that failed, over all data sets
+  TruthOrigin truth_origin = TruthOrigin::estimate;
   std::vector<CoverageRow> rows;
 };
 
@@ -46,7 +59,7 @@ struct CoverageTruth {
     double diameter = 0.0;  ///< [m]
     double velocity = 0.0;  ///< V* [m/s]
   };
-  std::string source;
+  TruthOrigin origin = TruthOrigin::estimate;
   std::vector<double> theta;     ///< [slots]
   std::vector<Capture> capture;  ///< in the order of UncertaintyResult::capture
   /// The data sets of simulation number `index`; called from any thread.

@@ -44,7 +44,7 @@ void add_capture_velocities(CoverageTruth& truth, const std::vector<Dataset>& da
 CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& datasets,
                            std::vector<KnownRecipe> recipes, std::uint64_t seed) {
   CoverageTruth truth;
-  truth.source = "truth and noise from the recipe, another seed for each";
+  truth.origin = TruthOrigin::recipe;
   const ImpactModel model = make_model(spec, datasets);
   truth.theta = model.initial();
   std::vector<Truth> truths;
@@ -164,7 +164,7 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
                        std::uint64_t seed) {
   const auto [fitted, truths] = truth_at_estimate(spec, datasets, gather(datasets, spec.noise));
   CoverageTruth truth;
-  truth.source = "the fit's own estimate as truth, simulated independently of the fitter";
+  truth.origin = TruthOrigin::estimate;
   truth.theta = fitted.theta;
   add_capture_velocities(truth, datasets, truths);
   RandomStream random(seed, RandomPurpose::coverage, ~std::uint64_t{0});

@@ -83,9 +83,9 @@ std::string correction_studies_json(const CorrectionStudies& studies) {
   return json.dump(1) + "\n";
 }
 
-CorrectionStudies read_correction_studies(const std::filesystem::path& file) {
+CorrectionStudies parse_correction_studies(const std::string& text, const std::string& file) {
   try {
-    const Json json = Json::parse(read_text_file(file));
+    const Json json = Json::parse(text);
     CorrectionStudies found;
     found.inputs = json.at("inputs");
     for (const Json& from : json.at("studies")) {
@@ -102,12 +102,14 @@ CorrectionStudies read_correction_studies(const std::filesystem::path& file) {
       found.studies.push_back(std::move(study));
     }
     return found;
-  } catch (const InputError&) {
-    throw;
   } catch (const std::exception& problem) {
-    throw InputError({file.string()}, "these are no studies of corrections", problem.what(),
+    throw InputError({file}, "these are no studies of corrections", problem.what(),
                      "let recoil_study corrections write them again");
   }
+}
+
+CorrectionStudies read_correction_studies(const std::filesystem::path& file) {
+  return parse_correction_studies(read_text_file(file), file.string());
 }
 
 }  // namespace recoil

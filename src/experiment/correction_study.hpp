@@ -67,8 +67,9 @@ std::string correction_inputs(const std::string& fit_sha256, const std::string& 
                               const std::string& recipe_text);
 
 /// The same as JSON, and back.
-/// @throws InputError when `file` is not such a JSON
+/// @throws InputError naming `file` when the text is not such a JSON
 std::string correction_studies_json(const CorrectionStudies& studies);
+CorrectionStudies parse_correction_studies(const std::string& text, const std::string& file);
 CorrectionStudies read_correction_studies(const std::filesystem::path& file);
 
 /// Below it adhesion shows in the restitution of the paper's steel spheres [m/s].

@@ -60,18 +60,6 @@ ImpactPoint measured_point(const TrueCurve& curve, const GridDesign& design, dou
 
 }  // namespace
 
-std::string to_string(GridNoise noise) {
-  switch (noise) {
-    case GridNoise::equal:
-      return "equal";
-    case GridNoise::near_capture:
-      return "near-capture";
-    case GridNoise::proportional:
-      return "10 %";
-  }
-  return "";
-}
-
 std::string GridDesign::name() const {
   return fmt::format("n{} {} {} {}{}", points, to_string(noise), sd_stated ? "stated" : "estimated",
                      adhesion_free ? "f0-free" : "f0-fixed", captures ? " captures" : "");
@@ -92,6 +80,13 @@ std::vector<GridDesign> coverage_grid() {
     }
   }
   return designs;
+}
+
+std::optional<GridDesign> grid_design(const std::string& name) {
+  for (const GridDesign& design : coverage_grid()) {
+    if (design.name() == name) return design;
+  }
+  return std::nullopt;
 }
 
 std::vector<GridDesign> designs_named(const std::vector<std::string>& words) {
@@ -139,8 +134,7 @@ CoverageTruth grid_truth(const FitSpec& spec, const Dataset& base, const GridDes
   const EstimatedTruth found = truth_at_estimate(spec, {base}, gather({base}, spec.noise));
   const Truth& truth = found.truths.front();
   CoverageTruth study;
-  study.source =
-      fmt::format("the estimate for `{}` as truth, simulated independently of the fitter", base.id);
+  study.origin = TruthOrigin::estimate;
   study.theta = found.fitted.theta;
   const std::vector<double> diameters = distinct_diameters(base);
   const double diameter = diameters[diameters.size() / 2];

@@ -1,9 +1,12 @@
 #pragma once
 
-#include <filesystem>
+#include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
 #include "coverage/coverage.hpp"
 
 namespace recoil {
@@ -15,7 +18,10 @@ enum class GridNoise {
   proportional,  ///< 10 % of e
 };
 
-std::string to_string(GridNoise noise);
+template <>
+struct NamesOf<GridNoise> {
+  static constexpr std::array<std::string_view, 3> names = {"equal", "near-capture", "10 %"};
+};
 
 /// One kind of data set that people bring: points of one diameter, evenly spaced in log V from just
 /// above the capture velocity (below it, where there are captures) to fifty times that.
@@ -35,6 +41,9 @@ struct GridDesign {
 /// captures.
 std::vector<GridDesign> coverage_grid();
 
+/// The design of that name, if it is one of the grid.
+std::optional<GridDesign> grid_design(const std::string& name);
+
 /// The designs of the grid whose names have all these words ("n20", "near-capture", "captures").
 /// @throws InputError for a word of no design, and where no design has all of them
 std::vector<GridDesign> designs_named(const std::vector<std::string>& words);
@@ -46,35 +55,5 @@ CoverageTruth grid_truth(const FitSpec& spec, const Dataset& base, const GridDes
 
 /// `spec` with f0 free or fixed as `design` has it.
 FitSpec grid_spec(const FitSpec& spec, const GridDesign& design);
-
-struct GridResult {
-  GridDesign design;
-  CoverageResult coverage;
-};
-
-/// Measures every design in turn. A finished one is kept as a file in `kept` (unless that is empty)
-/// and taken from there by the next run of the same version, so that a stopped study goes on.
-std::vector<GridResult> measure_grid(const FitSpec& spec, const Dataset& base,
-                                     const std::vector<GridDesign>& designs,
-                                     const CoverageOptions& options,
-                                     const std::filesystem::path& kept);
-
-/// The whole grid as Markdown: a summary, then one row per design and parameter.
-std::string grid_markdown(const std::vector<GridResult>& results, const FitSpec& spec,
-                          const CoverageOptions& options);
-
-/// The coverage in the design of one fit.
-struct DesignResult {
-  std::string id;  ///< of the fit
-  CoverageResult coverage;
-};
-
-/// Measures the design of a fit (see coverage_truth); kept as those of the grid.
-DesignResult measure_design(const FitSpec& spec, const std::vector<Dataset>& datasets,
-                            const CoverageOptions& options, const std::filesystem::path& kept);
-
-/// The designs of several fits as one Markdown table like that of the grid.
-std::string designs_markdown(const std::vector<DesignResult>& results,
-                             const CoverageOptions& options);
 
 }  // namespace recoil

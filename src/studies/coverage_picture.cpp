@@ -1,4 +1,4 @@
-#include "report/coverage_picture.hpp"
+#include "studies/coverage_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "report/format.hpp"
-#include "report/html_page.hpp"
+#include "document/html.hpp"
+#include "document/number.hpp"
 
 namespace recoil {
 namespace {
@@ -40,10 +40,10 @@ std::string mixed(const Colour& end, double part) {
 }
 
 /// 0 within what is tolerated, then from a first visible step to 1.
-double depth(double held, double level) {
-  const double off = std::abs(held - level);
+double depth(double share, double level) {
+  const double off = std::abs(share - level);
   if (off <= tolerated + 1e-12) return 0.0;
-  const double room = held < level ? deepest : 1.0 - level;
+  const double room = share < level ? deepest : 1.0 - level;
   constexpr double first = 0.25;
   const double part = (off - tolerated) / std::max(room - tolerated, 1e-9);
   return std::clamp(first + (1.0 - first) * part, 0.0, 1.0);
@@ -63,7 +63,9 @@ std::string box(double x, double y, double width, const std::string& fill) {
 
 /// White letters on the deep blue, dark ones on everything else (the orange included), whichever
 /// contrasts more.
-bool white_letters(double held, double level) { return held > level && depth(held, level) > 0.75; }
+bool white_letters(double share, double level) {
+  return share > level && depth(share, level) > 0.75;
+}
 
 /// What a parameter is called in every design: "V*" for "V*(4.90 um)".
 std::string family(const std::string& parameter) {
@@ -84,25 +86,21 @@ struct Group {
 const std::array<const char*, 6> all_kinds = {"recommended", "profile",    "studentized",
                                               "bca",         "percentile", "wald"};
 
-std::vector<Group> groups_of(const std::vector<GridResult>& results) {
+std::vector<Group> groups_of(const std::vector<ParameterCoverage>& rows) {
   std::vector<Group> groups;
   std::vector<std::set<std::string>> kinds;
-  for (const GridResult& result : results) {
-    for (const CoverageRow& row : result.coverage.rows) {
-      const std::string name = family(row.parameter);
-      auto group = std::find_if(groups.begin(), groups.end(),
-                                [&](const Group& g) { return g.parameter == name; });
-      if (group == groups.end()) {
-        groups.push_back({name, row.unit, false, {}, 0.0});
-        kinds.emplace_back();
-        group = groups.end() - 1;
-      }
-      group->judged = group->judged || row.identifiable > 0;
-      for (const CoverageCell& cell : row.cells) {
-        if (cell.offered > 0) {
-          kinds[static_cast<std::size_t>(group - groups.begin())].insert(cell.interval);
-        }
-      }
+  for (const ParameterCoverage& row : rows) {
+    const std::string name = family(row.parameter);
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& g) { return g.parameter == name; });
+    if (group == groups.end()) {
+      groups.push_back({name, row.unit, false, {}, 0.0});
+      kinds.emplace_back();
+      group = groups.end() - 1;
+    }
+    group->judged = group->judged || row.identifiable > 0;
+    for (const IntervalCoverage& at : row.intervals) {
+      if (at.share()) kinds[static_cast<std::size_t>(group - groups.begin())].insert(at.interval);
     }
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -132,28 +130,26 @@ const std::array<DesignColumn, 5> design_columns = {{
     {"captures", 62.0, [](const GridDesign& d) { return std::string(d.captures ? "with" : "–"); }},
 }};
 
-std::string cells_of(const Group& group, const CoverageRow& row, int usable, double level,
-                     double y) {
+std::string cells_of(const Group& group, const ParameterCoverage& row, double level, double y) {
   std::string out;
   double x = group.x;
   const double baseline = y + cell_height - 5.0;
-  const double share = usable > 0 ? static_cast<double>(row.identifiable) / usable : 0.0;
-  const bool warned = group.judged && share <= warned_at_most;
+  const bool warned = group.judged && row.share_identifiable() <= warned_at_most;
   const std::string middle = " text-anchor=\"middle\"";
   if (group.judged) {
-    out += text_at(x + cell_width / 2.0, baseline, fmt::format("{:.0f}", 100.0 * share),
+    out += text_at(x + cell_width / 2.0, baseline,
+                   fmt::format("{:.0f}", 100.0 * row.share_identifiable()),
                    middle + " fill=\"#777777\"");
     x += cell_width;
   }
   for (const std::string& kind : group.kinds) {
-    const auto cell = std::find_if(row.cells.begin(), row.cells.end(),
-                                   [&](const CoverageCell& c) { return c.interval == kind; });
-    if (cell != row.cells.end() && cell->offered > 0) {
-      const double held = static_cast<double>(cell->held) / cell->offered;
+    const IntervalCoverage* at = row.find(kind);
+    const std::optional<double> share = at == nullptr ? std::nullopt : at->share();
+    if (share) {
       out += fmt::format("<g{}>", warned ? " opacity=\"0.45\"" : "");
-      out += box(x, y, cell_width, coverage_colour(held, level));
-      out += text_at(x + cell_width / 2.0, baseline, fmt::format("{:.1f}", 100.0 * held),
-                     middle + (white_letters(held, level) ? " fill=\"#ffffff\"" : "") +
+      out += box(x, y, cell_width, coverage_colour(*share, level));
+      out += text_at(x + cell_width / 2.0, baseline, fmt::format("{:.1f}", 100.0 * *share),
+                     middle + (white_letters(*share, level) ? " fill=\"#ffffff\"" : "") +
                          (kind == "recommended" ? " font-weight=\"bold\"" : ""));
       out += "</g>\n";
     }
@@ -196,48 +192,55 @@ std::string legend(double y, double level) {
   std::string out = text_at(margin, y, "coverage:", " fill=\"#555555\"");
   double x = margin + 66.0;
   for (const double off : {-0.15, -0.10, -0.06, -0.03, 0.0, 0.03, 1.0}) {
-    const double held = std::min(level + off, 1.0);
-    out += box(x, y - 12.0, cell_width + 6.0, coverage_colour(held, level));
+    const double share = std::min(level + off, 1.0);
+    out += box(x, y - 12.0, cell_width + 6.0, coverage_colour(share, level));
     out += text_at(x + cell_width / 2.0 + 3.0, y,
-                   fmt::format("{}{:.0f}", off == -0.15 ? "≤ " : "", 100.0 * held),
+                   fmt::format("{}{:.0f}", off == -0.15 ? "≤ " : "", 100.0 * share),
                    fmt::format(" text-anchor=\"middle\"{}",
-                               white_letters(held, level) ? " fill=\"#ffffff\"" : ""));
+                               white_letters(share, level) ? " fill=\"#ffffff\"" : ""));
     x += cell_width + 6.0;
   }
   return out + text_at(margin, y + line_height,
-                       "% of data sets whose interval holds the truth; identif.: % in which the "
+                       "% of data sets whose interval contains the truth; identif.: % in which the "
                        "verdict calls the parameter identifiable; pale: 10 % or fewer",
                        " fill=\"#555555\"");
 }
 
 }  // namespace
 
-std::string coverage_colour(double held, double level) {
-  return mixed(held < level ? orange : blue, depth(held, level));
+std::string coverage_colour(double share, double level) {
+  return mixed(share < level ? orange : blue, depth(share, level));
 }
 
-std::string coverage_picture(const std::vector<GridResult>& results, const FitSpec& spec,
-                             const CoverageOptions& options, const std::string& remark) {
-  const double level = options.uncertainty.level;
+std::string coverage_picture(const CoverageStudy& study) {
   const std::string title = fmt::format(
-      "Coverage of {} intervals by kind of data, {}: {} data sets per design, {} "
-      "bootstrap replicates each",
-      percent(level), spec.id, options.datasets, options.uncertainty.replicates);
-  return coverage_picture(results, level, title, remark);
+      "Coverage of {} intervals by kind of data, {}: {} data sets per design, {} bootstrap "
+      "replicates each",
+      percent(study.level), study.grid_of, study.datasets, study.replicates);
+  const CoverageStudy::Source& source = study.sources.front();
+  return coverage_picture(study.rows, study.level, title,
+                          fmt::format("{}: {}", source.id, provenance_sentence(source.provenance)));
 }
 
-std::string coverage_picture(const std::vector<GridResult>& results, double level,
+std::string coverage_picture(const std::vector<ParameterCoverage>& rows, double level,
                              const std::string& title, const std::string& remark) {
-  std::vector<Group> groups = groups_of(results);
+  std::vector<Group> groups = groups_of(rows);
   double x = margin;
   for (const DesignColumn& column : design_columns) x += column.width;
   for (Group& group : groups) {
     group.x = x;
     x += group.width() + group_gap;
   }
+  std::vector<GridDesign> designs;
+  for (const GridDesign& design : coverage_grid()) {
+    if (std::any_of(rows.begin(), rows.end(),
+                    [&](const ParameterCoverage& row) { return row.design == design.name(); })) {
+      designs.push_back(design);
+    }
+  }
   constexpr double narrowest = 980.0;  // of the legend
   const double width = std::max(x + margin, narrowest);
-  const double bottom = head_height + cell_height * static_cast<double>(results.size());
+  const double bottom = head_height + cell_height * static_cast<double>(designs.size());
   const double height = bottom + foot_height;
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
@@ -246,11 +249,11 @@ std::string coverage_picture(const std::vector<GridResult>& results, double leve
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
       width, height, escape_html(title));
   out += text_at(margin, 20.0, title, " font-size=\"14\"") + heads(groups);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const GridResult& result = results[i];
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    const GridDesign& design = designs[i];
     const double y = head_height + cell_height * static_cast<double>(i);
-    const bool new_size = i == 0 || results[i - 1].design.points != result.design.points;
-    const bool new_noise = new_size || results[i - 1].design.noise != result.design.noise;
+    const bool new_size = i == 0 || designs[i - 1].points != design.points;
+    const bool new_noise = new_size || designs[i - 1].noise != design.noise;
     if (new_noise) {
       out += fmt::format("<path d=\"M{:.1f},{:.1f}H{:.1f}\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
                          margin, y, x - group_gap, new_size ? "#555555" : "#cccccc",
@@ -258,13 +261,14 @@ std::string coverage_picture(const std::vector<GridResult>& results, double leve
     }
     double at = margin;
     for (const DesignColumn& column : design_columns) {
-      out += text_at(at, y + cell_height - 5.0, column.words(result.design));
+      out += text_at(at, y + cell_height - 5.0, column.words(design));
       at += column.width;
     }
-    const int usable = result.coverage.datasets - result.coverage.failed;
     for (const Group& group : groups) {
-      for (const CoverageRow& row : result.coverage.rows) {
-        if (family(row.parameter) == group.parameter) out += cells_of(group, row, usable, level, y);
+      for (const ParameterCoverage& row : rows) {
+        if (row.design == design.name() && family(row.parameter) == group.parameter) {
+          out += cells_of(group, row, level, y);
+        }
       }
     }
   }

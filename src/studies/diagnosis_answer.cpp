@@ -15,56 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-Json to_json(const Answered& a) {
-  Json contenders = Json::array();
-  for (const Contender& c : a.contenders) contenders.push_back({c.id, c.behind});
-  return {{"key", a.order.key()},
-          {"seed", a.order.seed},
-          {"reached", a.reached},
-          {"signal_to_noise", a.signal_to_noise},
-          {"status", a.status},
-          {"complaint", a.complaint},
-          {"seconds", a.seconds},
-          {"verdict", a.verdict},
-          {"p_value", a.p_value},
-          {"named", a.named},
-          {"rivals", a.rivals},
-          {"certain", a.certain},
-          {"shared_cause", a.shared_cause},
-          {"errors_told", a.errors_told},
-          {"contenders", contenders},
-          {"closest", a.nearest_rival.id},
-          {"closest_misfit", a.nearest_rival.misfit}};
-}
-
 fs::path kept_file(const CaseOrder& order, const fs::path& keep) {
   return keep / (neutral_name(order) + ".json");
-}
-
-/// @return whether there was a kept answer to this order
-bool load(const fs::path& file, Answered& a) {
-  std::ifstream in(file);
-  if (!in) return false;
-  const Json kept = Json::parse(in, nullptr, false);
-  if (kept.is_discarded() || kept.value("key", "") != a.order.key() ||
-      kept.value("seed", std::uint64_t{0}) != a.order.seed) {
-    return false;
-  }
-  a.reached = kept["reached"];
-  a.signal_to_noise = kept["signal_to_noise"];
-  a.status = kept["status"];
-  a.complaint = kept["complaint"];
-  a.seconds = kept["seconds"];
-  a.verdict = kept["verdict"];
-  a.p_value = kept["p_value"];
-  a.named = kept["named"].get<std::vector<std::string>>();
-  a.rivals = kept["rivals"].get<std::vector<std::string>>();
-  a.certain = kept.value("certain", std::vector<std::string>());
-  a.shared_cause = kept["shared_cause"];
-  a.errors_told = kept.value("errors_told", false);
-  for (const Json& c : kept["contenders"]) a.contenders.push_back({c[0], c[1]});
-  a.nearest_rival = {kept["closest"], kept["closest_misfit"]};
-  return true;
 }
 
 /// Of `candidates` (the best first), the first that explains the data and those behind it that are
@@ -104,12 +56,60 @@ void diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.rivals = answer.at("rivals").get<std::vector<std::string>>();
   a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
   if (answer.at("shared_cause").is_string()) a.shared_cause = answer["shared_cause"];
-  a.errors_told = answer.at("text").get<std::string>().find("Errors that were not stated would") !=
-                  std::string::npos;
+  for (const Json& errors : answer.at("unstated_errors")) {
+    a.errors_told = a.errors_told || errors.at("rival").get<bool>();
+  }
   a.contenders = contenders_of(answer.at("candidates"));
 }
 
 }  // namespace
+
+Json json_of(const Answered& a) {
+  Json contenders = Json::array();
+  for (const Contender& c : a.contenders) contenders.push_back({c.id, c.behind});
+  return {{"key", a.order.key()},
+          {"design", a.order.design},
+          {"effects", a.order.effects},
+          {"wanted_signal_to_noise", a.order.signal_to_noise},
+          {"index", a.order.index},
+          {"seed", a.order.seed},
+          {"reached", a.reached},
+          {"signal_to_noise", a.signal_to_noise},
+          {"status", a.status},
+          {"complaint", a.complaint},
+          {"seconds", a.seconds},
+          {"verdict", a.verdict},
+          {"p_value", a.p_value},
+          {"named", a.named},
+          {"rivals", a.rivals},
+          {"certain", a.certain},
+          {"shared_cause", a.shared_cause},
+          {"errors_told", a.errors_told},
+          {"contenders", contenders},
+          {"nearest_rival", a.nearest_rival.id},
+          {"nearest_rival_misfit", a.nearest_rival.misfit}};
+}
+
+Answered answered_of(const Json& json) {
+  Answered a;
+  a.order = {json.at("design"), json.at("effects").get<std::vector<std::string>>(),
+             json.at("wanted_signal_to_noise"), json.at("index"), json.at("seed")};
+  a.reached = json.at("reached");
+  a.signal_to_noise = json.at("signal_to_noise");
+  a.status = json.at("status");
+  a.complaint = json.at("complaint");
+  a.seconds = json.at("seconds");
+  a.verdict = json.at("verdict");
+  a.p_value = json.at("p_value");
+  a.named = json.at("named").get<std::vector<std::string>>();
+  a.rivals = json.at("rivals").get<std::vector<std::string>>();
+  a.certain = json.at("certain").get<std::vector<std::string>>();
+  a.shared_cause = json.at("shared_cause");
+  a.errors_told = json.at("errors_told");
+  for (const Json& c : json.at("contenders")) a.contenders.push_back({c.at(0), c.at(1)});
+  a.nearest_rival = {json.at("nearest_rival"), json.at("nearest_rival_misfit")};
+  return a;
+}
 
 Mark mark_of(const Answered& a) {
   if (a.status != 0) return Mark::failed;
@@ -165,10 +165,14 @@ std::string to_string(Mark mark) {
 }
 
 std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep) {
-  Answered a;
-  a.order = order;
-  if (keep.empty() || !load(kept_file(order, keep), a)) return {};
-  return a;
+  if (keep.empty()) return {};
+  std::ifstream in(kept_file(order, keep));
+  const Json kept = in ? Json::parse(in, nullptr, false) : Json();
+  if (!kept.is_object() || kept.value("key", "") != order.key() ||
+      kept.value("seed", std::uint64_t{0}) != order.seed) {
+    return {};
+  }
+  return answered_of(kept);
 }
 
 Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep) {
@@ -185,7 +189,7 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
   const bool answered = a.status >= 0 && a.status < 128;
   if (!keep.empty() && answered) {
-    recoil::write_whole_file(kept_file(order, keep), to_json(a).dump(2) + "\n");
+    recoil::write_whole_file(kept_file(order, keep), json_of(a).dump(2) + "\n");
   }
   return a;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,12 +30,16 @@ struct Answered {
   std::vector<std::string> rivals;
   std::vector<std::string> certain;  ///< of the rivals, those in every explanation
   std::string shared_cause;          ///< of which all rivals are laws
-  bool errors_told = false;          ///< the text says that errors that were not stated would do
+  bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
   /// The best explanation by one mechanism and what comes within 30 of it; empty without one.
   std::vector<Contender> contenders;
   NearestRival
       nearest_rival;  ///< for one visible effect of the catalogue in a design of several diameters
 };
+
+nlohmann::ordered_json json_of(const Answered& answered);
+/// @throws nlohmann::json::exception when something is missing
+Answered answered_of(const nlohmann::ordered_json& json);
 
 /// How an answer stands to the truth.
 enum class Mark {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "document/markdown.hpp"
 #include "studies/hidden_counts.hpp"
 
 namespace hidden {
@@ -170,10 +171,11 @@ std::string careless_words(const std::vector<Answered>& all) {
 }  // namespace
 
 std::string study_report(const std::vector<Answered>& all, std::size_t planned,
-                         const StudySize& size, const std::string& command) {
+                         const StudySize& size, const recoil::StudyStamp& stamp) {
   std::string out = "# Hidden effects: what the diagnosis finds\n\n";
   out +=
-      "Data in which an effect is hidden, made by physics of their own (`tests/hidden`: the "
+      "Data in which an effect is hidden, made by physics of their own (`src/studies/synthetic`: "
+      "the "
       "contact "
       "in time with explicit forces, 40 or 100 noisy events per point, values printed as in a "
       "table's columns), and diagnosed by the built command, which sees the dataset folder and a "
@@ -193,7 +195,7 @@ std::string study_report(const std::vector<Answered>& all, std::size_t planned,
         "shuffled order, so that those that were tried are a fair sample of all.",
         planned);
   }
-  out += fmt::format("\n\nMade by `{}`.\n\n", command);
+  out += "\n\n" + recoil::markdown_of(recoil::stamp_blocks(stamp));
   out +=
       "## The bars\n\nDesigns with several diameters, snr 10 and more, unless said "
       "otherwise.\n\n" +

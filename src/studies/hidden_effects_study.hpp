@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "studies/diagnosis_answer.hpp"
+#include "studies/study_stamp.hpp"
 
 namespace hidden {
 
@@ -34,9 +35,8 @@ std::vector<CaseOrder> plan_study(const StudySize& size);
 
 /// The whole report in Markdown.
 /// @param planned how many data sets `answers` would have if all were done
-/// @param command the line that makes it again
 std::string study_report(const std::vector<Answered>& answers, std::size_t planned,
-                         const StudySize& size, const std::string& command);
+                         const StudySize& size, const recoil::StudyStamp& stamp);
 
 /// Power against strength, and the confusion matrix, as one picture (SVG).
 std::string study_picture(const std::vector<Answered>& answers);

@@ -1,5 +1,5 @@
 // The picture of the coverage study: colours against hand-worked values, cells against the results.
-#include "report/coverage_picture.hpp"
+#include "studies/coverage_picture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ using testing::Not;
 struct Rgb {
   int red = 0, green = 0, blue = 0;
 };
-Rgb rgb(double held) {
+Rgb rgb(double share) {
   Rgb c;
-  EXPECT_EQ(std::sscanf(coverage_colour(held, 0.95).c_str(), "#%2x%2x%2x",
+  EXPECT_EQ(std::sscanf(coverage_colour(share, 0.95).c_str(), "#%2x%2x%2x",
                         reinterpret_cast<unsigned*>(&c.red), reinterpret_cast<unsigned*>(&c.green),
                         reinterpret_cast<unsigned*>(&c.blue)),
             3);
@@ -28,8 +28,8 @@ Rgb rgb(double held) {
 }
 
 TEST(CoverageColour, IsWhiteWhereTheStudyIsContent) {
-  for (const double held : {0.93, 0.94, 0.95, 0.96, 0.97}) {
-    EXPECT_EQ(coverage_colour(held, 0.95), "#ffffff") << held;
+  for (const double share : {0.93, 0.94, 0.95, 0.96, 0.97}) {
+    EXPECT_EQ(coverage_colour(share, 0.95), "#ffffff") << share;
   }
 }
 
@@ -45,44 +45,39 @@ TEST(CoverageColour, IsOrangeBelowAndBlueAbove) {
   EXPECT_GT(rgb(0.90).blue, rgb(0.85).blue) << "deeper further away";
 }
 
-/// Every design, numbers that can be recognised.
-std::vector<GridResult> study() {
-  std::vector<GridResult> results;
-  for (const GridDesign& design : coverage_grid()) {
-    GridResult result;
-    result.design = design;
-    result.coverage.datasets = 1010;
-    result.coverage.failed = 10;
-    const int n = static_cast<int>(results.size());
-    for (const char* name : {"C_H", "C_A", "f0", "V*(4.90 um)"}) {
-      if (std::string(name) == "f0" && !design.adhesion_free) continue;
-      CoverageRow row;
-      row.parameter = name;
-      row.identifiable = std::string(name) == "V*(4.90 um)" ? 0 : 1000 - 13 * n;
-      for (const char* kind :
-           {"recommended", "profile", "percentile", "bca", "studentized", "wald"}) {
-        CoverageCell cell;
-        cell.interval = kind;
-        cell.offered = 1000;
-        const int k = static_cast<int>(row.cells.size());
-        cell.held = 950 + 2 * (n % 21 - 10) - 25 * (k > 1 ? k : 0);
-        if (std::string(name) == "V*(4.90 um)" && k != 0 && k != 2) cell.offered = 0;
-        row.cells.push_back(cell);
-      }
-      result.coverage.rows.push_back(row);
-    }
-    results.push_back(result);
-  }
-  return results;
+IntervalCoverage counted(const std::string& interval, int offered, int contained) {
+  return {interval, offered, contained, 0, 0, {}};
 }
 
-std::string picture(const std::vector<GridResult>& results) {
-  FitSpec spec;
-  spec.id = "example <fit>";
-  CoverageOptions options;
-  options.datasets = 1010;
-  options.uncertainty.level = 0.95;
-  return coverage_picture(results, spec, options, "made up & not measured");
+/// Every design, numbers that can be recognised.
+std::vector<ParameterCoverage> study() {
+  std::vector<ParameterCoverage> rows;
+  int n = 0;
+  for (const GridDesign& design : coverage_grid()) {
+    for (const char* name : {"C_H", "C_A", "f0", "V*(4.90 um)"}) {
+      if (std::string(name) == "f0" && !design.adhesion_free) continue;
+      ParameterCoverage row;
+      row.design = design.name();
+      row.parameter = name;
+      row.usable = 1000;
+      row.identifiable = std::string(name) == "V*(4.90 um)" ? 0 : 1000 - 13 * n;
+      int k = 0;
+      for (const char* kind :
+           {"recommended", "profile", "percentile", "bca", "studentized", "wald"}) {
+        const bool none = std::string(name) == "V*(4.90 um)" && k != 0 && k != 2;
+        row.intervals.push_back(
+            counted(kind, none ? 0 : 1000, 950 + 2 * (n % 21 - 10) - 25 * (k > 1 ? k : 0)));
+        ++k;
+      }
+      rows.push_back(row);
+    }
+    ++n;
+  }
+  return rows;
+}
+
+std::string picture(const std::vector<ParameterCoverage>& rows) {
+  return coverage_picture(rows, 0.95, "example <fit>", "made up & not measured");
 }
 
 std::size_t occurrences(const std::string& text, const std::string& word) {
@@ -91,7 +86,7 @@ std::size_t occurrences(const std::string& text, const std::string& word) {
   return count;
 }
 
-TEST(CoveragePicture, HoldsEveryCellOfTheGrid) {
+TEST(CoveragePicture, HasEveryCellOfTheGrid) {
   const std::string svg = picture(study());
   if (const char* file = std::getenv("RECOIL_COVERAGE_PICTURE")) write_whole_file(file, svg);
   EXPECT_TRUE(svg.starts_with("<svg ")) << svg.substr(0, 40);
@@ -103,27 +98,26 @@ TEST(CoveragePicture, HoldsEveryCellOfTheGrid) {
   EXPECT_LT(svg.size(), 400000U);
 }
 
-TEST(CoveragePicture, ShowsTheShareThatHeldAndTheShareThatWasCalledIdentifiable) {
-  GridResult result;
-  result.design = {20, GridNoise::near_capture, false, true, true};
-  result.coverage.datasets = 210;
-  result.coverage.failed = 10;
-  CoverageRow row;
+TEST(CoveragePicture, ShowsTheShareThatContainedAndTheShareThatWasCalledIdentifiable) {
+  ParameterCoverage row;
+  row.design = GridDesign{20, GridNoise::near_capture, false, true, true}.name();
   row.parameter = "f0";
-  row.identifiable = 150;  // of 200 usable: 75 %
-  row.cells = {{"recommended", 200, 183, 0, 0, 0.0}, {"wald", 80, 60, 0, 0, 0.0}};
-  result.coverage.rows = {row};
-  const std::string svg = picture({result});
+  row.usable = 200;
+  row.identifiable = 150;
+  row.intervals = {
+      counted("recommended", 200, 183), counted("wald", 80, 60), {"bca", {}, {}, {}, {}, 0.876}};
+  const std::string svg = picture({row});
   EXPECT_THAT(svg, HasSubstr(">91.5<"));
   EXPECT_THAT(svg, HasSubstr(">75.0<")) << "of those that were offered";
+  EXPECT_THAT(svg, HasSubstr(">87.6<")) << "of which only the share is known";
   EXPECT_THAT(svg, HasSubstr(">75<"));
   EXPECT_THAT(svg, HasSubstr(">near-capture<"));
   EXPECT_THAT(svg, HasSubstr(">estimated<"));
   EXPECT_THAT(svg, HasSubstr(">free<"));
   EXPECT_THAT(svg, HasSubstr(">with<"));
   EXPECT_THAT(svg, Not(HasSubstr("opacity=")));
-  result.coverage.rows[0].identifiable = 20;
-  EXPECT_THAT(picture({result}), HasSubstr("opacity=")) << "warned in nine of ten";
+  row.identifiable = 20;
+  EXPECT_THAT(picture({row}), HasSubstr("opacity=")) << "warned in nine of ten";
 }
 
 }  // namespace
