@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/event_points.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
+#include "data/folder_names.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
@@ -94,9 +95,17 @@ void add_predictions(Analysis& analysis) {
 void add_corrections(Analysis& analysis) {
   if (analysis.datasets.size() != 1) return;
   const Dataset& dataset = analysis.datasets.front();
-  if (dataset.provenance != Provenance::reconstruction) return;
-  if (!std::filesystem::exists(dataset.folder / recipe_name)) return;
-  analysis.corrections = study_recipe(analysis.spec, load_recipe(dataset.folder), dataset);
+  const std::filesystem::path studied = dataset.folder / correction_studies_name;
+  const std::filesystem::path recipe = dataset.folder / recipe_name;
+  if (!std::filesystem::exists(studied) || !std::filesystem::exists(recipe)) return;
+  CorrectionStudies found = read_correction_studies(studied);
+  const std::string inputs =
+      correction_inputs(analysis.spec.sha256, dataset.sha256, read_text_file(recipe));
+  if (found.inputs == inputs) {
+    analysis.corrections = std::move(found.studies);
+  } else {
+    analysis.corrections_outdated = true;
+  }
 }
 
 Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& options) {

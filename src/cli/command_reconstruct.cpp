@@ -1,15 +1,31 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/event_points.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/units.hpp"
 #include "reconstruction/passages.hpp"
 #include "reconstruction/reconstruction.hpp"
 
 namespace recoil {
+namespace {
+
+/// How to make the points of `recipe` by hand.
+std::string pair_command_words(const Recipe& recipe) {
+  const PairingDesign& pairing = recipe.pairing.value();
+  return fmt::format(
+      "  The same by hand, {0} being this folder:\n"
+      "    recoil reconstruct {0} --passages events.csv\n"
+      "    recoil pair events.csv --unit time=s,velocity=m/s,tangential_velocity=m/s,diameter=um "
+      "\\\n"
+      "        --height {1:g} --angle {2:.6g} --per-bin {3} --mean-diameter --out points.csv\n",
+      recipe.id, pairing.height / units::mm, pairing.angle * 180.0 / M_PI, pairing.per_bin);
+}
+
+}  // namespace
 
 void add_reconstruct(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
@@ -43,7 +59,7 @@ void add_reconstruct(CLI::App& program) {
       fmt::print("{}: passages of a reconstruction; nothing here was measured\n", *passages);
       return;
     }
-    const ReconstructionResult result = reconstruct(*folder, *check, pair_passages);
+    const ReconstructionResult result = reconstruct(*folder, *check);
     fmt::print("{}", describe(result));
     if (result.from_events) fmt::print("\n{}", pair_command_words(load_recipe(*folder)));
     if (!result.good()) {

@@ -48,8 +48,10 @@ std::string fingerprint(const fs::path& fit_file, const AnalysisFlags& flags) {
   std::string text = spec.sha256;
   for (const Dataset& dataset : load_datasets(spec)) {
     text += dataset.sha256;
-    if (fs::exists(dataset.folder / recipe_name)) {
-      text += sha256_hex(read_text_file(dataset.folder / recipe_name));
+    for (const char* name : {recipe_name, correction_studies_name}) {
+      if (fs::exists(dataset.folder / name)) {
+        text += sha256_hex(read_text_file(dataset.folder / name));
+      }
     }
     if (const auto sizes = sizes_of_dataset(dataset.folder)) text += sizes->sha256;
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/files.hpp"
+#include "reconstruction/paired_points.hpp"
 #include "reconstruction/plan.hpp"
 
 namespace recoil {
@@ -50,8 +51,8 @@ void require_recipe(const std::filesystem::path& folder) {
                                           "has one"));
 }
 
-PairedPoints make_points(const Recipe& recipe, const PairPassages& pair) {
-  if (recipe.pairing) return pair(recipe);
+PairedPoints make_points(const Recipe& recipe) {
+  if (recipe.pairing) return pair_passages(recipe);
   std::vector<GeneratedPoint> points = draw_points(recipe, recipe.seed);
   std::string csv = to_csv(recipe, points);
   return {std::move(csv), std::move(points)};
@@ -108,11 +109,10 @@ bool ReconstructionResult::good() const {
          std::all_of(facts.begin(), facts.end(), [](const FactCheck& f) { return f.holds; });
 }
 
-ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only,
-                                 const PairPassages& pair) {
+ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only) {
   require_recipe(folder);
   const Recipe recipe = load_recipe(folder);
-  const auto [made, points] = make_points(recipe, pair);
+  const auto [made, points] = make_points(recipe);
   const std::filesystem::path file = folder / "points.csv";
 
   ReconstructionResult result;

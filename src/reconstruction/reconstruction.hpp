@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,16 +20,6 @@ std::string generate_points(const Recipe& recipe, std::uint64_t seed);
 /// noiseless truth is already in the recipe.
 /// @throws InputError when `original` does not have the design of the recipe.
 Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t seed);
-
-/// Points made from the passages of a recipe.
-struct PairedPoints {
-  std::string csv;                     ///< points.csv
-  std::vector<GeneratedPoint> points;  ///< the same, for the facts
-};
-
-/// Draws the passages of a recipe and pairs them. It comes from outside: what makes a truth does
-/// not use what is tried on it.
-using PairPassages = std::function<PairedPoints(const Recipe&)>;
 
 /// C_H [s/m], C_A [s/m] and f0 [N/m] at `reference_diameter` [m] of a truth made by the
 /// ring-adhesion model, by these names; empty when the truth is another model.
@@ -55,10 +44,8 @@ struct ReconstructionResult {
 
 /// Makes points.csv of `folder` from its recipe, or with `check_only` compares the file that is
 /// there; then checks every fact of the recipe.
-/// @param pair makes the points of recipes with a table [pairing].
 /// @throws InputError for a mistake in the recipe, or a missing points.csv when only checking.
-ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only,
-                                 const PairPassages& pair);
+ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only);
 
 /// The facts as a table, with what is assumed and a verdict, for the terminal.
 std::string describe(const ReconstructionResult& result);

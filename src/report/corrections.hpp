@@ -15,6 +15,9 @@ std::vector<Figure> correction_figures(const CorrectionStudy& study, std::size_t
 /// One sentence per correction: what leaving it out does to e, C_A and the capture velocity.
 std::vector<Sentence> correction_words(const CorrectionStudy& study);
 
+/// "velocities taken at the measuring plane", ...: what is done instead.
+std::string words_of(Correction left_out);
+
 /// How many spheres in how many size classes a study is about.
 std::string study_words(const CorrectionStudy& study);
 

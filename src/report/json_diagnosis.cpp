@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "core/units.hpp"
+#include "diagnosis/verdict_words.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/json_values.hpp"
 #include "uncertainty/identifiability.hpp"
@@ -168,12 +171,17 @@ std::string diagnosis_json(const Diagnosis& d) {
   out["capture_velocity"] = capture_json(d);
   out["next_measurement"] = next_json(d);
   out["unstated_errors"] = Json::array();
+  const std::vector<UnstatedErrors> rivals = rival_errors(d);
   for (const UnstatedErrors& errors : d.unstated) {
+    const bool rival = std::any_of(rivals.begin(), rivals.end(), [&](const UnstatedErrors& other) {
+      return other.id == errors.id;
+    });
     out["unstated_errors"].push_back({{"id", errors.id},
                                       {"value", errors.value},
                                       {"delta_aicc", errors.delta_aicc},
                                       {"remaining_p", errors.remaining_p},
-                                      {"leave_nothing", errors.leave_nothing()}});
+                                      {"leave_nothing", errors.leave_nothing()},
+                                      {"rival", rival}});
   }
   out["settings"] = {{"level", d.options.level},       {"chance", d.options.chance},
                      {"apart", d.options.apart},       {"apart_in_pairs", d.options.apart_in_pairs},

@@ -6,8 +6,8 @@
 
 #include "document/document.hpp"
 #include "estimate/fit.hpp"
+#include "experiment/correction_study.hpp"
 #include "predict/capture_comparison.hpp"
-#include "predict/correction_study.hpp"
 #include "predict/polydisperse.hpp"
 #include "uncertainty/uncertainty.hpp"
 
@@ -22,6 +22,7 @@ struct Analysis {
   std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
   std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
   std::vector<CorrectionStudy> corrections;      ///< of a reconstruction that goes by way of events
+  bool corrections_outdated = false;  ///< they were made from another fit, dataset or recipe
 };
 
 /// This program's version, "0.1.0".

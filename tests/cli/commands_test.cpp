@@ -107,21 +107,14 @@ TEST(Fit, ReferenceSolverAgrees) {
   }
 }
 
-TEST(Coverage, DrawsTheGridOnlyWhereThereIsOne) {
+TEST(Coverage, GridsAreOfAnotherProgram) {
   const Workplace place;
-  EXPECT_EQ(place.run({"coverage", "fit.toml", "--picture", "grid.svg"}).status, 2);
-  EXPECT_EQ(place.run({"coverage", "fit.toml", "--designs", "n10"}).status, 2);
-  const Outcome unknown = place.run({"coverage", "fit.toml", "--grid", "--designs", "n12,stated"});
-  EXPECT_EQ(unknown.status, 2);
-  EXPECT_NE(unknown.err.find("n10, n20, n60"), std::string::npos) << unknown.err;
-  EXPECT_EQ(unknown.out, "");
-  const Outcome run =
-      place.run({"coverage", "fit.toml", "--grid", "--designs", "n10 equal stated f0-fixed",
-                 "--datasets", "2", "--replicates", "39", "--picture", "grid.svg"});
-  ASSERT_EQ(run.status, 0) << run.err;
-  const std::string svg = place.read("grid.svg");
-  EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
-  EXPECT_NE(svg.find("2 data sets per design"), std::string::npos);
+  for (const char* option : {"--grid", "--picture", "--summary"}) {
+    const Outcome run = place.run({"coverage", "fit.toml", option});
+    EXPECT_EQ(run.status, 2) << option;
+    EXPECT_NE(run.err.find("recoil_study"), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
+  }
 }
 
 TEST(Fit, FittedValuesCanBeSimulated) {

@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "data/dataset.hpp"
-#include "event_stream.hpp"
 #include "experiment/histogram.hpp"
 #include "experiment/pairing_files.hpp"
-#include "score.hpp"
+#include "studies/pairing_score.hpp"
+#include "studies/synthetic/event_stream.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "core/files.hpp"
-#include "event_stream.hpp"
 #include "predict/measured_sizes.hpp"
 #include "support/workplace.hpp"
+#include "studies/synthetic/event_stream.hpp"
 
 namespace {
 

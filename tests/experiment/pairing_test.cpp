@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "event_stream.hpp"
 #include "experiment/flight.hpp"
-#include "score.hpp"
+#include "studies/pairing_score.hpp"
+#include "studies/synthetic/event_stream.hpp"
 
 namespace {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/event_points.hpp"
 #include "core/error.hpp"
 #include "recipe_folder.hpp"
+#include "reconstruction/paired_points.hpp"
 #include "reconstruction/plan.hpp"
 #include "reconstruction/reconstruction.hpp"
 
@@ -40,7 +40,7 @@ TEST_P(Committed, PointsAreByteForByteWhatTheRecipeMakes) {
 }
 
 TEST_P(Committed, EveryFactHolds) {
-  const ReconstructionResult result = reconstruct(dataset_folder(GetParam()), true, pair_passages);
+  const ReconstructionResult result = reconstruct(dataset_folder(GetParam()), true);
   EXPECT_FALSE(result.facts.empty());
   for (const FactCheck& fact : result.facts)
     EXPECT_TRUE(fact.holds) << fact.id << ": " << fact.found;
@@ -92,33 +92,33 @@ TEST_P(Committed, DatasetStatesTheMaterialsOfTheRecipe) {
 TEST(Reconstruction, TamperedPointsAreFound) {
   const CopiedDatasets copies;
   const std::string id = "wall1990-silicon";
-  EXPECT_TRUE(reconstruct(copies.folder(id), true, pair_passages).good());
+  EXPECT_TRUE(reconstruct(copies.folder(id), true).good());
   const std::string text = text_of(copies.folder(id) / "points.csv");
   const std::string line =
       text.substr(text.find('\n') + 1, text.find('\n', text.find('\n') + 1) - text.find('\n') - 1);
   copies.change(id + "/points.csv", line, line + "0");
-  const ReconstructionResult result = reconstruct(copies.folder(id), true, pair_passages);
+  const ReconstructionResult result = reconstruct(copies.folder(id), true);
   EXPECT_FALSE(result.good());
   EXPECT_FALSE(result.identical);
   EXPECT_NE(result.difference.find("line 2"), std::string::npos) << result.difference;
   EXPECT_NE(describe(result).find("NOT what the recipe makes"), std::string::npos);
   // Making it anew puts it right.
-  EXPECT_TRUE(reconstruct(copies.folder(id), false, pair_passages).good());
+  EXPECT_TRUE(reconstruct(copies.folder(id), false).good());
   EXPECT_EQ(text_of(copies.folder(id) / "points.csv"), text);
 }
 
 TEST(Reconstruction, TamperedRecipesAreFound) {
   const CopiedDatasets copies;
   copies.change("wall1990-mica/recipe.toml", "seed = 199003", "seed = 199004");
-  EXPECT_FALSE(reconstruct(copies.folder("wall1990-mica"), true, pair_passages).identical);
+  EXPECT_FALSE(reconstruct(copies.folder("wall1990-mica"), true).identical);
   copies.change("dahneke1975-quartz/recipe.toml", "C_A = 3.8e-3  ", "C_A = 4.8e-3  ");
-  EXPECT_FALSE(reconstruct(copies.folder("dahneke1975-quartz"), true, pair_passages).identical);
+  EXPECT_FALSE(reconstruct(copies.folder("dahneke1975-quartz"), true).identical);
 }
 
 TEST(Reconstruction, ATruthThatContradictsAFactIsFound) {
   const auto fails = [](const CopiedDatasets& copies, const std::string& id,
                         const std::string& fact) {
-    const ReconstructionResult result = reconstruct(copies.folder(id), false, pair_passages);
+    const ReconstructionResult result = reconstruct(copies.folder(id), false);
     const auto found = std::find_if(result.facts.begin(), result.facts.end(),
                                     [&](const FactCheck& f) { return f.id == fact; });
     return found != result.facts.end() && !found->holds;

@@ -77,9 +77,9 @@ TEST(Recipe, MissingOnesAreSaid) {
   const CopiedDatasets copies;
   EXPECT_THROW(load_recipe(copies.folder("nothing")), InputError);
   std::filesystem::remove(copies.folder(wall) / "points.csv");
-  EXPECT_THROW(reconstruct(copies.folder(wall), true, {}), InputError);
+  EXPECT_THROW(reconstruct(copies.folder(wall), true), InputError);
   std::filesystem::remove_all(copies.folder("wall1990-silicon"));
-  EXPECT_THROW(reconstruct(copies.folder(wall), false, {}), InputError);  // a sibling of it
+  EXPECT_THROW(reconstruct(copies.folder(wall), false), InputError);  // a sibling of it
 }
 
 TEST(Recipe, ImpactsThatAreHardlyEverSeenAreRefused) {

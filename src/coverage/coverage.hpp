@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/names.hpp"
+#include "uncertainty/uncertainty.hpp"
+
+namespace recoil {
+
+/// How often one kind of interval of one parameter contained the truth.
+struct CoverageCell {
+  std::string interval;          ///< "wald", "profile", ..., "recommended"
+  int offered = 0;               ///< data sets in which there was such an interval
+  int held = 0;                  ///< of those, how many contained the truth
+  int offered_identifiable = 0;  ///< the same where the verdict called it identifiable
+  int held_identifiable = 0;
+  double median_width = 0.0;  ///< [parameter's unit]
+};
+
+struct CoverageRow {
+  std::string parameter;  ///< slot label, or "V*(d)" of a capture velocity
+  std::string unit;
+  double truth = 0.0;
+  int identifiable = 0;  ///< data sets in which the verdict called the parameter identifiable
+  std::vector<CoverageCell> cells;
+};
+
+/// Where the true parameters, and with them the simulated data, come from.
+enum class TruthOrigin {
+  recipe,   ///< the recipe of a reconstruction: its parameters, simulator and noise
+  estimate  ///< the fit's own estimate, simulated independently of the fitter
+};
+template <>
+struct NamesOf<TruthOrigin> {
+  static constexpr std::array<std::string_view, 2> names = {"recipe", "estimate"};
+};
+
+struct CoverageResult {
+  int datasets = 0;
+  int failed = 0;         ///< data sets whose fit gave no answer
+  int refits_failed = 0;  ///< bootstrap refits that failed, over all data sets
+  TruthOrigin truth_origin = TruthOrigin::estimate;
+  std::vector<CoverageRow> rows;
+};
+
+struct CoverageOptions {
+  int datasets = 100;
+  UncertaintyOptions uncertainty;
+};
+
+/// What the study is about: true parameters, true capture velocities and a source of data sets.
+struct CoverageTruth {
+  struct Capture {
+    double diameter = 0.0;  ///< [m]
+    double velocity = 0.0;  ///< V* [m/s]
+  };
+  TruthOrigin origin = TruthOrigin::estimate;
+  std::vector<double> theta;     ///< [slots]
+  std::vector<Capture> capture;  ///< in the order of UncertaintyResult::capture
+  /// The data sets of simulation number `index`; called from any thread.
+  std::function<std::vector<Dataset>(std::uint64_t index)> simulate;
+};
+
+/// Fits every simulated data set as a user would and counts how often each interval of each free
+/// parameter contains the truth. Deterministic in (seed, number of data sets).
+CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
+                                const CoverageOptions& options);
+
+}  // namespace recoil

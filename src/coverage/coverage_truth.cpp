@@ -1,0 +1,213 @@
+#include "coverage/coverage_truth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "coverage/simulated_impacts.hpp"
+#include "reconstruction/reconstruction.hpp"
+
+namespace recoil {
+namespace {
+
+struct KnownRecipe {
+  Recipe recipe;
+  std::map<std::string, double> parameters;
+};
+
+/// The recipes of all datasets, or nothing when one has none or another model.
+std::vector<KnownRecipe> known_recipes(const std::vector<Dataset>& datasets) {
+  std::vector<KnownRecipe> recipes;
+  for (const Dataset& dataset : datasets) {
+    if (!std::filesystem::exists(dataset.folder / "recipe.toml")) return {};
+    Recipe recipe = load_recipe(dataset.folder);
+    if (recipe.sizes) return {};  // mixed sizes: not the model of a fit
+    std::map<std::string, double> parameters = true_parameters(recipe);
+    if (parameters.empty()) return {};
+    recipes.push_back({std::move(recipe), std::move(parameters)});
+  }
+  return recipes;
+}
+
+void add_capture_velocities(CoverageTruth& truth, const std::vector<Dataset>& datasets,
+                            const std::vector<Truth>& truths) {
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    for (const double diameter : distinct_diameters(datasets[d])) {
+      truth.capture.push_back({diameter, true_capture_velocity(truths[d], diameter)});
+    }
+  }
+}
+
+CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                           std::vector<KnownRecipe> recipes, std::uint64_t seed) {
+  CoverageTruth truth;
+  truth.origin = TruthOrigin::recipe;
+  const ImpactModel model = make_model(spec, datasets);
+  truth.theta = model.initial();
+  std::vector<Truth> truths;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    truth.theta[model.slot_C_H[d]] = recipes[d].parameters.at("C_H");
+    truth.theta[model.slot_C_A[d]] = recipes[d].parameters.at("C_A");
+    truth.theta[model.slot_f0[d]] = recipes[d].parameters.at("f0");
+    truths.push_back(recipes[d].recipe.truth);
+  }
+  add_capture_velocities(truth, datasets, truths);
+  const auto shared = std::make_shared<const std::vector<KnownRecipe>>(std::move(recipes));
+  truth.simulate = [datasets, shared, seed](std::uint64_t index) {
+    std::vector<Dataset> made;
+    for (std::size_t d = 0; d < datasets.size(); ++d) {
+      made.push_back(regenerate(datasets[d], (*shared)[d].recipe, seed + 1 + index));
+    }
+    return made;
+  };
+  return truth;
+}
+
+Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::size_t dataset) {
+  const ContactProperties& contact = model.contacts[dataset];
+  RingAdhesionTruth truth;
+  truth.density = contact.particle_density;
+  truth.stiffness = contact.stiffness;
+  truth.adhesion_force = theta[model.slot_f0[dataset]];
+  truth.reference_diameter = contact.reference_diameter;
+  truth.C_H = theta[model.slot_C_H[dataset]];
+  truth.C_A = theta[model.slot_C_A[dataset]];
+  truth.damped_in_both_phases = model.phase == AdhesionDampingPhase::both;
+  return truth;
+}
+
+/// A point of the design, to be simulated at the estimate.
+struct DesignPoint {
+  double restitution = 0.0;                ///< of the typical impact [1]
+  double sd = 0.0;                         ///< that the point states or the fit found [1]
+  double own_sd = 0.0;                     ///< of that, what the differing impacts do not make [1]
+  std::shared_ptr<const TrueCurve> curve;  ///< where impacts differ and captures were counted
+};
+
+/// Impacts that differ by the capture velocity: V / V* is what counts.
+double differing_velocity(double velocity, double spread, RandomStream& random) {
+  return velocity * std::exp(spread * random.normal());
+}
+
+/// Variance of the mean that differing impacts make, on average over many such points.
+double mean_variance(const TrueCurve& curve, const Observation& point, double spread,
+                     RandomStream& random) {
+  constexpr int points = 400;
+  double sum = 0.0;
+  for (int k = 0; k < points; ++k) {
+    sum += count_impacts(curve, point.events, [&] {
+             return differing_velocity(point.velocity, spread, random);
+           }).variance_of_mean;
+  }
+  return sum / points;
+}
+
+std::vector<DesignPoint> design_points(const FitResult& fitted, const std::vector<Truth>& truths,
+                                       RandomStream& random) {
+  const double spread = fitted.data.noise.event_spread;
+  const double reach = std::exp(6.0 * spread);
+  std::map<std::pair<std::size_t, double>, double> fastest;
+  for (const Observation& point : fitted.data.points) {
+    double& most = fastest[{point.dataset, point.diameter}];
+    most = std::max(most, point.velocity * reach);
+  }
+  std::map<std::pair<std::size_t, double>, std::shared_ptr<const TrueCurve>> curves;
+  std::vector<DesignPoint> design;
+  for (const Observation& point : fitted.data.points) {
+    const Truth& truth = truths[point.dataset];
+    DesignPoint made{true_restitution(truth, point.diameter, point.velocity), point.weights.sd,
+                     point.weights.sd, nullptr};
+    if (spread > 0.0 && point.counted) {
+      auto& curve = curves[{point.dataset, point.diameter}];
+      if (!curve) {
+        curve = std::make_shared<const TrueCurve>(truth, point.diameter,
+                                                  true_capture_velocity(truth, point.diameter),
+                                                  fastest[{point.dataset, point.diameter}]);
+      }
+      made.curve = curve;
+      made.own_sd = std::sqrt(std::max(
+          0.0, point.weights.sd * point.weights.sd - mean_variance(*curve, point, spread, random)));
+    }
+    design.push_back(std::move(made));
+  }
+  return design;
+}
+
+/// The point as an experiment at the truth would find it another time.
+void simulate_point(const DesignPoint& design, double spread, RandomStream& random,
+                    ImpactPoint& point) {
+  const double noise = random.normal();
+  if (!design.curve) {
+    if (!point.all_captured()) {
+      point.restitution = std::max(0.0, design.restitution + design.sd * noise);
+    }
+    return;
+  }
+  const CountedImpacts found = count_impacts(*design.curve, point.events, [&] {
+    return differing_velocity(point.incident_velocity, spread, random);
+  });
+  const bool stated = point.restitution_sd.has_value();
+  point.captured = found.captured;
+  point.restitution = 0.0;
+  point.restitution_sd.reset();
+  if (point.all_captured()) return;
+  point.restitution = std::max(0.0, found.restitution + design.own_sd * noise);
+  if (stated) {
+    point.restitution_sd = std::sqrt(design.own_sd * design.own_sd + found.variance_of_mean);
+  }
+}
+
+CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                       std::uint64_t seed) {
+  const auto [fitted, truths] = truth_at_estimate(spec, datasets, gather(datasets, spec));
+  CoverageTruth truth;
+  truth.origin = TruthOrigin::estimate;
+  truth.theta = fitted.theta;
+  add_capture_velocities(truth, datasets, truths);
+  RandomStream random(seed, RandomPurpose::coverage, ~std::uint64_t{0});
+  const double spread = fitted.data.noise.event_spread;
+  truth.simulate = [datasets, seed, spread,
+                    design = design_points(fitted, truths, random)](std::uint64_t index) {
+    auto next = design.begin();
+    RandomStream noise(seed, RandomPurpose::coverage, index);
+    std::vector<Dataset> made = datasets;
+    for (Dataset& dataset : made) {
+      for (ImpactPoint& point : dataset.points) simulate_point(*next++, spread, noise, point);
+    }
+    return made;
+  };
+  return truth;
+}
+
+}  // namespace
+
+CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                             std::uint64_t seed) {
+  if (!spec.mechanisms.empty()) {
+    throw InputError({spec.file.string()}, "coverage knows no truth with mechanisms",
+                     "its simulator shares no code with the fitter and has the base model only, so "
+                     "that it would blame the intervals for what the mechanisms do",
+                     "leave `mechanisms` out");
+  }
+  std::vector<KnownRecipe> recipes = known_recipes(datasets);
+  if (!recipes.empty()) return from_recipes(spec, datasets, std::move(recipes), seed);
+  return from_fit(spec, datasets, seed);
+}
+
+EstimatedTruth truth_at_estimate(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                                 const Observations& data) {
+  EstimatedTruth found;
+  found.fitted = fit(make_model(spec, datasets), data);
+  if (!found.fitted.usable) {
+    throw ComputationError("no truth to simulate: " + found.fitted.failure);
+  }
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    found.truths.push_back(truth_at(found.fitted.model, found.fitted.theta, d));
+  }
+  return found;
+}
+
+}  // namespace recoil

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "studies/commands.hpp"
+#include "studies/coverage_page.hpp"
+#include "studies/coverage_picture.hpp"
+#include "studies/coverage_study.hpp"
+#include "studies/study_pages.hpp"
+
+namespace recoil {
+namespace {
+
+struct Options {
+  std::vector<std::string> fit_files;
+  int datasets = 100;
+  int replicates = 39;
+  std::vector<std::string> designs;
+  StudyRun run;
+};
+
+std::vector<Dataset> load_datasets(const FitSpec& spec) {
+  std::vector<Dataset> datasets;
+  for (const auto& folder : spec.datasets) datasets.push_back(load_dataset(folder));
+  return datasets;
+}
+
+CoverageOptions coverage_options(const Options& options, const FitSpec& spec) {
+  CoverageOptions coverage;
+  coverage.datasets = options.datasets;
+  coverage.uncertainty.replicates = options.replicates;
+  coverage.uncertainty.scheme = spec.uncertainty.scheme;
+  coverage.uncertainty.level = spec.uncertainty.level;
+  coverage.uncertainty.seed = spec.uncertainty.seed;
+  coverage.uncertainty.threads = options.run.threads;
+  return coverage;
+}
+
+void study_grid(const Options& options) {
+  const std::vector<GridDesign> designs = designs_named(options.designs);
+  const FitSpec spec = load_fit(options.fit_files.front());
+  CoverageStudy study = measure_grid(spec, load_datasets(spec).front(), designs,
+                                     coverage_options(options, spec), options.run.keep);
+  study.stamp = options.run.stamp();
+  publish(options.run, coverage_study_json(study), coverage_page(study, study.stamp.study),
+          coverage_picture(study));
+}
+
+/// All files are read before the first design is measured.
+void study_designs(const Options& options) {
+  std::vector<FitSpec> specs;
+  std::vector<std::vector<Dataset>> datasets;
+  for (const std::string& file : options.fit_files) {
+    specs.push_back(load_fit(file));
+    datasets.push_back(load_datasets(specs.back()));
+  }
+  CoverageStudy study;
+  for (std::size_t k = 0; k < specs.size(); ++k) {
+    add_design(study, specs[k], datasets[k], coverage_options(options, specs[k]), options.run.keep);
+  }
+  study.stamp = options.run.stamp();
+  publish(options.run, coverage_study_json(study), coverage_page(study, ""), "");
+}
+
+CLI::App* add_command(CLI::App& program, const char* name, const char* what,
+                      const std::shared_ptr<Options>& options) {
+  CLI::App* command = program.add_subcommand(name, what);
+  command->add_option("--datasets", options->datasets, "simulated data sets per design")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--replicates", options->replicates, "bootstrap replicates of each")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000000));
+  add_run_options(*command, options->run);
+  return command;
+}
+
+}  // namespace
+
+void add_coverage_grid(CLI::App& program, const std::string& words) {
+  const auto options = std::make_shared<Options>();
+  options->run.command = words;
+  CLI::App* command = add_command(
+      program, "coverage-grid",
+      "how often the intervals contain the truth: 10, 20, 60 points, three kinds of scatter, "
+      "stated or not, f0 fixed or free, with and without captures",
+      options);
+  command->add_option("FIT", options->fit_files, "whose system and estimate are the truth")
+      ->required()
+      ->expected(1);
+  command
+      ->add_option("--designs", options->designs,
+                   "only the designs whose name has all these words, e.g. n20,stated")
+      ->delimiter(',');
+  command->callback([options] { study_grid(*options); });
+}
+
+void add_coverage_designs(CLI::App& program, const std::string& words) {
+  const auto options = std::make_shared<Options>();
+  options->run.command = words;
+  CLI::App* command =
+      add_command(program, "coverage-designs",
+                  "the same for the designs of several fits, as one table", options);
+  command->add_option("FIT", options->fit_files, "fit files")->required();
+  command->callback([options] { study_designs(*options); });
+}
+
+void add_coverage_summary(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "coverage-summary", "one page and one picture of all studies of coverage in a folder");
+  const auto folder = std::make_shared<std::string>("reports");
+  command->add_option("DIR", *folder, "with coverage-*.json")->capture_default_str();
+  command->callback([folder] { write_coverage_summary(*folder); });
+}
+
+}  // namespace recoil

@@ -1,0 +1,197 @@
+#include "studies/diagnosis_answer.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/files.hpp"
+#include "studies/hidden_effects_study.hpp"
+#include "studies/program_run.hpp"
+
+namespace hidden {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+fs::path kept_file(const CaseOrder& order, const fs::path& keep) {
+  return keep / (neutral_name(order) + ".json");
+}
+
+/// Of `candidates` (the best first), the first that explains the data and those behind it that are
+/// possible.
+std::vector<Contender> contenders_of(const Json& candidates) {
+  constexpr double far_behind = 30.0;
+  std::vector<Contender> found;
+  double best = 0.0;
+  for (const Json& c : candidates) {
+    const double criterion = c.at("delta_aicc");
+    const bool possible = c.at("plausible") && c.at("kind") != "description" && criterion < 0.0;
+    if (found.empty() && c.at("aside").is_null()) best = criterion;
+    if (found.empty() ? c.at("aside").is_null() : possible && criterion < best + far_behind) {
+      found.push_back({c.at("id"), criterion - best});
+    }
+  }
+  return found;
+}
+
+void diagnose(const Case& made, const fs::path& binary, Answered& a) {
+  const ScratchFolder scratch;
+  const fs::path fit = write_case(made, scratch.path());
+  const fs::path out = scratch.path() / "answer";
+  const ProgramRun run = run_program({binary.string(), "diagnose", fit.string(), "--out",
+                                      out.string(), "--threads", "1", "--seed", "20260101"});
+  a.status = run.status;
+  a.seconds = run.seconds;
+  if (run.status != 0) {
+    a.complaint = run.complaint.substr(0, 400);
+    return;
+  }
+  std::ifstream in(out / "diagnosis.json");
+  const Json answer = Json::parse(in);
+  a.verdict = answer.at("verdict");
+  a.p_value = answer.at("misfit").at("p_value");
+  a.named = answer.at("named").get<std::vector<std::string>>();
+  a.rivals = answer.at("rivals").get<std::vector<std::string>>();
+  a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
+  if (answer.at("shared_cause").is_string()) a.shared_cause = answer["shared_cause"];
+  for (const Json& errors : answer.at("unstated_errors")) {
+    a.errors_told = a.errors_told || errors.at("rival").get<bool>();
+  }
+  a.contenders = contenders_of(answer.at("candidates"));
+}
+
+}  // namespace
+
+Json json_of(const Answered& a) {
+  Json contenders = Json::array();
+  for (const Contender& c : a.contenders) contenders.push_back({c.id, c.behind});
+  return {{"key", a.order.key()},
+          {"design", a.order.design},
+          {"effects", a.order.effects},
+          {"wanted_signal_to_noise", a.order.signal_to_noise},
+          {"index", a.order.index},
+          {"seed", a.order.seed},
+          {"reached", a.reached},
+          {"signal_to_noise", a.signal_to_noise},
+          {"status", a.status},
+          {"complaint", a.complaint},
+          {"seconds", a.seconds},
+          {"verdict", a.verdict},
+          {"p_value", a.p_value},
+          {"named", a.named},
+          {"rivals", a.rivals},
+          {"certain", a.certain},
+          {"shared_cause", a.shared_cause},
+          {"errors_told", a.errors_told},
+          {"contenders", contenders},
+          {"nearest_rival", a.nearest_rival.id},
+          {"nearest_rival_misfit", a.nearest_rival.misfit}};
+}
+
+Answered answered_of(const Json& json) {
+  Answered a;
+  a.order = {json.at("design"), json.at("effects").get<std::vector<std::string>>(),
+             json.at("wanted_signal_to_noise"), json.at("index"), json.at("seed")};
+  a.reached = json.at("reached");
+  a.signal_to_noise = json.at("signal_to_noise");
+  a.status = json.at("status");
+  a.complaint = json.at("complaint");
+  a.seconds = json.at("seconds");
+  a.verdict = json.at("verdict");
+  a.p_value = json.at("p_value");
+  a.named = json.at("named").get<std::vector<std::string>>();
+  a.rivals = json.at("rivals").get<std::vector<std::string>>();
+  a.certain = json.at("certain").get<std::vector<std::string>>();
+  a.shared_cause = json.at("shared_cause");
+  a.errors_told = json.at("errors_told");
+  for (const Json& c : json.at("contenders")) a.contenders.push_back({c.at(0), c.at(1)});
+  a.nearest_rival = {json.at("nearest_rival"), json.at("nearest_rival_misfit")};
+  return a;
+}
+
+Mark mark_of(const Answered& a) {
+  if (a.status != 0) return Mark::failed;
+  if (a.verdict == "adequate") return Mark::nothing;
+  if (a.verdict == "unexplained") return Mark::unexplained;
+  const std::set<std::string> truth(a.order.effects.begin(), a.order.effects.end());
+  const std::set<std::string> named(a.named.begin(), a.named.end());
+  std::set<std::string> listed = named;
+  listed.insert(a.rivals.begin(), a.rivals.end());
+  const auto within = [](const std::set<std::string>& part, const std::set<std::string>& whole) {
+    return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
+  };
+  if (a.verdict == "not_separable") {
+    return !truth.empty() && within(truth, listed) ? Mark::inside : Mark::outside;
+  }
+  if (named == truth) return Mark::named;
+  return within(named, truth) ? Mark::part : Mark::wrong;
+}
+
+Mark mark_with_margin(const Answered& answered, double margin) {
+  if (answered.contenders.empty()) return mark_of(answered);
+  Answered other = answered;
+  other.named.clear();
+  other.rivals.clear();
+  for (const Contender& c : answered.contenders) {
+    if (c.behind <= margin) other.rivals.push_back(c.id);
+  }
+  other.verdict = other.rivals.size() == 1 ? "cause_named" : "not_separable";
+  if (other.rivals.size() == 1) std::swap(other.named, other.rivals);
+  return mark_of(other);
+}
+
+std::string to_string(Mark mark) {
+  switch (mark) {
+    case Mark::nothing:
+      return "adequate";
+    case Mark::unexplained:
+      return "unexplained";
+    case Mark::named:
+      return "named";
+    case Mark::part:
+      return "one of several named";
+    case Mark::wrong:
+      return "wrong cause named";
+    case Mark::inside:
+      return "not separable, listed";
+    case Mark::outside:
+      return "not separable, not listed";
+    case Mark::failed:
+      return "no answer";
+  }
+  return "";
+}
+
+std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep) {
+  if (keep.empty()) return {};
+  std::ifstream in(kept_file(order, keep));
+  const Json kept = in ? Json::parse(in, nullptr, false) : Json();
+  if (!kept.is_object() || kept.value("key", "") != order.key() ||
+      kept.value("seed", std::uint64_t{0}) != order.seed) {
+    return {};
+  }
+  return answered_of(kept);
+}
+
+Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep) {
+  if (const std::optional<Answered> kept = kept_answer(order, keep)) return *kept;
+  Answered a;
+  a.order = order;
+  const Case made = make_case(order);
+  a.reached = made.reached;
+  a.signal_to_noise = made.refit.signal_to_noise;
+  if (made.reached) diagnose(made, binary, a);
+  if (made.reached && arm_of(order) == Arm::effect && order.signal_to_noise >= visible) {
+    a.nearest_rival = nearest_rival(made, binary);
+  }
+  // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
+  const bool answered = a.status >= 0 && a.status < 128;
+  if (!keep.empty() && answered) {
+    recoil::write_whole_file(kept_file(order, keep), json_of(a).dump(2) + "\n");
+  }
+  return a;
+}
+
+}  // namespace hidden

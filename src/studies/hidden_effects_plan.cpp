@@ -1,0 +1,84 @@
+#include <algorithm>
+
+#include "studies/hidden_effects_study.hpp"
+
+namespace hidden {
+namespace {
+
+/// Two effects at once that an experiment may well have.
+const std::vector<std::vector<std::string>> pairs_of_effects = {
+    {"plastic_yield", "probe_plane"},    {"plastic_yield", "jkr_hysteresis"},
+    {"gas_film", "size_calibration"},    {"plastic_yield", "survivor_bias"},
+    {"jkr_hysteresis", "series_offset"}, {"bulk_viscoelastic", "rebound_truncation"},
+};
+
+class Plan {
+ public:
+  explicit Plan(std::uint64_t seed) : seed_(seed) {}
+  void add(const char* design, const std::vector<std::string>& effects, double strength,
+           int count) {
+    for (int i = 0; i < count; ++i) {
+      orders.push_back({design, effects, strength, static_cast<std::uint64_t>(i), seed_});
+    }
+  }
+  std::vector<CaseOrder> orders;
+
+ private:
+  std::uint64_t seed_;
+};
+
+}  // namespace
+
+Arm arm_of(const CaseOrder& order) {
+  if (!has_several_diameters(order.design)) return Arm::single;
+  if (order.effects.empty()) return Arm::correct;
+  if (order.effects.size() > 1) return Arm::pair;
+  switch (find_hidden_effect(order.effects.front()).kind) {
+    case EffectKind::outside:
+      return Arm::outside;
+    case EffectKind::careless:
+      return Arm::careless;
+    default:
+      return Arm::effect;
+  }
+}
+
+std::vector<CaseOrder> plan_study(const StudySize& size) {
+  Plan plan(size.seed);
+  for (const HiddenEffect& effect : hidden_effects()) {
+    const std::vector<std::string> effect = {std::string(effect.id)};
+    if (effect.kind == EffectKind::careless) {
+      for (const char* design : {"wall", "li"}) plan.add(design, effect, 0.0, size.careless);
+      continue;
+    }
+    const bool outside = effect.kind == EffectKind::outside;
+    for (const double strength : study_strengths()) {
+      const int count = outside ? size.outside : size.per_cell;
+      if (outside && strength < visible) continue;
+      for (const char* design : {"wall", "li"}) plan.add(design, effect, strength, count);
+      if (!outside) plan.add("wall-batches", effect, strength, (count + 1) / 2);
+    }
+    for (const double strength : {10.0, 20.0}) {
+      for (const char* design : {"wall-one", "dahneke"}) {
+        if (!outside) plan.add(design, effect, strength, size.single);
+      }
+    }
+  }
+  for (const std::vector<std::string>& pair : pairs_of_effects) {
+    for (const double strength : {10.0, 20.0}) {
+      for (const char* design : {"wall", "li"}) plan.add(design, pair, strength, size.pairs);
+    }
+  }
+  // Nothing hidden: half as in Wall's design, the rest shared.
+  plan.add("wall", {}, 0.0, (size.correct + 1) / 2);
+  plan.add("li", {}, 0.0, size.correct / 4);
+  plan.add("wall-batches", {}, 0.0, size.correct - (size.correct + 1) / 2 - size.correct / 4);
+  for (const char* design : {"wall-one", "dahneke"}) plan.add(design, {}, 0.0, 5 * size.single);
+  // By names that say nothing.
+  std::sort(plan.orders.begin(), plan.orders.end(), [](const CaseOrder& a, const CaseOrder& b) {
+    return std::pair(neutral_name(a), a.key()) < std::pair(neutral_name(b), b.key());
+  });
+  return plan.orders;
+}
+
+}  // namespace hidden

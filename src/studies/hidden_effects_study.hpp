@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/diagnosis_answer.hpp"
+#include "studies/study_stamp.hpp"
+
+namespace hidden {
+
+/// How many data sets of each kind.
+struct StudySize {
+  int per_cell = 4;   ///< of each effect, design and strength
+  int correct = 400;  ///< with nothing hidden, in designs of several diameters
+  int pairs = 4;      ///< of each pair and design
+  int outside = 10;   ///< of each outside effect, design and strength
+  int single = 4;     ///< of each effect and strength in designs of one diameter
+  int careless = 6;   ///< of each kind of error that is not stated, and design
+  std::uint64_t seed = 20260101;
+};
+
+inline const std::vector<double>& study_strengths() {
+  static const std::vector<double> strengths = {5.0, 10.0, 20.0, 40.0};
+  return strengths;
+}
+inline constexpr double visible = 10.0;  ///< signal-to-noise from which on the bars count
+
+/// What a data set is in the study for.
+enum class Arm { effect, correct, pair, outside, single, careless };
+Arm arm_of(const CaseOrder& order);
+
+/// Shuffled, the same way for equal sizes and seeds: what is done of a study that ends early is a
+/// fair sample of all of it.
+std::vector<CaseOrder> plan_study(const StudySize& size);
+
+/// The whole report in Markdown.
+/// @param planned how many data sets `answers` would have if all were done
+std::string study_report(const std::vector<Answered>& answers, std::size_t planned,
+                         const StudySize& size, const recoil::StudyStamp& stamp);
+
+/// Power against strength, and the confusion matrix, as one picture (SVG).
+std::string study_picture(const std::vector<Answered>& answers);
+
+/// Rows: what was hidden (visible effects in designs of several diameters). Columns: what was
+/// answered.
+struct Confusion {
+  std::vector<std::string> rows;
+  std::vector<std::string> columns;
+  std::vector<std::vector<int>> counts;
+};
+Confusion confusion_of(const std::vector<Answered>& answers);
+
+}  // namespace hidden

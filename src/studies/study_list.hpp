@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace recoil {
+
+/// One of the studies whose results are committed.
+struct Study {
+  std::string name;
+  std::string command;  ///< words of recoil_study
+  std::string result;   ///< the JSON that it leaves, from the project's folder
+};
+
+const std::vector<Study>& all_studies();
+
+/// @throws InputError when there is no such study; it names the nearest
+const Study& study_named(const std::string& name);
+
+/// Changes with everything that a study's numbers depend on: the command, the fits, the data, and
+/// all sources below `root`/src but those that only show results (`shows_results`).
+std::string study_key(const std::filesystem::path& root, const std::string& command);
+
+/// Does this folder of src only show what others computed?
+bool shows_results(const std::string& stage);
+
+enum class StudyState {
+  missing,
+  stale,  ///< made from other sources, fits or data than those that are there
+  current
+};
+StudyState state_of(const std::filesystem::path& root, const Study& study);
+
+}  // namespace recoil

@@ -1,0 +1,104 @@
+#include "studies/synthetic/case.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "studies/synthetic/observed_mean.hpp"
+#include "studies/synthetic/purpose.hpp"
+
+namespace hidden {
+namespace {
+
+/// FNV-1a (Fowler, Noll & Vo): the same number for a text on every machine.
+std::uint64_t number_of(std::string_view text, std::uint64_t start = 14695981039346656037ULL) {
+  std::uint64_t hash = start;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
+}
+
+std::string joined(const std::vector<std::string>& effects) {
+  std::string all;
+  for (const std::string& effect : effects) all += "+" + effect;
+  return all;
+}
+
+/// What the table says of a point: the mean of its events, that came at another velocity than the
+/// printed one if that is uncertain.
+double reading_of(const Case& made, const Point& p, recoil::RandomStream& random) {
+  const double scatter = made.effects.velocity_scatter;
+  double reading = 0.0;
+  for (int i = 0; i < 100 && !(reading > 0.0); ++i) {  // somebody wants a rebound
+    const double velocity =
+        scatter > 0.0 ? p.velocity * (1.0 + scatter * random.normal()) : p.velocity;
+    reading = observed_mean(made.design.base, made.effects, made.design.scatter, velocity,
+                            p.diameter, p.row, made.design.events, random);
+    if (scatter == 0.0) break;
+  }
+  return reading;
+}
+
+}  // namespace
+
+std::string CaseOrder::key() const {
+  return fmt::format("{}{}@{:g}#{}", design, joined(effects), signal_to_noise, index);
+}
+
+std::uint64_t CaseOrder::experiment_seed() const {
+  return number_of(fmt::format("{}{}#{}#{}", design, joined(effects), index, seed));
+}
+
+std::string neutral_name(const CaseOrder& order) {
+  return fmt::format("impacts-{:08x}",
+                     number_of(order.key() + std::to_string(order.seed)) % 0x100000000ULL);
+}
+
+Case make_case(const CaseOrder& order) {
+  Case made;
+  made.order = order;
+  // The first draw that somebody would measure even with nothing hidden.
+  std::uint64_t seed = order.experiment_seed();
+  made.design = draw_design(order.design, seed);
+  for (int i = 0; i < 100 && expected_points(made.design, {}).empty(); ++i) {
+    made.design = draw_design(order.design, ++seed);
+  }
+  made.reached = true;
+  for (std::size_t k = 0; k < order.effects.size(); ++k) {
+    const HiddenEffect& effect = find_hidden_effect(order.effects[k]);
+    if (effect.kind == EffectKind::careless) {  // leaves nothing without noise: of one size
+      effect.apply(made.effects, effect.largest, made.design);
+      made.strengths.push_back(effect.largest);
+      continue;
+    }
+    const Nuisances nuisances = draw_nuisances(effect, made.design, seed + k);
+    const auto alone = [&](double strength) {
+      Effects effects;
+      add_effect(effects, effect, nuisances, made.design, strength);
+      return effects;
+    };
+    const Strength found = find_strength(made.design, alone, largest_strength(effect, nuisances),
+                                         order.signal_to_noise);
+    made.reached = made.reached && found.reached;
+    made.strengths.push_back(nuisances.sign * found.value);
+    add_effect(made.effects, effect, nuisances, made.design, found.value);
+  }
+  made.points = expected_points(made.design, made.effects);
+  if (made.points.empty()) {
+    made.reached = false;
+    return made;
+  }
+  made.refit = refit_base(made.design, made.points);
+  // Readings of different strengths have noise of their own.
+  const std::uint64_t readings_seed = number_of(order.key(), seed);
+  for (std::size_t i = 0; i < made.points.size(); ++i) {
+    recoil::RandomStream random(readings_seed, hidden_purpose, 100 + i);
+    made.readings.push_back(reading_of(made, made.points[i], random));
+  }
+  return made;
+}
+
+}  // namespace hidden

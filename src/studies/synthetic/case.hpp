@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "studies/synthetic/hidden_effect.hpp"
+#include "studies/synthetic/strength.hpp"
+
+namespace hidden {
+
+/// What to make. Equal orders give equal digits.
+struct CaseOrder {
+  std::string design;
+  std::vector<std::string> effects;  ///< none, one, or several together
+  double signal_to_noise = 0.0;      ///< that each of them alone would leave
+  std::uint64_t index = 0;           ///< which of the data sets of this kind
+  std::uint64_t seed = 20260101;
+
+  /// wall+plastic_yield+probe_plane@10#3
+  std::string key() const;
+  /// The same for all strengths of one experiment, so that these differ in strength only.
+  std::uint64_t experiment_seed() const;
+};
+
+struct Case {
+  CaseOrder order;
+  Design design;
+  bool reached = false;           ///< all strengths lie within what nature has
+  std::vector<double> strengths;  ///< one per effect, with sign
+  Effects effects;
+  std::vector<Point> points;     ///< without noise
+  Refit refit;                   ///< of the base to them, all effects at work
+  std::vector<double> readings;  ///< the mean of the events of each point, with noise
+};
+
+/// Nuisances the experiment, tunes every effect by itself to the wanted misfit, and takes the
+/// readings.
+/// @throws std::invalid_argument for an unknown design or effect
+Case make_case(const CaseOrder& order);
+
+/// Writes what the diagnosis may see into `folder`: the dataset NAME/ and the fit NAME.toml beside
+/// it; NAME says nothing. @return the path of the fit
+std::filesystem::path write_case(const Case& made, const std::filesystem::path& folder);
+
+/// A name that is different for every order and says nothing.
+std::string neutral_name(const CaseOrder& order);
+
+/// What is true, as JSON; to be kept elsewhere.
+std::string truth_json(const Case& made);
+
+}  // namespace hidden

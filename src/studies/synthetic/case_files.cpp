@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/files.hpp"
+#include "studies/synthetic/case.hpp"
+
+namespace hidden {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// As a table prints it: `digits` significant digits, never 1.2e+01.
+std::string printed(double value, int digits) {
+  const int decimals = digits - 1 - static_cast<int>(std::floor(std::log10(value)));
+  return fmt::format("{:.{}f}", value, std::max(decimals, 0));
+}
+
+Json field(const char* name, const char* type, const char* unit, const char* description) {
+  Json f = {{"name", name}, {"type", type}};
+  if (*unit != '\0') f["unit"] = unit;
+  f["description"] = description;
+  return f;
+}
+
+std::string package_text(const Case& made, const std::string& name) {
+  const Design& d = made.design;
+  const Base& b = d.base;
+  Json package;
+  package["name"] = name;
+  package["title"] = fmt::format("Synthetic impacts of {} spheres on {}", d.sphere, d.surface);
+  package["resources"] = Json::array();
+  Json resource = {{"name", "points"}, {"path", "points.csv"}};
+  resource["schema"]["fields"] = {
+      field("series", "string", "", "one row of the table"),
+      field("diameter", "number", "um", "of the sphere"),
+      field("incident_velocity", "number", "m/s", "before the impact"),
+      field("restitution", "number", "1", "mean of the rebounds"),
+      field("restitution_sd", "number", "1", "standard error of that mean"),
+      field("events", "integer", "1", "rebounds averaged in this point")};
+  package["resources"].push_back(resource);
+  Json& own = package["recoil"];
+  own["provenance"] = "synthetic";
+  own["particle"] = {{"material", d.sphere},
+                     {"density", b.density},
+                     {"youngs_modulus", b.youngs_modulus},
+                     {"poisson_ratio", b.poisson_ratio}};
+  own["surface"] = {{"material", d.surface},
+                    {"density", b.surface_density},
+                    {"youngs_modulus", b.surface_modulus},
+                    {"poisson_ratio", b.surface_ratio}};
+  if (d.stiffness_K > 0.0) own["stiffness_K"] = d.stiffness_K;
+  own["adhesion_force_f0"] = b.adhesion_force;
+  own["reference_diameter"] = b.reference_diameter;
+  return package.dump(2) + "\n";
+}
+
+std::string points_text(const Case& made) {
+  std::string text = "series,diameter,incident_velocity,restitution,restitution_sd,events\n";
+  for (std::size_t i = 0; i < made.points.size(); ++i) {
+    const Point& p = made.points[i];
+    const std::string& name = made.design.rows[p.row].name;
+    const bool quoted = name.find(',') != std::string::npos;
+    text += fmt::format(
+        "{0}{1}{0},{2:g},{3},{4:.{5}f},{6},{7}\n", quoted ? "\"" : "", name, 1e6 * p.diameter,
+        printed(p.velocity, 3), made.readings[i], made.design.decimals,
+        printed(p.sd / (1.0 + made.effects.deviations_short), 3), made.design.events);
+  }
+  return text;
+}
+
+std::string fit_text(const Case& made, const std::string& name) {
+  const bool steel = made.design.id == "li";
+  return fmt::format(
+      "dataset = \"{}\"\n\n[model]\nadhesion_damping_phase = \"rebound\"\n\n[parameters]\n"
+      "C_H = {{ initial = {}, bounds = [0, 1] }}\nC_A = {{ initial = 3e-2, bounds = [0, 10] }}\n"
+      "f0 = {{ free = false }}\n\n[uncertainty]\nreplicates = 0\nlevel = 0.95\nseed = 20260101\n",
+      name, steel ? "3e-2" : "3e-3");
+}
+
+}  // namespace
+
+std::filesystem::path write_case(const Case& made, const std::filesystem::path& folder) {
+  const std::string name = neutral_name(made.order);
+  recoil::write_whole_file(folder / name / "datapackage.json", package_text(made, name));
+  recoil::write_whole_file(folder / name / "points.csv", points_text(made));
+  const std::filesystem::path fit = folder / (name + ".toml");
+  recoil::write_whole_file(fit, fit_text(made, name));
+  return fit;
+}
+
+std::string truth_json(const Case& made) {
+  Json truth;
+  truth["key"] = made.order.key();
+  truth["name"] = neutral_name(made.order);
+  truth["design"] = made.order.design;
+  truth["effects"] = Json::array();
+  for (std::size_t k = 0; k < made.strengths.size(); ++k) {
+    truth["effects"].push_back({{"id", made.order.effects[k]},
+                                {"strength", made.strengths[k]},
+                                {"unit", find_hidden_effect(made.order.effects[k]).unit}});
+  }
+  truth["wanted_signal_to_noise"] = made.order.signal_to_noise;
+  truth["signal_to_noise"] = made.refit.signal_to_noise;
+  truth["reached"] = made.reached;
+  truth["C_H"] = made.design.base.C_H;
+  truth["C_A"] = made.design.base.C_A;
+  truth["refitted_C_H"] = made.refit.C_H;
+  truth["refitted_C_A"] = made.refit.C_A;
+  return truth.dump(2) + "\n";
+}
+
+}  // namespace hidden

@@ -1,0 +1,194 @@
+#include "studies/synthetic/effects.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hidden {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double gravity = 9.81;            // [m/s2]
+constexpr double permittivity = 8.854e-12;  // of vacuum [F/m]
+constexpr double surface_tension = 0.0728;  // of water at 20 C [N/m]
+constexpr double viscosity = 1.81e-5;       // of air at 20 C [Pa s]
+constexpr double gas_density = 1.204;       // of air at 20 C and 1 bar [kg/m3]
+constexpr double free_path = 66e-9;         // there [m]
+constexpr double bar = 101325.0;            // [Pa]
+
+/// Speed of a sphere after crossing the gas between the measuring plane and the surface (inward:
+/// the gap closes). Drag of Stokes with Schiller & Naumann's inertia and Cunningham's slip far from
+/// the wall, plus lubrication 6 pi mu r^2 v / (x + lambda) near it; dv/dx by the classical
+/// Runge-Kutta method in ln(x + lambda).
+double through_gas(const Effects& effects, double mass, double radius, double speed, bool inward) {
+  const double share = effects.gas_pressure / bar;
+  const double path = free_path / share;
+  const double knudsen = path / radius;
+  const double slip = 1.0 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+  const double from = std::log(effects.gas_distance + path);
+  const double to = std::log(path);
+  const auto loss = [&](double at, double v) {  // dv / d ln(x + path), per step towards the wall
+    if (!(v > 0.0)) return 0.0;
+    const double x = std::exp(at);
+    const double reynolds = gas_density * share * 2.0 * radius * v / viscosity;
+    const double drag = (1.0 + 0.15 * std::pow(reynolds, 0.687)) / slip + radius / x;
+    return -6.0 * pi * viscosity * radius / mass * drag * x;
+  };
+  constexpr int steps = 60;
+  const double h = (from - to) / steps;
+  double v = speed;
+  for (int i = 0; i < steps; ++i) {
+    const double at = inward ? from - i * h : to + i * h;
+    const double way = inward ? -h : h;
+    const double k1 = loss(at, v);
+    const double k2 = loss(at + 0.5 * way, v + 0.5 * h * k1);
+    const double k3 = loss(at + 0.5 * way, v + 0.5 * h * k2);
+    const double k4 = loss(at + way, v + h * k3);
+    v += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  }
+  return v;
+}
+
+/// Work of the image force q^2 / (16 pi eps0 (r + x)^2) between 1 mm and contact, per half mass.
+double image_work(const Base& base, const Effects& effects, double mass, double diameter) {
+  const double reference = 0.5 * base.reference_diameter;
+  const double charge = 4.0 * pi * permittivity * reference * reference * effects.surface_field *
+                        std::pow(diameter / base.reference_diameter, effects.charge_exponent);
+  const double r = 0.5 * diameter;
+  const double energy = charge * charge / (16.0 * pi * permittivity) * (1.0 / r - 1.0 / (r + 1e-3));
+  return 2.0 * energy / mass;
+}
+
+}  // namespace
+
+double square_of_restitution(const Base& base, const Effects& effects, double velocity,
+                             double diameter, double size_factor, double adhesion_factor) {
+  const double d = diameter * (1.0 + effects.diameter_error) * size_factor;
+  Sphere sphere;
+  sphere.mass = base.density * pi / 6.0 * d * d * d;
+  sphere.radius = 0.5 * d;
+  sphere.stiffness = base.stiffness();
+  sphere.adhesion_force =
+      base.adhesion_force * std::cbrt(d / base.reference_diameter) * adhesion_factor;
+  sphere.C_H = base.C_H;
+  sphere.C_A = base.C_A;
+
+  // in: instrument, fall, gas, charge
+  double v = velocity - effects.velocity_error;
+  double square = v * v + 2.0 * gravity * effects.plane_height;
+  if (!(v > 0.0) || !(square > 0.0)) return -1.0;
+  if (effects.gas_pressure > 0.0) {
+    v = through_gas(effects, sphere.mass, 0.5 * d, std::sqrt(square), true);
+    if (!(v > 0.0)) return -1.0;
+    square = v * v;
+  }
+  const double image =
+      effects.surface_field == 0.0 ? 0.0 : image_work(base, effects, sphere.mass, d);
+  square += image;
+
+  // contact
+  v = std::sqrt(square);
+  if (effects.contact.yield_pressure > 0.0) {
+    const PlasticResult plastic = plastic_contact(sphere.mass, sphere.radius, sphere.stiffness,
+                                                  effects.contact.yield_pressure, v);
+    sphere.adhesion_force *= std::cbrt(plastic.radius / sphere.radius);
+    sphere.radius = plastic.radius;
+    v = plastic.velocity;
+  }
+  square = contact(sphere, effects.contact, base, v).square;
+  double work = effects.asperity_energy;
+  work += 4.0 * pi * 0.5 * d * surface_tension * effects.bridge_length;
+  if (effects.jkr_work > 0.0) {
+    work += jkr_work_lost(effects.jkr_work, sphere.radius, sphere.stiffness);
+  }
+  square -= 2.0 * work / sphere.mass;
+
+  // out
+  square -= image;
+  if (effects.gas_pressure > 0.0 && square > 0.0) {
+    v = through_gas(effects, sphere.mass, 0.5 * d, std::sqrt(square), false);
+    square = v > 0.0 ? v * v : -1e-6;
+  }
+  square -= 2.0 * gravity * effects.plane_height;
+  if (square > 0.0 && effects.velocity_error != 0.0) {
+    v = std::sqrt(square) + effects.rebound_error_sign * effects.velocity_error;
+    square = v > 0.0 ? v * v : -1e-6;
+  }
+  return square / (velocity * velocity);
+}
+
+double oddity_factor(const Effects& effects, double velocity) {
+  const double x = std::log(velocity / effects.oddity_centre) / effects.oddity_width;
+  switch (effects.oddity) {
+    case Oddity::none:
+      return 1.0;
+    case Oddity::dip:  // as of a resonance
+      return std::exp(-effects.oddity_size * std::exp(-0.5 * x * x));
+    case Oddity::kink:  // e falls no more, but rises, from here on
+      return std::exp(effects.oddity_size * std::max(x, 0.0));
+    case Oddity::wave:
+      return std::exp(effects.oddity_size * (std::sin(2.0 * pi * x) - 1.0));
+  }
+  return 1.0;
+}
+
+double Scatter::of(double e) const {
+  const double steep = slope * std::max(1.0 - e * e, 0.0) / std::max(e, 0.05);
+  return std::sqrt(relative * relative * e * e + floor * floor + steep * steep);
+}
+
+Expected expected_point(const Base& base, const Effects& effects, const Scatter& scatter,
+                        double velocity, double diameter, std::size_t series) {
+  const bool differ = effects.size_spread > 0.0 || effects.adhesion_spread > 0.0;
+  const int nodes = differ ? 101 : 1;
+  const double odd = oddity_factor(effects, velocity);
+  double weight = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  for (int i = 0; i < nodes; ++i) {
+    double size = 1.0;
+    double adhesion = 1.0;
+    if (differ) {
+      // equal parts of both distributions, paired without order (golden section)
+      const double u = (i + 0.5) / nodes;
+      const double w = std::fmod(0.5 + i * (std::numbers::phi - 1.0), 1.0);
+      size = std::exp(effects.size_spread *
+                      gsl_cdf_ugaussian_Pinv(effects.adhesion_spread > 0.0 ? w : u));
+      adhesion = std::exp(effects.adhesion_spread * gsl_cdf_ugaussian_Pinv(u));
+    }
+    const double square = square_of_restitution(base, effects, velocity, diameter, size, adhesion);
+    if (!(square > 0.0)) continue;
+    const double e = std::sqrt(square) * odd;
+    const double sd = scatter.of(e);
+    double share = 1.0;
+    double mean = e;
+    double spread = sd * sd;
+    if (effects.slowest_rebound > 0.0) {
+      // normal, cut off below
+      const double z = (e - effects.slowest_rebound / velocity) / sd;
+      share = gsl_cdf_ugaussian_P(z);
+      if (share < 1e-6) continue;
+      const double hazard = gsl_ran_ugaussian_pdf(z) / share;
+      mean = e + sd * hazard;
+      spread = sd * sd * (1.0 - hazard * (hazard + z));
+    }
+    weight += share;
+    first += share * mean;
+    second += share * (spread + mean * mean);
+  }
+  if (!(weight > 0.002 * nodes)) return {};
+  double mean = first / weight;
+  double square = second / weight;
+  const double q = effects.outlier_share;
+  mean = (1.0 - q) * mean + 0.5 * q;
+  square = (1.0 - q) * square + q / 3.0;
+  const double sd = std::sqrt(std::max(square - mean * mean, 0.0));
+  if (!effects.series_offset.empty()) mean += effects.series_offset[series];
+  return {mean, sd};
+}
+
+}  // namespace hidden

@@ -1,0 +1,131 @@
+// What the generator promises: the wanted strength, the same digits for the same order, and no
+// trace of the truth in what the diagnosis reads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "studies/nearest_rival.hpp"
+#include "studies/program_run.hpp"
+
+namespace {
+
+using namespace hidden;
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+TEST(Generator, TheMisfitThatIsLeftIsTheOneThatWasWanted) {
+  for (const char* effect : {"plastic_yield", "gas_film", "series_offset", "dip"}) {
+    const Case made = make_case({"wall", {effect}, 10.0, 0});
+    EXPECT_TRUE(made.reached) << effect;
+    EXPECT_NEAR(made.refit.signal_to_noise, 10.0, 0.3) << effect;
+    // The fitter sees the same: its chi2 on data without noise is the square. Velocities are
+    // printed with three digits, which adds a little.
+    const ScratchFolder scratch;
+    const fs::path fit = write_case(without_noise(made), scratch.path());
+    EXPECT_NEAR(misfit_left(fit, "", RECOIL_BINARY), 10.0, 0.6) << effect;
+  }
+}
+
+TEST(Generator, NothingHiddenLeavesNothing) {
+  for (const std::string_view design : design_ids()) {
+    const Case made = make_case({std::string(design), {}, 0.0, 1});
+    ASSERT_FALSE(made.points.empty()) << design;
+    EXPECT_LT(made.refit.signal_to_noise, 1e-3) << design;
+    const ScratchFolder scratch;
+    const fs::path fit = write_case(without_noise(made), scratch.path());
+    EXPECT_LT(misfit_left(fit, "", RECOIL_BINARY), 1.7) << design;
+  }
+}
+
+// Readings scatter about the expectation as their standard deviations say.
+TEST(Generator, NoiseIsAsStated) {
+  double sum = 0.0;
+  int count = 0;
+  for (const char* effect : {"outliers", "rebound_truncation", "series_offset"}) {
+    const Case made = make_case({"wall", {effect}, 10.0, 2});
+    ASSERT_FALSE(made.points.empty()) << effect;
+    for (std::size_t i = 0; i < made.points.size(); ++i) {
+      sum += std::pow((made.readings[i] - made.points[i].restitution) / made.points[i].sd, 2);
+      ++count;
+    }
+  }
+  EXPECT_NEAR(sum / count, 1.0, 4.0 * std::sqrt(2.0 / count));
+}
+
+// The same for spheres that differ: the mean of 40 survivors has the expectation's mean.
+TEST(Generator, SurvivorsAreDrawnAsExpected) {
+  const Case made = make_case({"wall-one", {"survivor_bias"}, 4.0, 0});
+  ASSERT_FALSE(made.points.empty());
+  double sum = 0.0;
+  double square = 0.0;
+  const double count = static_cast<double>(made.points.size());
+  for (std::size_t i = 0; i < made.points.size(); ++i) {
+    const double z = (made.readings[i] - made.points[i].restitution) / made.points[i].sd;
+    sum += z;
+    square += z * z;
+  }
+  EXPECT_NEAR(sum / count, 0.0, 4.0 / std::sqrt(count));
+  EXPECT_NEAR(square / count, 1.0, 4.0 * std::sqrt(2.0 / count));
+}
+
+TEST(Generator, EqualOrdersGiveEqualDigits) {
+  const CaseOrder order{"wall-batches", {"jkr_hysteresis"}, 5.0, 7};
+  const ScratchFolder one;
+  const ScratchFolder two;
+  const fs::path first = write_case(make_case(order), one.path());
+  const fs::path second = write_case(make_case(order), two.path());
+  const std::string name = neutral_name(order);
+  EXPECT_EQ(first.filename(), name + ".toml");
+  EXPECT_EQ(text_of(first), text_of(second));
+  EXPECT_EQ(text_of(one.path() / name / "points.csv"), text_of(two.path() / name / "points.csv"));
+  CaseOrder other = order;
+  other.index = 8;
+  EXPECT_NE(neutral_name(other), name);
+}
+
+TEST(Generator, FilesSayNothingOfWhatIsHidden) {
+  std::set<std::string> packages;
+  for (const char* effect : {"plastic_yield", "series_offset", "wave"}) {
+    const ScratchFolder scratch;
+    const Case made = make_case({"wall-batches", {effect}, 10.0, 0});
+    const fs::path fit = write_case(made, scratch.path());
+    std::set<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(scratch.path())) {
+      if (!entry.is_regular_file()) continue;
+      files.insert(entry.path().filename().string());
+      const std::string text = text_of(entry.path());
+      for (const HiddenEffect& effect : hidden_effects()) {
+        EXPECT_EQ(text.find(effect.id), std::string::npos)
+            << entry.path() << " names " << effect.id;
+      }
+    }
+    EXPECT_EQ(files, (std::set<std::string>{"datapackage.json", "points.csv",
+                                            neutral_name(made.order) + ".toml"}));
+    EXPECT_NE(truth_json(made).find(effect), std::string::npos);
+  }
+}
+
+// Of two effects each is as strong as it would be alone.
+TEST(Generator, PairsHoldBoth) {
+  const Case made = make_case({"wall", {"plastic_yield", "capillary"}, 8.0, 0});
+  ASSERT_EQ(made.strengths.size(), 2U);
+  EXPECT_TRUE(made.reached);
+  EXPECT_GT(made.effects.contact.yield_pressure, 0.0);
+  EXPECT_GT(made.effects.bridge_length, 0.0);
+}
+
+TEST(Generator, WhatNatureDoesNotHaveIsNotReached) {
+  // Organic spheres radiate a ten-thousandth of their energy.
+  EXPECT_FALSE(make_case({"wall", {"elastic_waves"}, 5.0, 0}).reached);
+}
+
+}  // namespace

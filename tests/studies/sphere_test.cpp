@@ -1,0 +1,296 @@
+// The generator's physics against closed forms.
+#include "studies/synthetic/sphere.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "studies/synthetic/effects.hpp"
+
+namespace {
+
+using namespace hidden;
+using std::numbers::pi;
+
+/// An ammonium fluorescein sphere of 4.9 um.
+Base fluorescein() {
+  Base base;
+  base.density = 1350.0;
+  base.youngs_modulus = 1.2e9;
+  base.poisson_ratio = 0.33;
+  base.surface_modulus = 320e9;
+  base.surface_ratio = 0.31;
+  base.surface_density = 10280.0;
+  base.reference_diameter = 4.9e-6;
+  return base;
+}
+
+Sphere sphere_of(const Base& base, double diameter) {
+  Sphere s;
+  s.mass = base.density * pi / 6.0 * std::pow(diameter, 3);
+  s.radius = 0.5 * diameter;
+  s.stiffness = base.stiffness();
+  s.adhesion_force = base.adhesion_force;
+  s.C_H = base.C_H;
+  s.C_A = base.C_A;
+  return s;
+}
+
+double restitution(const Base& base, const ContactExtras& extras, double velocity) {
+  return std::sqrt(contact(sphere_of(base, 4.9e-6), extras, base, velocity).square) / velocity;
+}
+
+TEST(HiddenSphere, StiffnessIsThatOfTable1) {
+  EXPECT_NEAR(fluorescein().stiffness(), 1.789e9, 0.001e9);
+}
+
+// C_H V (1 + e) = ln[(1 + C_H V) / (1 - e C_H V)], the exact law without adhesion.
+TEST(HiddenSphere, WithoutAdhesionTheExactLawOfHuntAndCrossley) {
+  Base base = fluorescein();
+  for (double x : {0.1, 1.0, 3.0}) {
+    base.C_H = x / 10.0;
+    const double e = restitution(base, {}, 10.0);
+    EXPECT_NEAR(x * (1.0 + e), std::log((1.0 + x) / (1.0 - e * x)), 1e-7) << x;
+  }
+}
+
+TEST(HiddenSphere, WithoutDampingNothingIsLost) {
+  Base base = fluorescein();
+  base.adhesion_force = 8.9;
+  for (double v : {0.1, 2.0, 50.0}) EXPECT_NEAR(restitution(base, {}, v), 1.0, 1e-6) << v;
+}
+
+// V*^2 = 2 J (C_A + 2 C_H) V_a^3, J = 0.827350, for weak damping.
+TEST(HiddenSphere, CaptureFollowsTheLawOfWeakDamping) {
+  Base base = fluorescein();
+  base.adhesion_force = 8.9;
+  const Sphere s = sphere_of(base, 4.9e-6);
+  const double a = std::sqrt(s.radius) * s.stiffness / s.mass;
+  const double b = 2.0 * pi * std::sqrt(s.radius) * s.adhesion_force / s.mass;
+  const double unit = std::pow(b, 1.25) * std::pow(a, -0.75);
+  base.C_A = 1e-3 / unit;
+  base.C_H = 0.5e-3 / unit;
+  const double expected = std::sqrt(2.0 * 0.827350 * 2e-3) * unit;
+  const auto back = [&](double v) {
+    return contact(sphere_of(base, 4.9e-6), {}, base, v).rebounded;
+  };
+  EXPECT_FALSE(back(0.99 * expected));
+  EXPECT_TRUE(back(1.01 * expected));
+}
+
+// e = (6 sqrt(3)/5)^(1/2) (1 - s/6)^(1/2) (y / (y + 2 sqrt(6/5 - s/5)))^(1/4), s = y^2, y = V_Y /
+// V.
+TEST(HiddenSphere, YieldingIsThatOfThorntonAndNing) {
+  const Base base = fluorescein();
+  const Sphere s = sphere_of(base, 4.9e-6);
+  const double p = 1e8;
+  const double E = 0.75 * s.stiffness;
+  const double yield =
+      pi * pi / std::sqrt(40.0) * std::sqrt(std::pow(p, 5) / (std::pow(E, 4) * 1350.0));
+  for (double v : {3.0, 10.0, 100.0}) {
+    const double y = yield / v;
+    const double e = std::sqrt(1.2 * std::sqrt(3.0) * (1.0 - y * y / 6.0)) *
+                     std::pow(y / (y + 2.0 * std::sqrt(1.2 - 0.2 * y * y)), 0.25);
+    const PlasticResult plastic = plastic_contact(s.mass, s.radius, s.stiffness, p, v);
+    EXPECT_NEAR(plastic.velocity / v, e, 1e-6) << v;
+    EXPECT_GT(plastic.radius, s.radius);
+  }
+  EXPECT_EQ(plastic_contact(s.mass, s.radius, s.stiffness, p, 0.9 * yield).velocity, 0.9 * yield);
+}
+
+// 7.09 (W^5 R^4 / E*^2)^(1/3), Thornton & Ning (1998).
+TEST(HiddenSphere, JkrLosesTheWorkOfThorntonAndNing) {
+  const double R = 3e-6;
+  const double K = 2e9;
+  const double E = 0.75 * K;
+  for (double w : {0.01, 0.4}) {
+    const double unit = std::cbrt(std::pow(w, 5) * std::pow(R, 4) / (E * E));
+    EXPECT_NEAR(jkr_work_lost(w, R, K) / unit, 7.0922, 1e-3);
+  }
+}
+
+// Without adhesion and other damping the loss is dW times the largest contact area of Hertz.
+TEST(HiddenSphere, AreaHysteresisTakesItsEnergyPerArea) {
+  const Base base = fluorescein();
+  const Sphere s = sphere_of(base, 4.9e-6);
+  const double v = 5.0;
+  const double depth = std::pow(1.25 * s.mass * v * v / (std::sqrt(s.radius) * s.stiffness), 0.4);
+  ContactExtras extras;
+  extras.hysteresis_energy = 0.02;
+  const double lost = v * v - contact(s, extras, base, v).square;
+  EXPECT_NEAR(lost, 2.0 * pi * s.radius * depth * 0.02 / s.mass, 1e-6 * lost);
+}
+
+// Weak: pi R n_m w (2/5) B((2-k)/5, 1+k/2) v_m^k, v_m = V sqrt(R / n_m) / 2.
+TEST(HiddenSphere, TheCrackLosesWhatItsSpeedCosts) {
+  const Base base = fluorescein();
+  const Sphere s = sphere_of(base, 4.9e-6);
+  const double v = 10.0;
+  const double depth = std::pow(1.25 * s.mass * v * v / (std::sqrt(s.radius) * s.stiffness), 0.4);
+  ContactExtras extras;
+  extras.crack_energy = 1e-3;
+  const double k = extras.crack_exponent;
+  const double lost = v * v - contact(s, extras, base, v).square;
+  const double edge = 0.5 * v * std::sqrt(s.radius / depth);
+  const double expected = pi * s.radius * depth * extras.crack_energy * std::pow(edge, k) * 0.4 *
+                          std::beta((2.0 - k) / 5.0, 1.0 + 0.5 * k);
+  EXPECT_NEAR(lost, 2.0 * expected / s.mass, 0.01 * lost);
+}
+
+// 1 - e = 1.15345 b - 0.7983 b^2, b = (3/2) A k^(2/5) V^(1/5), k = K sqrt(R) / m.
+TEST(HiddenSphere, BulkLossIsThatOfKuwabaraAndKono) {
+  const Base base = fluorescein();
+  const Sphere s = sphere_of(base, 4.9e-6);
+  ContactExtras extras;
+  extras.bulk_relaxation = 1e-10;
+  for (double v : {1.0, 50.0}) {
+    const double b = 1.5 * extras.bulk_relaxation *
+                     std::pow(s.stiffness * std::sqrt(s.radius) / s.mass, 0.4) * std::pow(v, 0.2);
+    EXPECT_NEAR(1.0 - restitution(base, extras, v), 1.15345 * b - 0.7983 * b * b, b * b * b) << v;
+  }
+}
+
+// A target that gives way at the rate F / Z is to first order a dashpot of the relaxation m / Z.
+TEST(HiddenSphere, AThinPlateIsADashpotOfTheMass) {
+  const Base base = fluorescein();
+  const Sphere s = sphere_of(base, 4.9e-6);
+  ContactExtras plate;
+  plate.plate_mobility = 200.0;
+  ContactExtras bulk;
+  bulk.bulk_relaxation = s.mass * plate.plate_mobility;
+  const double a = 1.0 - restitution(base, plate, 10.0);
+  const double b = 1.0 - restitution(base, bulk, 10.0);
+  EXPECT_GT(a, 1e-3);
+  EXPECT_NEAR(a, b, 0.02 * b);
+}
+
+// Integral of F'^2 over a Hertzian impact: (9/4) (K sqrt(R))^2 B / ... by the beta function.
+TEST(HiddenSphere, WavesCarryAwayTheSquareOfTheRate) {
+  const Base base = fluorescein();
+  const Sphere s = sphere_of(base, 4.9e-6);
+  const double v = 20.0;
+  ContactExtras extras;
+  extras.wave_radiation = 1.0;
+  const double lost = v * v - contact(s, extras, base, v).square;
+  // F' = 1.5 k sqrt(n) n', n' = v sqrt(1 - (n/n_m)^(5/2)); twice the integral over n from 0 to n_m.
+  const double k = s.stiffness * std::sqrt(s.radius);
+  const double depth = std::pow(1.25 * s.mass * v * v / k, 0.4);
+  const double integral = 2.0 * 2.25 * k * k * v * depth * depth * 0.4 * std::beta(0.8, 1.5);
+  const double mu = base.surface_modulus / (2.0 * (1.0 + base.surface_ratio));
+  const double D = 0.931 / (2.0 * pi * mu * std::sqrt(mu / base.surface_density));
+  EXPECT_NEAR(lost, 2.0 * D * integral / s.mass, 1e-5 * lost);
+}
+
+/// A base that loses something without adhesion: e is 0.9 or so.
+Base lossy() {
+  Base base = fluorescein();
+  base.C_H = 0.02;
+  return base;
+}
+
+double squared(const Effects& effects, double v) {
+  return square_of_restitution(lossy(), effects, v, 4.9e-6);
+}
+
+TEST(HiddenEffects, ConstantEnergiesFallAsTheSquareOfTheVelocity) {
+  Effects jkr, bridge, asperity;
+  jkr.jkr_work = 0.05;
+  bridge.bridge_length = 1e-9;
+  asperity.asperity_energy = 1e-15;
+  for (const Effects& effect : {jkr, bridge, asperity}) {
+    const double slow = squared({}, 2.0) - squared(effect, 2.0);
+    const double fast = squared({}, 8.0) - squared(effect, 8.0);
+    EXPECT_GT(slow, 1e-3);
+    EXPECT_NEAR(slow / fast, 16.0, 1e-3);
+  }
+}
+
+// e = sqrt(1 - (V_s / V)^2) when nothing else costs energy.
+TEST(HiddenEffects, JkrAloneIsTheClassicalLaw) {
+  const Base base = fluorescein();
+  Effects effects;
+  effects.jkr_work = 0.2;
+  const double mass = base.density * pi / 6.0 * std::pow(4.9e-6, 3);
+  const double E = 0.75 * base.stiffness();
+  const double sticking =
+      std::sqrt(2.0 * 7.0922 * std::cbrt(std::pow(0.2, 5) * std::pow(2.45e-6, 4) / (E * E)) / mass);
+  for (double v : {1.1 * sticking, 3.0 * sticking}) {
+    const double square = square_of_restitution(base, effects, v, 4.9e-6);
+    EXPECT_NEAR(square, 1.0 - sticking * sticking / (v * v), 1e-4);
+  }
+  EXPECT_LT(square_of_restitution(base, effects, 0.99 * sticking, 4.9e-6), 0.0);
+}
+
+// v_out^2 = e_0(V')^2 V'^2 - c with V'^2 = V^2 + c: c = 2 g h of the fall, and 2 U / m =
+// (3/2) eps0 E^2 / rho of a charge with the field E.
+TEST(HiddenEffects, AHighPlaneAndAChargeTakeTheSameFromAllVelocities) {
+  Effects plane, charge;
+  plane.plane_height = 5e-3;
+  charge.surface_field = 3e6;
+  const auto expect_cost = [&](const Effects& effect, double c, double share) {
+    for (double v : {1.0, 3.0}) {
+      const double arrived = std::sqrt(v * v + c);
+      const double square = squared({}, arrived) * arrived * arrived - c;
+      EXPECT_NEAR(squared(effect, v) * v * v, square, share * c) << v;
+    }
+  };
+  expect_cost(plane, 2.0 * 9.81 * 5e-3, 1e-3);
+  expect_cost(charge, 1.5 * 8.854e-12 * 9e12 / 1350.0, 5e-3);  // the plane is 1 mm away
+}
+
+// Each way costs (9 mu / (2 rho r)) times a sum that hardly depends on the velocity: 1 - e ~ 1/V.
+TEST(HiddenEffects, GasSlowsBothWaysByAFixedSpeed) {
+  Effects gas;
+  gas.gas_pressure = 1e5;
+  const auto lost = [&](double v) {
+    return (std::sqrt(squared({}, v)) - std::sqrt(squared(gas, v))) * v;
+  };
+  const double slow = lost(3.0);
+  EXPECT_GT(slow, 0.1);
+  EXPECT_LT(slow, 1.0);
+  EXPECT_NEAR(lost(6.0) / slow, 1.0, 0.15);  // inertia, and the contact at another velocity
+}
+
+TEST(HiddenEffects, AnOffsetVelocityActsOnBothReadings) {
+  Effects effects;
+  effects.velocity_error = 0.1;
+  const double e0 = std::sqrt(squared({}, 1.9));
+  EXPECT_NEAR(std::sqrt(squared(effects, 2.0)), (e0 * 1.9 + 0.1) / 2.0, 1e-9);
+}
+
+TEST(HiddenEffects, WhatIsSeenOfAPoint) {
+  const Scatter scatter{0.1, 0.0, 0.0};
+  const double e0 = std::sqrt(squared({}, 2.0));
+  const auto shown = [&](const Effects& effects) {
+    return expected_point(lossy(), effects, scatter, 2.0, 4.9e-6, 0);
+  };
+  EXPECT_NEAR(shown({}).restitution, e0, 1e-12);
+  EXPECT_NEAR(shown({}).event_sd, 0.1 * e0, 1e-12);
+  Effects chance;
+  chance.outlier_share = 0.2;
+  EXPECT_NEAR(shown(chance).restitution, 0.8 * e0 + 0.1, 1e-12);
+  Effects slow;  // the mean of a normal variable cut in its middle: e_0 + sd sqrt(2 / pi)
+  slow.slowest_rebound = 2.0 * e0;
+  EXPECT_NEAR(shown(slow).restitution, e0 * (1.0 + 0.1 * std::sqrt(2.0 / pi)), 1e-9);
+  Effects batch;
+  batch.series_offset = {0.03};
+  EXPECT_NEAR(shown(batch).restitution, e0 + 0.03, 1e-12);
+}
+
+// Near capture only the good rebounders are seen.
+TEST(HiddenEffects, SurvivorsReboundBetterThanTheTypicalSphere) {
+  Base base = fluorescein();
+  base.adhesion_force = 8.9;
+  base.C_A = 0.05;
+  const Scatter scatter;
+  const double typical = std::sqrt(square_of_restitution(base, {}, 1.5, 4.9e-6));
+  Effects spread;
+  spread.adhesion_spread = 0.4;
+  EXPECT_GT(expected_point(base, spread, scatter, 1.5, 4.9e-6, 0).restitution, typical + 0.05);
+  Effects sizes;
+  sizes.size_spread = 0.3;
+  EXPECT_GT(expected_point(base, sizes, scatter, 1.5, 4.9e-6, 0).restitution, typical + 0.05);
+}
+
+}  // namespace

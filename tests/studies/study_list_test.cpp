@@ -1,0 +1,123 @@
+// Which studies are current, and that their committed pages say what their results say.
+#include "studies/study_list.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "studies/study_pages.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path source_root = RECOIL_SOURCE_DIR;
+
+class Tree : public testing::Test {
+ protected:
+  Tree() : root_(testing::TempDir() + "recoil-studies-" + std::to_string(getpid())) {
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+  }
+  ~Tree() override { fs::remove_all(root_); }
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+
+  void write(const fs::path& file, const std::string& text) const {
+    write_whole_file(root_ / file, text);
+  }
+  std::string key() const { return study_key(root_, "coverage-grid fits/a.toml"); }
+
+  fs::path root_;
+};
+
+// Every folder whose code decides a number: a list of folders once forgot src/mechanism.
+TEST_F(Tree, TheKeyChangesWithEveryFolderThatDecidesNumbers) {
+  std::set<std::string> stages;
+  for (const auto& entry : fs::directory_iterator(source_root / "src")) {
+    if (entry.is_directory()) stages.insert(entry.path().filename().string());
+  }
+  ASSERT_TRUE(stages.contains("mechanism"));
+  for (const std::string& stage : stages) write("src/" + stage + "/a.cpp", "1");
+  for (const std::string& stage : stages) {
+    const std::string before = key();
+    write("src/" + stage + "/a.cpp", "2");
+    EXPECT_EQ(key() == before, shows_results(stage)) << stage;
+  }
+  for (const char* stage : {"core", "mechanism", "impact", "coverage", "diagnosis", "studies"}) {
+    EXPECT_FALSE(shows_results(stage)) << stage;
+  }
+}
+
+TEST_F(Tree, TheKeyChangesWithFitsDataAndTheCommandButNotWithResults) {
+  write("src/core/a.cpp", "1");
+  write("fits/a.toml", "1");
+  write("datasets/a/points.csv", "1");
+  const std::string first = key();
+  EXPECT_EQ(key(), first);
+  EXPECT_NE(study_key(root_, "coverage-grid fits/b.toml"), first);
+  write("datasets/a/corrections.json", "{}");
+  EXPECT_EQ(key(), first);
+  write("datasets/a/points.csv", "2");
+  const std::string second = key();
+  EXPECT_NE(second, first);
+  write("fits/a.toml", "2");
+  EXPECT_NE(key(), second);
+  const std::string third = key();
+  fs::rename(root_ / "src/core/a.cpp", root_ / "src/core/b.cpp");
+  EXPECT_NE(key(), third);
+}
+
+TEST_F(Tree, AStudyIsCurrentOnlyWithTheKeyOfTheSourcesThatAreThere) {
+  write("src/core/a.cpp", "1");
+  const Study study = {"a", "pairing", "reports/a.json"};
+  EXPECT_EQ(state_of(root_, study), StudyState::missing);
+  write(study.result, R"({"key": "0123456789abcdef"})");
+  EXPECT_EQ(state_of(root_, study), StudyState::stale);
+  write(study.result, "no json");
+  EXPECT_EQ(state_of(root_, study), StudyState::stale);
+  write(study.result, R"({"key": ")" + study_key(root_, study.command) + R"("})");
+  EXPECT_EQ(state_of(root_, study), StudyState::current);
+  write("src/core/a.cpp", "2");
+  EXPECT_EQ(state_of(root_, study), StudyState::stale);
+}
+
+TEST(Studies, AreFoundByTheirNames) {
+  std::set<std::string> results;
+  for (const Study& study : all_studies()) {
+    EXPECT_EQ(study_named(study.name).command, study.command);
+    EXPECT_TRUE(results.insert(study.result).second) << study.result;
+  }
+  EXPECT_THROW(study_named("coverage-grid-n12-stated"), InputError);
+}
+
+// Pages and pictures are made from the JSON and from nothing else.
+TEST_F(Tree, CommittedPagesAreThoseOfTheCommittedResults) {
+  int pages = 0;
+  for (const auto& entry : fs::directory_iterator(source_root / "reports")) {
+    const fs::path& file = entry.path();
+    if (file.extension() != ".json") continue;
+    const bool known = std::any_of(
+        all_studies().begin(), all_studies().end(),
+        [&](const Study& study) { return fs::path(study.result).filename() == file.filename(); });
+    if (!known) continue;
+    fs::copy_file(file, root_ / file.filename());
+    render_study(root_ / file.filename());
+    ++pages;
+  }
+  ASSERT_GE(pages, 8);
+  write_coverage_summary(root_);
+  for (const auto& entry : fs::directory_iterator(root_)) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(read_text_file(entry.path()), read_text_file(source_root / "reports" / name))
+        << name << ": let recoil_study render make it again";
+  }
+}
+
+}  // namespace
+}  // namespace recoil
