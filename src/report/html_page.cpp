@@ -94,18 +94,17 @@ std::string table_html(const HtmlTable& table) {
   return out + "</tbody>\n</table></div>\n";
 }
 
-std::string figure_html(const Figure& figure) {
-  return fmt::format(
-      "<figure id=\"figure-{}\"{}><div class=\"picture\"{}>{}</div>\n<figcaption>{}</figcaption>"
-      "</figure>\n",
-      escape_html(figure.id), figure.large ? " class=\"large\"" : "",
-      figure.large ? " tabindex=\"0\"" : "", figure.svg, prose_html(plain_text(figure.caption)));
-}
-
-std::string figures_html(const std::vector<Figure>& figures) {
+std::string figures_html(std::vector<Figure> figures) {
+  draw(figures);
   std::string out = fmt::format("<div class=\"figures{}\">\n",
                                 figures.size() == 1 && !figures.front().large ? " single" : "");
-  for (const Figure& figure : figures) out += figure_html(figure);
+  for (const Figure& figure : figures) {
+    out += fmt::format(
+        "<figure id=\"figure-{}\"{}><div class=\"picture\"{}>{}</div>\n<figcaption>{}</figcaption>"
+        "</figure>\n",
+        escape_html(figure.id), figure.large ? " class=\"large\"" : "",
+        figure.large ? " tabindex=\"0\"" : "", figure.svg, prose_html(plain_text(figure.caption)));
+  }
   return out + "</div>\n";
 }
 

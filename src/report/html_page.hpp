@@ -26,11 +26,10 @@ struct HtmlTable {
 };
 std::string table_html(const HtmlTable& table);
 
-/// `<figure>` with its caption.
-std::string figure_html(const Figure& figure);
-
-/// A grid of figures: two columns on a wide screen, one on a phone.
-std::string figures_html(const std::vector<Figure>& figures);
+/// A grid of figures with their captions, drawn together: two columns on a wide screen, one on a
+/// phone.
+/// @throws ComputationError when gnuplot cannot be run.
+std::string figures_html(std::vector<Figure> figures);
 
 /// The banner that says where the points come from, one per (label, sentence).
 std::string provenance_html(const std::vector<std::pair<std::string, std::string>>& provenances);

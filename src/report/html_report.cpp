@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "plot/draw.hpp"
 #include "report/corrections.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
@@ -219,7 +220,7 @@ std::string html_report(const Analysis& analysis, const std::string& diagnosis) 
 }
 
 std::string thumbnail(const Analysis& analysis) {
-  return restitution_overview(analysis, analysis.spec.id);
+  return plot::draw_svg(restitution_overview(analysis, analysis.spec.id));
 }
 
 }  // namespace recoil

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 /// The folders of src in pipeline order.
 const std::vector<std::string> kStages = {
     "core",        "data",    "experiment", "reconstruction", "impact", "mechanism", "estimate",
-    "uncertainty", "predict", "diagnosis",  "document",       "report", "cli"};
+    "uncertainty", "predict", "diagnosis",  "plot",           "document", "report", "cli"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -
