@@ -8,6 +8,7 @@
 #include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "plot/draw.hpp"
 #include "report/coverage_picture.hpp"
 #include "report/coverage_summary.hpp"
 #include "uncertainty/coverage_grid.hpp"
@@ -59,10 +60,11 @@ std::string one_fit(const Options& options) {
         measure_grid(spec, base, *designs, coverage, options.keep);
     table = grid_markdown(results, spec, coverage);
     if (!options.picture.empty()) {
-      write_whole_file(
-          options.picture,
-          coverage_picture(results, spec, coverage,
-                           fmt::format("{}: {}", base.id, provenance_sentence(base.provenance))));
+      write_whole_file(options.picture,
+                       plot::draw_svg(coverage_picture(
+                           results, spec, coverage,
+                           fmt::format("{}: {}", base.id, provenance_sentence(base.provenance)))) +
+                           "\n");
     }
   } else {
     const CoverageTruth truth = coverage_truth(spec, datasets, coverage.uncertainty.seed);
@@ -99,11 +101,12 @@ std::string summary(const Options& options) {
     if (!grid.empty()) {
       write_whole_file(
           options.picture,
-          coverage_picture(
+          plot::draw_svg(coverage_picture(
               grid, level,
               fmt::format("Coverage of the recommended {:g} % intervals by kind of data",
                           100.0 * level),
-              "read from the tables in " + options.summary));
+              "read from the tables in " + options.summary)) +
+              "\n");
       link = std::filesystem::path(options.picture).filename().string();
     }
   }

@@ -412,11 +412,9 @@ class ScriptWriter {
       case KeyPlace::none:
         return "unset key\n";
       case KeyPlace::above:
-        return "set tmargin -1\n"
-               "set key outside top center horizontal Left reverse samplen 0.8\n";
+        return "set key outside top center horizontal Left reverse samplen 0.8\n";
       case KeyPlace::below:
         return fmt::format(
-            "set bmargin -1\n"
             "set key outside bottom center vertical Left reverse samplen 1.4 maxrows {}\n",
             key.rows);
       case KeyPlace::lower_right:
@@ -452,10 +450,14 @@ class ScriptWriter {
     std::size_t longest = 0;
     for (const Tick& tick : plot.y.ticks) longest = std::max(longest, tick.label.size());
     const double left = std::max(8.0, 3.0 + 0.85 * static_cast<double>(longest));
-    const bool two = !plot.remark.empty();
-    const double top = two ? 3.4 : plot.heading.empty() ? 1.5 : 2.2;
-    return fmt::format("set lmargin {:.1f}\nset rmargin {}\nset bmargin 3.6\nset tmargin {}\n",
-                       left, plot.colours ? "-1" : "2", top);
+    // -1 leaves the room to gnuplot, which knows how large the key is.
+    const double top = plot.key.place == KeyPlace::above ? -1.0
+                       : !plot.remark.empty()            ? 3.4
+                       : plot.heading.empty()            ? 1.5
+                                                         : 2.2;
+    const double foot = plot.key.place == KeyPlace::below ? -1.0 : 3.6;
+    return fmt::format("set lmargin {:.1f}\nset rmargin {}\nset bmargin {}\nset tmargin {}\n", left,
+                       plot.colours ? -1 : 2, foot, top);
   }
 
   static std::string heading(const Plot& plot) {
