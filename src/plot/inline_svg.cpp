@@ -43,13 +43,10 @@ void for_each(XmlNode& node, const std::function<void(XmlNode&)>& act) {
   for (XmlNode& child : node.children) for_each(child, act);
 }
 
-/// The id that a value points to: "#id" or "url(#id)"; empty where it points to none. What could be
-/// a colour is one.
-std::string target_of(const std::string& value) {
-  if (value.starts_with("#") && value.size() > 1 &&
-      value.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos) {
-    return value.substr(1);
-  }
+/// The id that an attribute points to: xlink:href="#id" or any "url(#id)"; empty where it points to
+/// none.
+std::string target_of(const std::string& key, const std::string& value) {
+  if ((key == "href" || key == "xlink:href") && value.starts_with("#")) return value.substr(1);
   if (value.starts_with("url(#") && value.ends_with(")")) return value.substr(5, value.size() - 6);
   return "";
 }
@@ -59,7 +56,7 @@ void drop_unused_definitions(XmlNode& root) {
   for (bool changed = true; std::exchange(changed, false);) {
     std::set<std::string> used;
     for_each(root, [&](XmlNode& node) {
-      for (const auto& [key, value] : node.attributes) used.insert(target_of(value));
+      for (const auto& [key, value] : node.attributes) used.insert(target_of(key, value));
     });
     for_each(root, [&](XmlNode& node) {
       if (node.name != "defs") return;
@@ -224,7 +221,7 @@ bool is_disc(const std::map<std::string, const XmlNode*>& definitions, const std
   const std::string* href = node.attribute("xlink:href");
   const XmlNode* shape = &node;
   if (node.name == "use" && href != nullptr) {
-    const auto drawn = definitions.find(target_of(*href));
+    const auto drawn = definitions.find(target_of("href", *href));
     if (drawn == definitions.end()) return false;
     shape = drawn->second;
   }
@@ -263,7 +260,7 @@ void pack_dots(XmlNode& node, const std::map<std::string, const XmlNode*>& defin
     const std::string* href = child.attribute("xlink:href");
     const std::string* transform = child.attribute("transform");
     const bool disc = child.name == "use" && href != nullptr && transform != nullptr &&
-                      child.children.empty() && is_disc(definitions, target_of(*href)) &&
+                      child.children.empty() && is_disc(definitions, target_of("href", *href)) &&
                       std::sscanf(transform->c_str(), "translate(%lf,%lf) scale(%lf)", &dot.x,
                                   &dot.y, &dot.scale) == 3;
     const auto same_but_place = [&](const XmlNode& other) {
@@ -318,7 +315,7 @@ void join_lines(XmlNode& node) {
 void prefix_ids(XmlNode& root, const std::string& name) {
   for_each(root, [&](XmlNode& node) {
     for (auto& [key, value] : node.attributes) {
-      const std::string target = target_of(value);
+      const std::string target = target_of(key, value);
       if (key == "id") {
         value = name + "-" + value;
       } else if (!target.empty()) {

@@ -122,7 +122,9 @@ void write(const XmlNode& node, std::string& out) {
     return;
   }
   out += ">";
-  const bool words = node.name == "text" || node.name == "tspan" || node.name == "title";
+  const bool words = node.name == "text" || node.name == "tspan" ||
+                     std::any_of(node.children.begin(), node.children.end(),
+                                 [](const XmlNode& child) { return child.is_text(); });
   for (const XmlNode& child : node.children) {
     if (!words) out += '\n';
     write(child, out);
