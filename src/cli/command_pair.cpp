@@ -13,6 +13,7 @@
 #include "experiment/events.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
+#include "plot/draw.hpp"
 #include "report/experiment_figures.hpp"
 #include "report/words_impacts.hpp"
 
@@ -164,8 +165,10 @@ void run_pair(PairCommand command) {
   for (const auto& [name, text] : histogram_files(shown)) {
     write_whole_file(fs::path(command.histograms) / name, text);
   }
-  for (const auto& [name, svg] : experiment_figures(shown, averages, remark_of(command, table))) {
-    write_whole_file(fs::path(command.histograms) / name, svg);
+  for (const plot::Picture& picture :
+       experiment_pictures(shown, averages, remark_of(command, table))) {
+    write_whole_file(fs::path(command.histograms) / (picture.name + ".svg"),
+                     plot::draw_svg(picture));
   }
 }
 

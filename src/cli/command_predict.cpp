@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
+#include "plot/draw.hpp"
 #include "report/prediction.hpp"
 
 namespace recoil {
@@ -47,9 +48,10 @@ void predict_sizes(const PredictOptions& options) {
   if (!options.out.empty()) {
     const std::filesystem::path out = options.out;
     for (const Figure& figure : mixture_figures(analysis, mixture)) {
-      const std::string part = figure.id.substr(figure.id.find('-') + 1);
+      const std::string& name = figure.picture.name;  // "mixture-sizes-1"
+      const std::string part = name.substr(name.find('-') + 1);
       write_whole_file(out / fmt::format("predict-{}.svg", part.substr(0, part.find('-'))),
-                       figure.svg);
+                       plot::draw_svg(figure.picture));
     }
     write_whole_file(out / "predict.csv", csv_prediction(mixture));
     write_whole_file(out / "predict.json", json_prediction(analysis, mixture));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "plot/draw.hpp"
+
 namespace recoil {
 namespace {
 
@@ -21,16 +23,28 @@ bool all_empty(const std::vector<Block>& blocks) {
 }
 
 /// Calls `visit` with every block, those within others too.
-template <class Visit>
-void each_block(const std::vector<Block>& blocks, const Visit& visit) {
-  for (const Block& block : blocks) {
+template <class Blocks, class Visit>
+void each_block(Blocks& blocks, const Visit& visit) {
+  for (auto& block : blocks) {
     visit(block);
-    if (const auto* details = std::get_if<Details>(&block.content())) {
+    if (auto* details = std::get_if<Details>(&block.content())) {
       each_block(details->blocks, visit);
-    } else if (const auto* section = std::get_if<Section>(&block.content())) {
+    } else if (auto* section = std::get_if<Section>(&block.content())) {
       each_block(section->blocks, visit);
     }
   }
+}
+
+void draw(const std::vector<Figure*>& figures) {
+  std::vector<Figure*> waiting;
+  std::vector<const plot::Picture*> pictures;
+  for (Figure* figure : figures) {
+    if (!figure->svg.empty() || figure->picture.plots.empty()) continue;
+    waiting.push_back(figure);
+    pictures.push_back(&figure->picture);
+  }
+  std::vector<std::string> drawn = plot::draw_svg(pictures);
+  for (std::size_t i = 0; i < waiting.size(); ++i) waiting[i]->svg = std::move(drawn[i]);
 }
 
 }  // namespace
@@ -68,6 +82,30 @@ Table items(std::vector<std::pair<Sentence, Cell>> entries) {
     table.rows.push_back({std::move(name), std::move(value)});
   }
   return table;
+}
+
+Figure figure_of(plot::Picture picture, Sentence caption, bool large) {
+  Figure figure{picture.name, picture.title, std::move(caption), "", large, {}};
+  figure.picture = std::move(picture);
+  return figure;
+}
+
+void draw(std::vector<Figure>& figures) {
+  std::vector<Figure*> all;
+  for (Figure& figure : figures) all.push_back(&figure);
+  draw(all);
+}
+
+void draw(Document& document) {
+  std::vector<Figure*> all;
+  const auto collect = [&all](Block& block) {
+    if (auto* figures = std::get_if<Figures>(&block.content())) {
+      for (Figure& figure : figures->figures) all.push_back(&figure);
+    }
+  };
+  each_block(document.foreword, collect);
+  for (Section& section : document.sections) each_block(section.blocks, collect);
+  draw(all);
 }
 
 bool empty(const Block& block) {

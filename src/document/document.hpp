@@ -6,6 +6,7 @@
 
 #include "document/number.hpp"
 #include "document/sentence.hpp"
+#include "plot/plot.hpp"
 
 /// What people read, before it is known where: the terminal (terminal.hpp), a page (html.hpp) or
 /// Markdown (markdown.hpp) writes it out.
@@ -60,14 +61,21 @@ struct Glossary {
   std::vector<std::pair<Sentence, Sentence>> entries;
 };
 
-/// One picture.
+/// One picture, as SVG or as what it shows. Who writes a page draws what is not drawn yet.
 struct Figure {
   std::string id;
   std::string title;
   Sentence caption;    ///< what it shows, and what to look for; without one there is no frame
-  std::string svg;     ///< ready to inline
+  std::string svg{};   ///< ready to inline; empty: not drawn yet
   bool large = false;  ///< takes the whole width of the page; scrolls in its box on a phone
+  plot::Picture picture{};
 };
+
+Figure figure_of(plot::Picture picture, Sentence caption, bool large = false);
+
+/// Draws the figures that have no SVG yet, all at once.
+/// @throws ComputationError when gnuplot cannot be run.
+void draw(std::vector<Figure>& figures);
 
 /// Pictures side by side. A terminal has none.
 struct Figures {
@@ -107,6 +115,7 @@ struct Block
     : std::variant<Paragraph, List, Glossary, Table, Figures, Banner, Remark, Details, Section> {
   using variant::variant;
   const variant& content() const { return *this; }
+  variant& content() { return *this; }
 };
 
 /// Nothing to be shown.
@@ -125,6 +134,10 @@ struct Document {
   std::string foot{};  ///< who made it
   bool cards = false;  ///< the sections stand side by side, without a list of contents
 };
+
+/// Draws every figure that has no SVG yet, all at once.
+/// @throws ComputationError when gnuplot cannot be run.
+void draw(Document& document);
 
 /// The first figure, table of that id or caption; for those who look a document through.
 const Section* section_of(const Document& document, std::string_view id);

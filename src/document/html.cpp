@@ -123,7 +123,8 @@ std::string figure_html(const Figure& figure) {
       figure.large ? " tabindex=\"0\"" : "", figure.svg, html_of(figure.caption));
 }
 
-std::string figures_html(const std::vector<Figure>& figures) {
+std::string figures_html(std::vector<Figure> figures) {
+  draw(figures);
   if (figures.size() == 1 && figures.front().caption.empty()) return figure_html(figures.front());
   std::string out = fmt::format("<div class=\"figures{}\">\n",
                                 figures.size() == 1 && !figures.front().large ? " single" : "");
@@ -252,7 +253,8 @@ std::string html_of(const std::vector<Block>& blocks) {
   return out;
 }
 
-std::string html_page(const Document& document) {
+std::string html_page(Document document) {
+  draw(document);
   std::string head = fmt::format("<header>\n<h1>{}</h1>\n", html_of(document.heading));
   if (!document.subtitle.empty()) {
     head += fmt::format("<p class=\"subtitle\">{}</p>\n", html_of(document.subtitle));

@@ -18,7 +18,8 @@ std::string html_of(const Sentence& sentence);
 /// Blocks without a page around them.
 std::string html_of(const std::vector<Block>& blocks);
 
-/// The whole file.
-std::string html_page(const Document& document);
+/// The whole file, its pictures drawn.
+/// @throws ComputationError when there is a picture to draw and gnuplot cannot be run.
+std::string html_page(Document document);
 
 }  // namespace recoil

@@ -1,28 +1,24 @@
 #include "report/density.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
 
 /// A standard deviation that single far values do not blow up: from the quartiles.
 double robust_deviation(const std::vector<double>& values) {
-  const style::Range quartiles = style::quantile_range(values, 0.25, 0.75);
+  const plot::Range quartiles = plot::quantile_range(values, 0.25, 0.75);
   return (quartiles.upper - quartiles.lower) / 1.349;
 }
 
-double place(std::size_t cell, style::Range range) {
+double place(std::size_t cell, plot::Range range) {
   return range.lower + (range.upper - range.lower) * static_cast<double>(cell) /
                            static_cast<double>(DensityGrid::cells - 1);
 }
 
 /// exp(-((place - value) / width)^2 / 2) for every place of one axis.
-std::vector<double> kernel(double value, double width, style::Range range) {
+std::vector<double> kernel(double value, double width, plot::Range range) {
   std::vector<double> weights(DensityGrid::cells);
   for (std::size_t c = 0; c < weights.size(); ++c) {
     weights[c] = std::exp(-0.5 * std::pow((place(c, range) - value) / width, 2));
@@ -32,27 +28,30 @@ std::vector<double> kernel(double value, double width, style::Range range) {
 
 }  // namespace
 
-Histogram histogram(const std::vector<double>& values, style::Range range) {
-  Histogram h;
-  const style::Range quartiles = style::quantile_range(values, 0.25, 0.75);
+Bars bars_of(const std::vector<double>& values, plot::Range range) {
+  const plot::Range quartiles = plot::quantile_range(values, 0.25, 0.75);
   const double n = static_cast<double>(std::max<std::size_t>(values.size(), 1));
-  const double ideal = 2.0 * (quartiles.upper - quartiles.lower) / std::cbrt(n);
-  const double span = range.upper - range.lower;
-  const double bins = std::clamp(ideal > 0.0 ? std::round(span / ideal) : 12.0, 8.0, 48.0);
-  h.width = span / bins;
-  std::vector<double> counts(static_cast<std::size_t>(bins), 0.0);
+  const double ideal = 2.0 * quartiles.width() / std::cbrt(n);
+  const double count =
+      std::clamp(ideal > 0.0 ? std::round(range.width() / ideal) : 12.0, 8.0, 48.0);
+  const double width = range.width() / count;
+  std::vector<double> counts(static_cast<std::size_t>(count), 0.0);
+  Bars bars;
   for (const double value : values) {
-    const double place = (value - range.lower) / h.width;
-    if (!(place >= 0.0) || place > bins) {
-      ++h.outside;
+    const double bin = (value - range.lower) / width;
+    if (!(bin >= 0.0) || bin > count) {
+      ++bars.outside;
     } else {
-      counts[std::min(static_cast<std::size_t>(place), counts.size() - 1)] += 1.0;
+      counts[std::min(static_cast<std::size_t>(bin), counts.size() - 1)] += 1.0;
     }
   }
+  constexpr double gap = 0.03;  // of the width, at both sides of a bar
   for (std::size_t b = 0; b < counts.size(); ++b) {
-    h.bars.push_back({range.lower + (static_cast<double>(b) + 0.5) * h.width, counts[b]});
+    const double left = range.lower + (static_cast<double>(b) + gap) * width;
+    bars.boxes.add(left, left + (1.0 - 2.0 * gap) * width, 0.0, counts[b]);
+    bars.highest = std::max(bars.highest, counts[b]);
   }
-  return h;
+  return bars;
 }
 
 std::vector<double> column(const std::vector<std::vector<double>>& rows, std::size_t slot,
@@ -80,8 +79,8 @@ double DensityGrid::at(double x_value, double y_value) const {
          up * ((1.0 - right) * rows[r + 1][c] + right * rows[r + 1][c + 1]);
 }
 
-DensityGrid density(const std::vector<double>& x, const std::vector<double>& y,
-                    style::Range x_range, style::Range y_range) {
+DensityGrid density(const std::vector<double>& x, const std::vector<double>& y, plot::Range x_range,
+                    plot::Range y_range) {
   DensityGrid grid;
   grid.x = x_range;
   grid.y = y_range;
@@ -114,25 +113,18 @@ double density_level(const DensityGrid& grid, const std::vector<double>& x,
                      const std::vector<double>& y, double inside) {
   std::vector<double> at_points;
   for (std::size_t i = 0; i < x.size(); ++i) at_points.push_back(grid.at(x[i], y[i]));
-  return style::quantile_range(std::move(at_points), 1.0 - inside, 1.0).lower;
+  return plot::quantile_range(std::move(at_points), 1.0 - inside, 1.0).lower;
 }
 
-std::string contour_commands(const std::string& name, const DensityGrid& grid,
-                             const std::vector<double>& x, const std::vector<double>& y,
-                             double inside) {
-  if (grid.rows.empty()) return "";
+std::optional<plot::Contour> contour_around(const std::vector<double>& x,
+                                            const std::vector<double>& y, plot::Range x_range,
+                                            plot::Range y_range, double inside,
+                                            plot::Stroke stroke) {
+  DensityGrid grid = density(x, y, x_range, y_range);
+  if (grid.rows.empty()) return std::nullopt;
   const double level = density_level(grid, x, y, inside);
-  if (!(level > 0.0)) return "";
-  const double last = static_cast<double>(DensityGrid::cells - 1);
-  return data_block("grid_" + name, grid.rows) +
-         fmt::format(
-             "set format x '%g'\nset format y '%g'\nset autoscale xy\n"  // tables obey these
-             "set contour base\nunset surface\nset cntrparam levels discrete {0:.6g}\n"
-             "set table ${1}\nsplot $grid_{1} matrix using "
-             "({2:.8g}+{3:.8g}*$1):({4:.8g}+{5:.8g}*$2):3 with lines\n"
-             "unset table\nunset contour\nset surface\n",
-             level, name, grid.x.lower, (grid.x.upper - grid.x.lower) / last, grid.y.lower,
-             (grid.y.upper - grid.y.lower) / last);
+  if (!(level > 0.0)) return std::nullopt;
+  return plot::Contour{x_range, y_range, std::move(grid.rows), level, stroke};
 }
 
 }  // namespace recoil

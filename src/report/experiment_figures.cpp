@@ -3,129 +3,129 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 
 #include "core/units.hpp"
-#include "report/figure_style.hpp"
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
 
-/// Rows middle, share per unit of x in per cent, for bars; heights are densities so that both rules
-/// share one axis.
-std::vector<std::vector<double>> density_rows(const Histogram& histogram, double unit,
-                                              std::size_t total) {
-  std::vector<std::vector<double>> rows;
+/// Bars whose areas are shares, so that two rules can stand on one axis [% per unit].
+plot::Boxes density_bars(const Histogram& histogram, double unit, std::size_t total) {
+  plot::Boxes bars;
   const double width = histogram.width / unit;
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     const double share = 100.0 * static_cast<double>(histogram.counts[i]) /
                          static_cast<double>(std::max<std::size_t>(total, 1));
-    rows.push_back({histogram.middle(i) / unit, share / width, width});
+    bars.add(histogram.edge(i) / unit, histogram.edge(i + 1) / unit, 0.0, share / width);
   }
-  return rows;
+  return bars;
 }
 
-std::string histogram_svg(const std::string& name, const std::string& title,
-                          const std::string& remark, const std::vector<double>& values, double unit,
-                          const std::string& axis, const std::string& per) {
-  const Histogram bars = sturges(values);
+/// The line around the bars.
+plot::Line outline_of(const plot::Boxes& bars) {
+  plot::Line line;
+  const auto go = [&line](double x, double y) {
+    line.x.push_back(x);
+    line.y.push_back(y);
+  };
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    if (i == 0) go(bars.left[i], 0.0);
+    go(bars.left[i], bars.top[i]);
+    go(bars.right[i], bars.top[i]);
+    if (i + 1 == bars.size()) go(bars.right[i], 0.0);
+  }
+  return line;
+}
+
+plot::Picture histogram_picture(const std::string& name, const std::string& title,
+                                const std::string& remark, const std::vector<double>& values,
+                                double unit, const plot::Axis& axis) {
+  const Histogram coarse = sturges(values);
   const Histogram fine = freedman_diaconis(values);
-  PlotScript script;
-  script.name = plot_name(name);
-  script.title = title;
-  script.width = 560;
-  script.height = 360;
-  std::string& c = script.commands;
-  c = style::preamble() + style::title(title, remark) +
-      fmt::format("set xlabel {} offset 0,0.4\nset ylabel 'share  [% per {}]' offset 1.2,0\n",
-                  gnuplot_text(axis), per) +
-      "set yrange [0:*]\nset style fill solid 0.55 border rgb '#ffffff'\n" + style::key_below(1);
-  c += data_block("bars", density_rows(bars, unit, values.size()));
-  c += data_block("fine", density_rows(fine, unit, values.size()));
-  c += fmt::format(
-      "plot $bars using 1:2:3 with boxes lc rgb '{}' title \"Sturges' rule, {} bins\", "
-      "$fine using 1:2 with histeps lc rgb '{}' lw 1.3 title 'Freedman-Diaconis, {} bins'\n",
-      style::sky, bars.counts.size(), style::vermillion, fine.counts.size());
-  return draw_svg(script);
+  plot::Boxes bars = density_bars(coarse, unit, values.size());
+  bars.fill = {std::string(plot::sky), 0.55, true};
+  bars.name = fmt::format("Sturges' rule, {} bins", coarse.counts.size());
+  plot::Line line = outline_of(density_bars(fine, unit, values.size()));
+  line.stroke = {plot::vermillion, 1.3};
+  line.name = fmt::format("Freedman-Diaconis, {} bins", fine.counts.size());
+
+  plot::Plot shown;
+  shown.heading = title;
+  shown.remark = remark;
+  shown.x = axis;
+  shown.y = {"share", "% per " + axis.unit};
+  shown.y.from = 0.0;
+  shown.key = {plot::KeyPlace::below, 1};
+  shown.layers = {std::move(bars), std::move(line)};
+  return {name, title, 560, 360, {std::move(shown)}};
 }
 
-std::string sizes_svg(const Distributions& distributions, const std::string& remark) {
-  const std::string title =
-      fmt::format("Sizes of {} incoming spheres", distributions.incoming_sizes.size());
-  return histogram_svg("sizes", title, remark, distributions.incoming_sizes, units::um,
-                       "diameter  [um]", "um");
-}
-
-std::string restitution_svg(const Averages& averages, const std::string& remark) {
-  std::map<std::string, std::vector<std::vector<double>>> by_series;
-  std::vector<double> logs;
-  std::vector<std::vector<double>> captured;
+plot::Picture restitution_picture(const Averages& averages, const std::string& remark) {
+  constexpr double normal_95 = 1.96;
+  struct Series {
+    plot::Points points;
+    std::vector<double> half_widths;
+  };
+  std::map<std::string, Series> by_series;
+  std::vector<double> velocities;
+  plot::Points captured;
+  captured.marker.mark = plot::Mark::cross;
+  captured.size = 1.0;
+  captured.name = "all captured";
   for (const PointMean& point : averages.points) {
-    logs.push_back(std::log10(point.velocity));
+    velocities.push_back(point.velocity);
     if (point.rebounds == 0) {
-      captured.push_back({point.velocity, 0.0});
+      captured.x.push_back(point.velocity);
+      captured.y.push_back(0.0);
       continue;
     }
-    by_series[point.series].push_back(
-        {point.velocity, point.restitution, 1.96 * point.restitution_sd});
+    Series& series = by_series[point.series];
+    series.points.x.push_back(point.velocity);
+    series.points.y.push_back(point.restitution);
+    series.half_widths.push_back(normal_95 * point.restitution_sd);
   }
-  const style::Range range = style::range_of(logs, 0.05);
-  const double lower = std::pow(10.0, range.lower);
-  const double upper = std::pow(10.0, range.upper);
-  PlotScript script;
-  script.name = "restitution";
-  script.title = "Coefficient of restitution against incident velocity";
-  script.width = 560;
-  script.height = 380;
-  std::string& c = script.commands;
-  c = style::preamble() + style::title(script.title, remark) +
-      fmt::format("set logscale x\nset xrange [{:.6g}:{:.6g}]\nset yrange [0:1.05]\n", lower,
-                  upper) +
-      log_ticks('x', lower, upper) +
-      "set xlabel 'incident normal velocity at the surface  [m/s]' offset 0,0.4\n"
-      "set ylabel 'mean restitution of the rebounds' offset 1.2,0\n" +
-      style::key_below(static_cast<int>(by_series.size() + 2) / 3);
-  std::vector<std::string> layers;
+  plot::Plot shown;
+  shown.heading = "Coefficient of restitution against incident velocity";
+  shown.remark = remark;
+  shown.x = {"incident normal velocity at the surface", "m/s"};
+  shown.x.logarithmic = true;
+  shown.x.set_range(plot::log_range_of(velocities, 0.05));
+  shown.y = {"mean restitution of the rebounds"};
+  shown.y.set_range({0.0, 1.05});
+  shown.y.about = 5;
+  shown.key = {plot::KeyPlace::below, static_cast<int>(by_series.size() + 2) / 3};
   std::size_t index = 0;
-  for (const auto& [name, rows] : by_series) {
-    const style::Marker marker = style::markers[index % style::markers.size()];
-    c += data_block(fmt::format("s{}", index), rows);
-    layers.push_back(
-        fmt::format("$s{} using 1:2:3 with yerrorbars lc rgb '{}' pt {} ps 0.6 title {}", index,
-                    marker.colour, marker.point, gnuplot_text(name)));
-    ++index;
+  for (auto& [name, series] : by_series) {
+    series.points.with_sd(series.half_widths);
+    series.points.marker = plot::marker(index++);
+    series.points.size = 0.6;
+    series.points.name = name;
+    shown.layers.push_back(std::move(series.points));
   }
-  if (!captured.empty() || layers.empty()) {
-    c += data_block("captured", captured);
-    layers.push_back(fmt::format(
-        "$captured using 1:2 with points lc rgb '{}' pt 1 title 'all captured'", style::ink));
-  }
-  c += fmt::format("plot {}\n", fmt::join(layers, ", "));
-  return draw_svg(script);
+  if (!captured.x.empty() || shown.layers.empty()) shown.layers.push_back(std::move(captured));
+  return {"restitution", shown.heading, 560, 380, {shown}};
 }
 
 }  // namespace
 
-std::map<std::string, std::string> experiment_figures(const Distributions& distributions,
-                                                      const Averages& averages,
-                                                      const std::string& remark) {
+std::vector<plot::Picture> experiment_pictures(const Distributions& distributions,
+                                               const Averages& averages,
+                                               const std::string& remark) {
+  const plot::Axis velocity{"normal velocity at the plane, towards the surface positive", "m/s"};
   return {
-      {"sizes.svg", sizes_svg(distributions, remark)},
-      {"velocities-raw.svg",
-       histogram_svg("velocities-raw",
-                     fmt::format("Normal velocities, {} passages as recorded",
-                                 distributions.raw_velocities.size()),
-                     remark, distributions.raw_velocities, 1.0,
-                     "normal velocity at the plane, towards the surface positive  [m/s]", "m/s")},
-      {"velocities-paired.svg",
-       histogram_svg("velocities-paired",
-                     fmt::format("Normal velocities, {} paired impacts",
-                                 distributions.paired_velocities.size() / 2),
-                     remark, distributions.paired_velocities, 1.0,
-                     "normal velocity at the plane, towards the surface positive  [m/s]", "m/s")},
-      {"restitution.svg", restitution_svg(averages, remark)},
-  };
+      histogram_picture(
+          "sizes", fmt::format("Sizes of {} incoming spheres", distributions.incoming_sizes.size()),
+          remark, distributions.incoming_sizes, units::um, {"diameter", "µm"}),
+      histogram_picture("velocities-raw",
+                        fmt::format("Normal velocities, {} passages as recorded",
+                                    distributions.raw_velocities.size()),
+                        remark, distributions.raw_velocities, 1.0, velocity),
+      histogram_picture("velocities-paired",
+                        fmt::format("Normal velocities, {} paired impacts",
+                                    distributions.paired_velocities.size() / 2),
+                        remark, distributions.paired_velocities, 1.0, velocity),
+      restitution_picture(averages, remark)};
 }
 
 }  // namespace recoil

@@ -5,36 +5,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/figure_style.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr int panel_key_rows = 2;
 constexpr double hidden_sd = 0.012;  // an error bar within the mark's radius [1]
+constexpr std::string_view dark_green = "#00684c";
 
 /// The capture velocity as a line with its interval as a strip; `capture_words` labels it.
-std::string capture_commands(const CaptureEstimate& capture, const Axes& axes) {
+void add_capture(const CaptureEstimate& capture, const Axes& axes, plot::Plot& shown) {
   const Interval& interval = capture.interval;
   const auto inside = [&](double v) {
     return std::clamp(v, axes.velocity.lower, axes.velocity.upper);
   };
-  std::string out;
   if (interval.available()) {
-    out += fmt::format(
-        "set object 1 rect from {:.6g}, graph 0 to {:.6g}, graph 1 fc rgb '{}' fs transparent "
-        "solid 0.18 noborder behind\n",
-        inside(*interval.lower), inside(*interval.upper), style::green);
+    shown.layers.push_back(plot::Region{inside(*interval.lower), inside(*interval.upper)});
   }
   if (capture.value > axes.velocity.lower && capture.value < axes.velocity.upper) {
-    out += fmt::format(
-        "set arrow 1 from {0:.6g}, graph 0 to {0:.6g}, graph 1 nohead lc rgb '{1}' lw 1.4 back\n",
-        capture.value, style::green);
+    shown.layers.push_back(
+        plot::Rule{plot::Direction::vertical, capture.value, {plot::green, 1.4}});
   }
-  return out;
 }
 
 std::string capture_words(const CaptureEstimate& capture, const Axes& axes) {
@@ -49,63 +42,55 @@ std::string points_name(const Dataset& dataset, bool sd_stated) {
   return sd_stated ? name + " ± 1 sd" : name;
 }
 
-PlotScript restitution_script(const Analysis& analysis, const Panel& panel, const Axes& axes) {
+void add_curve(const Analysis& analysis, const RestitutionCurve& curve, plot::Plot& shown) {
+  const CurveColumns columns = curve_columns(curve);
+  if (!columns.lower.empty()) {
+    plot::Band band{columns.velocity, columns.lower, columns.upper};
+    band.name = percent(analysis.uncertainty.options.level) + " band";
+    shown.layers.push_back(std::move(band));
+  }
+  plot::Line fit{columns.velocity, columns.restitution, {plot::blue, 2.0}};
+  fit.name = "fit to all points";
+  shown.layers.push_back(std::move(fit));
+  if (!columns.two_point.empty()) {
+    plot::Line two{
+        columns.velocity, columns.two_point, {plot::vermillion, 2.0, plot::Dash::long_dashes}};
+    two.name = "two points";
+    shown.layers.push_back(std::move(two));
+  }
+}
+
+plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, const Axes& axes) {
   const Dataset& dataset = analysis.datasets[panel.dataset];
-  PlotScript script;
-  script.height = 365;
-  std::string heading = fmt::format("d = {} µm", diameter_text(panel.diameter));
-  if (analysis.datasets.size() > 1) heading += ", " + dataset.id;
-  script.title = fmt::format("Restitution against incident velocity, {}", heading);
+  plot::Plot shown;
+  shown.heading = fmt::format("d = {} µm", diameter_text(panel.diameter));
+  if (analysis.datasets.size() > 1) shown.heading += ", " + dataset.id;
+  shown.x = velocity_axis(axes.velocity);
+  shown.y = restitution_axis(axes.top);
+  shown.key = {plot::KeyPlace::below, panel_key_rows};
+  if (panel.capture != nullptr) {
+    shown.remark = capture_words(*panel.capture, axes);
+    shown.remark_colour = dark_green;
+    add_capture(*panel.capture, axes, shown);
+  }
+  if (panel.curve != nullptr) add_curve(analysis, *panel.curve, shown);
 
-  const PointRows rows = point_rows(analysis, panel.points);
-  std::string& c = script.commands;
-  c = style::preamble() + style::key_below(panel_key_rows) + "set logscale x\n";
-  c += panel.capture == nullptr
-           ? style::title(heading)
-           : style::title(heading, capture_words(*panel.capture, axes), "#00684c");
-  c += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [0:{:.4g}]\nset ytics 0.2\n",
-                   axes.velocity.lower, axes.velocity.upper, axes.top);
-  c += log_ticks('x', axes.velocity.lower, axes.velocity.upper);
-  c += "set xlabel 'incident velocity V  [m/s]' offset 0,0.4\n"
-       "set ylabel 'restitution e' offset 1.2,0\n";
-  if (panel.capture != nullptr) c += capture_commands(*panel.capture, axes);
-
-  std::vector<std::string> layers;
-  if (panel.curve != nullptr) {
-    c += data_block("curve", curve_rows(*panel.curve));
-    if (!panel.curve->lower.empty()) {
-      layers.push_back(fmt::format(
-          "$curve using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.2 noborder "
-          "title {}",
-          style::blue, gnuplot_text(percent(analysis.uncertainty.options.level) + " band")));
-    }
-    layers.push_back(fmt::format(
-        "$curve using 1:2 with lines lc rgb '{}' lw 2 title 'fit to all points'", style::blue));
-    if (!panel.curve->two_point.empty()) {
-      layers.push_back(
-          fmt::format("$curve using 1:5 with lines lc rgb '{}' lw 2 dt (8,5) title 'two points'",
-                      style::vermillion));
-    }
+  const PointColumns columns = point_columns(analysis, panel.points);
+  const auto points =
+      rebound_layer(analysis, columns, points_name(dataset, analysis.data.sd_stated));
+  if (points) shown.layers.push_back(*points);
+  if (!columns.captured.empty()) {
+    plot::Points captured{columns.captured, std::vector<double>(columns.captured.size(), 0.0)};
+    captured.marker.mark = plot::Mark::open_triangle_down;
+    captured.size = 0.9;
+    captured.name = "captured";
+    shown.layers.push_back(std::move(captured));
   }
-  if (!rows.rebounds.empty()) {
-    c += data_block("points", rows.rebounds);
-    const std::string name = gnuplot_text(points_name(dataset, analysis.fitted.data.sd_stated));
-    if (analysis.fitted.data.sd_stated) {
-      layers.push_back(fmt::format(
-          "$points using 1:($2-$3):(0):(2*$3) with vectors nohead lc rgb '{}' lw 1.2 notitle",
-          style::ink));
-    }
-    layers.push_back(fmt::format("$points using 1:2 with points lc rgb '{}' pt 7 ps 0.5 title {}",
-                                 style::ink, name));
-  }
-  if (!rows.captures.empty()) {
-    c += data_block("captured", rows.captures);
-    layers.push_back(fmt::format(
-        "$captured using 1:2 with points lc rgb '{}' pt 10 ps 0.9 title 'captured'", style::ink));
-  }
-  if (layers.empty()) layers.emplace_back("NaN notitle");
-  c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
-  return script;
+  plot::Picture picture;
+  picture.title = fmt::format("Restitution against incident velocity, {}", shown.heading);
+  picture.height = 365;
+  picture.plots = {std::move(shown)};
+  return picture;
 }
 
 std::string restitution_caption(const Analysis& analysis, const Panel& panel) {
@@ -144,11 +129,10 @@ std::vector<Figure> restitution_figures(const Analysis& analysis) {
   const std::vector<Panel> panels = panels_of(analysis);
   std::vector<Figure> figures;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    PlotScript script =
-        restitution_script(analysis, panels[i], axes_of(analysis, panels, panels[i].dataset));
-    script.name = fmt::format("restitution-{}", i + 1);
-    figures.push_back(
-        {script.name, script.title, restitution_caption(analysis, panels[i]), draw_svg(script)});
+    plot::Picture picture =
+        restitution_picture(analysis, panels[i], axes_of(analysis, panels, panels[i].dataset));
+    picture.name = fmt::format("restitution-{}", i + 1);
+    figures.push_back(figure_of(std::move(picture), restitution_caption(analysis, panels[i])));
   }
   return figures;
 }

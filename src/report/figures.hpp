@@ -41,7 +41,7 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis);
 /// diameter, and 5.2 m/s where the data reach it, the geometric middle of their range elsewhere.
 std::vector<Figure> force_history_figures(const Analysis& analysis);
 
-/// All points and fitted curves of e(V) in one small picture; `id` begins every SVG id.
-std::string restitution_overview(const Analysis& analysis, const std::string& id);
+/// All points and fitted curves of e(V) in one small picture; `id` is part of its name.
+plot::Picture restitution_overview(const Analysis& analysis, const std::string& id);
 
 }  // namespace recoil

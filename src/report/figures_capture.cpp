@@ -1,21 +1,22 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/units.hpp"
-#include "report/figure_style.hpp"
 #include "report/format.hpp"
 #include "report/prediction.hpp"
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::array<const char*, 5> colours = {style::blue, style::ink, style::vermillion,
-                                                style::green, style::purple};
-constexpr std::array<const char*, 5> dashes = {"", "dt (10,4)", "dt (3,3)", "dt (10,4,3,4)",
-                                               "dt (6,3)"};
+/// One look per model, told apart by colour and dashes.
+constexpr std::array<plot::Stroke, 5> strokes = {{{plot::blue, 2.0},
+                                                  {plot::ink, 2.0, plot::Dash::long_dashes},
+                                                  {plot::vermillion, 2.0, plot::Dash::dots},
+                                                  {plot::green, 2.0, plot::Dash::dash_dot},
+                                                  {plot::purple, 2.0, plot::Dash::dashes}}};
 
 /// d ln V* / d ln d of a curve, from its ends; nothing where it is not positive.
 std::optional<double> slope(const std::vector<double>& diameter, const CaptureCurve& curve) {
@@ -26,86 +27,81 @@ std::optional<double> slope(const std::vector<double>& diameter, const CaptureCu
          std::log(diameter.back() / diameter.front());
 }
 
-Figure figure_of(const Analysis& analysis, const CaptureComparison& comparison) {
-  const Dataset& dataset = analysis.datasets[comparison.dataset];
-  double lowest = INFINITY;
-  double highest = 0.0;
-  const auto widen = [&](double v) {
-    if (!(v > 0.0) || !std::isfinite(v)) return;
-    lowest = std::min(lowest, v);
-    highest = std::max(highest, v);
-  };
+/// Everything that is shown, with room at both ends.
+plot::Range velocities_of(const CaptureComparison& comparison) {
+  std::vector<double> all;
   for (const CaptureCurve& curve : comparison.curves) {
     for (const auto* values : {&curve.velocity, &curve.lower, &curve.upper}) {
-      for (const double v : *values) widen(v);
+      all.insert(all.end(), values->begin(), values->end());
     }
   }
-  for (const PublishedCapture& one : comparison.published) widen(one.velocity);
-  lowest /= 1.3;
-  highest *= 1.3;
-  const double smallest = comparison.diameter.front() / units::um;
-  const double largest = comparison.diameter.back() / units::um;
+  for (const PublishedCapture& one : comparison.published) all.push_back(one.velocity);
+  const plot::Range range = plot::log_range_of(all, 0.0);
+  return {range.lower / 1.3, range.upper * 1.3};
+}
 
-  PlotScript script;
-  script.name = fmt::format("capture-models-{}", comparison.dataset + 1);
-  script.title = fmt::format("Capture velocity against diameter, {}", dataset.id);
-  script.height = 430;
-  std::string& c = script.commands;
-  c = style::preamble() +
-      style::title(
-          fmt::format("{} on {}", dataset.system.particle.name, dataset.system.surface.name)) +
-      fmt::format("set logscale xy\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
-                  smallest, largest, lowest, highest) +
-      log_ticks('x', smallest, largest) + log_ticks('y', lowest, highest) +
-      "set xlabel 'diameter d  [µm]' offset 0,0.4\n"
-      "set ylabel 'capture velocity V*  [m/s]' offset 1,0\n" +
-      style::key_below(4);
-  std::vector<std::string> layers;
+void add_published(const CaptureComparison& comparison, bool measured, plot::Plot& shown) {
+  plot::Points points;
+  for (const PublishedCapture& one : comparison.published) {
+    if (one.measured != measured) continue;
+    points.x.push_back(one.diameter / units::um);
+    points.y.push_back(one.velocity);
+  }
+  if (points.x.empty()) return;
+  points.marker.mark = measured ? plot::Mark::dot : plot::Mark::circle;
+  points.size = 1.1;
+  points.width = 1.6;
+  points.name = measured ? "published, measured" : "published, of a model";
+  shown.layers.push_back(std::move(points));
+}
+
+Figure comparison_figure(const Analysis& analysis, const CaptureComparison& comparison) {
+  const Dataset& dataset = analysis.datasets[comparison.dataset];
+  std::vector<double> diameters = comparison.diameter;
+  for (double& diameter : diameters) diameter /= units::um;
+
+  plot::Plot shown;
+  shown.heading =
+      fmt::format("{} on {}", dataset.system.particle.name, dataset.system.surface.name);
+  shown.x = {"diameter d", "µm"};
+  shown.x.logarithmic = true;
+  shown.x.set_range({diameters.front(), diameters.back()});
+  shown.y = {"capture velocity V*", "m/s"};
+  shown.y.logarithmic = true;
+  shown.y.set_range(velocities_of(comparison));
+  shown.key = {plot::KeyPlace::below, 4};
   std::vector<std::string> words;
   for (std::size_t i = 0; i < comparison.curves.size(); ++i) {
     const CaptureCurve& curve = comparison.curves[i];
-    std::vector<std::vector<double>> rows;
-    for (std::size_t k = 0; k < comparison.diameter.size(); ++k) {
-      rows.push_back({comparison.diameter[k] / units::um, curve.velocity[k],
-                      curve.lower.empty() ? std::nan("") : curve.lower[k],
-                      curve.upper.empty() ? std::nan("") : curve.upper[k]});
-    }
-    c += data_block(fmt::format("curve{}", i), rows);
+    const plot::Stroke& stroke = strokes[i % strokes.size()];
     if (!curve.lower.empty()) {
-      layers.push_back(
-          fmt::format("$curve{} using 1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.2 "
-                      "noborder notitle",
-                      i, colours[i % colours.size()]));
+      shown.layers.push_back(
+          plot::Band{diameters, curve.lower, curve.upper, {std::string(stroke.colour), 0.2}});
     }
-    layers.push_back(fmt::format("$curve{} using 1:2 with lines lc rgb '{}' lw 2 {} title {}", i,
-                                 colours[i % colours.size()], dashes[i % dashes.size()],
-                                 gnuplot_text(curve.label)));
+    plot::Line line{diameters, curve.velocity, stroke};
+    line.name = curve.label;
+    shown.layers.push_back(std::move(line));
     const auto falls = slope(comparison.diameter, curve);
     words.push_back(fmt::format("{}: {}{}", curve.label, curve.rests_on,
                                 falls ? fmt::format(", V* ~ d^{:.2f}", *falls) : std::string()));
   }
-  std::vector<std::vector<double>> measured;
-  std::vector<std::vector<double>> modelled;
   for (const PublishedCapture& one : comparison.published) {
-    (one.measured ? measured : modelled).push_back({one.diameter / units::um, one.velocity});
     words.push_back(fmt::format("published, {} at {} um: {} m/s, {}", one.what,
                                 diameter_text(one.diameter), number(one.velocity, 3), one.source));
   }
-  const auto add_published = [&](const char* name, const auto& rows, int mark, const char* title) {
-    if (rows.empty()) return;
-    c += data_block(name, rows);
-    layers.push_back(
-        fmt::format("${} using 1:2 with points lc rgb '{}' pt {} ps 1.1 lw 1.6 title '{}'", name,
-                    style::ink, mark, title));
-  };
-  add_published("measured", measured, 7, "published, measured");
-  add_published("modelled", modelled, 6, "published, of a model");
-  c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
+  add_published(comparison, true, shown);
+  add_published(comparison, false, shown);
   for (const std::string& note : comparison.notes) words.push_back(note);
-  const std::string caption =
+
+  plot::Picture picture;
+  picture.name = fmt::format("capture-models-{}", comparison.dataset + 1);
+  picture.title = fmt::format("Capture velocity against diameter, {}", dataset.id);
+  picture.height = 430;
+  picture.plots = {std::move(shown)};
+  return figure_of(
+      std::move(picture),
       fmt::format("{}, with the {} band of the fit. {}.", dataset.id,
-                  percent(analysis.uncertainty.options.level), fmt::join(words, "; "));
-  return {script.name, script.title, caption, draw_svg(script)};
+                  percent(analysis.uncertainty.options.level), fmt::join(words, "; ")));
 }
 
 }  // namespace
@@ -114,7 +110,7 @@ std::vector<Figure> capture_comparison_figures(const Analysis& analysis) {
   std::vector<Figure> figures;
   for (const CaptureComparison& comparison : analysis.captures) {
     if (comparison.diameter.size() < 2 || comparison.curves.empty()) continue;
-    figures.push_back(figure_of(analysis, comparison));
+    figures.push_back(comparison_figure(analysis, comparison));
   }
   return figures;
 }

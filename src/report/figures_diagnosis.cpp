@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +9,7 @@
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "report/diagnosis_report.hpp"
-#include "report/figure_style.hpp"
 #include "report/format.hpp"
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
@@ -25,9 +22,11 @@ std::string in_dataset(const Diagnosis& d, std::size_t dataset) {
   return d.datasets.size() > 1 ? ", " + d.datasets[dataset].id : std::string();
 }
 
-struct Rows {
-  std::vector<double> velocities, diameters;
-  std::vector<std::vector<double>> misses;  // V, d [size_unit], e - e_model, standardised, sd
+/// How far the base model is off at every point of a dataset.
+struct Misses {
+  std::vector<double> velocities, diameters;  ///< [m/s], [size_unit]
+  std::vector<double> misses;                 ///< e - e_model
+  std::vector<double> in_sd;                  ///< the same in standard deviations
 };
 
 /// Spheres are told in um, balls in mm.
@@ -47,99 +46,100 @@ std::string size_text(const Diagnosis& d, double diameter) {
   return diameter_text(diameter * units::um / unit.metres) + " " + unit.name;
 }
 
-Rows rows_of(const Diagnosis& d, std::size_t dataset) {
-  Rows rows;
+Misses misses_of(const Diagnosis& d, std::size_t dataset) {
+  Misses all;
   const double unit = size_unit(d).metres;
   for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
     const Observation& point = d.base.data.points[i];
     if (point.dataset != dataset) continue;
     const double miss = (point.censored ? 0.0 : point.restitution) -
                         expected_restitution(point, d.base.prediction_squared[i]);
-    rows.velocities.push_back(point.velocity);
-    rows.diameters.push_back(point.diameter / unit);
-    rows.misses.push_back({point.velocity, rows.diameters.back(), miss,
-                           point.weights.sd > 0.0 ? miss / point.weights.sd : 0.0,
-                           point.weights.sd});
+    all.velocities.push_back(point.velocity);
+    all.diameters.push_back(point.diameter / unit);
+    all.misses.push_back(miss);
+    all.in_sd.push_back(point.sd > 0.0 ? miss / point.sd : 0.0);
   }
-  return rows;
+  return all;
 }
 
-std::pair<double, double> log_range(const std::vector<double>& values, double margin) {
+/// A logarithmic axis with a margin, wide enough to be read where the values hardly differ.
+plot::Range log_range(const std::vector<double>& values, double margin) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double factor = std::pow(std::max(*high / *low, 1.5), margin);
   return {*low / factor, *high * factor};
 }
 
+plot::Axis velocity_axis_of(const Misses& misses, double margin) {
+  plot::Axis axis{"V", "m/s"};
+  axis.logarithmic = true;
+  axis.set_range(log_range(misses.velocities, margin));
+  return axis;
+}
+
 /// Ticks at the diameters themselves, where they are few and far enough apart to be read.
-std::string size_ticks(std::vector<double> diameters, double small, double big) {
+std::vector<plot::Tick> size_ticks(std::vector<double> diameters, plot::Range range) {
   constexpr std::size_t most = 8;
-  const double nearest = std::pow(big / small, 0.07);
+  const double nearest = std::pow(range.upper / range.lower, 0.07);
   std::sort(diameters.begin(), diameters.end());
-  std::vector<std::string> ticks;
-  double last = 0.0;
+  std::vector<plot::Tick> ticks;
   for (const double d : diameters) {
-    if (d < last * nearest) continue;
-    ticks.push_back(fmt::format("'{0:.6g}' {0:.6g}", d));
-    last = d;
+    if (!ticks.empty() && d < ticks.back().at * nearest) continue;
+    ticks.push_back({d, fmt::format("{:.6g}", d)});
   }
-  const std::string decimal = ticks.size() > most ? log_ticks('y', small, big) : std::string();
-  return decimal.empty() ? fmt::format("set ytics ({})\n", fmt::join(ticks, ", ")) : decimal;
+  if (ticks.size() > most) ticks.clear();
+  return ticks;
 }
 
 /// The axis of the diameters; of one diameter alone, that of the misses themselves.
-std::string vertical_axis(const Diagnosis& d, const Rows& rows, bool one_size) {
-  const char* unit = size_unit(d).name;
-  if (!one_size) {
-    const auto [small, big] = log_range(rows.diameters, 0.25);
-    return fmt::format(
-               "set logscale y\nset yrange [{:.6g}:{:.6g}]\nset ylabel 'd  [{}]' offset 1,0\n",
-               small, big, unit) +
-           size_ticks(rows.diameters, small, big);
+plot::Axis vertical_axis(const Diagnosis& d, const Misses& misses, bool one_size) {
+  plot::Axis axis;
+  if (one_size) {
+    axis.label = "e - e_model";
+    std::vector<double> shown = misses.misses;
+    shown.push_back(0.0);
+    axis.set_range(plot::range_of(shown, 0.12));
+    axis.about = 5;
+    return axis;
   }
-  std::vector<double> misses = {0.0};
-  for (const std::vector<double>& row : rows.misses) misses.push_back(row[2]);
-  const style::Range range = style::range_of(misses, 0.12);
-  return fmt::format(
-             "set yrange [{:.6g}:{:.6g}]\nset ylabel 'e - e_{{model}}' offset 1,0\n"
-             "set xzeroaxis lt 1 lc rgb '{}' lw 1\n"
-             "set label 1 'd = {:.4g} {}' at graph 0.03, graph 0.94 left\n",
-             range.lower, range.upper, style::ink, rows.diameters.front(), unit) +
-         style::few_ticks('y', range, 5);
+  axis = {"d", size_unit(d).name};
+  axis.logarithmic = true;
+  const plot::Range range = log_range(misses.diameters, 0.25);
+  axis.set_range(range);
+  axis.ticks = size_ticks(misses.diameters, range);
+  return axis;
 }
 
 Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
-  const Rows rows = rows_of(d, dataset);
-  const auto [slow, fast] = log_range(rows.velocities, 0.06);
-  const bool one_size = std::all_of(rows.diameters.begin(), rows.diameters.end(),
-                                    [&](double size) { return size == rows.diameters.front(); });
-  PlotScript script;
-  script.name = fmt::format("misfit-{}", dataset);
-  script.title = "Where the base model misses, over velocity and diameter";
-  script.height = 300;
-  std::string& c = script.commands;
-  c = style::preamble() +
-      fmt::format(
-          "set logscale x\nset xrange [{:.6g}:{:.6g}]\nset xlabel 'V  [m/s]' offset 0,0.4\n"
-          "set palette defined (-1 '{}', 0 '#EEEEEE', 1 '{}')\nset cbrange [{:.3g}:{:.3g}]\n"
-          "set cblabel '(e - e_{{model}}) / sd' offset 1,0\nunset key\n",
-          slow, fast, style::blue, style::vermillion, -largest_z, largest_z) +
-      log_ticks('x', slow, fast) + vertical_axis(d, rows, one_size);
-  c += data_block("misses", rows.misses);
-  // The area of a disc grows with the size of the miss, and is never nothing.
-  c += fmt::format(
-      "plot $misses using 1:{0}:(0.5+0.35*sqrt(abs($4))):4 with points pt 7 ps variable lc "
-      "palette, "
-      "$misses using 1:{0}:(0.5+0.35*sqrt(abs($4))) with points pt 6 ps variable lc rgb '#777777' "
-      "lw 0.5\n",
-      one_size ? 3 : 2);
-  return {
-      "misfit-" + std::to_string(dataset),
-      "Where the model is too low or too high" + in_dataset(d, dataset),
+  const Misses misses = misses_of(d, dataset);
+  const bool one_size = std::all_of(misses.diameters.begin(), misses.diameters.end(),
+                                    [&](double size) { return size == misses.diameters.front(); });
+  plot::Plot shown;
+  shown.x = velocity_axis_of(misses, 0.06);
+  shown.y = vertical_axis(d, misses, one_size);
+  shown.colours =
+      plot::ColourScale{"(e - e_model) / sd",
+                        {-largest_z, largest_z},
+                        {{-1.0, plot::blue}, {0.0, "#EEEEEE"}, {1.0, plot::vermillion}}};
+  if (one_size) {
+    shown.layers.push_back(plot::Rule{plot::Direction::horizontal, 0.0, {plot::ink, 1.0}});
+    shown.layers.push_back(
+        plot::Words{fmt::format("d = {:.4g} {}", misses.diameters.front(), size_unit(d).name),
+                    plot::share_of_plot(0.03), plot::share_of_plot(0.94)});
+  }
+  shown.layers.push_back(
+      plot::Discs{misses.velocities, one_size ? misses.misses : misses.diameters, misses.in_sd});
+  plot::Picture picture;
+  picture.name = fmt::format("misfit-{}", dataset);
+  picture.title =
+      "Where the base model misses, over velocity and diameter" + in_dataset(d, dataset);
+  picture.height = 300;
+  picture.plots = {std::move(shown)};
+  return figure_of(
+      std::move(picture),
       std::string("Every disc is a point. Orange: the measured e is higher than the fitted base "
                   "model; blue: lower. The larger, the more standard deviations. Patches of one "
                   "colour are structure; a mixture is noise.") +
-          (one_size ? " There is one diameter: the height of a disc is its miss." : ""),
-      draw_svg(script), false};
+          (one_size ? " There is one diameter: the height of a disc is its miss." : ""));
 }
 
 /// Is it the extended model, or one that cannot be told from it?
@@ -152,82 +152,100 @@ std::string short_aside(const CandidateResult& c) {
   return c.aside.substr(0, c.aside.find(':'));
 }
 
-/// The base curve and the extended one of one diameter, as rows V, base, extended.
-std::vector<std::vector<double>> curves_of(const Diagnosis& d, std::size_t dataset, double diameter,
-                                           std::size_t series, double slow, double fast) {
+/// The base curve and the extended one of one diameter.
+struct TwoCurves {
+  std::vector<double> velocity, base, extended;
+};
+
+TwoCurves curves_of(const Diagnosis& d, std::size_t dataset, double diameter, std::size_t series,
+                    plot::Range velocities) {
   std::vector<PointConditions> points;
+  TwoCurves curves;
   for (int k = 0; k < curve_points; ++k) {
-    points.push_back({dataset, diameter,
-                      slow * std::pow(fast / slow, static_cast<double>(k) / (curve_points - 1)),
-                      series});
+    const double part = static_cast<double>(k) / (curve_points - 1);
+    const double velocity = velocities.lower * std::pow(velocities.upper / velocities.lower, part);
+    points.push_back({dataset, diameter, velocity, series});
+    curves.velocity.push_back(velocity);
   }
-  const std::vector<Prediction> base = predict(d.base.model, d.base.theta, points, false);
-  const std::vector<Prediction> extended =
-      predict(d.extended_fit->model, d.extended_fit->theta, points, false);
-  std::vector<std::vector<double>> rows;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    rows.push_back({points[k].velocity, base[k].usable() ? base[k].restitution() : NAN,
-                    extended[k].usable() ? extended[k].restitution() : NAN});
-  }
-  return rows;
+  const auto restitutions = [&](const FitResult& fit) {
+    std::vector<double> values;
+    for (const Prediction& one : predict(fit.model, fit.theta, points, false)) {
+      values.push_back(one.usable() ? one.restitution() : NAN);
+    }
+    return values;
+  };
+  curves.base = restitutions(d.base);
+  curves.extended = restitutions(*d.extended_fit);
+  return curves;
 }
 
-Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
-  const Rows rows = rows_of(d, dataset);
-  const auto [slow, fast] = log_range(rows.velocities, 0.04);
-  std::map<double, std::vector<std::vector<double>>> points;
-  std::map<double, std::size_t> series;
+/// The axis of e begins at nothing, unless all points lie high above.
+plot::Axis axis_around_points(const Diagnosis& d, std::size_t dataset) {
   double top = 0.0;
   double bottom = 1.0;
   for (const Observation& point : d.base.data.points) {
     if (point.dataset != dataset) continue;
-    points[point.diameter].push_back(
-        {point.velocity, point.censored ? 0.0 : point.restitution, point.weights.sd});
-    series[point.diameter] = point.series;
-    top = std::max(top, point.restitution + 2.0 * point.weights.sd);
-    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * point.weights.sd);
+    top = std::max(top, point.restitution + 2.0 * point.sd);
+    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * point.sd);
   }
-  // The axis begins at nothing, unless all points lie high above.
   const bool high = bottom > 0.7;
-  top = high ? top + 0.3 * (top - bottom) : 1.03 * std::max(top, 1.0);
-  bottom = high ? bottom - 0.3 * (top - bottom) : 0.0;
-  PlotScript script;
-  script.name = fmt::format("extended-{}", dataset);
-  script.title = "Restitution against velocity under the base and the extended model";
-  script.width = 720;
-  script.height = 420;
-  std::string& c = script.commands;
-  c = style::preamble() +
-      fmt::format(
-          "set logscale x\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.4g}:{:.4g}]\n"
-          "set xlabel 'V  [m/s]' offset 0,0.4\nset ylabel 'e' offset 1,0\n",
-          slow, fast, bottom, top) +
-      style::key_above() + log_ticks('x', slow, fast);
-  std::vector<std::string> layers;
-  std::size_t k = 0;
-  for (const auto& [diameter, rebounds] : points) {
-    const style::Marker marker = style::markers[k % style::markers.size()];
-    c += data_block(fmt::format("points{}", k), rebounds);
-    c += data_block(fmt::format("curve{}", k),
-                    curves_of(d, dataset, diameter, series[diameter], slow, fast));
-    layers.push_back(fmt::format(
-        "$curve{} using 1:2 with lines lc rgb '{}' lw 1.2 dt (5,4) notitle", k, marker.colour));
-    layers.push_back(
-        fmt::format("$curve{} using 1:3 with lines lc rgb '{}' lw 2 notitle", k, marker.colour));
-    layers.push_back(
-        fmt::format("$points{} using 1:2:3 with yerrorbars lc rgb '{}' pt {} ps 0.7 lw 1 {}", k,
-                    marker.colour, marker.point,
-                    points.size() <= 7 ? "title " + gnuplot_text(size_text(d, diameter))
-                                       : std::string("notitle")));
-    ++k;
+  const double room = 0.3 * (top - bottom);
+  plot::Axis axis{"e"};
+  if (high) {
+    axis.set_range({bottom - room, top + room});
+  } else {
+    axis.set_range({0.0, 1.03 * std::max(top, 1.0)});
   }
-  c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
-  return {"before-after-" + std::to_string(dataset),
-          "The fit before and after" + in_dataset(d, dataset),
-          fmt::format("Dashed: the base model fitted to all points. Solid: extended by {}. Error "
-                      "bars are one standard deviation.",
-                      d.extended->candidate.name()),
-          draw_svg(script), true};
+  return axis;
+}
+
+Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
+  struct Measured {
+    std::vector<double> velocity, restitution, sd;
+    std::size_t series = 0;
+  };
+  std::map<double, Measured> sizes;
+  for (const Observation& point : d.base.data.points) {
+    if (point.dataset != dataset) continue;
+    Measured& size = sizes[point.diameter];
+    size.velocity.push_back(point.velocity);
+    size.restitution.push_back(point.censored ? 0.0 : point.restitution);
+    size.sd.push_back(point.sd);
+    size.series = point.series;
+  }
+  plot::Plot shown;
+  shown.x = velocity_axis_of(misses_of(d, dataset), 0.04);
+  shown.y = axis_around_points(d, dataset);
+  shown.key.place = plot::KeyPlace::above;
+  std::size_t k = 0;
+  for (const auto& [diameter, size] : sizes) {
+    const plot::Marker& marker = plot::marker(k++);
+    const TwoCurves curves =
+        curves_of(d, dataset, diameter, size.series, {*shown.x.from, *shown.x.to});
+    shown.layers.push_back(
+        plot::Line{curves.velocity, curves.base, {marker.colour, 1.2, plot::Dash::dashes}});
+    shown.layers.push_back(plot::Line{curves.velocity, curves.extended, {marker.colour, 2.0}});
+    plot::Points points{size.velocity, size.restitution};
+    points.with_sd(size.sd);
+    points.marker = marker;
+    points.size = 0.7;
+    points.width = 1.0;
+    if (sizes.size() <= plot::markers.size()) points.name = size_text(d, diameter);
+    shown.layers.push_back(std::move(points));
+  }
+  plot::Picture picture;
+  picture.name = fmt::format("before-after-{}", dataset);
+  picture.title =
+      "Restitution against velocity under the base and the extended model" + in_dataset(d, dataset);
+  picture.width = 720;
+  picture.height = 420;
+  picture.plots = {std::move(shown)};
+  return figure_of(
+      std::move(picture),
+      fmt::format("Dashed: the base model fitted to all points. Solid: extended by {}. Error "
+                  "bars are one standard deviation.",
+                  d.extended->candidate.name()),
+      true);
 }
 
 }  // namespace
@@ -257,57 +275,43 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
   std::stable_sort(shown.begin(), shown.end(),
                    [](const auto* a, const auto* b) { return a->delta_aicc < b->delta_aicc; });
   if (shown.empty()) return {};
-  PlotScript script;
-  script.name = "ranking";
-  script.title = "Candidates by what they gain over the base model";
-  script.width = 720;
-  script.height = 70 + 24 * static_cast<int>(shown.size());
-  std::vector<std::vector<double>> taken, aside;
-  std::vector<std::string> names, labels;
-  double longest = 0.0;
-  for (const CandidateResult* c : shown) longest = std::max(longest, -c->delta_aicc);
+  plot::Boxes taken;
+  taken.fill = {std::string(plot::blue), 0.85};
+  plot::Boxes aside;
+  aside.fill = {"#BBBBBB", 0.85};
+  plot::Plot ranking;
+  std::vector<plot::Layer> reasons;
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const CandidateResult& c = *shown[k];
-    const auto row = static_cast<double>(k);
-    (is_answer(d, c) ? taken : aside)
-        .push_back({0.0, row, 0.0, -c.delta_aicc, row - 0.32, row + 0.32});
-    names.push_back(fmt::format("{} {}", gnuplot_text(c.candidate.name()), row));
-    const std::string label = short_aside(c);
-    if (!label.empty()) {
-      labels.push_back(
-          fmt::format("set label {} at {:.6g},{} left offset 0.6,0 tc rgb '{}' "
-                      "font ',9' front\n",
-                      gnuplot_text(label), -c.delta_aicc, row, style::grey));
-    }
+    const double row = static_cast<double>(k);
+    (is_answer(d, c) ? taken : aside).add(0.0, -c.delta_aicc, row - 0.32, row + 0.32);
+    ranking.y.ticks.push_back({row, c.candidate.name()});
+    plot::Words reason{short_aside(c), plot::on_axis(-c.delta_aicc), plot::on_axis(row)};
+    reason.size = 9.0;
+    reason.colour = plot::grey;
+    reason.shift_x = 0.6;
+    if (!reason.text.empty()) reasons.push_back(std::move(reason));
   }
-  std::string& c = script.commands;
-  c = style::preamble() +
+  ranking.x = {"gain of the corrected criterion (AICc)"};
+  ranking.x.set_range({0.0, 1.75 * -shown.front()->delta_aicc});
+  ranking.y.set_range({static_cast<double>(shown.size()) - 0.4, -0.6});
+  ranking.layers = {std::move(taken), std::move(aside)};
+  for (plot::Layer& reason : reasons) ranking.layers.push_back(std::move(reason));
+  plot::Picture picture;
+  picture.name = "ranking";
+  picture.title = "Candidates by what they gain over the base model";
+  picture.width = 720;
+  picture.height = 70 + 24 * static_cast<int>(shown.size());
+  picture.plots = {std::move(ranking)};
+  return {figure_of(
+      std::move(picture),
       fmt::format(
-          "set xrange [0:{:.6g}]\nset yrange [{:.3g}:-0.6]\nset ytics ({}) nomirror\n"
-          "set lmargin 34\nset xlabel 'gain of the corrected criterion (AICc)' offset 0,0.4\nunset "
-          "key\nset style fill solid 0.85 noborder\n",
-          1.75 * longest, static_cast<double>(shown.size()) - 0.4, fmt::join(names, ", "));
-  for (const std::string& label : labels) c += label;
-  std::vector<std::string> layers;
-  const auto layer = [&](const char* name, const std::vector<std::vector<double>>& rows,
-                         const char* colour) {
-    if (rows.empty()) return;
-    c += data_block(name, rows);
-    layers.push_back(
-        fmt::format("${} using 1:2:3:4:5:6 with boxxyerror lc rgb '{}'", name, colour));
-  };
-  layer("taken", taken, style::blue);
-  layer("aside", aside, "#BBBBBB");
-  c += fmt::format("plot {}\n", fmt::join(layers, ", "));
-  return {
-      {"ranking", "What could explain it",
-       fmt::format(
-           "The longer the bar, the better the whole model fits with this added, its "
-           "parameters paid for. Blue: the answer. Grey: further behind, or set aside "
-           "for the reason beside it. Bars within {:.0f} of each other ({:.0f} where two act at "
-           "once) cannot be told apart.",
-           d.options.apart, d.options.apart_in_pairs),
-       draw_svg(script), true}};
+          "The longer the bar, the better the whole model fits with this added, its "
+          "parameters paid for. Blue: the answer. Grey: further behind, or set aside "
+          "for the reason beside it. Bars within {:.0f} of each other ({:.0f} where two act at "
+          "once) cannot be told apart.",
+          d.options.apart, d.options.apart_in_pairs),
+      true)};
 }
 
 }  // namespace recoil

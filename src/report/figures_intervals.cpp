@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/figure_style.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
@@ -20,93 +18,86 @@ struct Kind {
 };
 
 /// A bound inside the picture: a thick line, and the forbidden side shaded.
-std::string bound_commands(double bound, bool lower, style::Range range, int tag) {
-  if (bound < range.lower || bound > range.upper) return "";
-  return fmt::format(
-             "set object {} rect from {:.6g}, graph 0 to graph {}, graph 1 fc rgb '#cccccc' fs "
-             "transparent solid 0.55 noborder behind\n",
-             tag, bound, lower ? 0 : 1) +
-         fmt::format(
-             "set arrow {0} from {1:.6g}, graph 0 to {1:.6g}, graph 1 nohead lc rgb '{2}' "
-             "lw 3 front\n",
-             tag, bound, style::ink) +
-         fmt::format(
-             "set label {} 'bound' at {:.6g}, graph 1 {} offset 0,0.5 font ',11' textcolor "
-             "rgb '{}'\n",
-             tag, bound, lower ? "left" : "right", style::ink);
+void add_bound(double bound, bool lower, plot::Range range, plot::Plot& shown) {
+  if (!range.holds(bound)) return;
+  plot::Region forbidden;
+  (lower ? forbidden.right : forbidden.left) = bound;
+  forbidden.fill = {"#cccccc", 0.55};
+  shown.layers.push_back(std::move(forbidden));
+  shown.layers.push_back(plot::Rule{plot::Direction::vertical, bound, {plot::ink, 3.0}, true});
+  plot::Words name{"bound", plot::on_axis(bound), plot::share_of_plot(1.0)};
+  name.align = lower ? plot::Align::left : plot::Align::right;
+  name.size = 11.0;
+  name.shift_y = 0.5;
+  shown.layers.push_back(std::move(name));
 }
 
 Figure interval_figure(const Analysis& analysis, std::size_t slot) {
   const ParameterSlot& parameter = analysis.fitted.model.slots[slot];
   const IntervalSet set = intervals_of(analysis, slot);
   const double estimate = analysis.fitted.theta[slot];
-  const style::Scale scale = style::scale_for(std::abs(estimate), parameter.parameter->unit);
+  const plot::Scaling scale = plot::scaling_for(std::abs(estimate), parameter.unit);
   const Kind kinds[] = {{"wald", "Wald", &set.wald},
                         {"profile", "profile", &set.profile},
                         {"percentile", "percentile", &set.percentile},
                         {"bca", "BCa", &set.bca},
                         {"studentized", "studentized", &set.studentized}};
-  std::vector<double> shown = {estimate * scale.factor};
+  std::vector<double> ends = {estimate * scale.factor};
   for (const Kind& kind : kinds) {
     if (!kind.interval->available()) continue;
-    shown.push_back(*kind.interval->lower * scale.factor);
-    shown.push_back(*kind.interval->upper * scale.factor);
+    ends.push_back(*kind.interval->lower * scale.factor);
+    ends.push_back(*kind.interval->upper * scale.factor);
   }
-  style::Range range = style::range_of(shown, 0.08);
+  plot::Range range = plot::range_of(ends, 0.08);
   const double lower = parameter.lower * scale.factor;
   const double upper = parameter.upper * scale.factor;
   // A bound that is near belongs into the picture: that none of the intervals reaches it is news.
-  const double width = range.upper - range.lower;
+  const double width = range.width();
   if (lower > range.lower - 0.35 * width) range.lower = lower - 0.06 * width;
   if (upper < range.upper + 0.35 * width) range.upper = upper + 0.06 * width;
 
-  PlotScript script;
-  script.name = fmt::format("intervals-{}", slot + 1);
-  script.title = fmt::format("Intervals of {}", parameter.label());
-  script.height = 250;
-  std::vector<std::vector<double>> usual;
-  std::vector<std::vector<double>> chosen;
-  std::string ticks;
-  std::string missing;
-  int row = 0;
+  plot::Plot shown;
+  shown.x = {parameter.dataset.empty() ? parameter.name : parameter.name + ", " + parameter.dataset,
+             scale.unit};
+  shown.x.set_range(range);
+  shown.x.about = 7;
+  shown.y.set_range({-4.6, 0.6});
+  shown.y.grid = false;
+  shown.key.place = plot::KeyPlace::above;
+  add_bound(lower, true, range, shown);
+  add_bound(upper, false, range, shown);
+  plot::Rule middle{plot::Direction::vertical, estimate * scale.factor, {plot::vermillion, 2.0}};
+  middle.name = "estimate";
+  plot::Spans usual;
+  usual.stroke = {plot::blue, 2.5};
+  plot::Spans chosen;
+  chosen.stroke = {plot::green, 5.0};
+  chosen.name = "recommended";
+  double row = 0.0;
   for (const Kind& kind : kinds) {
-    const double y = -static_cast<double>(row++);
-    const bool recommended = set.recommended == kind.id;
-    ticks += fmt::format("{}'{}{}{}' {}", ticks.empty() ? "" : ", ", recommended ? "{/:Bold " : "",
-                         kind.name, recommended ? "}" : "", y);
+    const bool is_recommended = set.recommended == kind.id;
+    shown.y.ticks.push_back({row, kind.name, is_recommended});
     if (kind.interval->available()) {
-      (recommended ? chosen : usual)
-          .push_back({*kind.interval->lower * scale.factor, y,
-                      (*kind.interval->upper - *kind.interval->lower) * scale.factor});
+      plot::Spans& spans = is_recommended ? chosen : usual;
+      spans.y.push_back(row);
+      spans.lower.push_back(*kind.interval->lower * scale.factor);
+      spans.upper.push_back(*kind.interval->upper * scale.factor);
     } else {
-      missing += fmt::format(
-          "set label {} 'none' at graph 0.02, first {} left font ',11' textcolor rgb '{}'\n",
-          20 + row, y, style::grey);
+      plot::Words none{"none", plot::share_of_plot(0.02), plot::on_axis(row)};
+      none.size = 11.0;
+      none.colour = plot::grey;
+      shown.layers.push_back(std::move(none));
     }
+    row -= 1.0;
   }
-  std::string& c = script.commands;
-  c = style::preamble() +
-      fmt::format("set lmargin 13\nset bmargin 3.6\nset xrange [{:.6g}:{:.6g}]\n", range.lower,
-                  range.upper) +
-      fmt::format("set yrange [-4.6:0.6]\nset ytics ({}) scale 0\nset grid noytics\n", ticks) +
-      style::few_ticks('x', range, 7) + "set format x '%g'\n" +
-      fmt::format("set xlabel '{}{}  [{}]' offset 0,0.4\n", style::symbol(parameter.name),
-                  parameter.dataset.empty() ? "" : ", " + parameter.dataset, scale.unit) +
-      style::key_above() + bound_commands(lower, true, range, 1) +
-      bound_commands(upper, false, range, 2) + missing +
-      fmt::format(
-          "set arrow 3 from {0:.6g}, graph 0 to {0:.6g}, graph 1 nohead lc rgb '{1}' lw 2 "
-          "back\n",
-          estimate * scale.factor, style::vermillion) +
-      data_block("usual", usual) + data_block("chosen", chosen);
-  c += fmt::format(
-      "plot $usual using 1:2:3:(0) with vectors heads size screen 0.008,90 lc rgb '{}' lw 2.5 "
-      "notitle, \\\n"
-      "  $chosen using 1:2:3:(0) with vectors heads size screen 0.012,90 lc rgb '{}' lw 5 "
-      "notitle, \\\n"
-      "  NaN with lines lc rgb '{}' lw 2 title 'estimate', \\\n"
-      "  NaN with lines lc rgb '{}' lw 5 title 'recommended'\n",
-      style::blue, style::green, style::vermillion, style::green);
+  shown.layers.push_back(std::move(usual));
+  shown.layers.push_back(std::move(middle));
+  shown.layers.push_back(std::move(chosen));
+  plot::Picture picture;
+  picture.name = fmt::format("intervals-{}", slot + 1);
+  picture.title = fmt::format("Intervals of {}", parameter.label());
+  picture.height = 250;
+  picture.plots = {std::move(shown)};
 
   std::string caption = fmt::format("{} intervals of {}",
                                     percent(analysis.uncertainty.options.level), parameter.label());
@@ -115,7 +106,7 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
                  ? fmt::format("; the {} one is recommended.", set.recommended)
                  : fmt::format(". None is recommended: {}.", reason_without(set));
   if (!set.disagreement.empty()) caption += " " + as_sentence(set.disagreement);
-  return {script.name, script.title, caption, draw_svg(script)};
+  return figure_of(std::move(picture), caption);
 }
 
 }  // namespace

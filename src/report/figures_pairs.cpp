@@ -1,15 +1,13 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <set>
 
-#include "report/figure_style.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/pair_words.hpp"
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
@@ -22,8 +20,11 @@ constexpr std::size_t most_pictures = 4;  // per page, so that it stays under 1 
 constexpr std::size_t columns = 2;
 
 // From dark to light, after viridis, without the yellow that fades on white.
-constexpr std::array<style::Marker, 5> shades = {
-    {{"#440154", 7}, {"#3b528b", 5}, {"#21908d", 9}, {"#5dc863", 13}, {"#b8c431", 11}}};
+constexpr std::array<plot::Marker, 5> shades = {{{"#440154", plot::Mark::dot},
+                                                 {"#3b528b", plot::Mark::square},
+                                                 {"#21908d", plot::Mark::triangle},
+                                                 {"#5dc863", plot::Mark::diamond},
+                                                 {"#b8c431", plot::Mark::triangle_down}}};
 
 using Value = std::function<std::optional<double>(const PairQuality&)>;
 
@@ -49,12 +50,12 @@ std::vector<Quantity> quantities(const PairStudy& study) {
     return [value](const PairQuality& pair) { return in_percent(value(pair)); };
   };
   std::vector<Quantity> all;
-  all.push_back({"bias of C_{H}  [%]", percent_of(figure(&PairFigures::bias_C_H)), 0.0});
-  all.push_back({"bias of C_{A}  [%]", percent_of(figure(&PairFigures::bias_C_A)), 0.0});
+  all.push_back({"bias of C_H  [%]", percent_of(figure(&PairFigures::bias_C_H)), 0.0});
+  all.push_back({"bias of C_A  [%]", percent_of(figure(&PairFigures::bias_C_A)), 0.0});
   all.push_back(
-      {"spread of C_{H} over that of the full fit", figure(&PairFigures::spread_C_H), 1.0, true});
+      {"spread of C_H over that of the full fit", figure(&PairFigures::spread_C_H), 1.0, true});
   all.push_back(
-      {"spread of C_{A} over that of the full fit", figure(&PairFigures::spread_C_A), 1.0, true});
+      {"spread of C_A over that of the full fit", figure(&PairFigures::spread_C_A), 1.0, true});
   all.push_back({"data sets without an answer  [%]",
                  [](const PairQuality& pair) -> std::optional<double> {
                    return 100.0 * pair.without_answer();
@@ -86,27 +87,13 @@ std::vector<double> drawn_upper(const Analysis& a, const PairStudy& study) {
   return drawn;
 }
 
-/// Tick commands without their texts.
-std::string bare(const std::string& ticks) {
-  std::string out;
-  bool inside = false;
-  for (const char c : ticks) {
-    if (c == '\'') {
-      inside = !inside;
-      out += c;
-    } else if (!inside) {
-      out += c;
-    }
-  }
-  return out;
-}
-
-struct Picture {
+/// All panels of one study.
+struct Panels {
   const Analysis& analysis;
   const PairStudy& study;
   double unit;  // of velocity: V*, or 1 m/s
   std::vector<double> upper;
-  style::Range x;
+  plot::Range x;
   std::vector<Quantity> all;
 
   double low(const PairQuality& pair) const {
@@ -122,144 +109,101 @@ struct Picture {
     return key_height + row_height * static_cast<double>(rows()) + foot_height;
   }
 
-  std::string margins(std::size_t panel) const {
-    const double left = 56.0 / picture_width;
-    const double step_x = (1.0 - 8.0 / picture_width) / columns;
-    const double x0 = left + step_x * static_cast<double>(panel % columns);
+  plot::Frame frame(std::size_t panel) const {
+    const double step_x = (picture_width - 8.0) / columns;
+    const double left = 56.0 + step_x * static_cast<double>(panel % columns);
     const std::size_t below = rows() - 1 - panel / columns;
-    const double y0 = (foot_height + row_height * static_cast<double>(below)) / height();
-    return fmt::format(
-        "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
-        "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n",
-        x0, x0 + step_x - 84.0 / picture_width, y0, y0 + (row_height - 44.0) / height());
+    const double bottom = foot_height + row_height * static_cast<double>(below);
+    return {left, left + step_x - 84.0, bottom, bottom + row_height - 44.0};
   }
 
-  std::string x_label() const {
-    return unit == 1.0 ? "lower velocity  [m/s]" : "lower velocity / capture velocity V*";
-  }
-
-  std::string panel(std::size_t index) const {
+  plot::Plot panel(std::size_t index) const {
     const Quantity& quantity = all[index];
     std::vector<double> values;
-    std::vector<std::vector<double>> cloud;
+    plot::Points cloud;
+    cloud.marker.colour = plot::pale;
+    cloud.size = 0.35;
+    cloud.name = "other pairs";
     for (const PairQuality& pair : study.pairs) {
       const std::optional<double> value = quantity.value(pair);
       if (!value) continue;
       values.push_back(*value);
-      cloud.push_back({low(pair), *value});
+      cloud.x.push_back(low(pair));
+      cloud.y.push_back(*value);
     }
-    if (quantity.full) values.push_back(*quantity.full);
-    const bool last_row = index + columns >= all.size();
-    std::string c = margins(index) +
-                    fmt::format("set logscale x\nset xrange [{:.6g}:{:.6g}]\n", x.lower, x.upper) +
-                    (index + columns >= all.size() ? log_ticks('x', x.lower, x.upper)
-                                                   : bare(log_ticks('x', x.lower, x.upper)));
-    c += last_row ? fmt::format("set xlabel '{}' offset 0,0.4\n", x_label())
-                  : std::string("unset xlabel\n");
-    c += fmt::format("set label 1 '{}' at graph 0, graph 1 left offset 0,0.75 textcolor rgb '{}'\n",
-                     quantity.label, style::ink) +
-         y_axis(quantity, values);
-    c += data_block(fmt::format("cloud{}", index), cloud);
-    std::vector<std::string> layers;
+    plot::Plot shown;
+    shown.frame = frame(index);
+    shown.heading = quantity.label;
+    shown.x = unit == 1.0 ? plot::Axis{"lower velocity", "m/s"}
+                          : plot::Axis{"lower velocity / capture velocity V*"};
+    shown.x.logarithmic = true;
+    shown.x.set_range(x);
+    shown.x.shown = index + columns >= all.size();
     if (quantity.full) {
-      layers.push_back(fmt::format("{:.6g} with lines lc rgb '{}' lw 2 notitle", *quantity.full,
-                                   style::vermillion));
+      values.push_back(*quantity.full);
+      plot::Rule full{plot::Direction::horizontal, *quantity.full, {plot::vermillion, 2.0}};
+      full.name = "fit to all points";
+      shown.layers.push_back(std::move(full));
     }
-    layers.push_back(
-        fmt::format("$cloud{} using 1:2 with points lc rgb '#c4c4c4' pt 7 ps 0.35 "
-                    "notitle",
-                    index));
+    shown.y = y_axis(quantity, values);
+    shown.layers.push_back(std::move(cloud));
     for (std::size_t k = 0; k < upper.size(); ++k) {
-      std::vector<std::vector<double>> line;
+      const plot::Marker& shade = shades[shades.size() - upper.size() + k];
+      plot::Line line{{}, {}, {shade.colour, 1.8}, shade.mark};
+      line.name = fmt::format("upper {} m/s", number(upper[k], 3));
       for (const PairQuality& pair : study.pairs) {
         if (high(pair) != upper[k]) continue;
-        line.push_back({low(pair), quantity.value(pair).value_or(NAN)});
+        line.x.push_back(low(pair));
+        line.y.push_back(quantity.value(pair).value_or(NAN));
       }
-      const std::string name = fmt::format("l{}u{}", index, k);
-      c += data_block(name, line);
-      const style::Marker& shade = shades[shades.size() - upper.size() + k];
-      layers.push_back(
-          fmt::format("${} using 1:2 with linespoints lc rgb '{}' lw 1.8 pt {} ps 0.6 "
-                      "notitle",
-                      name, shade.colour, shade.point));
+      shown.layers.push_back(std::move(line));
     }
     const PairQuality& paper = study.pairs[study.paper];
     if (const std::optional<double> value = quantity.value(paper)) {
-      c += data_block(fmt::format("paper{}", index), {{low(paper), *value}});
-      layers.push_back(
-          fmt::format("$paper{} using 1:2 with points lc rgb '{}' pt 6 ps 2 lw 2 "
-                      "notitle",
-                      index, style::ink));
+      plot::Points ring{{low(paper)}, {*value}};
+      ring.marker.mark = plot::Mark::circle;
+      ring.size = 2.0;
+      ring.width = 2.0;
+      ring.name = "the paper's pair";
+      shown.layers.push_back(std::move(ring));
     }
-    return c + fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
+    return shown;
   }
 
-  std::string y_axis(const Quantity& quantity, const std::vector<double>& values) const {
+  static plot::Axis y_axis(const Quantity& quantity, const std::vector<double>& values) {
+    plot::Axis axis;
     if (quantity.log_scale) {
-      std::vector<double> logs;
-      for (const double value : values) {
-        if (value > 0.0) logs.push_back(std::log10(value));
-      }
-      const style::Range range = style::range_of(logs, 0.08);
-      const double lower = std::pow(10.0, range.lower);
-      const double upper_end = std::pow(10.0, range.upper);
-      return fmt::format("set logscale y\nset yrange [{:.6g}:{:.6g}]\n", lower, upper_end) +
-             log_ticks('y', lower, upper_end);
+      axis.logarithmic = true;
+      axis.set_range(plot::log_range_of(values, 0.08));
+      return axis;
     }
-    style::Range range = style::range_of(values, 0.08);
-    if (quantity.from_zero) {
-      range.lower = -0.04 * range.upper;
-    }
-    return fmt::format("unset logscale y\nset yrange [{:.6g}:{:.6g}]\n", range.lower, range.upper) +
-           style::few_ticks('y', range, 5);
-  }
-
-  /// The key in a strip above all panels.
-  std::string key() const {
-    std::string c = fmt::format(
-        "unset label 1\nunset tics\nunset border\nunset xlabel\nunset ylabel\nunset grid\nunset "
-        "logscale\n"
-        "set lmargin at screen 0\nset rmargin at screen 1\nset bmargin at screen 0\n"
-        "set tmargin at screen 1\nset xrange [0:1]\nset yrange [0:1]\n"
-        "set key at screen 0.5, screen 0.995 center top horizontal Left reverse samplen 1.6 "
-        "maxrows 2 width 1\n");
-    std::vector<std::string> layers = {
-        fmt::format("NaN with lines lc rgb '{}' lw 2 title 'fit to all points'", style::vermillion),
-        fmt::format("NaN with points lc rgb '{}' pt 6 ps 2 lw 2 title 'the paper''s pair'",
-                    style::ink)};
-    for (std::size_t k = 0; k < upper.size(); ++k) {
-      const style::Marker& shade = shades[shades.size() - upper.size() + k];
-      layers.push_back(fmt::format("NaN with linespoints lc rgb '{}' lw 1.8 pt {} ps 0.8 title {}",
-                                   shade.colour, shade.point,
-                                   gnuplot_text(fmt::format("upper {} m/s", number(upper[k], 3)))));
-    }
-    layers.emplace_back("NaN with points lc rgb '#c4c4c4' pt 7 ps 0.5 title 'other pairs'");
-    return c + fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
+    plot::Range range = plot::range_of(values, 0.08);
+    if (quantity.from_zero) range.lower = -0.04 * range.upper;
+    axis.set_range(range);
+    axis.about = 5;
+    return axis;
   }
 };
 
 Figure pair_figure(const Analysis& analysis, const PairStudy& study) {
-  Picture picture{analysis,
-                  study,
-                  capture_of(analysis, study).value_or(1.0),
-                  drawn_upper(analysis, study),
-                  {},
-                  quantities(study)};
-  std::vector<double> logs;
-  for (const PairQuality& pair : study.pairs) logs.push_back(std::log10(picture.low(pair)));
-  const style::Range range = style::range_of(logs, 0.06);
-  picture.x = {std::pow(10.0, range.lower), std::pow(10.0, range.upper)};
+  Panels panels{analysis,
+                study,
+                capture_of(analysis, study).value_or(1.0),
+                drawn_upper(analysis, study),
+                {},
+                quantities(study)};
+  std::vector<double> lower;
+  for (const PairQuality& pair : study.pairs) lower.push_back(panels.low(pair));
+  panels.x = plot::log_range_of(lower, 0.06);
 
-  PlotScript script;
-  script.name = fmt::format("pairs-{}", study.dataset + 1);
-  script.title = fmt::format("What two points cost, by which two are taken, {}",
-                             analysis.datasets[study.dataset].id);
-  script.width = static_cast<int>(picture_width);
-  script.height = static_cast<int>(picture.height());
-  std::string& c = script.commands;
-  c = style::preamble() + "unset key\nset multiplot\n";
-  for (std::size_t i = 0; i < picture.all.size(); ++i) c += picture.panel(i);
-  c += picture.key() + "unset multiplot\n";
+  plot::Picture picture;
+  picture.name = fmt::format("pairs-{}", study.dataset + 1);
+  picture.title = fmt::format("What two points cost, by which two are taken, {}",
+                              analysis.datasets[study.dataset].id);
+  picture.width = static_cast<int>(picture_width);
+  picture.height = static_cast<int>(panels.height());
+  picture.key = {plot::KeyPlace::above, 2};
+  for (std::size_t i = 0; i < panels.all.size(); ++i) picture.plots.push_back(panels.panel(i));
 
   std::string caption = fmt::format(
       "{}, d = {} um. Each mark is a pair of points on which C_H and C_A are calibrated, in {} "
@@ -272,9 +216,7 @@ Figure pair_figure(const Analysis& analysis, const PairStudy& study) {
   if (study.taken < study.points) {
     caption += fmt::format(" {} of the {} points are tried.", study.taken, study.points);
   }
-  Figure figure{script.name, script.title, caption, draw_svg(script)};
-  figure.large = true;
-  return figure;
+  return figure_of(std::move(picture), caption, true);
 }
 
 }  // namespace

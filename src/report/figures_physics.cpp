@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/units.hpp"
-#include "report/figure_style.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
@@ -16,15 +15,16 @@ namespace {
 constexpr double paper_velocity = 5.2;  // [m/s]
 constexpr std::size_t most_moments = 160;
 
-std::vector<std::vector<double>> cube_root_curve(double f0, double diameter, double largest_um) {
-  std::vector<std::vector<double>> rows;
+plot::Line cube_root_curve(double f0, double diameter, double largest_um) {
+  plot::Line line;
   constexpr int steps = 60;
   for (int i = 0; i <= steps; ++i) {
     // Denser where the cube root bends.
     const double radius = largest_um * std::pow(static_cast<double>(i) / steps, 2.0);
-    rows.push_back({radius, adhesion_force_at(f0, diameter, 2.0 * radius * units::um)});
+    line.x.push_back(radius);
+    line.y.push_back(adhesion_force_at(f0, diameter, 2.0 * radius * units::um));
   }
-  return rows;
+  return line;
 }
 
 double velocity_for_history(const Analysis& analysis, std::size_t dataset) {
@@ -60,21 +60,38 @@ TimeUnit time_unit(double longest) {
   return longest < 2e-6 ? TimeUnit{1e9, "ns"} : TimeUnit{1e6, "µs"};
 }
 
-/// Time and the four forces and their sum in the units of the axes.
-std::vector<std::vector<double>> history_rows(const std::vector<ImpactMoment>& history,
-                                              const ImpactScales& scales, double time_factor,
-                                              double force_factor) {
-  std::vector<std::vector<double>> rows;
+/// The four forces and their sum against time, in the units of the axes.
+std::vector<plot::Layer> history_lines(const std::vector<ImpactMoment>& history,
+                                       const ImpactScales& scales, double time_factor,
+                                       double force_factor) {
+  constexpr auto dashed = plot::Dash::long_dashes;
+  std::array<plot::Line, 5> lines = {{{{}, {}, {plot::blue, 2.0}},
+                                      {{}, {}, {plot::sky, 2.0, dashed}},
+                                      {{}, {}, {plot::vermillion, 2.0}},
+                                      {{}, {}, {plot::orange, 2.0, dashed}},
+                                      {{}, {}, {plot::ink, 1.0, plot::Dash::dots}}}};
+  constexpr std::array<const char*, 5> names = {"Hertz", "Hertz damping", "adhesion",
+                                                "adhesion damping", "sum"};
   const double f = scales.force * force_factor;
   const std::size_t stride = history.size() / most_moments + 1;
   for (std::size_t i = 0; i < history.size(); ++i) {
     if (i % stride != 0 && i + 1 != history.size()) continue;
     const ImpactMoment& m = history[i];
-    rows.push_back({m.time * scales.time * time_factor, m.hertz * f, m.hertz_damping * f,
-                    m.adhesion * f, m.adhesion_damping * f,
-                    (m.hertz + m.hertz_damping + m.adhesion + m.adhesion_damping) * f});
+    const double sum = m.hertz + m.hertz_damping + m.adhesion + m.adhesion_damping;
+    const std::array<double, 5> forces = {m.hertz, m.hertz_damping, m.adhesion, m.adhesion_damping,
+                                          sum};
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      lines[k].x.push_back(m.time * scales.time * time_factor);
+      lines[k].y.push_back(forces[k] * f);
+    }
   }
-  return rows;
+  std::vector<plot::Layer> layers = {
+      plot::Rule{plot::Direction::horizontal, 0.0, {"#999999", 1.0}}};
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    lines[k].name = names[k];
+    layers.push_back(std::move(lines[k]));
+  }
+  return layers;
 }
 
 std::string budget_words(const ImpactResult& result) {
@@ -108,29 +125,22 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
   const ForceUnit force = force_unit(largest);
   const TimeUnit time = time_unit(longest);
   const double span = (top - bottom) * force.factor;
-  PlotScript script;
-  script.name = fmt::format("force-history-{}", dataset + 1);
-  script.title = fmt::format("Contact forces during one impact, {}", analysis.datasets[dataset].id);
-  script.height = 390;
-  std::string heading =
+  plot::Plot shown;
+  shown.heading =
       fmt::format("d = {} µm, V = {} m/s", diameter_text(conditions.diameter), number(velocity, 3));
-  if (analysis.datasets.size() > 1) heading += ", " + analysis.datasets[dataset].id;
-  std::string& c = script.commands;
-  c = style::preamble() + style::title(heading) +
-      fmt::format("set xrange [0:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
-                  1.02 * longest * time.factor, bottom * force.factor - 0.06 * span,
-                  top * force.factor + 0.06 * span) +
-      fmt::format("set xlabel 'time since touch  [{}]' offset 0,0.4\n", time.name) +
-      fmt::format("set ylabel 'force on the sphere  [{}]' offset 1,0\n", force.name) +
-      style::key_below(3) + "set xzeroaxis lc rgb '#999999' lw 1\n" +
-      data_block("history", history_rows(history, scales, time.factor, force.factor));
-  c += fmt::format(
-      "plot $history using 1:2 with lines lc rgb '{}' lw 2 title 'Hertz', \\\n"
-      "  $history using 1:3 with lines lc rgb '{}' lw 2 dt (8,4) title 'Hertz damping', \\\n"
-      "  $history using 1:4 with lines lc rgb '{}' lw 2 title 'adhesion', \\\n"
-      "  $history using 1:5 with lines lc rgb '{}' lw 2 dt (8,4) title 'adhesion damping', \\\n"
-      "  $history using 1:6 with lines lc rgb '{}' lw 1 dt (2,3) title 'sum'\n",
-      style::blue, style::sky, style::vermillion, style::orange, style::ink);
+  if (analysis.datasets.size() > 1) shown.heading += ", " + analysis.datasets[dataset].id;
+  shown.x = {"time since touch", time.name};
+  shown.x.set_range({0.0, 1.02 * longest * time.factor});
+  shown.y = {"force on the sphere", force.name};
+  shown.y.set_range({bottom * force.factor - 0.06 * span, top * force.factor + 0.06 * span});
+  shown.key = {plot::KeyPlace::below, 3};
+  shown.layers = history_lines(history, scales, time.factor, force.factor);
+  plot::Picture picture;
+  picture.name = fmt::format("force-history-{}", dataset + 1);
+  picture.title =
+      fmt::format("Contact forces during one impact, {}", analysis.datasets[dataset].id);
+  picture.height = 390;
+  picture.plots = {std::move(shown)};
 
   std::string caption = fmt::format(
       "{}. Reference diameter {} µm at {} m/s with the fitted parameters: {}. Forces "
@@ -143,7 +153,7 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
   } else if (result.outcome == ImpactOutcome::captured) {
     caption += " The curves end where the sphere turns back for good.";
   }
-  return {script.name, script.title, caption, draw_svg(script)};
+  return figure_of(std::move(picture), caption);
 }
 
 }  // namespace
@@ -157,54 +167,55 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
   if (!(largest_um > 0.0)) return {};
   largest_um *= 1.15;
 
-  PlotScript script;
-  script.name = "adhesion-force-1";
-  script.title = "Adhesion force per length against radius";
-  script.height = 340;
-  std::string& c = script.commands;
-  c = style::preamble() + fmt::format("set xrange [0:{:.6g}]\nset yrange [0:*]\n", largest_um) +
-      "set xlabel 'radius r  [µm]' offset 0,0.4\nset ylabel 'f_{0}  [N/m]' offset 1,0\n"
-      "set key bottom right Left reverse\n";
-  std::vector<std::string> layers;
+  plot::Plot shown;
+  shown.x = {"radius r", "µm"};
+  shown.x.set_range({0.0, largest_um});
+  shown.y = {"f0", "N/m"};
+  shown.y.from = 0.0;
+  shown.key.place = plot::KeyPlace::lower_right;
   bool refined = false;
   for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
     const ContactProperties& contact = model.contacts[k];
     const std::size_t slot = model.slot_f0[k];
     const double f0 = analysis.fitted.theta[slot];
-    const style::Marker marker = style::markers[k % style::markers.size()];
-    std::vector<std::vector<double>> sizes;
+    const plot::Marker& marker = plot::marker(k);
+    plot::Line line = cube_root_curve(f0, contact.reference_diameter, largest_um);
+    line.stroke = {marker.colour, 2.0};
+    line.name = analysis.datasets[k].id;
+    shown.layers.push_back(std::move(line));
+    plot::Points sizes;
+    sizes.marker = marker;
+    sizes.size = 0.8;
     for (const double diameter : distinct_diameters(analysis.datasets[k])) {
-      sizes.push_back({diameter / 2.0 / units::um,
-                       adhesion_force_at(f0, contact.reference_diameter, diameter)});
+      sizes.x.push_back(diameter / 2.0 / units::um);
+      sizes.y.push_back(adhesion_force_at(f0, contact.reference_diameter, diameter));
     }
-    c += data_block(fmt::format("line{}", k),
-                    cube_root_curve(f0, contact.reference_diameter, largest_um));
-    c += data_block(fmt::format("sizes{}", k), sizes);
-    layers.push_back(fmt::format("$line{} using 1:2 with lines lc rgb '{}' lw 2 title {}", k,
-                                 marker.colour, gnuplot_text(analysis.datasets[k].id)));
-    layers.push_back(fmt::format("$sizes{} using 1:2 with points lc rgb '{}' pt {} ps 0.8 notitle",
-                                 k, marker.colour, marker.point));
+    shown.layers.push_back(std::move(sizes));
     const bool differs = std::abs(f0 - contact.adhesion_force_derived) >
                          0.02 * std::abs(contact.adhesion_force_derived);
     if (differs) {
-      c += data_block(
-          fmt::format("derived{}", k),
-          cube_root_curve(contact.adhesion_force_derived, contact.reference_diameter, largest_um));
-      layers.push_back(
-          fmt::format("$derived{} using 1:2 with lines lc rgb '{}' lw 1.4 dt (6,5) title 'eq. 12'",
-                      k, marker.colour));
+      plot::Line derived =
+          cube_root_curve(contact.adhesion_force_derived, contact.reference_diameter, largest_um);
+      derived.stroke = {marker.colour, 1.4, plot::Dash::dashes};
+      derived.name = "eq. 12";
+      shown.layers.push_back(std::move(derived));
       refined = true;
     }
     const Interval interval = recommended_interval(intervals_of(analysis, slot));
     if (interval.available()) {
-      c += data_block(fmt::format("free{}", k), {{contact.reference_diameter / 2.0 / units::um, f0,
-                                                  *interval.lower, *interval.upper}});
-      layers.push_back(
-          fmt::format("$free{} using 1:2:3:4 with yerrorbars lc rgb '{}' lw 2 pt {} ps 1 notitle",
-                      k, marker.colour, marker.point));
+      plot::Points free{{contact.reference_diameter / 2.0 / units::um}, {f0}};
+      free.lower = {*interval.lower};
+      free.upper = {*interval.upper};
+      free.marker = marker;
+      free.size = 1.0;
+      free.width = 2.0;
+      shown.layers.push_back(std::move(free));
     }
   }
-  c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
+  plot::Picture picture;
+  picture.name = "adhesion-force-1";
+  picture.title = "Adhesion force per length against radius";
+  picture.plots = {std::move(shown)};
   std::string caption =
       "f0 grows with the cube root of the radius (eq. 12); marks: the diameters of the data.";
   for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
@@ -214,7 +225,7 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
                            model.slots[model.slot_f0[k]].free ? ", fitted" : "");
   }
   if (refined) caption += " Dashed: what the material constants alone give.";
-  return {{script.name, script.title, caption, draw_svg(script)}};
+  return {figure_of(std::move(picture), caption)};
 }
 
 std::vector<Figure> force_history_figures(const Analysis& analysis) {

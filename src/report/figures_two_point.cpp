@@ -4,10 +4,8 @@
 #include <cmath>
 
 #include "report/density.hpp"
-#include "report/figure_style.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
@@ -15,58 +13,51 @@ namespace {
 constexpr std::size_t most_replicates = 600;  // drawn per cloud
 constexpr double share_inside = 0.95;         // of the replicates within the line
 
-using Rows = std::vector<std::vector<double>>;
-
 /// (C_H, C_A) of every replicate, scaled for the axes.
-Rows pairs(const Rows& theta, std::size_t slot_H, std::size_t slot_A, double scale_H,
-           double scale_A) {
-  Rows rows;
+struct Pairs {
+  std::vector<double> C_H, C_A;
+};
+
+Pairs pairs_of(const std::vector<std::vector<double>>& theta, std::size_t slot_H,
+               std::size_t slot_A, double scale_H, double scale_A) {
+  Pairs pairs;
   for (const std::vector<double>& replicate : theta) {
     if (slot_H >= replicate.size() || slot_A >= replicate.size()) continue;
-    rows.push_back({replicate[slot_H] * scale_H, replicate[slot_A] * scale_A});
+    pairs.C_H.push_back(replicate[slot_H] * scale_H);
+    pairs.C_A.push_back(replicate[slot_A] * scale_A);
   }
-  return rows;
+  return pairs;
 }
 
-Rows thinned(const Rows& rows, style::Range x, style::Range y, std::size_t& outside) {
-  Rows kept;
-  const std::size_t stride = rows.size() / most_replicates + 1;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool inside = rows[i][0] >= x.lower && rows[i][0] <= x.upper && rows[i][1] >= y.lower &&
-                        rows[i][1] <= y.upper;
+plot::Points cloud_of(const Pairs& pairs, plot::Range x, plot::Range y, std::string_view colour,
+                      std::size_t& outside) {
+  plot::Points cloud;
+  cloud.marker.colour = colour;
+  cloud.size = 0.25;
+  const std::size_t stride = pairs.C_H.size() / most_replicates + 1;
+  for (std::size_t i = 0; i < pairs.C_H.size(); ++i) {
+    const bool inside = x.holds(pairs.C_H[i]) && y.holds(pairs.C_A[i]);
     if (!inside) ++outside;
-    if (inside && i % stride == 0) kept.push_back(rows[i]);
+    if (!inside || i % stride != 0) continue;
+    cloud.x.push_back(pairs.C_H[i]);
+    cloud.y.push_back(pairs.C_A[i]);
   }
-  return kept;
+  return cloud;
 }
 
 /// An axis that holds the bulk of both clouds and both estimates, zero at the least.
-style::Range common_range(const Rows& one, const Rows& other, std::size_t column, double a,
-                          double b) {
+plot::Range common_range(const std::vector<double>& one, const std::vector<double>& other, double a,
+                         double b) {
   std::vector<double> shown = {a, b};
-  for (const Rows* rows : {&one, &other}) {
-    std::vector<double> values;
-    for (const auto& row : *rows) values.push_back(row[column]);
-    if (values.empty()) continue;
-    const style::Range bulk = style::quantile_range(values, 0.01, 0.99);
+  for (const std::vector<double>* values : {&one, &other}) {
+    if (values->empty()) continue;
+    const plot::Range bulk = plot::quantile_range(*values, 0.01, 0.99);
     shown.push_back(bulk.lower);
     shown.push_back(bulk.upper);
   }
-  style::Range range = style::range_of(shown, 0.06);
+  plot::Range range = plot::range_of(shown, 0.06);
   range.lower = std::max(0.0, range.lower);
   return range;
-}
-
-/// Adds the line within which 95 % of the replicates lie, and returns its layer.
-std::string outline(std::string& commands, const std::string& name, const Rows& rows,
-                    style::Range x, style::Range y, const char* colour) {
-  const std::vector<double> across = column(rows, 0, 1.0);
-  const std::vector<double> up = column(rows, 1, 1.0);
-  const std::string made =
-      contour_commands(name, density(across, up, x, y), across, up, share_inside);
-  if (made.empty()) return "";
-  commands += made;
-  return fmt::format(", \\\n  ${} using 1:2 with lines lc rgb '{}' lw 1.8 notitle", name, colour);
 }
 
 std::string status_words(const TwoPointComparison& comparison) {
@@ -82,56 +73,54 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
   const std::size_t A = model.slot_C_A[comparison.dataset];
   const std::vector<double>& full = analysis.fitted.theta;
   const std::vector<double>& two = comparison.result.theta;
-  const style::Scale scale_H = style::scale_for(std::abs(full[H]), model.slots[H].parameter->unit);
-  const style::Scale scale_A = style::scale_for(std::abs(full[A]), model.slots[A].parameter->unit);
+  const plot::Scaling scale_H = plot::scaling_for(std::abs(full[H]), model.slots[H].unit);
+  const plot::Scaling scale_A = plot::scaling_for(std::abs(full[A]), model.slots[A].unit);
   const BootstrapResult& bootstrap = analysis.uncertainty.bootstrap;
-  const Rows full_pairs = pairs(bootstrap.theta, H, A, scale_H.factor, scale_A.factor);
-  const Rows two_pairs = comparison.dataset < bootstrap.two_point_theta.size()
-                             ? pairs(bootstrap.two_point_theta[comparison.dataset], H, A,
-                                     scale_H.factor, scale_A.factor)
-                             : Rows();
+  const Pairs all_points = pairs_of(bootstrap.theta, H, A, scale_H.factor, scale_A.factor);
+  const Pairs two_points = comparison.dataset < bootstrap.two_point_theta.size()
+                               ? pairs_of(bootstrap.two_point_theta[comparison.dataset], H, A,
+                                          scale_H.factor, scale_A.factor)
+                               : Pairs();
   const bool converged =
       comparison.result.status == TwoPointStatus::converged && H < two.size() && A < two.size();
   const double full_H = full[H] * scale_H.factor;
   const double full_A = full[A] * scale_A.factor;
   const double two_H = converged ? two[H] * scale_H.factor : full_H;
   const double two_A = converged ? two[A] * scale_A.factor : full_A;
-  const style::Range x = common_range(full_pairs, two_pairs, 0, full_H, two_H);
-  const style::Range y = common_range(full_pairs, two_pairs, 1, full_A, two_A);
+  const plot::Range x = common_range(all_points.C_H, two_points.C_H, full_H, two_H);
+  const plot::Range y = common_range(all_points.C_A, two_points.C_A, full_A, two_A);
   std::size_t outside = 0;
 
-  PlotScript script;
-  script.name = fmt::format("two-point-{}", comparison.dataset + 1);
-  script.title = fmt::format("Two points against all under resampling, {}",
-                             analysis.datasets[comparison.dataset].id);
-  script.height = 360;
-  std::string& c = script.commands;
-  c = style::preamble();
-  const std::string two_line = outline(c, "around_two", two_pairs, x, y, style::vermillion);
-  const std::string full_line = outline(c, "around_full", full_pairs, x, y, style::blue);
-  c += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", x.lower, x.upper,
-                   y.lower, y.upper) +
-       fmt::format(
-           "set xlabel 'C_{{H}}  [{}]' offset 0,0.4\nset ylabel 'C_{{A}}  [{}]' offset 1,0\n",
-           scale_H.unit, scale_A.unit) +
-       "set bmargin 3.6\n" + style::key_above() +
-       data_block("two", thinned(two_pairs, x, y, outside)) +
-       data_block("full", thinned(full_pairs, x, y, outside)) +
-       data_block("estimates", {{full_H, full_A}, {two_H, two_A}});
-  c += fmt::format(
-      "plot $two using 1:2 with points lc rgb '{0}' pt 7 ps 0.25 notitle, \\\n"
-      "  $full using 1:2 with points lc rgb '{1}' pt 7 ps 0.25 notitle{2}{3}, \\\n"
-      "  $estimates every ::0::0 using 1:2 with points lc rgb '{4}' pt 7 ps 1.1 title 'all "
-      "points', \\\n",
-      style::orange, style::sky, two_line, full_line, style::blue);
-  c += converged ? fmt::format(
-                       "  $estimates every ::1::1 using 1:2 with points lc rgb '{}' pt 9 "
-                       "ps 1.3 title 'two points'\n",
-                       style::vermillion)
-                 : fmt::format("  NaN with lines lc rgb '{}' lw 1.8 title 'two points'\n",
-                               style::vermillion);
+  plot::Plot shown;
+  shown.x = {"C_H", scale_H.unit};
+  shown.x.set_range(x);
+  shown.y = {"C_A", scale_A.unit};
+  shown.y.set_range(y);
+  shown.key.place = plot::KeyPlace::above;
+  shown.layers = {cloud_of(two_points, x, y, plot::orange, outside),
+                  cloud_of(all_points, x, y, plot::sky, outside)};
+  const auto outline = [&](const Pairs& pairs, std::string_view colour) {
+    const auto contour = contour_around(pairs.C_H, pairs.C_A, x, y, share_inside, {colour, 1.8});
+    if (contour) shown.layers.push_back(*contour);
+  };
+  outline(two_points, plot::vermillion);
+  outline(all_points, plot::blue);
+  plot::Points all{{full_H}, {full_A}};
+  all.marker = {plot::blue, plot::Mark::dot};
+  all.size = 1.1;
+  all.name = "all points";
+  shown.layers.push_back(std::move(all));
+  plot::Points two_marks;
+  if (converged) {
+    two_marks.x = {two_H};
+    two_marks.y = {two_A};
+  }
+  two_marks.marker = {plot::vermillion, plot::Mark::triangle};
+  two_marks.size = 1.3;
+  two_marks.name = "two points";
+  shown.layers.push_back(std::move(two_marks));
 
-  const std::size_t count = full_pairs.size() + two_pairs.size();
+  const std::size_t count = all_points.C_H.size() + two_points.C_H.size();
   std::string caption = analysis.datasets[comparison.dataset].id +
                         ". Small dots: each calibration repeated on resampled data; 95 % of them "
                         "lie within the line. "
@@ -145,7 +134,13 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
                            comparison.failed);
   }
   caption += status_words(comparison);
-  return {script.name, script.title, caption, draw_svg(script)};
+  plot::Picture picture;
+  picture.name = fmt::format("two-point-{}", comparison.dataset + 1);
+  picture.title = fmt::format("Two points against all under resampling, {}",
+                              analysis.datasets[comparison.dataset].id);
+  picture.height = 360;
+  picture.plots = {std::move(shown)};
+  return figure_of(std::move(picture), caption);
 }
 
 }  // namespace

@@ -83,14 +83,28 @@ Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::si
   return axes;
 }
 
-std::vector<std::vector<double>> curve_rows(const RestitutionCurve& curve) {
+plot::Axis velocity_axis(plot::Range range) {
+  plot::Axis axis{"incident velocity V", "m/s"};
+  axis.logarithmic = true;
+  axis.set_range(range);
+  return axis;
+}
+
+plot::Axis restitution_axis(double top) {
+  plot::Axis axis{"restitution e"};
+  axis.set_range({0.0, top});
+  axis.about = 5;
+  return axis;
+}
+
+CurveColumns curve_columns(const RestitutionCurve& curve) {
   const std::size_t count = std::min(curve.velocity.size(), curve.restitution.size());
   const std::size_t stride =
       std::max<std::size_t>(1, (count + most_curve_points - 1) / most_curve_points);
-  const auto at = [](const std::vector<double>& values, std::size_t i) {
-    return i < values.size() ? values[i] : NAN;
+  CurveColumns columns;
+  const auto take = [](const std::vector<double>& values, std::size_t i, std::vector<double>& to) {
+    if (!values.empty()) to.push_back(i < values.size() ? values[i] : NAN);
   };
-  std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < count; ++i) {
     // Where the curve rises from capture every point is needed; the plateau can be thinned.
     const bool steep =
@@ -99,24 +113,38 @@ std::vector<std::vector<double>> curve_rows(const RestitutionCurve& curve) {
                 std::abs(i > 0 ? curve.restitution[i] - curve.restitution[i - 1] : 0.0) >
             0.02;
     if (i % stride != 0 && i + 1 != count && !steep) continue;
-    rows.push_back({curve.velocity[i], curve.restitution[i], at(curve.lower, i), at(curve.upper, i),
-                    at(curve.two_point, i)});
+    columns.velocity.push_back(curve.velocity[i]);
+    columns.restitution.push_back(curve.restitution[i]);
+    take(curve.lower, i, columns.lower);
+    take(curve.upper, i, columns.upper);
+    take(curve.two_point, i, columns.two_point);
   }
-  return rows;
+  return columns;
 }
 
-PointRows point_rows(const Analysis& analysis, const std::vector<std::size_t>& points) {
-  PointRows rows;
+PointColumns point_columns(const Analysis& analysis, const std::vector<std::size_t>& points) {
+  PointColumns columns;
   const std::size_t stride = points.size() / most_panel_points + 1;
   for (std::size_t k = 0; k < points.size(); k += stride) {
     const Observation& point = analysis.fitted.data.points[points[k]];
     if (point.censored) {
-      rows.captures.push_back({point.velocity, 0.0});
+      columns.captured.push_back(point.velocity);
     } else {
-      rows.rebounds.push_back({point.velocity, point.restitution, point.weights.sd});
+      columns.velocity.push_back(point.velocity);
+      columns.restitution.push_back(point.restitution);
+      columns.sd.push_back(point.sd);
     }
   }
-  return rows;
+  return columns;
+}
+
+std::optional<plot::Points> rebound_layer(const Analysis& analysis, const PointColumns& columns,
+                                          const std::string& name) {
+  if (columns.velocity.empty()) return std::nullopt;
+  plot::Points points{columns.velocity, columns.restitution};
+  if (analysis.data.sd_stated) points.with_sd(columns.sd);
+  points.name = name;
+  return points;
 }
 
 }  // namespace recoil

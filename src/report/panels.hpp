@@ -1,9 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "report/figure_style.hpp"
+#include "plot/plot.hpp"
 #include "report/report.hpp"
 
 /// What the pictures of e(V) are made of.
@@ -28,19 +29,33 @@ std::vector<Panel> panels_of(const Analysis& analysis);
 
 /// Common axes of the panels of one dataset, so that they can be compared.
 struct Axes {
-  style::Range velocity;
+  plot::Range velocity;
   double top = 1.05;
 };
 Axes axes_of(const Analysis& analysis, const std::vector<Panel>& panels, std::size_t dataset);
 
-/// Rows V, e, lower, upper, two-point e of a curve, thinned where it is flat.
-std::vector<std::vector<double>> curve_rows(const RestitutionCurve& curve);
+/// The axis of incident velocities, logarithmic.
+plot::Axis velocity_axis(plot::Range range);
 
-/// The points of a panel as rows, thinned to `most_panel_points`.
-struct PointRows {
-  std::vector<std::vector<double>> rebounds;  // V, e, sd
-  std::vector<std::vector<double>> captures;  // V, 0
+/// The axis of e from 0.
+plot::Axis restitution_axis(double top);
+
+/// A curve in columns, thinned where it is flat.
+struct CurveColumns {
+  std::vector<double> velocity, restitution, lower, upper, two_point;
 };
-PointRows point_rows(const Analysis& analysis, const std::vector<std::size_t>& points);
+CurveColumns curve_columns(const RestitutionCurve& curve);
+
+/// The points of a panel in columns, thinned to `most_panel_points`.
+struct PointColumns {
+  std::vector<double> velocity, restitution, sd;  ///< of rebounds
+  std::vector<double> captured;                   ///< velocities
+};
+PointColumns point_columns(const Analysis& analysis, const std::vector<std::size_t>& points);
+
+/// The rebounds as a layer, with error bars where standard deviations are stated; nothing to show:
+/// no layer.
+std::optional<plot::Points> rebound_layer(const Analysis& analysis, const PointColumns& columns,
+                                          const std::string& name);
 
 }  // namespace recoil

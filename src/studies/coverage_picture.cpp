@@ -7,8 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "document/html.hpp"
-#include "document/number.hpp"
+#include "report/format.hpp"
 
 namespace recoil {
 namespace {
@@ -31,6 +30,7 @@ struct Colour {
 constexpr Colour orange = {213, 94, 0};
 constexpr Colour blue = {0, 114, 178};
 
+/// Something of the way from white to `end`.
 std::string mixed(const Colour& end, double part) {
   const auto channel = [part](double value) {
     return static_cast<int>(std::lround(255.0 + part * (value - 255.0)));
@@ -38,6 +38,9 @@ std::string mixed(const Colour& end, double part) {
   return fmt::format("#{:02x}{:02x}{:02x}", channel(end.red), channel(end.green),
                      channel(end.blue));
 }
+
+/// A cell whose verdict warned: paler.
+constexpr double pale = 0.45;
 
 /// 0 within what is tolerated, then from a first visible step to 1.
 double depth(double share, double level) {
@@ -49,17 +52,35 @@ double depth(double share, double level) {
   return std::clamp(first + (1.0 - first) * part, 0.0, 1.0);
 }
 
-std::string text_at(double x, double y, const std::string& text, const std::string& more = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\"{}>{}</text>\n", x, y, more,
-                     escape_html(text));
-}
+constexpr std::string_view soft = "#555555";
 
-std::string box(double x, double y, double width, const std::string& fill) {
-  return fmt::format(
-      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
-      "fill=\"{}\"/>\n",
-      x, y, width, cell_height, fill);
-}
+/// A table as a plot whose axes count pixels from the upper left.
+struct Sheet {
+  plot::Boxes cells;
+  std::vector<plot::Layer> words;
+  std::vector<plot::Layer> lines;
+
+  plot::Words& say(double x, double y, const std::string& text,
+                   std::string_view colour = plot::ink) {
+    plot::Words one{text, plot::on_axis(x), plot::on_axis(y)};
+    one.size = 11.0;
+    one.colour = std::string(colour);
+    words.push_back(std::move(one));
+    return std::get<plot::Words>(words.back());
+  }
+
+  void cell(double x, double y, double width, const std::string& colour) {
+    cells.add(x, x + width, y, y + cell_height);
+    cells.colours.push_back(colour);
+  }
+
+  /// A cell with its number in the middle.
+  void cell(double x, double y, double width, const std::string& colour, const std::string& number,
+            std::string_view ink) {
+    cell(x, y, width, colour);
+    say(x + width / 2.0, y + cell_height / 2.0, number, ink).align = plot::Align::centre;
+  }
+};
 
 /// White letters on the deep blue, dark ones on everything else (the orange included), whichever
 /// contrasts more.
@@ -130,80 +151,81 @@ const std::array<DesignColumn, 5> design_columns = {{
     {"captures", 62.0, [](const GridDesign& d) { return std::string(d.captures ? "with" : "–"); }},
 }};
 
-std::string cells_of(const Group& group, const ParameterCoverage& row, double level, double y) {
-  std::string out;
+void add_cells(Sheet& sheet, const Group& group, const CoverageRow& row, int usable, double level,
+               double y) {
   double x = group.x;
-  const double baseline = y + cell_height - 5.0;
-  const bool warned = group.judged && row.share_identifiable() <= warned_at_most;
-  const std::string middle = " text-anchor=\"middle\"";
+  const double middle = y + cell_height / 2.0;
+  const double share = usable > 0 ? static_cast<double>(row.identifiable) / usable : 0.0;
+  const bool warned = group.judged && share <= warned_at_most;
   if (group.judged) {
-    out += text_at(x + cell_width / 2.0, baseline,
-                   fmt::format("{:.0f}", 100.0 * row.share_identifiable()),
-                   middle + " fill=\"#777777\"");
+    sheet.say(x + cell_width / 2.0, middle, fmt::format("{:.0f}", 100.0 * share), plot::grey)
+        .align = plot::Align::centre;
     x += cell_width;
   }
   for (const std::string& kind : group.kinds) {
-    const IntervalCoverage* at = row.find(kind);
-    const std::optional<double> share = at == nullptr ? std::nullopt : at->share();
-    if (share) {
-      out += fmt::format("<g{}>", warned ? " opacity=\"0.45\"" : "");
-      out += box(x, y, cell_width, coverage_colour(*share, level));
-      out += text_at(x + cell_width / 2.0, baseline, fmt::format("{:.1f}", 100.0 * *share),
-                     middle + (white_letters(*share, level) ? " fill=\"#ffffff\"" : "") +
-                         (kind == "recommended" ? " font-weight=\"bold\"" : ""));
-      out += "</g>\n";
+    const auto cell = std::find_if(row.cells.begin(), row.cells.end(),
+                                   [&](const CoverageCell& c) { return c.interval == kind; });
+    if (cell != row.cells.end() && cell->offered > 0) {
+      const double held = static_cast<double>(cell->held) / cell->offered;
+      const double strength = warned ? pale : 1.0;
+      const Colour& end = held < level ? orange : blue;
+      const std::string_view ink = warned                       ? "#9a9a9a"
+                                   : white_letters(held, level) ? "#ffffff"
+                                                                : plot::ink;
+      sheet.cell(x, y, cell_width, mixed(end, strength * depth(held, level)),
+                 fmt::format("{:.1f}", 100.0 * held), ink);
+      std::get<plot::Words>(sheet.words.back()).bold = kind == "recommended";
     }
     x += cell_width;
   }
-  return out;
 }
 
-std::string heads(const std::vector<Group>& groups) {
-  std::string out;
+void add_heads(Sheet& sheet, const std::vector<Group>& groups) {
   double x = margin;
   for (const DesignColumn& column : design_columns) {
-    out += text_at(x, head_height - 6.0, column.head, " fill=\"#555555\"");
+    sheet.say(x, head_height - 10.0, column.head, soft);
     x += column.width;
   }
   for (const Group& group : groups) {
-    out += text_at(group.x, head_height - 52.0, group.parameter,
-                   " font-weight=\"bold\" font-size=\"13\"");
+    plot::Words& name = sheet.say(group.x, head_height - 56.0, group.parameter);
+    name.bold = true;
+    name.size = 13.0;
     double at = group.x + cell_width / 2.0;
-    const auto slanted = [&](const std::string& words, const char* more) {
-      out += fmt::format("<text transform=\"translate({:.1f},{:.1f}) rotate(-35)\"{}>{}</text>\n",
-                         at - 8.0, head_height - 6.0, more, escape_html(words));
+    const auto slanted = [&](const std::string& words) -> plot::Words& {
+      plot::Words& head = sheet.say(at - 8.0, head_height - 9.0, words);
+      head.turned = 35.0;
       at += cell_width;
+      return head;
     };
-    if (group.judged) slanted("identif.", " fill=\"#555555\"");
+    if (group.judged) slanted("identif.").colour = soft;
     for (const std::string& kind : group.kinds) {
-      const std::string name = kind == "recommended"   ? "recomm."
-                               : kind == "percentile"  ? "percent."
-                               : kind == "studentized" ? "student."
-                               : kind == "bca"         ? "BCa"
-                               : kind == "wald"        ? "Wald"
-                                                       : kind;
-      slanted(name, kind == "recommended" ? " font-weight=\"bold\"" : "");
+      const std::string short_name = kind == "recommended"   ? "recomm."
+                                     : kind == "percentile"  ? "percent."
+                                     : kind == "studentized" ? "student."
+                                     : kind == "bca"         ? "BCa"
+                                     : kind == "wald"        ? "Wald"
+                                                             : kind;
+      slanted(short_name).bold = kind == "recommended";
     }
   }
-  return out;
 }
 
-std::string legend(double y, double level) {
-  std::string out = text_at(margin, y, "coverage:", " fill=\"#555555\"");
+void add_legend(Sheet& sheet, double y, double level, const std::string& remark) {
+  const double middle = y + cell_height / 2.0;
+  sheet.say(margin, middle, "coverage:", soft);
   double x = margin + 66.0;
   for (const double off : {-0.15, -0.10, -0.06, -0.03, 0.0, 0.03, 1.0}) {
-    const double share = std::min(level + off, 1.0);
-    out += box(x, y - 12.0, cell_width + 6.0, coverage_colour(share, level));
-    out += text_at(x + cell_width / 2.0 + 3.0, y,
-                   fmt::format("{}{:.0f}", off == -0.15 ? "≤ " : "", 100.0 * share),
-                   fmt::format(" text-anchor=\"middle\"{}",
-                               white_letters(share, level) ? " fill=\"#ffffff\"" : ""));
+    const double held = std::min(level + off, 1.0);
+    sheet.cell(x, y, cell_width + 6.0, coverage_colour(held, level),
+               fmt::format("{}{:.0f}", off == -0.15 ? "≤ " : "", 100.0 * held),
+               white_letters(held, level) ? std::string_view("#ffffff") : plot::ink);
     x += cell_width + 6.0;
   }
-  return out + text_at(margin, y + line_height,
-                       "% of data sets whose interval contains the truth; identif.: % in which the "
-                       "verdict calls the parameter identifiable; pale: 10 % or fewer",
-                       " fill=\"#555555\"");
+  sheet.say(margin, middle + line_height,
+            "% of data sets whose interval contains the truth; identif.: % in which the verdict "
+            "calls the parameter identifiable; pale: 10 % or fewer",
+            soft);
+  sheet.say(margin, middle + 2.0 * line_height, remark, soft);
 }
 
 }  // namespace
@@ -212,7 +234,9 @@ std::string coverage_colour(double share, double level) {
   return mixed(share < level ? orange : blue, depth(share, level));
 }
 
-std::string coverage_picture(const CoverageStudy& study) {
+plot::Picture coverage_picture(const std::vector<GridResult>& results, const FitSpec& spec,
+                               const CoverageOptions& options, const std::string& remark) {
+  const double level = options.uncertainty.level;
   const std::string title = fmt::format(
       "Coverage of {} intervals by kind of data, {}: {} data sets per design, {} bootstrap "
       "replicates each",
@@ -222,9 +246,9 @@ std::string coverage_picture(const CoverageStudy& study) {
                           fmt::format("{}: {}", source.id, provenance_sentence(source.provenance)));
 }
 
-std::string coverage_picture(const std::vector<ParameterCoverage>& rows, double level,
-                             const std::string& title, const std::string& remark) {
-  std::vector<Group> groups = groups_of(rows);
+plot::Picture coverage_picture(const std::vector<GridResult>& results, double level,
+                               const std::string& title, const std::string& remark) {
+  std::vector<Group> groups = groups_of(results);
   double x = margin;
   for (const DesignColumn& column : design_columns) x += column.width;
   for (Group& group : groups) {
@@ -242,39 +266,45 @@ std::string coverage_picture(const std::vector<ParameterCoverage>& rows, double 
   const double width = std::max(x + margin, narrowest);
   const double bottom = head_height + cell_height * static_cast<double>(designs.size());
   const double height = bottom + foot_height;
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-      "height=\"{1:.0f}\" role=\"img\" font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, "
-      "sans-serif\" font-size=\"11\" fill=\"#222222\">\n<title>{2}</title>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-      width, height, escape_html(title));
-  out += text_at(margin, 20.0, title, " font-size=\"14\"") + heads(groups);
-  for (std::size_t i = 0; i < designs.size(); ++i) {
-    const GridDesign& design = designs[i];
+  Sheet sheet;
+  sheet.say(margin, 16.0, title).size = 14.0;
+  add_heads(sheet, groups);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const GridResult& result = results[i];
     const double y = head_height + cell_height * static_cast<double>(i);
     const bool new_size = i == 0 || designs[i - 1].points != design.points;
     const bool new_noise = new_size || designs[i - 1].noise != design.noise;
     if (new_noise) {
-      out += fmt::format("<path d=\"M{:.1f},{:.1f}H{:.1f}\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
-                         margin, y, x - group_gap, new_size ? "#555555" : "#cccccc",
-                         new_size ? 1.2 : 0.8);
+      sheet.lines.push_back(
+          plot::Line{{margin, x - group_gap},
+                     {y, y},
+                     {new_size ? soft : std::string_view("#cccccc"), new_size ? 1.2 : 0.8}});
     }
     double at = margin;
     for (const DesignColumn& column : design_columns) {
-      out += text_at(at, y + cell_height - 5.0, column.words(design));
+      sheet.say(at, y + cell_height / 2.0, column.words(result.design));
       at += column.width;
     }
     for (const Group& group : groups) {
-      for (const ParameterCoverage& row : rows) {
-        if (row.design == design.name() && family(row.parameter) == group.parameter) {
-          out += cells_of(group, row, level, y);
+      for (const CoverageRow& row : result.coverage.rows) {
+        if (family(row.parameter) == group.parameter) {
+          add_cells(sheet, group, row, usable, level, y);
         }
       }
     }
   }
-  out += legend(bottom + 26.0, level);
-  out += text_at(margin, bottom + 26.0 + 2.0 * line_height, remark, " fill=\"#555555\"");
-  return out + "</svg>\n";
+  add_legend(sheet, bottom + 14.0, level, remark);
+
+  plot::Plot shown;
+  shown.bare = true;
+  shown.frame = plot::Frame{0.0, width, 0.0, height};
+  shown.x.set_range({0.0, width});
+  shown.y.set_range({height, 0.0});
+  shown.layers.push_back(std::move(sheet.cells));
+  for (auto* layers : {&sheet.lines, &sheet.words}) {
+    std::move(layers->begin(), layers->end(), std::back_inserter(shown.layers));
+  }
+  return {"coverage", title, static_cast<int>(width), static_cast<int>(height), {std::move(shown)}};
 }
 
 }  // namespace recoil

@@ -1,15 +1,14 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
-#include <map>
+#include <optional>
 
-#include "report/figure_style.hpp"
-#include "report/svg_plot.hpp"
-#include "studies/hidden_effects_study.hpp"
+#include "plot/draw.hpp"
+#include "study.hpp"
 
 namespace hidden {
 namespace {
+
+namespace plot = recoil::plot;
 
 struct Curve {
   const char* label;
@@ -27,81 +26,84 @@ const std::vector<Curve>& curves() {
   return all;
 }
 
-std::string power_panel(const std::vector<Answered>& answers) {
-  std::string commands;
-  std::string plots;
-  for (std::size_t k = 0; k < curves().size(); ++k) {
-    const Curve& curve = curves()[k];
-    std::vector<std::vector<double>> rows;
-    for (const double strength : study_strengths()) {
-      double n = 0.0;
-      double hits = 0.0;
-      for (const Answered& a : answers) {
-        if (!a.reached || arm_of(a.order) != Arm::effect || a.order.signal_to_noise != strength) {
-          continue;
-        }
-        const bool in =
-            std::find(curve.marks.begin(), curve.marks.end(), mark_of(a)) != curve.marks.end();
-        n += 1.0;
-        hits += in != curve.without ? 1.0 : 0.0;
-      }
-      const double none = std::numeric_limits<double>::quiet_NaN();
-      rows.push_back({strength, n > 0.0 ? 100.0 * hits / n : none});
+constexpr int width = 1240;
+constexpr int height = 640;
+
+/// The share of the data sets of one strength that a curve counts [%]; none where there are none.
+std::optional<double> share_of(const std::vector<Answered>& answers, const Curve& curve,
+                               double strength) {
+  double n = 0.0;
+  double hits = 0.0;
+  for (const Answered& a : answers) {
+    if (!a.reached || chapter_of(a.order) != Chapter::effect ||
+        a.order.signal_to_noise != strength) {
+      continue;
     }
-    const std::string name = fmt::format("power{}", k);
-    commands += recoil::data_block(name, rows);
-    const recoil::style::Marker& marker = recoil::style::markers[k];
-    plots += fmt::format("{}${} using 1:2 with linespoints lc rgb '{}' lw 2 pt {} ps 0.9 title {}",
-                         k == 0 ? "plot " : ", ", name, marker.colour, marker.point,
-                         recoil::gnuplot_text(curve.label));
+    const bool in =
+        std::find(curve.marks.begin(), curve.marks.end(), mark_of(a)) != curve.marks.end();
+    n += 1.0;
+    hits += in != curve.without ? 1.0 : 0.0;
   }
-  return commands +
-         "set size 0.36,1\nset origin 0,0\nset lmargin at screen 0.07\nset rmargin at screen "
-         "0.33\n"
-         "set tmargin at screen 0.86\nset bmargin at screen 0.30\n"
-         "set logscale x\nset xrange [4.5:45]\nset xtics (5, 10, 20, 40)\nset yrange [0:102]\n"
-         "set ytics 20\nset xlabel 'signal-to-noise of the misfit left'\nset ylabel 'data sets "
-         "[%]'\n"
-         "set key at screen 0.2,0.01 center bottom vertical Left reverse samplen 1.4\n"
-         "set label 1 'One effect, several diameters' at graph 0,1.07 left font ',14'\n" +
-         plots + "\n";
+  return n > 0.0 ? std::optional(100.0 * hits / n) : std::nullopt;
 }
 
-std::string heat_panel(const std::vector<Answered>& answers) {
+plot::Plot power_panel(const std::vector<Answered>& answers) {
+  plot::Plot panel;
+  panel.frame = plot::Frame{0.07 * width, 0.33 * width, 0.30 * height, 0.86 * height};
+  panel.heading = "One effect, several diameters";
+  panel.x = {"signal-to-noise of the misfit left"};
+  panel.x.logarithmic = true;
+  panel.x.set_range({4.5, 45.0});
+  panel.x.ticks = {{5.0, "5"}, {10.0, "10"}, {20.0, "20"}, {40.0, "40"}};
+  panel.y = {"data sets", "%"};
+  panel.y.set_range({0.0, 102.0});
+  panel.y.about = 5;
+  panel.key = {plot::KeyPlace::below, 4};
+  for (std::size_t k = 0; k < curves().size(); ++k) {
+    const plot::Marker& marker = plot::marker(k);
+    plot::Line line{{}, {}, {marker.colour, 2.0}, marker.mark, 0.9};
+    line.name = curves()[k].label;
+    for (const double strength : study_strengths()) {
+      const std::optional<double> share = share_of(answers, curves()[k], strength);
+      line.x.push_back(strength);
+      line.y.push_back(share.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    panel.layers.push_back(std::move(line));
+  }
+  return panel;
+}
+
+plot::Plot heat_panel(const std::vector<Answered>& answers) {
   const Confusion c = confusion_of(answers);
-  const double columns = static_cast<double>(c.columns.size());
-  const double rows = static_cast<double>(c.rows.size());
-  std::vector<std::vector<double>> cells;
+  plot::Plot panel;
+  panel.frame = plot::Frame{0.50 * width, 0.93 * width, 0.30 * height, 0.92 * height};
+  panel.heading = "Hidden (rows) and answered (columns), snr 10 and more";
+  panel.x.set_range({-0.5, static_cast<double>(c.columns.size()) - 0.5});
+  panel.y.set_range({static_cast<double>(c.rows.size()) - 0.5, -0.5});
+  for (plot::Axis* axis : {&panel.x, &panel.y}) {
+    axis->grid = false;
+    axis->tick_size = 10.0;
+  }
+  panel.x.upright = true;
+  for (const std::string& column : c.columns) {
+    panel.x.ticks.push_back({static_cast<double>(panel.x.ticks.size()), column});
+  }
+  plot::Boxes cells;
   for (std::size_t r = 0; r < c.rows.size(); ++r) {
+    const double row = static_cast<double>(r);
+    panel.y.ticks.push_back({row, c.rows[r]});
     double sum = 0.0;
     for (const int n : c.counts[r]) sum += n;
     for (std::size_t k = 0; k < c.columns.size(); ++k) {
-      cells.push_back({static_cast<double>(k), rows - 1.0 - static_cast<double>(r),
-                       sum > 0.0 ? 100.0 * c.counts[r][k] / sum : 0.0});
+      const double column = static_cast<double>(k);
+      cells.add(column - 0.5, column + 0.5, row - 0.5, row + 0.5);
+      cells.values.push_back(sum > 0.0 ? 100.0 * c.counts[r][k] / sum : 0.0);
     }
   }
-  std::string ticks = "set xtics rotate by 90 right (";
-  for (std::size_t k = 0; k < c.columns.size(); ++k) {
-    ticks += fmt::format("{}{} {}", k == 0 ? "" : ", ", recoil::gnuplot_text(c.columns[k]), k);
-  }
-  ticks += ") font ',10'\nset ytics (";
-  for (std::size_t r = 0; r < c.rows.size(); ++r) {
-    ticks += fmt::format("{}{} {}", r == 0 ? "" : ", ", recoil::gnuplot_text(c.rows[r]),
-                         rows - 1.0 - static_cast<double>(r));
-  }
-  ticks += ") font ',10'\n";
-  return recoil::data_block("cells", cells) +
-         "reset\nset border 0\nset tics scale 0\nunset key\nunset grid\n"
-         "set size 0.64,1\nset origin 0.36,0\nset lmargin at screen 0.5\n"
-         "set rmargin at screen 0.93\nset tmargin at screen 0.92\nset bmargin at screen 0.3\n" +
-         fmt::format("set xrange [-0.5:{:.1f}]\nset yrange [-0.5:{:.1f}]\n", columns - 0.5,
-                     rows - 0.5) +
-         ticks +
-         "set label 1 'Hidden (rows) and answered (columns), snr 10 and more' at graph 0,1.03 left "
-         "font ',14'\n"
-         "set cbrange [0:100]\nset cbtics 25 font ',10'\nset format cb '%g %%'\n"
-         "set palette defined (0 '#ffffff', 0.01 '#e8f1f8', 1 '#0072B2')\n"
-         "plot $cells using 1:2:3 with image pixels\n";
+  panel.colours = plot::ColourScale{
+      "", {0.0, 100.0}, {{0.0, "#ffffff"}, {0.01, "#e8f1f8"}, {1.0, plot::blue}}, "%g %%"};
+  panel.layers = {std::move(cells)};
+  return panel;
 }
 
 }  // namespace
@@ -143,14 +145,13 @@ Confusion confusion_of(const std::vector<Answered>& answers) {
 }
 
 std::string study_picture(const std::vector<Answered>& answers) {
-  recoil::PlotScript script;
-  script.name = "hidden-effects";
-  script.title = "Power of the diagnosis against strength, and what is taken for what";
-  script.width = 1240;
-  script.height = 640;
-  script.commands = recoil::style::preamble() + "set multiplot\n" + power_panel(answers) +
-                    heat_panel(answers) + "unset multiplot\n";
-  return recoil::draw_svg(script) + "\n";
+  plot::Picture picture;
+  picture.name = "hidden-effects";
+  picture.title = "Power of the diagnosis against strength, and what is taken for what";
+  picture.width = width;
+  picture.height = height;
+  picture.plots = {power_panel(answers), heat_panel(answers)};
+  return plot::draw_svg(picture) + "\n";
 }
 
 }  // namespace hidden

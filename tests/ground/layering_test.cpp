@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 /// The folders of src in pipeline order. The last two are programs: recoil and recoil_study.
 const std::vector<std::string> kStages = {"core",     "data",      "experiment", "reconstruction",
                                           "impact",   "mechanism", "estimate",   "uncertainty",
-                                          "coverage", "predict",   "diagnosis",  "document",
-                                          "plot",     "report",    "studies",    "cli"};
+                                          "coverage", "predict",   "diagnosis",  "plot",
+                                          "document", "report",    "studies",    "cli"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -

@@ -11,7 +11,6 @@
 #include "example_analysis.hpp"
 #include "report/experiment_figures.hpp"
 #include "report/index_document.hpp"
-#include "report/svg_plot.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -74,8 +73,8 @@ TEST_F(Browser, ShowsThePicturesOfAnExperiment) {
   averages.points = {point, point};
   averages.points.back().velocity = 2.0;
   std::vector<Figure> figures;
-  for (const auto& [name, svg] : experiment_figures(shown, averages, "a synthetic run")) {
-    figures.push_back({"figure-" + plot_name(name), name, "a caption", svg});
+  for (plot::Picture& picture : experiment_pictures(shown, averages, "a synthetic run")) {
+    figures.push_back(figure_of(std::move(picture), "a caption"));
   }
   Document page;
   page.title = "An experiment";
@@ -107,7 +106,7 @@ TEST_F(Browser, ComplainsOfAMissingPlot) {
 
 TEST_F(Browser, ComplainsOfAnEmptyPlot) {
   std::string broken = page_;
-  const auto begin = broken.find("<g id=\"restitution-1-canvas\"");
+  const auto begin = broken.find("<g id=\"restitution-1-gnuplot_canvas\"");
   ASSERT_NE(begin, std::string::npos);
   broken.erase(begin, broken.find("</svg>", begin) - begin);
   EXPECT_EQ(open(broken, 1), 1);

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "report/svg_plot.hpp"
 
 namespace recoil {
 namespace {
@@ -58,39 +57,7 @@ TEST(Density, WithoutSpreadThereIsNone) {
   const std::vector<double> same(50, 1.0);
   const DensityGrid grid = density(same, same, {0.0, 2.0}, {0.0, 2.0});
   EXPECT_TRUE(grid.rows.empty());
-  EXPECT_EQ(contour_commands("c", grid, same, same, 0.5), "");
-}
-
-TEST(Ticks, AreRoundAndAboutAsManyAsAsked) {
-  EXPECT_EQ(style::few_ticks('x', {0.0, 10.0}, 5), "set xtics 2\n");
-  EXPECT_EQ(style::few_ticks('y', {0.0, 0.0098}, 5), "set ytics 0.002\n");
-  EXPECT_EQ(style::few_ticks('x', {2.0, 5.0}, 3), "set xtics 1\n");
-  EXPECT_EQ(style::few_ticks('x', {1.0, 1.0}, 3), "");
-}
-
-TEST(Svg, PacksCloudsOfDotsAndKeepsTheirPlaces) {
-  PlotScript script;
-  script.name = "cloud";
-  script.title = "cloud";
-  script.width = 400;
-  script.height = 300;
-  script.commands =
-      "unset border\nunset tics\nunset key\nset lmargin at screen 0\nset rmargin at screen 1\n"
-      "set bmargin at screen 0\nset tmargin at screen 1\nset xrange [0:4]\nset yrange [0:3]\n" +
-      data_block("d", {{1, 1}, {2, 2}, {3, 1}, {1, 2}}) +
-      "plot $d using 1:2 with points pt 7 ps 1 lc rgb '#0072B2'\n";
-  const std::string svg = draw_svg(script);
-  EXPECT_THAT(svg, testing::HasSubstr("stroke-linecap='round'"));
-  double x[4] = {}, y[4] = {};
-  const std::size_t path = svg.find("d='M", svg.find("stroke-linecap='round'"));
-  ASSERT_NE(path, std::string::npos);
-  ASSERT_EQ(std::sscanf(svg.c_str() + path, "d='M%lf,%lfh0M%lf,%lfh0M%lf,%lfh0M%lf,%lfh0'", &x[0],
-                        &y[0], &x[1], &y[1], &x[2], &y[2], &x[3], &y[3]),
-            8);
-  EXPECT_NEAR(x[1] - x[0], 100.0, 1.0);
-  EXPECT_NEAR(y[0] - y[1], 100.0, 1.0) << "upwards";
-  EXPECT_NEAR(x[2] - x[0], 200.0, 1.0);
-  EXPECT_NEAR(x[3], x[0], 0.11);
+  EXPECT_FALSE(contour_around(same, same, {0.0, 2.0}, {0.0, 2.0}, 0.5, {}).has_value());
 }
 
 }  // namespace

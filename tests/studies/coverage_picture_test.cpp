@@ -6,14 +6,15 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include "core/files.hpp"
+#include "plot/draw.hpp"
 
 namespace recoil {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 struct Rgb {
   int red = 0, green = 0, blue = 0;
@@ -49,52 +50,42 @@ IntervalCoverage counted(const std::string& interval, int offered, int contained
   return {interval, offered, contained, 0, 0, {}};
 }
 
-/// Every design, numbers that can be recognised.
-std::vector<ParameterCoverage> study() {
-  std::vector<ParameterCoverage> rows;
-  int n = 0;
-  for (const GridDesign& design : coverage_grid()) {
-    for (const char* name : {"C_H", "C_A", "f0", "V*(4.90 um)"}) {
-      if (std::string(name) == "f0" && !design.adhesion_free) continue;
-      ParameterCoverage row;
-      row.design = design.name();
-      row.parameter = name;
-      row.usable = 1000;
-      row.identifiable = std::string(name) == "V*(4.90 um)" ? 0 : 1000 - 13 * n;
-      int k = 0;
-      for (const char* kind :
-           {"recommended", "profile", "percentile", "bca", "studentized", "wald"}) {
-        const bool none = std::string(name) == "V*(4.90 um)" && k != 0 && k != 2;
-        row.intervals.push_back(
-            counted(kind, none ? 0 : 1000, 950 + 2 * (n % 21 - 10) - 25 * (k > 1 ? k : 0)));
-        ++k;
-      }
-      rows.push_back(row);
-    }
-    ++n;
+plot::Picture picture(const std::vector<GridResult>& results) {
+  FitSpec spec;
+  spec.id = "example <fit>";
+  CoverageOptions options;
+  options.datasets = 1010;
+  options.uncertainty.level = 0.95;
+  return coverage_picture(results, spec, options, "made up & not measured");
+}
+
+/// The words of a picture, with their colours.
+std::map<std::string, plot::Colour> words_of(const plot::Picture& picture) {
+  std::map<std::string, plot::Colour> words;
+  for (const plot::Layer& layer : picture.plots.at(0).layers) {
+    if (const auto* one = std::get_if<plot::Words>(&layer)) words[one->text] = one->colour;
   }
-  return rows;
+  return words;
 }
 
-std::string picture(const std::vector<ParameterCoverage>& rows) {
-  return coverage_picture(rows, 0.95, "example <fit>", "made up & not measured");
+const plot::Boxes& cells_of(const plot::Picture& picture) {
+  return std::get<plot::Boxes>(picture.plots.at(0).layers.at(0));
 }
 
-std::size_t occurrences(const std::string& text, const std::string& word) {
-  std::size_t count = 0;
-  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++count;
-  return count;
-}
-
-TEST(CoveragePicture, HasEveryCellOfTheGrid) {
-  const std::string svg = picture(study());
+TEST(CoveragePicture, HoldsEveryCellOfTheGrid) {
+  const plot::Picture shown = picture(study());
+  EXPECT_THAT(shown.title, HasSubstr("example <fit>"));
+  EXPECT_TRUE(words_of(shown).contains("made up & not measured"));
+  // 72 designs x 2 parameters x 6 kinds, 36 with f0 x 6, 72 x 2 kinds of V*, and the legend.
+  EXPECT_EQ(cells_of(shown).size(), 72U * 12U + 36U * 6U + 72U * 2U + 7U);
+  EXPECT_EQ(cells_of(shown).colours.size(), cells_of(shown).size());
+  for (std::size_t i = 0; i < cells_of(shown).size(); ++i) {
+    EXPECT_GE(cells_of(shown).left[i], 0.0);
+    EXPECT_LE(cells_of(shown).right[i], shown.width);
+    EXPECT_LE(cells_of(shown).top[i], shown.height);
+  }
+  const std::string svg = plot::draw_svg(shown);
   if (const char* file = std::getenv("RECOIL_COVERAGE_PICTURE")) write_whole_file(file, svg);
-  EXPECT_TRUE(svg.starts_with("<svg ")) << svg.substr(0, 40);
-  EXPECT_THAT(svg, HasSubstr("example &lt;fit&gt;"));
-  EXPECT_THAT(svg, HasSubstr("made up &amp; not measured"));
-  // 72 designs x 2 parameters x 6 kinds, 36 with f0 x 6, 72 x 2 kinds of V*, and the background.
-  EXPECT_EQ(occurrences(svg, "<rect "), 72U * 12U + 36U * 6U + 72U * 2U + 1U + 7U /* legend */);
-  EXPECT_EQ(occurrences(svg, "<text"), occurrences(svg, "</text>"));
   EXPECT_LT(svg.size(), 400000U);
 }
 
@@ -102,22 +93,21 @@ TEST(CoveragePicture, ShowsTheShareThatContainedAndTheShareThatWasCalledIdentifi
   ParameterCoverage row;
   row.design = GridDesign{20, GridNoise::near_capture, false, true, true}.name();
   row.parameter = "f0";
-  row.usable = 200;
-  row.identifiable = 150;
-  row.intervals = {
-      counted("recommended", 200, 183), counted("wald", 80, 60), {"bca", {}, {}, {}, {}, 0.876}};
-  const std::string svg = picture({row});
-  EXPECT_THAT(svg, HasSubstr(">91.5<"));
-  EXPECT_THAT(svg, HasSubstr(">75.0<")) << "of those that were offered";
-  EXPECT_THAT(svg, HasSubstr(">87.6<")) << "of which only the share is known";
-  EXPECT_THAT(svg, HasSubstr(">75<"));
-  EXPECT_THAT(svg, HasSubstr(">near-capture<"));
-  EXPECT_THAT(svg, HasSubstr(">estimated<"));
-  EXPECT_THAT(svg, HasSubstr(">free<"));
-  EXPECT_THAT(svg, HasSubstr(">with<"));
-  EXPECT_THAT(svg, Not(HasSubstr("opacity=")));
-  row.identifiable = 20;
-  EXPECT_THAT(picture({row}), HasSubstr("opacity=")) << "warned in nine of ten";
+  row.identifiable = 150;  // of 200 usable: 75 %
+  row.cells = {{"recommended", 200, 183, 0, 0, 0.0}, {"wald", 80, 60, 0, 0, 0.0}};
+  result.coverage.rows = {row};
+  const plot::Picture shown = picture({result});
+  std::map<std::string, plot::Colour> words = words_of(shown);
+  EXPECT_TRUE(words.contains("91.5"));
+  EXPECT_TRUE(words.contains("75.0")) << "of those that were offered";
+  for (const char* word : {"75", "near-capture", "estimated", "free", "with"}) {
+    EXPECT_TRUE(words.contains(word)) << word;
+  }
+  const plot::Colour clear = cells_of(shown).colours.at(1);
+  EXPECT_EQ(clear, coverage_colour(0.75, 0.95));
+  result.coverage.rows[0].identifiable = 20;
+  const plot::Picture warned = picture({result});
+  EXPECT_GT(cells_of(warned).colours.at(1), clear) << "pale: warned in nine of ten";
 }
 
 }  // namespace

@@ -1,24 +1,23 @@
-#include "report/svg_plot.hpp"
+#include "plot/gnuplot.hpp"
 
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
-#include "document/html.hpp"
-#include "report/svg_tidy.hpp"
 
 extern char** environ;
 
-namespace recoil {
+namespace recoil::plot {
 namespace {
 
 struct CloseFile {
@@ -89,6 +88,8 @@ std::string complaint(const std::string& errors) {
   return line;
 }
 
+}  // namespace
+
 std::string run_gnuplot(const std::string& script, const std::string& program) {
   const NamelessFile in = nameless_file();
   const NamelessFile out = nameless_file();
@@ -130,94 +131,4 @@ std::string run_gnuplot(const std::string& script, const std::string& program) {
   return contents(out.get());
 }
 
-}  // namespace
-
-std::string draw_svg(const PlotScript& script, const std::string& program) {
-  std::string plain_name = script.name;  // gnuplot takes letters, digits and '_' only
-  std::replace(plain_name.begin(), plain_name.end(), '-', '_');
-  const std::string head = fmt::format(
-      "set terminal svg size {},{} dynamic enhanced font 'DejaVu Sans,13' name '{}' "
-      "background '#ffffff'\nset encoding utf8\n",
-      script.width, script.height, plain_name);
-  std::string svg = run_gnuplot(head + script.commands + "\n", program);
-
-  const std::size_t begin = svg.find("<g id=\"gnuplot_canvas\">");
-  if (begin == std::string::npos) throw ComputationError("gnuplot drew nothing");
-  svg.erase(0, begin);
-  while (!svg.empty() && std::isspace(static_cast<unsigned char>(svg.back())) != 0) svg.pop_back();
-
-  tidy_svg(svg, script.name);
-  const std::string label = escape_html(script.title);
-  return fmt::format(
-      "<svg id=\"{0}\" viewBox=\"0 0 {1} {2}\" width=\"100%\" role=\"img\" aria-label=\"{3}\" "
-      "font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, sans-serif\" "
-      "xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\">\n"
-      "<title>{3}</title>\n{4}\n",
-      script.name, script.width, script.height, label, svg);
-}
-
-std::string gnuplot_text(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      out += ' ';
-    } else if (c == '\'') {
-      out += "''";
-    } else {
-      if (std::strchr("\\{}^_@&~", c) != nullptr) out += '\\';
-      out += c;
-    }
-  }
-  return out + "'";
-}
-
-std::string data_block(const std::string& name, const std::vector<std::vector<double>>& rows) {
-  std::string out = fmt::format("${} << EOD\n", name);
-  for (const std::vector<double>& row : rows) {
-    const char* separator = "";
-    for (const double value : row) {
-      out += separator;
-      out += std::isfinite(value) ? fmt::format("{:.7g}", value) : "NaN";
-      separator = " ";
-    }
-    out += '\n';
-  }
-  if (rows.empty()) out += "NaN NaN NaN NaN NaN\n";
-  return out + "EOD\n";
-}
-
-std::string log_ticks(char axis, double lower, double upper) {
-  const double decades = std::log10(upper / lower);
-  std::vector<double> steps = {1.0};
-  if (decades <= 2.6) steps = {1.0, 2.0, 5.0};
-  if (decades <= 0.8) steps = {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0};
-  std::string list;
-  const int last = static_cast<int>(std::ceil(std::log10(upper)));
-  for (int power = static_cast<int>(std::floor(std::log10(lower))); power <= last; ++power) {
-    for (const double step : steps) {
-      const double value = step * std::pow(10.0, power);
-      if (value < lower * 0.999 || value > upper * 1.001) continue;
-      list += fmt::format("{}'{:g}' {:.6g}", list.empty() ? "" : ", ", value, value);
-    }
-  }
-  return list.empty() ? std::string() : fmt::format("set {}tics ({})\n", axis, list);
-}
-
-std::string plot_name(std::string_view text) {
-  std::string name;
-  for (const char c : text) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    if (plain) {
-      name += c;
-    } else if (!name.empty() && name.back() != '-') {
-      name += '-';
-    }
-  }
-  while (!name.empty() && name.back() == '-') name.pop_back();
-  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0) {
-    name = "f-" + name;
-  }
-  return name;
-}
-
-}  // namespace recoil
+}  // namespace recoil::plot

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plot/plot.hpp"
+
+namespace recoil::plot {
+
+/// Each picture as an `<svg>` element ready to stand in an HTML page: no prolog, ids that begin
+/// with the picture's name, a view box without a fixed size, role and label. The same picture gives
+/// the same bytes, alone or among others. One gnuplot draws them all.
+/// @param program the gnuplot to run, searched in PATH.
+/// @throws ComputationError with gnuplot's own message when it is missing or fails.
+std::vector<std::string> draw_svg(const std::vector<const Picture*>& pictures,
+                                  const std::string& program = "gnuplot");
+
+std::string draw_svg(const Picture& picture, const std::string& program = "gnuplot");
+
+}  // namespace recoil::plot

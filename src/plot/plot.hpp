@@ -1,0 +1,207 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "plot/range.hpp"
+#include "plot/style.hpp"
+
+/// What a picture shows, without a word about how it is drawn (see plot/draw.hpp). Numbers are
+/// those of the axes. Texts are plain; the symbols of the model in them (C_H, f0) are set as such.
+namespace recoil::plot {
+
+enum class Direction { horizontal, vertical };
+
+// Layers, drawn in their order. A layer with a name has an entry in the key.
+
+/// Marks, with error bars where there are any.
+struct Points {
+  std::vector<double> x, y;
+  std::vector<double> lower = {}, upper = {};  ///< ends of the error bars; empty: none
+  Marker marker = {ink, Mark::dot};
+  double size = 0.5;   ///< of the mark [the height of a letter]
+  double width = 1.2;  ///< of the error bars and the rims of open marks [px]
+  std::string name = {};
+
+  /// Adds error bars of +- sd.
+  Points& with_sd(const std::vector<double>& sd);
+};
+
+/// A line through points, interrupted where a value is not finite; with marks where it has any.
+struct Line {
+  std::vector<double> x, y;
+  Stroke stroke = {};
+  std::optional<Mark> mark = std::nullopt;
+  double size = 0.6;  ///< of the marks
+  std::string name = {};
+};
+
+/// What lies between two lines.
+struct Band {
+  std::vector<double> x, lower, upper;
+  Fill fill = {std::string(blue), 0.2};
+  std::string name = {};
+};
+
+/// Rectangles: bars of a histogram, bars of a ranking, cells of a table.
+struct Boxes {
+  std::vector<double> left, right, bottom, top;
+  Fill fill = {};
+  std::vector<Colour> colours = {};  ///< one of each box instead of the fill's
+  std::vector<double> values = {};   ///< told by the colour scale of the plot instead
+  std::string name = {};
+
+  void add(double from_x, double to_x, double from_y, double to_y);
+  std::size_t size() const { return left.size(); }
+};
+
+/// Level pieces with a stop at each end, as intervals are drawn.
+struct Spans {
+  std::vector<double> y, lower, upper;
+  Stroke stroke = {};
+  std::string name = {};
+};
+
+/// Discs whose area grows with how far `values` are from nothing, coloured by the colour scale.
+struct Discs {
+  std::vector<double> x, y, values;
+  std::string name = {};
+};
+
+/// A line across the whole plot.
+struct Rule {
+  Direction direction = Direction::vertical;
+  double at = 0.0;
+  Stroke stroke = {};
+  bool in_front = false;
+  std::string name = {};
+};
+
+/// A shaded part of the plot; without an end it reaches the rim.
+struct Region {
+  std::optional<double> left = {}, right = {}, bottom = {}, top = {};
+  Fill fill = {std::string(green), 0.18};
+  std::string name = {};
+};
+
+/// The line on which a surface over the plane has one height.
+struct Contour {
+  Range x, y;                             ///< of the places, which are evenly spaced, ends included
+  std::vector<std::vector<double>> rows;  ///< heights [y][x]
+  double level = 0.5;
+  Stroke stroke = {};
+  std::string name = {};
+};
+
+/// A place along one direction: a number of the axis or a share of the way from rim to rim.
+struct Place {
+  double at = 0.0;
+  bool share = false;
+};
+inline Place on_axis(double at) { return {at, false}; }
+inline Place share_of_plot(double at) { return {at, true}; }
+
+enum class Align { left, centre, right };
+
+/// Words in the plot.
+struct Words {
+  std::string text;
+  Place x, y;
+  Align align = Align::left;
+  double size = 13.0;  ///< [px]
+  Colour colour = std::string(ink);
+  double shift_x = 0.0, shift_y = 0.0;  ///< [letters], up positive
+  double turned = 0.0;                  ///< [degrees], counter-clockwise
+  bool bold = false;
+};
+
+using Layer = std::variant<Points, Line, Band, Boxes, Spans, Discs, Rule, Region, Contour, Words>;
+
+struct Tick {
+  double at = 0.0;
+  std::string label = {};
+  bool bold = false;
+};
+
+struct Axis {
+  std::string label = {};
+  std::string unit = {};                ///< "m/s"; empty: a pure number
+  std::optional<double> from = {}, to = {};  ///< ends, as the data need them where not given
+  bool logarithmic = false;
+  std::vector<Tick> ticks = {};  ///< empty: round numbers
+  int about = 0;                 ///< how many round numbers; 0: as many as fit
+  bool grid = true;
+  bool shown = true;        ///< with the numbers at its ticks; of several plots only the outer ones
+  bool upright = false;     ///< tick labels turned, where they are long and many
+  double tick_size = 13.0;  ///< of the tick labels [px]
+
+  void set_range(Range range) {
+    from = range.lower;
+    to = range.upper;
+  }
+  /// "incident velocity V  [m/s]"
+  std::string title() const;
+};
+
+/// The colours of values: white or light grey in the middle where it diverges.
+struct ColourScale {
+  std::string label = {};
+  Range range = {-1.0, 1.0};
+  std::vector<std::pair<double, std::string_view>> stops = {};  ///< along the range, from 0 to 1
+  std::string format = "%g";                                    ///< of the numbers, as for printf
+};
+
+enum class KeyPlace { none, above, below, lower_right, upper_right };
+
+struct Key {
+  KeyPlace place = KeyPlace::none;
+  int rows = 1;  ///< below the plot
+};
+
+/// Where a plot's axes stand in a picture of several [px from the left and from the foot].
+struct Frame {
+  double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
+};
+
+/// A pair of axes and what stands between them.
+struct Plot {
+  std::string heading = {};
+  std::string remark = {};  ///< under the heading, smaller
+  Colour remark_colour = std::string(grey);
+  Axis x, y;
+  Key key = {};
+  std::optional<ColourScale> colours = {};
+  std::vector<Layer> layers = {};
+  std::optional<Frame> frame = {};  ///< none: the whole picture
+  bool bare = false;                ///< without axes
+};
+
+/// One or several plots in one frame.
+struct Picture {
+  std::string name;   ///< letters, digits, '-'; the prefix of every id in the SVG
+  std::string title;  ///< what a screen reader says
+  int width = 480;    ///< [px] of the view box
+  int height = 340;   ///< [px]
+  std::vector<Plot> plots = {};
+  Key key = {};  ///< one for all plots: every name once
+};
+
+/// The numbers of a layer as named columns.
+struct Column {
+  std::string name;
+  std::string unit;
+  std::vector<double> values;
+};
+struct DataTable {
+  std::string name;  ///< of the layer; empty where it has none
+  std::vector<Column> columns;
+};
+/// What a picture shows in numbers: a table per layer that holds data.
+std::vector<DataTable> data_of(const Picture& picture);
+
+/// `text` made fit for `Picture::name`.
+std::string plot_name(std::string_view text);
+
+}  // namespace recoil::plot
