@@ -52,14 +52,14 @@ void draw(const std::vector<Figure*>& figures) {
 Sentence words_of_cell(const Cell& cell) {
   return std::visit(Overloaded{[](std::monostate) { return Sentence("–"); },
                                [](const Sentence& words) { return words; },
-                               [](const Quantity& quantity) { return quantity.words(); },
+                               [](const Number& quantity) { return quantity.words(); },
                                [](const NumberRange& range) { return Sentence(range.text()); }},
                     cell);
 }
 
 bool Table::has_headings() const {
   return std::any_of(columns.begin(), columns.end(),
-                     [](const Column& column) { return !column.heading.empty(); });
+                     [](const TableColumn& column) { return !column.heading.empty(); });
 }
 
 Table without_empty_columns(Table table) {

@@ -13,7 +13,7 @@
 namespace recoil {
 
 /// A cell without content is shown as a dash.
-using Cell = std::variant<std::monostate, Sentence, Quantity, NumberRange>;
+using Cell = std::variant<std::monostate, Sentence, Number, NumberRange>;
 
 template <class T>
 Cell cell_if(const std::optional<T>& content) {
@@ -22,7 +22,7 @@ Cell cell_if(const std::optional<T>& content) {
 
 Sentence words_of_cell(const Cell& cell);
 
-struct Column {
+struct TableColumn {
   Sentence heading;
   std::string unit{};  ///< said once, in the heading
   bool words = false;  ///< to be read rather than compared: to the left, and broken into lines
@@ -32,7 +32,7 @@ struct Column {
 /// table without headings is a list of names and values.
 struct Table {
   Sentence caption;
-  std::vector<Column> columns;
+  std::vector<TableColumn> columns;
   std::vector<std::vector<Cell>> rows;
   bool compact = false;  ///< small type, for many rows
 

@@ -69,7 +69,7 @@ std::string run_html(const Run& run) {
   return "";
 }
 
-std::string heading_html(const Column& column) {
+std::string heading_html(const TableColumn& column) {
   return column.unit.empty()
              ? html_of(column.heading)
              : fmt::format("{} [{}]", html_of(column.heading), unit_html(column.unit));

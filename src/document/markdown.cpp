@@ -47,7 +47,7 @@ std::string table_markdown(const Table& full) {
   std::vector<std::string> headings;
   std::vector<std::string> rule;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    const Column& column = table.columns[c];
+    const TableColumn& column = table.columns[c];
     const std::string heading = markdown_of(column.heading);
     headings.push_back(column.unit.empty() ? heading
                                            : fmt::format("{} \\[{}\\]", heading, column.unit));

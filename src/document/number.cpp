@@ -74,7 +74,7 @@ std::string NumberRange::text() const {
   return fmt::format("[{}, {}]", text_of(lower, notation), text_of(upper, notation));
 }
 
-Sentence Quantity::words() const {
+Sentence Number::words() const {
   Sentence out;
   if (error > 0.0) {
     const auto [written, spread] = number_with_error(value, error);
@@ -86,9 +86,9 @@ Sentence Quantity::words() const {
   return out + unit_after_number(unit);
 }
 
-std::optional<Quantity> quantity_if(const std::optional<double>& value, const Notation& notation) {
+std::optional<Number> number_if(const std::optional<double>& value, const Notation& notation) {
   if (!value || !std::isfinite(*value)) return std::nullopt;
-  return Quantity{*value, notation};
+  return Number{*value, notation};
 }
 
 }  // namespace recoil

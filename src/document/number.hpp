@@ -61,7 +61,7 @@ struct NumberRange {
 };
 
 /// A value, with its standard error and its unit where it has them.
-struct Quantity {
+struct Number {
   double value = std::numeric_limits<double>::quiet_NaN();
   Notation notation{};
   double error = 0.0;  ///< one standard deviation; 0: none, and the notation decides the digits
@@ -74,6 +74,6 @@ struct Quantity {
 };
 
 /// A quantity that may not be known.
-std::optional<Quantity> quantity_if(const std::optional<double>& value, const Notation& notation);
+std::optional<Number> number_if(const std::optional<double>& value, const Notation& notation);
 
 }  // namespace recoil

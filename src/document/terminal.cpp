@@ -68,7 +68,7 @@ struct Layout {
   }
 };
 
-std::string heading_of(const Column& column) {
+std::string heading_of(const TableColumn& column) {
   const std::string heading = plain_text(column.heading);
   return column.unit.empty() ? heading : fmt::format("{} [{}]", heading, column.unit);
 }

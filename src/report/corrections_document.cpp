@@ -29,16 +29,16 @@ Table corrections_table(const CorrectionStudy& study) {
                         "0",
                         say("{:g}", study.C_H),
                         say("{:g}", study.C_A),
-                        Quantity{study.capture_velocity, fixed(3)}});
+                        Number{study.capture_velocity, fixed(3)}});
   for (const CorrectionRow& row : study.rows) {
     std::vector<Cell> cells = {Sentence(words_of(row.left_out)),
-                               Quantity{static_cast<double>(row.captured), fixed(0)},
-                               cell_if(quantity_if(row.error_slow, signed_fixed(4))),
-                               cell_if(quantity_if(row.error_fast, signed_fixed(4)))};
+                               Number{static_cast<double>(row.captured), fixed(0)},
+                               cell_if(number_if(row.error_slow, signed_fixed(4))),
+                               cell_if(number_if(row.error_fast, signed_fixed(4)))};
     if (row.usable) {
       cells.insert(cells.end(),
                    {estimate_cell(row.C_H, row.C_H_sd), estimate_cell(row.C_A, row.C_A_sd),
-                    Quantity{row.capture_velocity, fixed(3)}});
+                    Number{row.capture_velocity, fixed(3)}});
     } else {
       cells.insert(cells.end(), {"no usable fit", {}, {}});
     }

@@ -34,9 +34,9 @@ UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& 
                        const std::string& label) {
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     if (fitted.model.slots[j].label() != label) continue;
-    if (!fitted.model.slots[j].free) return {Quantity{fitted.theta[j]}, {}, "fixed"};
+    if (!fitted.model.slots[j].free) return {Number{fitted.theta[j]}, {}, "fixed"};
     const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
-    UnderModel found{Quantity{fitted.theta[j], significant(4), error}, {}, ""};
+    UnderModel found{Number{fitted.theta[j], significant(4), error}, {}, ""};
     if (fitted.at_bound[j]) found.remark = "at its bound";
     if (j < intervals.size()) found.interval = interval_cell(recommended_interval(intervals[j]));
     return found;
@@ -77,9 +77,9 @@ Table structure_table(const Diagnosis& d) {
   table.columns = {{"question"}, {say("{p}")}, {"id", "", true}};
   for (const StructureTest& test : d.structure.tests) {
     table.rows.push_back(
-        {Sentence(test.title), Quantity{test.p_value, probability()}, Sentence(test.id)});
+        {Sentence(test.title), Number{test.p_value, probability()}, Sentence(test.id)});
   }
-  table.rows.push_back({"all of them together", Quantity{d.structure.p_value, probability()}, {}});
+  table.rows.push_back({"all of them together", Number{d.structure.p_value, probability()}, {}});
   return table;
 }
 
@@ -92,11 +92,11 @@ Table misfit_table(const Diagnosis& d) {
                    {say("in {e}")}, {"energy", "J"},    {"standard errors"}};
   for (const MisfitCell& cell : d.where) {
     table.rows.push_back(
-        {Sentence(d.datasets[cell.dataset].id), Quantity{cell.diameter / units::um, significant(3)},
+        {Sentence(d.datasets[cell.dataset].id), Number{cell.diameter / units::um, significant(3)},
          say("{:.3g} to {:.3g}", cell.slowest, cell.fastest),
-         Quantity{static_cast<double>(cell.points), fixed(0)},
-         Quantity{cell.restitution, signed_fixed(3)}, Quantity{cell.energy, scientific(2)},
-         Quantity{cell.standardised, signed_fixed(1)}});
+         Number{static_cast<double>(cell.points), fixed(0)},
+         Number{cell.restitution, signed_fixed(3)}, Number{cell.energy, scientific(2)},
+         Number{cell.standardised, signed_fixed(1)}});
   }
   return table;
 }
@@ -113,10 +113,10 @@ Table candidates_table(const std::vector<CandidateResult>& candidates, std::size
   for (std::size_t k = 0; k < std::min(most, candidates.size()); ++k) {
     const CandidateResult& c = candidates[k];
     table.rows.push_back(
-        {Sentence(c.candidate.name()), Sentence(to_string(c.kind)),
-         Quantity{c.delta_aicc, fixed(1)}, cell_if(quantity_if(c.p_value, probability())),
-         c.gain ? Cell(Quantity{c.gain->relative, in_percent(signed_fixed(0))}) : Cell(),
-         Quantity{c.remaining_p, probability()}});
+        {Sentence(c.candidate.name()), Sentence(to_string(c.kind)), Number{c.delta_aicc, fixed(1)},
+         cell_if(number_if(c.p_value, probability())),
+         c.gain ? Cell(Number{c.gain->relative, in_percent(signed_fixed(0))}) : Cell(),
+         Number{c.remaining_p, probability()}});
   }
   return table;
 }
@@ -151,10 +151,10 @@ Table held_out_table(const Diagnosis& d) {
                    {"remark", "", true}};
   for (const HeldOutGain::PerFold& fold : d.gain->folds) {
     table.rows.push_back({say("{} {}", fold.fold.kind, fold.fold.name),
-                          Quantity{static_cast<double>(fold.fold.points.size()), fixed(0)},
-                          Quantity{fold.rmse_base, significant(3)},
-                          Quantity{fold.rmse_extended, significant(3)},
-                          Quantity{fold.log_score, signed_fixed(1)},
+                          Number{static_cast<double>(fold.fold.points.size()), fixed(0)},
+                          Number{fold.rmse_base, significant(3)},
+                          Number{fold.rmse_extended, significant(3)},
+                          Number{fold.log_score, signed_fixed(1)},
                           Sentence(fold.counted ? "" : "shown, not counted")});
   }
   return table;
@@ -184,7 +184,7 @@ Table capture_change_table(const Diagnosis& d) {
   table.caption = "Predicted capture velocity";
   table.columns = {{"dataset"}, {say("{d}"), "um"}, {"base", "m/s"}, {"extended", "m/s"}};
   const auto cell = [](const std::optional<double>& value) {
-    return value ? Cell(Quantity{*value, significant(4)}) : Cell("none");
+    return value ? Cell(Number{*value, significant(4)}) : Cell("none");
   };
   for (const CaptureChange& change : d.capture) {
     table.rows.push_back({Sentence(d.datasets[change.dataset].id),
@@ -202,9 +202,9 @@ Table next_measurement_table(const Diagnosis& d) {
   for (const NextMeasurement& next : d.next) {
     table.rows.push_back({Sentence(words_of(next.one)), Sentence(words_of(next.other)),
                           Sentence(diameter_text(next.diameter)),
-                          Quantity{next.velocity, significant(3)},
-                          Quantity{next.difference, signed_fixed(3)},
-                          next.events ? Cell(Quantity{static_cast<double>(*next.events), fixed(0)})
+                          Number{next.velocity, significant(3)},
+                          Number{next.difference, signed_fixed(3)},
+                          next.events ? Cell(Number{static_cast<double>(*next.events), fixed(0)})
                                       : Cell("more than a million")});
   }
   return table;

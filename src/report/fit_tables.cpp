@@ -19,7 +19,7 @@ bool rests_on_bound(const FitResult& fitted, std::size_t s) {
 }
 
 Cell number_at(const std::vector<double>& values, std::size_t i, const Notation& notation) {
-  return i < values.size() ? Cell(Quantity{values[i], notation}) : Cell();
+  return i < values.size() ? Cell(Number{values[i], notation}) : Cell();
 }
 
 Cell interval_cell(const Interval& interval) {
@@ -28,10 +28,10 @@ Cell interval_cell(const Interval& interval) {
 }
 
 Cell optional_cell(const std::optional<double>& value, const Notation& notation = {}) {
-  return cell_if(quantity_if(value, notation));
+  return cell_if(number_if(value, notation));
 }
 
-Cell count_cell(std::size_t count) { return Quantity{static_cast<double>(count), fixed(0)}; }
+Cell count_cell(std::size_t count) { return Number{static_cast<double>(count), fixed(0)}; }
 
 std::string level_of(const Analysis& a) { return percent(a.uncertainty.options.level); }
 
@@ -51,7 +51,7 @@ Cell p_value_cell(const Analysis& a) {
     return Sentence("not defined (no standard deviations are stated)");
   }
   if (a.fitted.dof <= 0) return Sentence("not defined (no degrees of freedom left)");
-  return Quantity{a.fitted.p_value, probability()};
+  return Number{a.fitted.p_value, probability()};
 }
 
 }  // namespace
@@ -68,12 +68,12 @@ Table statistics_table(const Analysis& a) {
        {"solver", solver_words(f)},
        {"data points", count_cell(f.data.points.size())},
        {"variables", count_cell(free_parameters(f))},
-       {"chi-square", Quantity{f.chi2, significant(6)}},
-       {"degrees of freedom", Quantity{static_cast<double>(f.dof), fixed(0)}},
-       {"reduced chi-square", f.dof > 0 ? Cell(Quantity{f.chi2 / f.dof, significant(5)})
+       {"chi-square", Number{f.chi2, significant(6)}},
+       {"degrees of freedom", Number{static_cast<double>(f.dof), fixed(0)}},
+       {"reduced chi-square", f.dof > 0 ? Cell(Number{f.chi2 / f.dof, significant(5)})
                                         : Cell("not defined (no degrees of freedom left)")},
        {"p-value", p_value_cell(a)},
-       {say("rms of {e}"), Quantity{f.rmse}},
+       {say("rms of {e}"), Number{f.rmse}},
        {"noise", Sentence(f.noise_text)}});
 }
 
@@ -91,7 +91,7 @@ Table parameters_table(const Analysis& a) {
     const ParameterSlot& slot = f.model.slots[s];
     if (!slot.free) {
       table.rows.push_back(
-          {symbol(slot.label()), Quantity{f.theta[s]}, {}, unit(slot.unit), {}, "fixed"});
+          {symbol(slot.label()), Number{f.theta[s]}, {}, unit(slot.unit), {}, "fixed"});
       continue;
     }
     const double error =
@@ -100,10 +100,10 @@ Table parameters_table(const Analysis& a) {
     const IntervalSet set = intervals_of(a, s);
     const Interval interval = recommended_interval(set);
     table.rows.push_back(
-        {symbol(slot.label()), Quantity{f.theta[s], significant(4), error},
-         relative ? Cell(Quantity{100.0 * error / std::abs(f.theta[s]), significant(3)}) : Cell(),
+        {symbol(slot.label()), Number{f.theta[s], significant(4), error},
+         relative ? Cell(Number{100.0 * error / std::abs(f.theta[s]), significant(3)}) : Cell(),
          unit(slot.unit), interval_cell(interval),
-         interval.available() ? Cell(Sentence(set.recommended)) : Cell(), Quantity{slot.initial}});
+         interval.available() ? Cell(Sentence(set.recommended)) : Cell(), Number{slot.initial}});
   }
   return table;
 }
@@ -198,7 +198,7 @@ Table correlations_table(const Analysis& a) {
   table.columns = {{"of"}, {"and", "", true}, {"correlation"}};
   for (const Pair& pair : pairs) {
     table.rows.push_back({symbol(slots[pair.one].label()), symbol(slots[pair.other].label()),
-                          Quantity{pair.value, signed_fixed(4)}});
+                          Number{pair.value, signed_fixed(4)}});
   }
   return table;
 }
@@ -218,8 +218,7 @@ Table capture_table(const Analysis& a) {
       continue;
     }
     table.rows.push_back(
-        {id, diameter,
-         capture.found ? Cell(Quantity{capture.value, padded(4)}) : Cell("none found"),
+        {id, diameter, capture.found ? Cell(Number{capture.value, padded(4)}) : Cell("none found"),
          interval_cell(capture.interval),
          capture.interval.available() || capture.interval.why.empty()
              ? Cell()
@@ -252,8 +251,8 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
                           number_at(comparison.full_spread, s, significant(2))});
   }
   table.rows.push_back({say("rms of {e}, all points"),
-                        answered ? Cell(Quantity{comparison.rmse}) : Cell("none"),
-                        Quantity{comparison.full_rmse}});
+                        answered ? Cell(Number{comparison.rmse}) : Cell("none"),
+                        Number{comparison.full_rmse}});
   table.rows.push_back({say("rms of {e}, diameters not seen"),
                         optional_cell(comparison.held_out_rmse),
                         optional_cell(comparison.full_held_out_rmse)});
@@ -285,10 +284,10 @@ Table materials_table(const Analysis& a, std::size_t k) {
   table.columns = {{}, {"particle"}, {"surface"}};
   table.rows = {
       {"material", Sentence(p.name), Sentence(s.name)},
-      {say("density [{kg/m3}]"), Quantity{p.density, significant(5)}, {}},
-      {"Young's modulus [GPa]", Quantity{p.youngs_modulus / units::GPa},
-       Quantity{s.youngs_modulus / units::GPa}},
-      {"Poisson ratio", Quantity{p.poisson_ratio}, Quantity{s.poisson_ratio}},
+      {say("density [{kg/m3}]"), Number{p.density, significant(5)}, {}},
+      {"Young's modulus [GPa]", Number{p.youngs_modulus / units::GPa},
+       Number{s.youngs_modulus / units::GPa}},
+      {"Poisson ratio", Number{p.poisson_ratio}, Number{s.poisson_ratio}},
       {say("surface energy [{J/m2}]"), energy(contact.gamma_particle, p.surface_energy.has_value()),
        energy(contact.gamma_surface, s.surface_energy.has_value())}};
   return table;
@@ -303,24 +302,24 @@ Table contact_table(const Analysis& a, std::size_t k) {
   table.caption = say("{}: the contact", a.datasets[k].id);
   table.columns = {{}, {"used"}, {"from", "", true}};
   table.rows = {
-      {say("{K} [GPa]"), Quantity{contact.stiffness / units::GPa},
+      {say("{K} [GPa]"), Number{contact.stiffness / units::GPa},
        say("{}; eq. 6 gives {}", origin(system.stiffness_K.has_value()),
            number(contact.stiffness_derived / units::GPa))},
-      {say("{W_A} [{J/m2}]"), Quantity{contact.adhesion_energy},
+      {say("{W_A} [{J/m2}]"), Number{contact.adhesion_energy},
        system.adhesion_energy ? "stated" : "twice the geometric mean of the surface energies"}};
   const bool has_theta = a.fitted.theta.size() == a.fitted.model.slots.size();
   if (!has_theta) return table;
   const ImpactConditions conditions = reference_conditions(a, k, 1.0);
   table.rows.push_back(
-      {say("{f0} [N/m]"), Quantity{conditions.adhesion_force},
+      {say("{f0} [N/m]"), Number{conditions.adhesion_force},
        say("{}; eq. 12 gives {}", f0_free ? "fitted" : origin(system.adhesion_force_f0.has_value()),
            number(contact.adhesion_force_derived))});
   table.rows.push_back({say("reference diameter [{um}]"),
                         Sentence(diameter_text(contact.reference_diameter)),
                         say("{f0} grows with the cube root of the radius from here")});
   table.rows.push_back(
-      {say("{a_eq} [nm]"), Quantity{contact.equilibrium_radius / units::nm}, "eq. 10"});
-  table.rows.push_back({say("{V_a} [m/s]"), Quantity{adhesion_velocity(conditions)},
+      {say("{a_eq} [nm]"), Number{contact.equilibrium_radius / units::nm}, "eq. 10"});
+  table.rows.push_back({say("{V_a} [m/s]"), Number{adhesion_velocity(conditions)},
                         "the velocity at which adhesion and inertia balance"});
   return table;
 }
@@ -359,7 +358,7 @@ Table starts_table(const Analysis& a) {
       row.push_back(number_at(start.start, s, significant(3)));
       row.push_back(number_at(start.end, s, significant(6)));
     }
-    row.emplace_back(Quantity{start.chi2, significant(7)});
+    row.emplace_back(Number{start.chi2, significant(7)});
     row.emplace_back(start.converged ? Sentence("converged")
                                      : Sentence("failed: " + start.message));
     table.rows.push_back(std::move(row));
@@ -374,14 +373,14 @@ Table points_table(const Analysis& a) {
   Table table;
   table.compact = true;
   if (joint) table.columns = {{"dataset"}};
-  for (const Column& column : std::vector<Column>{{"series"},
-                                                  {say("{d}"), "um"},
-                                                  {say("{V}"), "m/s"},
-                                                  {say("{e}")},
-                                                  {"sd"},
-                                                  {"fit"},
-                                                  {"residual", "sd"},
-                                                  {"leverage"}}) {
+  for (const TableColumn& column : std::vector<TableColumn>{{"series"},
+                                                            {say("{d}"), "um"},
+                                                            {say("{V}"), "m/s"},
+                                                            {say("{e}")},
+                                                            {"sd"},
+                                                            {"fit"},
+                                                            {"residual", "sd"},
+                                                            {"leverage"}}) {
     table.columns.push_back(column);
   }
   const std::size_t count = std::min(f.data.points.size(), most_points);
@@ -393,11 +392,11 @@ Table points_table(const Analysis& a) {
     row.emplace_back(
         Sentence(point.series < dataset.series.size() ? dataset.series[point.series] : ""));
     row.emplace_back(Sentence(diameter_text(point.diameter)));
-    row.emplace_back(Quantity{point.velocity});
-    row.push_back(point.censored ? Cell("captured") : Cell(Quantity{point.restitution, fixed(4)}));
-    row.push_back(f.data.sd_stated ? Cell(Quantity{point.sd, significant(2)}) : Cell());
+    row.emplace_back(Number{point.velocity});
+    row.push_back(point.censored ? Cell("captured") : Cell(Number{point.restitution, fixed(4)}));
+    row.push_back(f.data.sd_stated ? Cell(Number{point.sd, significant(2)}) : Cell());
     row.push_back(number_at(f.prediction, i, fixed(4)));
-    row.push_back(i < f.residuals.size() ? Cell(Quantity{f.residuals[i] / scale, signed_fixed(2)})
+    row.push_back(i < f.residuals.size() ? Cell(Number{f.residuals[i] / scale, signed_fixed(2)})
                                          : Cell());
     row.push_back(number_at(f.leverage, i, fixed(3)));
     table.rows.push_back(std::move(row));

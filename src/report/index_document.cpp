@@ -109,7 +109,7 @@ Cell range_cell(const std::optional<TwoPointRange>& range) {
   if (!range) return {};
   const std::string first = number(range->lower, 3);
   const std::string last = number(range->upper, 3);
-  if (first == last) return Quantity{range->lower, significant(3)};
+  if (first == last) return Number{range->lower, significant(3)};
   return say("{} to {}", first, last);
 }
 
@@ -237,11 +237,11 @@ Table summary_table(const FitSummary& fit) {
     const bool damping = parameter.label.starts_with("C_H") || parameter.label.starts_with("C_A");
     if (!parameter.free && !damping) continue;
     table.rows.push_back({symbol(parameter.label) + " [" + unit(parameter.unit) + "]",
-                          Quantity{parameter.value, significant(3)}, interval_cell(parameter),
+                          Number{parameter.value, significant(3)}, interval_cell(parameter),
                           range_cell(parameter.two_point)});
   }
   table.rows.push_back(
-      {say("rms of {e}"), Quantity{fit.rmse, significant(3)}, "", range_cell(fit.two_point_rmse)});
+      {say("rms of {e}"), Number{fit.rmse, significant(3)}, "", range_cell(fit.two_point_rmse)});
   if (fit.dof > 0 && std::isfinite(fit.chi2)) {
     Cell p = "";
     if (fit.p_value) {

@@ -15,7 +15,7 @@ constexpr std::size_t rows_shown = 14;
 
 Cell banded(const BandedValue& at, const Notation& notation) {
   if (!at.value) return {};
-  Quantity quantity{*at.value, notation};
+  Number quantity{*at.value, notation};
   if (at.lower && at.upper) quantity.band = {*at.lower, *at.upper};
   return quantity;
 }
@@ -37,8 +37,8 @@ Table averages_table(const PolydispersePrediction& mixture) {
   whole_percent.scale = 100.0;
   const std::size_t stride = std::max<std::size_t>(1, mixture.velocity.size() / rows_shown);
   for (std::size_t k = 0; k < mixture.velocity.size(); k += stride) {
-    std::vector<Cell> row = {Quantity{mixture.velocity[k], padded(3)},
-                             cell_if(quantity_if(mixture.size_curves[1].restitution[k], fixed(3)))};
+    std::vector<Cell> row = {Number{mixture.velocity[k], padded(3)},
+                             cell_if(number_if(mixture.size_curves[1].restitution[k], fixed(3)))};
     for (const auto& average : mixture.average) row.push_back(banded(average[k], fixed(3)));
     row.push_back(banded(mixture.captured[k], whole_percent));
     row.push_back(banded(mixture.unseen[k], whole_percent));
@@ -53,8 +53,8 @@ Table misses_table(const PolydispersePrediction& mixture) {
   table.caption = "Distance of the points from each curve";
   table.columns = {{"curve"}, {say("rms of {e}")}, {"points with a prediction"}};
   const auto add = [&](const Sentence& curve, const CurveMiss& miss) {
-    table.rows.push_back({curve, cell_if(quantity_if(miss.rmse, padded(2))),
-                          Quantity{static_cast<double>(miss.points), fixed(0)}});
+    table.rows.push_back({curve, cell_if(number_if(miss.rmse, padded(2))),
+                          Number{static_cast<double>(miss.points), fixed(0)}});
   };
   add(say("{d10} alone"), mixture.miss_single);
   for (std::size_t c = 0; c < all_conventions.size(); ++c) {

@@ -27,7 +27,7 @@ TEST(Html, EscapesWhateverItIsGiven) {
   Table table;
   table.caption = hostile;
   table.columns = {{hostile}, {hostile, hostile}};
-  table.rows = {{hostile, Quantity{1.0, significant(1), 0.0, hostile}}};
+  table.rows = {{hostile, Number{1.0, significant(1), 0.0, hostile}}};
   Document document;
   document.title = hostile;
   document.heading = hostile;
@@ -50,8 +50,8 @@ TEST(Html, EscapesWhateverItIsGiven) {
 TEST(Html, ATableDropsColumnsThatSayNothing) {
   Table table;
   table.columns = {{"name"}, {"silent"}, {"value", "um"}, {"remark", "", true}};
-  table.rows = {{"a", {}, Quantity{1.0, fixed(1)}, "words"},
-                {"b", {}, Quantity{std::numeric_limits<double>::quiet_NaN()}, {}}};
+  table.rows = {{"a", {}, Number{1.0, fixed(1)}, "words"},
+                {"b", {}, Number{std::numeric_limits<double>::quiet_NaN()}, {}}};
   const std::string html = html_of(std::vector<Block>{table});
   EXPECT_THAT(html, Not(HasSubstr("silent")));
   EXPECT_THAT(html, HasSubstr("<th scope=\"col\">value [µm]</th>"));

@@ -9,7 +9,7 @@ TEST(Markdown, WritesATable) {
   Table table;
   table.caption = "Two rows";
   table.columns = {{"name"}, {"silent"}, {"value", "um"}, {"remark", "", true}};
-  table.rows = {{symbol("C_H"), {}, Quantity{1.0, fixed(1)}, "a|b"}, {symbol("V*"), {}, {}, "c"}};
+  table.rows = {{symbol("C_H"), {}, Number{1.0, fixed(1)}, "a|b"}, {symbol("V*"), {}, {}, "c"}};
   EXPECT_EQ(markdown_of(std::vector<Block>{table}),
             "Two rows\n\n| name | value \\[um\\] | remark |\n|---|---:|---|\n"
             "| C_H | 1.0 | a\\|b |\n| V\\* | – | c |\n\n");

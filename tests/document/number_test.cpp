@@ -36,16 +36,16 @@ TEST(Number, EveryNotation) {
   EXPECT_EQ(text_of(INFINITY, fixed(2)), "n/a");
 }
 
-TEST(Quantity, SaysValueErrorAndUnit) {
-  EXPECT_EQ(plain_text(Quantity{0.0031234, significant(4), 0.00021, "s/m"}.words()),
+TEST(Number, SaysItsErrorAndUnit) {
+  EXPECT_EQ(plain_text(Number{0.0031234, significant(4), 0.00021, "s/m"}.words()),
             "0.00312 +/- 0.00021 s/m");
-  EXPECT_EQ(plain_text(Quantity{2.5, fixed(1), 0.0, "um"}.words()), "2.5 um");
-  EXPECT_EQ(plain_text(Quantity{2.5, fixed(1), 0.0, "1"}.words()), "2.5");
-  EXPECT_EQ(plain_text(Quantity{0.853, fixed(3), 0.0, "", std::pair{0.84, 0.8661}}.words()),
+  EXPECT_EQ(plain_text(Number{2.5, fixed(1), 0.0, "um"}.words()), "2.5 um");
+  EXPECT_EQ(plain_text(Number{2.5, fixed(1), 0.0, "1"}.words()), "2.5");
+  EXPECT_EQ(plain_text(Number{0.853, fixed(3), 0.0, "", std::pair{0.84, 0.8661}}.words()),
             "0.853 [0.840, 0.866]");
   EXPECT_EQ(NumberRange({0.1, 0.25, padded(2)}).text(), "[0.10, 0.25]");
-  EXPECT_FALSE(quantity_if(NAN, fixed(1)).has_value());
-  EXPECT_FALSE(quantity_if(std::nullopt, fixed(1)).has_value());
+  EXPECT_FALSE(number_if(NAN, fixed(1)).has_value());
+  EXPECT_FALSE(number_if(std::nullopt, fixed(1)).has_value());
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ std::size_t longest_line(const std::string& text) {
 Table small_table() {
   Table table;
   table.columns = {{"parameter"}, {"estimate", "s/m"}, {"never said"}, {"remark", "", true}};
-  table.rows = {{symbol("C_H"), Quantity{0.0031, significant(2)}, {}, "fine"},
-                {symbol("C_A"), Quantity{12.25, fixed(2)}, {}, {}}};
+  table.rows = {{symbol("C_H"), Number{0.0031, significant(2)}, {}, "fine"},
+                {symbol("C_A"), Number{12.25, fixed(2)}, {}, {}}};
   return table;
 }
 
@@ -43,7 +43,7 @@ TEST(Terminal, AlignsNumbersRightAndWordsLeftAndDropsSilentColumns) {
 }
 
 TEST(Terminal, NamesAndValuesStandInPairs) {
-  EXPECT_EQ(terminal_text(items({{"chi-square", Quantity{34.5}}, {"p-value", "none"}}), 2),
+  EXPECT_EQ(terminal_text(items({{"chi-square", Number{34.5}}, {"p-value", "none"}}), 2),
             "  chi-square         = 34.5\n"
             "  p-value            = none\n");
   EXPECT_LE(longest_line(terminal_text(items({{std::string(150, 'x'), std::string(150, 'y')}}))),
@@ -66,7 +66,7 @@ TEST(Terminal, DividesATableThatIsTooWideRepeatingTheFirstColumn) {
   table.rows = {{"a dataset with a very long name that nobody would like to read twice"}};
   for (int i = 0; i < 15; ++i) {
     table.columns.push_back({"quantity", "um"});
-    table.rows[0].emplace_back(Quantity{1234567.0 + i, fixed(0)});
+    table.rows[0].emplace_back(Number{1234567.0 + i, fixed(0)});
   }
   const std::string text = terminal_text(table);
   EXPECT_LE(longest_line(text), terminal_columns);

@@ -62,10 +62,10 @@ const std::vector<Cell>& row_of(const Table& table, const std::string& name) {
   return none;
 }
 
-Quantity quantity(const Cell& cell) {
-  const auto* found = std::get_if<Quantity>(&cell);
+Number number_in(const Cell& cell) {
+  const auto* found = std::get_if<Number>(&cell);
   if (found == nullptr) ADD_FAILURE() << plain_text(words_of_cell(cell)) << " is no quantity";
-  return found == nullptr ? Quantity{} : *found;
+  return found == nullptr ? Number{} : *found;
 }
 
 std::string words(const Cell& cell) { return plain_text(words_of_cell(cell)); }
@@ -253,18 +253,18 @@ TEST(FitTables, GiveEstimateErrorIntervalAndStartOfAParameter) {
   const Table table = parameters_table(example::four_diameters());
   ASSERT_EQ(table.rows.size(), 3U);
   const auto& C_H = row_of(table, "C_H");
-  EXPECT_EQ(quantity(C_H[1]).value, 0.00312);
-  EXPECT_EQ(quantity(C_H[1]).error, 0.00021);
-  EXPECT_NEAR(quantity(C_H[2]).value, 6.73, 0.005);
+  EXPECT_EQ(number_in(C_H[1]).value, 0.00312);
+  EXPECT_EQ(number_in(C_H[1]).error, 0.00021);
+  EXPECT_NEAR(number_in(C_H[2]).value, 6.73, 0.005);
   EXPECT_EQ(words(C_H[3]), "s/m");
   const auto interval = std::get<NumberRange>(C_H[4]);
   EXPECT_NEAR(interval.lower, 0.0027315, 1e-9);
   EXPECT_NEAR(interval.upper, 0.003561, 1e-9);
   EXPECT_EQ(words(C_H[5]), "profile");
-  EXPECT_EQ(quantity(C_H[6]).value, 0.003);
+  EXPECT_EQ(number_in(C_H[6]).value, 0.003);
   const auto& f0 = row_of(table, "f0");
   EXPECT_EQ(words(f0[5]), "fixed");
-  EXPECT_EQ(quantity(f0[1]).error, 0.0);
+  EXPECT_EQ(number_in(f0[1]).error, 0.0);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(f0[4]));
 }
 
@@ -274,7 +274,7 @@ TEST(FitTables, SayWhatIsMissing) {
   analysis.fitted.at_bound[0] = true;
   analysis.fitted.std_error[0] = 0.0;
   EXPECT_EQ(parameter_remarks(analysis).entries.size(), 1U);
-  EXPECT_EQ(quantity(row_of(parameters_table(analysis), "C_H")[1]).error, 0.0);
+  EXPECT_EQ(number_in(row_of(parameters_table(analysis), "C_H")[1]).error, 0.0);
   EXPECT_TRUE(std::holds_alternative<Sentence>(row_of(statistics_table(analysis), "p-value")[1]))
       << "no standard deviations are stated";
   EXPECT_EQ(missing_intervals(analysis).entries.size(), 4U) << "studentized of each";
@@ -283,12 +283,12 @@ TEST(FitTables, SayWhatIsMissing) {
 TEST(FitTables, GiveTheStatisticsOfTheFit) {
   const Analysis analysis = example::four_diameters();
   const Table table = statistics_table(analysis);
-  EXPECT_EQ(quantity(row_of(table, "data points")[1]).value, 32.0);
-  EXPECT_EQ(quantity(row_of(table, "variables")[1]).value, 2.0);
-  EXPECT_EQ(quantity(row_of(table, "chi-square")[1]).value, analysis.fitted.chi2);
-  EXPECT_EQ(quantity(row_of(table, "degrees of freedom")[1]).value, 30.0);
-  EXPECT_EQ(quantity(row_of(table, "p-value")[1]).value, 0.37);
-  EXPECT_EQ(quantity(row_of(table, "rms of e")[1]).value, 0.0293);
+  EXPECT_EQ(number_in(row_of(table, "data points")[1]).value, 32.0);
+  EXPECT_EQ(number_in(row_of(table, "variables")[1]).value, 2.0);
+  EXPECT_EQ(number_in(row_of(table, "chi-square")[1]).value, analysis.fitted.chi2);
+  EXPECT_EQ(number_in(row_of(table, "degrees of freedom")[1]).value, 30.0);
+  EXPECT_EQ(number_in(row_of(table, "p-value")[1]).value, 0.37);
+  EXPECT_EQ(number_in(row_of(table, "rms of e")[1]).value, 0.0293);
 }
 
 TEST(FitTables, GiveCorrelationsTheLargestFirst) {
@@ -296,17 +296,17 @@ TEST(FitTables, GiveCorrelationsTheLargestFirst) {
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(words(table.rows[0][0]), "C_H");
   EXPECT_EQ(words(table.rows[0][1]), "C_A");
-  EXPECT_NEAR(quantity(table.rows[0][2]).value, -0.43, 1e-12);
+  EXPECT_NEAR(number_in(table.rows[0][2]).value, -0.43, 1e-12);
 }
 
 TEST(FitTables, SetTwoPointsBesideAll) {
   const Analysis analysis = example::four_diameters();
   const Table table = two_point_table(analysis, analysis.uncertainty.two_point.front());
   const auto& C_H = row_of(table, "C_H [s/m]");
-  EXPECT_EQ(quantity(C_H[1]).value, 0.0046);
-  EXPECT_EQ(quantity(C_H[2]).value, 0.00312);
-  EXPECT_EQ(quantity(row_of(table, "rms of e, all points")[1]).value, 0.047);
-  EXPECT_EQ(quantity(row_of(table, "rms of e, diameters not seen")[2]).value, 0.034);
+  EXPECT_EQ(number_in(C_H[1]).value, 0.0046);
+  EXPECT_EQ(number_in(C_H[2]).value, 0.00312);
+  EXPECT_EQ(number_in(row_of(table, "rms of e, all points")[1]).value, 0.047);
+  EXPECT_EQ(number_in(row_of(table, "rms of e, diameters not seen")[2]).value, 0.034);
 }
 
 TEST(FitTables, ShowEveryPointWithItsResidual) {
@@ -315,13 +315,13 @@ TEST(FitTables, ShowEveryPointWithItsResidual) {
   ASSERT_EQ(table.rows.size(), analysis.data.points.size());
   EXPECT_EQ(words(table.rows[0][0]), "example-molybdenum");
   EXPECT_EQ(words(table.rows[0][4]), "captured");
-  EXPECT_EQ(quantity(table.rows[1][4]).value, analysis.data.points[1].restitution);
+  EXPECT_EQ(number_in(table.rows[1][4]).value, analysis.data.points[1].restitution);
 }
 
 TEST(FitTables, WithoutAdhesionThereIsNoCaptureVelocity) {
   Analysis analysis = example::four_diameters();
   ASSERT_FALSE(analysis.uncertainty.capture.empty());
-  EXPECT_GT(quantity(capture_table(analysis).rows[0][2]).value, 0.0);
+  EXPECT_GT(number_in(capture_table(analysis).rows[0][2]).value, 0.0);
   analysis.fitted.model.contacts[0].adhesion_force = 0.0;
   analysis.fitted.model.slots[analysis.fitted.model.slot_f0[0]].free = false;
   const Table none = capture_table(analysis);
@@ -330,7 +330,7 @@ TEST(FitTables, WithoutAdhesionThereIsNoCaptureVelocity) {
   EXPECT_TRUE(std::holds_alternative<Sentence>(none.rows[0][2]));
   // A fitted f0 is an adhesion.
   analysis.fitted.model.slots[analysis.fitted.model.slot_f0[0]].free = true;
-  EXPECT_GT(quantity(capture_table(analysis).rows[0][2]).value, 0.0);
+  EXPECT_GT(number_in(capture_table(analysis).rows[0][2]).value, 0.0);
 }
 
 TEST(FitFigures, CompareTheIntervalsAndMarkTheRecommendedOne) {
@@ -376,7 +376,7 @@ TEST(FitDocument, SaysWhatEachCorrectionDoes) {
   EXPECT_EQ(figures_of(*section).size(), 4U);
   const auto& first = tables[0]->rows;
   ASSERT_EQ(first.size(), 6U) << "the truth, and five ways";
-  EXPECT_EQ(quantity(first[0][6]).value, analysis.corrections[0].capture_velocity);
+  EXPECT_EQ(number_in(first[0][6]).value, analysis.corrections[0].capture_velocity);
   const std::vector<Sentence> changes = correction_words(analysis.corrections.front());
   ASSERT_EQ(changes.size(), 4U);
   EXPECT_EQ(plain_text(changes[0]),

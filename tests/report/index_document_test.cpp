@@ -42,9 +42,9 @@ TEST(Index, HasACardPerFit) {
 TEST(Index, ShowsEstimateIntervalAndTwoPoints) {
   const Table table = summary_table(summary_of(example::four_diameters()));
   const auto& C_H = table.rows.at(0);
-  EXPECT_EQ(std::get<Quantity>(C_H[1]).value, 0.00312);
+  EXPECT_EQ(std::get<Number>(C_H[1]).value, 0.00312);
   EXPECT_NEAR(std::get<NumberRange>(C_H[2]).lower, 0.0027315, 1e-9);
-  EXPECT_EQ(std::get<Quantity>(C_H[3]).value, 0.0046);
+  EXPECT_EQ(std::get<Number>(C_H[3]).value, 0.0046);
   // The second of two datasets has another pair of points.
   const FitSummary joint = summary_of(example::two_datasets());
   ASSERT_TRUE(joint.parameters.at(0).two_point.has_value());
