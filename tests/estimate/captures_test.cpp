@@ -285,10 +285,10 @@ TEST(Captures, WithoutAMixedPointNothingRemainsOfTheSpread) {
     if (!point.censored) point.captured = 0;
   }
   EXPECT_TRUE(replicate.weights_depend_on_fit());
-  const ReweightedFit settled = reweighted_fit(fitted.model, replicate, fitted.theta);
-  EXPECT_TRUE(settled.run.converged) << settled.run.message;
-  EXPECT_EQ(settled.data.noise.event_spread, 0.0);
-  for (const Observation& point : settled.data.points) EXPECT_EQ(point.weights.scatter, 0.0);
+  const ReweightedFit refitted = reweighted_fit(fitted.model, replicate, fitted.theta);
+  EXPECT_TRUE(refitted.run.converged) << refitted.run.message;
+  EXPECT_EQ(refitted.data.noise.event_spread, 0.0);
+  for (const Observation& point : refitted.data.points) EXPECT_EQ(point.weights.scatter, 0.0);
 }
 
 TEST(Captures, TheRoundsEndAtOnePlaceFromWhereverTheyStart) {
@@ -303,12 +303,12 @@ TEST(Captures, TheRoundsEndAtOnePlaceFromWhereverTheyStart) {
       for (std::size_t j = 0; j < 2; ++j) start[j] *= factor;
       Observations again = gather({data});
       again.noise.event_spread = 0.05 * factor;
-      const ReweightedFit settled = reweighted_fit(fitted.model, again, start);
-      EXPECT_TRUE(settled.run.converged && settled.at_rest);
+      const ReweightedFit refitted = reweighted_fit(fitted.model, again, start);
+      EXPECT_TRUE(refitted.run.converged && refitted.at_rest);
       for (std::size_t j = 0; j < 3; ++j) {
-        EXPECT_NEAR((settled.run.theta[j] - fitted.theta[j]) / fitted.std_error[j], 0.0, 0.02);
+        EXPECT_NEAR((refitted.run.theta[j] - fitted.theta[j]) / fitted.std_error[j], 0.0, 0.02);
       }
-      EXPECT_NEAR(settled.data.noise.event_spread / fitted.data.noise.event_spread, 1.0, 0.02);
+      EXPECT_NEAR(refitted.data.noise.event_spread / fitted.data.noise.event_spread, 1.0, 0.02);
     }
   }
 }

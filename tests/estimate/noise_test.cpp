@@ -221,7 +221,7 @@ TEST(Noise, SimulatedPointsHaveTheNoiseThatWeightsThem) {
   EXPECT_TRUE(simulate_observation(point, -0.1, 1.0, std::nullopt, random).censored);
 }
 
-TEST(Noise, SettlingASecondTimeChangesNothing) {
+TEST(Noise, ReweightingASecondTimeChangesNothing) {
   Dataset data = design(14);
   RandomStream random(28, RandomPurpose::coverage, 0);
   for (ImpactPoint& point : data.points) {
