@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "coverage/coverage_truth.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 

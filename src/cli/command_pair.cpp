@@ -10,9 +10,9 @@
 #include "data/dataset.hpp"
 #include "data/folder_names.hpp"
 #include "experiment/averages.hpp"
-#include "experiment/events.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
+#include "experiment/passages.hpp"
 #include "plot/draw.hpp"
 #include "report/experiment_figures.hpp"
 #include "report/words_impacts.hpp"
@@ -41,7 +41,7 @@ struct PairCommand {
   double angle_degrees = -1.0;
   double lost_share = -1.0;
   std::vector<double> size_edges_um;
-  PairOptions pairing;
+  PairingOptions pairing;
   AverageOptions averaging;
 };
 
@@ -65,7 +65,7 @@ std::map<std::string, std::string> assignments(const std::vector<std::string>& w
 }
 
 void resolve(PairCommand& command) {
-  PairOptions& pairing = command.pairing;
+  PairingOptions& pairing = command.pairing;
   pairing.height = command.height_mm * units::mm;
   pairing.refine = !command.keep_height;
   if (command.threshold >= 0.0) pairing.threshold = command.threshold;
@@ -86,7 +86,7 @@ void resolve(PairCommand& command) {
 }
 
 /// What the events' own package says, or the option; nothing when neither does.
-std::optional<Provenance> stated_provenance(const PairCommand& command, const EventTable& table) {
+std::optional<Provenance> stated_provenance(const PairCommand& command, const PassageTable& table) {
   const auto stated = value_named<Provenance>(command.provenance);
   if (stated && table.provenance && *stated != *table.provenance) {
     throw InputError({},
@@ -98,7 +98,7 @@ std::optional<Provenance> stated_provenance(const PairCommand& command, const Ev
 }
 
 /// The provenance of a dataset, which has to have one.
-Provenance provenance_of(const PairCommand& command, const EventTable& table) {
+Provenance provenance_of(const PairCommand& command, const PassageTable& table) {
   const auto provenance = stated_provenance(command, table);
   if (!provenance) {
     throw InputError({}, "the provenance of the events is not known", "every dataset states it",
@@ -107,7 +107,7 @@ Provenance provenance_of(const PairCommand& command, const EventTable& table) {
   return *provenance;
 }
 
-std::string remark_of(const PairCommand& command, const EventTable& table) {
+std::string remark_of(const PairCommand& command, const PassageTable& table) {
   const auto provenance = stated_provenance(command, table);
   const std::string file = fs::path(table.file).filename().string();
   return !provenance || *provenance == Provenance::measured
@@ -116,8 +116,8 @@ std::string remark_of(const PairCommand& command, const EventTable& table) {
 }
 
 /// Points of mixed sizes get the distribution of the sizes beside them; size classes need none.
-void write_dataset(const PairCommand& command, const EventTable& table, const PairResult& pairs,
-                   const std::string& points) {
+void write_dataset(const PairCommand& command, const PassageTable& table,
+                   const PairingResult& pairs, const std::string& points) {
   const bool mixed =
       command.averaging.size_edges.size() <= 2 && command.averaging.size_classes == 1;
   const std::string package = package_json(
@@ -125,7 +125,7 @@ void write_dataset(const PairCommand& command, const EventTable& table, const Pa
       provenance_of(command, table), fs::path(table.file).filename().string(),
       fmt::format("{} impacts that recoil pair found in {} passages; the measuring plane {:.5g} mm "
                   "above the surface; velocities at the surface.",
-                  pairs.impacts.size(), table.events.size(), pairs.height / units::mm),
+                  pairs.impacts.size(), table.passages.size(), pairs.height / units::mm),
       mixed ? pairs.height : 0.0);
   parse_dataset(package, points, command.into);  // refuses what `recoil check` would refuse
   write_whole_file(fs::path(command.into) / "points.csv", points);
@@ -143,12 +143,13 @@ void run_pair(PairCommand command) {
   for (const std::string& file : {command.out, command.impacts}) {
     if (!file.empty()) require_writable_folder(fs::absolute(file).parent_path());
   }
-  const EventFormat format = {assignments(command.units, "--unit"),
-                              assignments(command.columns, "--column"), command.positive == "away"};
-  const EventTable table = read_events(command.events, format);
+  const PassageFormat format = {assignments(command.units, "--unit"),
+                                assignments(command.columns, "--column"),
+                                command.positive == "away"};
+  const PassageTable table = read_passages(command.events, format);
   if (!command.into.empty()) provenance_of(command, table);  // complain before the work
-  const PairResult pairs = pair_events(table.events, command.pairing);
-  const Averages averages = average(table.events, table.series, pairs, command.averaging);
+  const PairingResult pairs = pair_passages(table.passages, command.pairing);
+  const Averages averages = average(table.passages, table.series, pairs, command.averaging);
   fmt::print("{}", describe(table, pairs, averages));
   if (pairs.impacts.empty()) {
     throw ComputationError(fmt::format(

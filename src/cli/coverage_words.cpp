@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.hpp"
 #include "uncertainty/intervals.hpp"
 
 namespace recoil {

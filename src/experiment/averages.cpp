@@ -23,17 +23,17 @@ struct Arrival {
   bool came_back = false;
 };
 
-std::vector<Arrival> arrivals_of(const std::vector<Event>& events, const PairResult& pairs) {
+std::vector<Arrival> arrivals_of(const std::vector<Passage>& passages, const PairingResult& pairs) {
   std::vector<Arrival> arrivals;
   for (const Impact& impact : pairs.impacts) {
     if (!impact.used) continue;
-    arrivals.push_back({events[impact.down].series, 0, impact.incident, impact.diameter,
+    arrivals.push_back({passages[impact.down].series, 0, impact.incident, impact.diameter,
                         impact.restitution, false});
   }
   for (const Unpaired& lone : pairs.unpaired) {
     if (!lone.used) continue;
-    const Event& event = events[lone.down];
-    arrivals.push_back({event.series, 0, lone.incident, event.diameter, -1.0, lone.came_back});
+    const Passage& passage = passages[lone.down];
+    arrivals.push_back({passage.series, 0, lone.incident, passage.diameter, -1.0, lone.came_back});
   }
   return arrivals;
 }
@@ -179,10 +179,10 @@ std::string series_name(const std::string& series, const std::vector<double>& ed
 
 }  // namespace
 
-Averages average(const std::vector<Event>& events, const std::vector<std::string>& series,
-                 const PairResult& pairs, const AverageOptions& options) {
+Averages average(const std::vector<Passage>& passages, const std::vector<std::string>& series,
+                 const PairingResult& pairs, const AverageOptions& options) {
   Averages result;
-  std::vector<Arrival> arrivals = arrivals_of(events, pairs);
+  std::vector<Arrival> arrivals = arrivals_of(passages, pairs);
   look_at_fastest(arrivals, result);
   result.lost_share = std::min(pairs.options.lost_share.value_or(pairs.missed_share), 0.9);
   result.narrowest = 6.0 * pairs.velocity_spread;

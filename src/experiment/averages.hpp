@@ -64,7 +64,7 @@ struct Averages {
 /// that mean lies above the limit by one standard deviation. What is left is called captured where
 /// a Poisson number with the mean of lost and too slow reaches the unpaired with a probability
 /// below 1 %, divided by the number of bins.
-Averages average(const std::vector<Event>& events, const std::vector<std::string>& series,
-                 const PairResult& pairs, const AverageOptions& options);
+Averages average(const std::vector<Passage>& passages, const std::vector<std::string>& series,
+                 const PairingResult& pairs, const AverageOptions& options);
 
 }  // namespace recoil

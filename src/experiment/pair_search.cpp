@@ -57,19 +57,20 @@ std::vector<double> telling_heights(const std::vector<Link>& candidates, std::si
 
 }  // namespace
 
-std::vector<Link> pair_candidates(const std::vector<Event>& events, const PairOptions& options) {
+std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
+                                  const PairingOptions& options) {
   const double range = options.refine ? options.height_range : 1.0 + 0.3;
   const double lowest = options.height / range;
   const double highest = options.height * range;
   const double ratio = 1.0 + options.diameter_tolerance;
   std::vector<Link> links;
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    const Event& down = events[i];
+  for (std::size_t i = 0; i < passages.size(); ++i) {
+    const Passage& down = passages[i];
     if (down.velocity <= 0.0) continue;
     const double latest = down.time + flight::longest_round_trip(down.velocity, highest);
     const double fastest = largest_restitution * flight::surface_velocity(down.velocity, highest);
-    for (std::size_t j = i + 1; j < events.size(); ++j) {
-      const Event& up = events[j];
+    for (std::size_t j = i + 1; j < passages.size(); ++j) {
+      const Passage& up = passages[j];
       if (up.series != down.series || up.time > latest) break;
       if (up.velocity >= 0.0 || -up.velocity > fastest) continue;
       if (up.diameter > ratio * down.diameter || down.diameter > ratio * up.diameter) continue;
@@ -93,16 +94,16 @@ std::vector<Link> pair_candidates(const std::vector<Event>& events, const PairOp
   return links;
 }
 
-std::vector<Link> agreeing(const std::vector<Link>& candidates, const std::vector<Event>& events,
-                           const PairModel& model) {
+std::vector<Link> agreeing(const std::vector<Link>& candidates,
+                           const std::vector<Passage>& passages, const PairingModel& model) {
   const double widest = widest_agreement * model.height_sd.largest();
   std::vector<Link> kept;
   for (const Link& link : candidates) {
     if (std::abs(link.first - model.log_height) > widest) continue;
-    const Event& up = events[link.to];
+    const Passage& up = passages[link.to];
     const double height =
         (link.first - model.log_height) / model.height_sd.at(std::log(-up.velocity));
-    const double size = link.second / model.diameter_sd.at(std::log(events[link.from].diameter));
+    const double size = link.second / model.diameter_sd.at(std::log(passages[link.from].diameter));
     const double cost = height * height + size * size;
     if (std::max(std::abs(height), std::abs(size)) > widest_agreement || cost > worst_link)
       continue;
@@ -112,16 +113,16 @@ std::vector<Link> agreeing(const std::vector<Link>& candidates, const std::vecto
   return kept;
 }
 
-Refined refine_height(const std::vector<Link>& candidates, const std::vector<Event>& events,
-                      const PairOptions& options) {
+Refined refine_height(const std::vector<Link>& candidates, const std::vector<Passage>& passages,
+                      const PairingOptions& options) {
   Refined result;
   result.model.diameter_sd = LocalSpread(std::min(0.05, options.diameter_tolerance / 3.0));
   if (options.refine && candidates.size() >= fewest_to_refine) {
-    result.model.log_height = densest(telling_heights(candidates, events.size()), 0.1);
+    result.model.log_height = densest(telling_heights(candidates, passages.size()), 0.1);
   }
   for (int round = 0; round < 4; ++round) {
-    const std::vector<Link> links = agreeing(candidates, events, result.model);
-    const std::vector<std::size_t> chosen = choose_links(links, events.size(), worst_link);
+    const std::vector<Link> links = agreeing(candidates, passages, result.model);
+    const std::vector<std::size_t> chosen = choose_links(links, passages.size(), worst_link);
     if (chosen.size() < fewest_to_refine) return result;
     std::vector<double> heights;
     std::vector<double> sizes;
@@ -130,8 +131,8 @@ Refined refine_height(const std::vector<Link>& candidates, const std::vector<Eve
     for (const std::size_t i : chosen) {
       heights.push_back(links[i].first);
       sizes.push_back(links[i].second);
-      log_up.push_back(std::log(-events[links[i].to].velocity));
-      log_diameter.push_back(std::log(events[links[i].from].diameter));
+      log_up.push_back(std::log(-passages[links[i].to].velocity));
+      log_diameter.push_back(std::log(passages[links[i].from].diameter));
     }
     result.model.height_sd = LocalSpread(log_up, heights, lowest_sd, highest_height_sd);
     result.model.diameter_sd =

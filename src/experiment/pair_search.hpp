@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "experiment/events.hpp"
 #include "experiment/matching.hpp"
 #include "experiment/pairing.hpp"
+#include "experiment/passages.hpp"
 #include "experiment/spread.hpp"
 
 namespace recoil {
@@ -17,7 +17,7 @@ inline constexpr double widest_agreement = 4.5;
 inline constexpr double worst_link = 18.4;
 
 /// What a true pair looks like: the plane's height and the scatter of both deviations.
-struct PairModel {
+struct PairingModel {
   double log_height = 0.0;        ///< ln(h / options.height)
   LocalSpread height_sd{0.05};    ///< of ln h, against ln of the speed up
   LocalSpread diameter_sd{0.05};  ///< of ln(d_up / d_down), against ln of the diameter
@@ -27,21 +27,22 @@ struct PairModel {
 /// down, diameters within the tolerance, an implied height within the range, e at most 1.5.
 /// `Link::first` is ln(h_implied / options.height), costs are 0.
 /// @throws ComputationError when there are more than 200 per passage.
-std::vector<Link> pair_candidates(const std::vector<Event>& events, const PairOptions& options);
+std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
+                                  const PairingOptions& options);
 
 /// The candidates that agree with `model`, with their cost.
-std::vector<Link> agreeing(const std::vector<Link>& candidates, const std::vector<Event>& events,
-                           const PairModel& model);
+std::vector<Link> agreeing(const std::vector<Link>& candidates,
+                           const std::vector<Passage>& passages, const PairingModel& model);
 
 /// Finds the height at which most candidates agree, and the scatter about it.
 struct Refined {
-  PairModel model;
+  PairingModel model;
   double log_height_sd = 0.0;  ///< standard error of the height, relative [1]
   double height_spread = 0.0;
   double diameter_spread = 0.0;
   bool refined = false;  ///< there were enough pairs; else the estimate was kept
 };
-Refined refine_height(const std::vector<Link>& candidates, const std::vector<Event>& events,
-                      const PairOptions& options);
+Refined refine_height(const std::vector<Link>& candidates, const std::vector<Passage>& passages,
+                      const PairingOptions& options);
 
 }  // namespace recoil

@@ -17,13 +17,13 @@ struct Pairs {
   double exchanged = 0.0;  ///< expected to be wrong by exchange
 };
 
-Pairs pairs_of(const std::vector<Event>& events, const std::vector<Link>& candidates,
-               const PairModel& model) {
-  const std::vector<Link> links = agreeing(candidates, events, model);
-  const std::vector<std::size_t> chosen = choose_links(links, events.size(), worst_link);
+Pairs pairs_of(const std::vector<Passage>& passages, const std::vector<Link>& candidates,
+               const PairingModel& model) {
+  const std::vector<Link> links = agreeing(candidates, passages, model);
+  const std::vector<std::size_t> chosen = choose_links(links, passages.size(), worst_link);
   Pairs pairs;
   for (const std::size_t i : chosen) pairs.links.push_back(links[i]);
-  pairs.exchanged = expected_exchanged(links, chosen, events.size());
+  pairs.exchanged = expected_exchanged(links, chosen, passages.size());
   return pairs;
 }
 
@@ -34,38 +34,38 @@ struct DecoyCount {
   std::size_t paired = 0;
 };
 
-DecoyCount try_decoys(const std::vector<Event>& events, const PairOptions& options,
-                      const PairModel& model, std::size_t down) {
+DecoyCount try_decoys(const std::vector<Passage>& passages, const PairingOptions& options,
+                      const PairingModel& model, std::size_t down) {
   constexpr std::size_t wanted = 20000;
   constexpr double shift = 1.7;  ///< longer than a flight above the plane after 4.6 m/s [s]
-  if (events.empty() || down == 0) return {};
+  if (passages.empty() || down == 0) return {};
   const std::size_t stride = std::max<std::size_t>(10, down / wanted + 1);
   struct Marked {
-    Event event;
+    Passage passage;
     bool decoy;
   };
   std::vector<Marked> mixed;
-  std::vector<Event> foreign;
+  std::vector<Passage> foreign;
   std::size_t series_begin = 0;
   DecoyCount count;
   std::size_t seen = 0;
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    if (events[i].series != events[series_begin].series) series_begin = i;
-    mixed.push_back({events[i], false});
-    if (events[i].velocity <= 0.0 || ++seen % stride != 0) continue;
-    Event decoy = events[i];
-    const double since = decoy.time - events[series_begin].time;
+  for (std::size_t i = 0; i < passages.size(); ++i) {
+    if (passages[i].series != passages[series_begin].series) series_begin = i;
+    mixed.push_back({passages[i], false});
+    if (passages[i].velocity <= 0.0 || ++seen % stride != 0) continue;
+    Passage decoy = passages[i];
+    const double since = decoy.time - passages[series_begin].time;
     decoy.time += since >= shift ? -shift : shift;
     mixed.push_back({decoy, true});
     ++count.tried;
   }
   std::stable_sort(mixed.begin(), mixed.end(), [](const Marked& a, const Marked& b) {
-    return a.event.series < b.event.series ||
-           (a.event.series == b.event.series && a.event.time < b.event.time);
+    return a.passage.series < b.passage.series ||
+           (a.passage.series == b.passage.series && a.passage.time < b.passage.time);
   });
-  std::vector<Event> stream;
+  std::vector<Passage> stream;
   stream.reserve(mixed.size());
-  for (const Marked& marked : mixed) stream.push_back(marked.event);
+  for (const Marked& marked : mixed) stream.push_back(marked.passage);
   for (const Link& link : pairs_of(stream, pair_candidates(stream, options), model).links) {
     if (mixed[link.from].decoy) ++count.paired;
   }
@@ -98,9 +98,9 @@ class Chains {
   std::vector<int> number_;
 };
 
-Impact impact_of(const std::vector<Event>& events, const Link& pair, double height) {
-  const Event& down = events[pair.from];
-  const Event& up = events[pair.to];
+Impact impact_of(const std::vector<Passage>& passages, const Link& pair, double height) {
+  const Passage& down = passages[pair.from];
+  const Passage& up = passages[pair.to];
   Impact impact;
   impact.down = pair.from;
   impact.up = pair.to;
@@ -114,43 +114,43 @@ Impact impact_of(const std::vector<Event>& events, const Link& pair, double heig
 
 }  // namespace
 
-double PairResult::purity() const {
+double PairingResult::purity() const {
   if (impacts.empty()) return 1.0;
   return std::max(0.0, 1.0 - expected_false / static_cast<double>(impacts.size()));
 }
 
-PairResult pair_events(const std::vector<Event>& events, const PairOptions& given) {
-  PairResult result;
+PairingResult pair_passages(const std::vector<Passage>& passages, const PairingOptions& given) {
+  PairingResult result;
   result.options = given;
-  for (const Event& event : events) ++(event.velocity > 0.0 ? result.down : result.up);
+  for (const Passage& passage : passages) ++(passage.velocity > 0.0 ? result.down : result.up);
 
-  PairOptions options = given;
-  std::vector<Link> candidates = pair_candidates(events, options);
-  Refined refined = refine_height(candidates, events, options);
+  PairingOptions options = given;
+  std::vector<Link> candidates = pair_candidates(passages, options);
+  Refined refined = refine_height(candidates, passages, options);
   const double reach =
       std::abs(refined.model.log_height) + widest_agreement * refined.model.height_sd.largest();
   if (refined.refined && reach > std::log(options.height_range)) {
     // The height lies near an end of the range, which cuts pairs off: search again about it.
     options.height *= std::exp(refined.model.log_height);
-    candidates = pair_candidates(events, options);
-    refined = refine_height(candidates, events, options);
+    candidates = pair_candidates(passages, options);
+    refined = refine_height(candidates, passages, options);
   }
   result.candidates = static_cast<double>(candidates.size()) /
                       static_cast<double>(std::max<std::size_t>(result.down, 1));
-  const PairModel& model = refined.model;
+  const PairingModel& model = refined.model;
   result.height = options.height * std::exp(model.log_height);
   result.height_sd = result.height * refined.log_height_sd;
   result.refined = refined.refined;
   result.height_spread = refined.height_spread;
   result.diameter_spread = refined.diameter_spread;
 
-  const Pairs found = pairs_of(events, candidates, model);
+  const Pairs found = pairs_of(passages, candidates, model);
   const std::vector<Link>& pairs = found.links;
-  std::vector<std::uint32_t> down_of(events.size(), none);  // passage up -> its passage down
-  std::vector<bool> open_down(events.size(), false);
-  std::vector<bool> open_next(events.size(), false);
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    open_down[i] = open_next[i] = events[i].velocity > 0.0;
+  std::vector<std::uint32_t> down_of(passages.size(), none);  // passage up -> its passage down
+  std::vector<bool> open_down(passages.size(), false);
+  std::vector<bool> open_next(passages.size(), false);
+  for (std::size_t i = 0; i < passages.size(); ++i) {
+    open_down[i] = open_next[i] = passages[i].velocity > 0.0;
   }
   for (const Link& pair : pairs) {
     down_of[pair.to] = pair.from;
@@ -161,8 +161,8 @@ PairResult pair_events(const std::vector<Event>& events, const PairOptions& give
       result.up > 0 ? static_cast<double>(result.orphans) / static_cast<double>(result.up) : 0.0;
 
   // An orphan rebound stands for its own passage down, which went unseen.
-  Chains chains(events.size());
-  const Followers returns = find_returns(events, options, model);
+  Chains chains(passages.size());
+  const Followers returns = find_returns(passages, options, model);
   result.returns = returns.links.size();
   result.expected_returns = returns.by_chance;
   result.returns_usable = returns.usable || returns.links.empty();
@@ -172,7 +172,7 @@ PairResult pair_events(const std::vector<Event>& events, const PairOptions& give
     result.velocity_spread =
         std::min(result.velocity_spread, std::sqrt(2.0) * result.height_spread);
   }
-  std::vector<bool> came_back(events.size(), false);
+  std::vector<bool> came_back(passages.size(), false);
   if (returns.usable) {
     for (const Link& link : returns.links) {
       const std::uint32_t earlier = down_of[link.from];
@@ -180,7 +180,7 @@ PairResult pair_events(const std::vector<Event>& events, const PairOptions& give
       open_next[link.to] = false;
     }
     const Followers unseen =
-        find_unseen(events, options, model, open_down, open_next, result.velocity_spread);
+        find_unseen(passages, options, model, open_down, open_next, result.velocity_spread);
     for (const Link& link : unseen.usable ? unseen.links : std::vector<Link>{}) {
       chains.follow(link.to, link.from);
       came_back[link.from] = true;
@@ -189,25 +189,25 @@ PairResult pair_events(const std::vector<Event>& events, const PairOptions& give
 
   const double threshold = options.threshold.value_or(0.0);
   for (const Link& pair : pairs) {
-    Impact impact = impact_of(events, pair, result.height);
+    Impact impact = impact_of(passages, pair, result.height);
     impact.number = chains.number(pair.from);
     impact.used = (options.keep_later || impact.number == 1) &&
-                  events[pair.from].velocity >= threshold &&
+                  passages[pair.from].velocity >= threshold &&
                   impact.angle <= options.angle.value_or(M_PI);
     result.impacts.push_back(impact);
   }
-  for (std::size_t i = 0; i < events.size(); ++i) {
+  for (std::size_t i = 0; i < passages.size(); ++i) {
     if (!open_down[i]) continue;
     Unpaired lone;
     lone.down = static_cast<std::uint32_t>(i);
-    lone.incident = flight::surface_velocity(events[i].velocity, result.height);
+    lone.incident = flight::surface_velocity(passages[i].velocity, result.height);
     lone.number = chains.number(lone.down);
     lone.came_back = came_back[i];
-    lone.used = (options.keep_later || lone.number == 1) && events[i].velocity >= threshold;
+    lone.used = (options.keep_later || lone.number == 1) && passages[i].velocity >= threshold;
     result.unpaired.push_back(lone);
   }
 
-  const DecoyCount decoys = try_decoys(events, options, model, result.down);
+  const DecoyCount decoys = try_decoys(passages, options, model, result.down);
   result.decoys = decoys.tried;
   if (decoys.tried > 0) {
     result.decoy_share = static_cast<double>(decoys.paired) / static_cast<double>(decoys.tried);

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "experiment/events.hpp"
+#include "experiment/passages.hpp"
 
 namespace recoil {
 
 /// How passages are paired. Each default is explained by `recoil pair --help`.
-struct PairOptions {
+struct PairingOptions {
   double height = 1e-3;       ///< first estimate of the probe plane's height above the surface [m]
   double height_range = 1.5;  ///< the true height lies within this factor of it [1]
   bool refine = true;         ///< find the height in the data; else `height` is taken as it is
@@ -26,8 +26,8 @@ struct PairOptions {
 
 /// One impact: a passage down and the passage up that belongs to it.
 struct Impact {
-  std::uint32_t down = 0;    ///< index into the events
-  std::uint32_t up = 0;      ///< index into the events
+  std::uint32_t down = 0;    ///< index into the passages
+  std::uint32_t up = 0;      ///< index into the passages
   double incident = 0.0;     ///< normal velocity at the surface [m/s]
   double rebound = 0.0;      ///< [m/s]
   double restitution = 0.0;  ///< rebound / incident [1]
@@ -47,8 +47,8 @@ struct Unpaired {
 };
 
 /// What was found, and how far it can be trusted.
-struct PairResult {
-  PairOptions options;
+struct PairingResult {
+  PairingOptions options;
   std::vector<Impact> impacts;     ///< all pairs, by series and time of the incident passage
   std::vector<Unpaired> unpaired;  ///< all passages down without a rebound
   std::size_t down = 0;            ///< passages towards the surface
@@ -77,7 +77,7 @@ struct PairResult {
   double purity() const;
 };
 
-/// Finds the impacts in the events (sorted by series and time, as `read_events` leaves them).
+/// Finds the impacts in the passages (sorted by series and time, as `read_passages` leaves them).
 ///
 /// A passage down and one up belong together when the time between them is that of the flight to
 /// the surface and back, `flight::round_trip`, for one height of the plane common to all, and when
@@ -91,6 +91,6 @@ struct PairResult {
 /// Time O(n log n) in the number of candidates.
 /// @throws ComputationError when the stream is so crowded that there are more than 200 candidates
 ///   per passage.
-PairResult pair_events(const std::vector<Event>& events, const PairOptions& options);
+PairingResult pair_passages(const std::vector<Passage>& passages, const PairingOptions& options);
 
 }  // namespace recoil

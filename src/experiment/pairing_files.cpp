@@ -55,21 +55,21 @@ std::string sizes_csv(const Distributions& distributions) {
   return out;
 }
 
-std::string impacts_csv(const EventTable& table, const PairResult& pairs) {
+std::string impacts_csv(const PassageTable& table, const PairingResult& pairs) {
   std::string out =
       "series,line_down,line_up,time,plane_velocity,incident_velocity,rebound_velocity,restitution,"
       "diameter,impact,used,fate\n";
-  const auto& events = table.events;
+  const auto& passages = table.passages;
   for (const Impact& impact : pairs.impacts) {
-    const Event& down = events[impact.down];
+    const Passage& down = passages[impact.down];
     out +=
         fmt::format("{},{},{},{:.7f},{:.6g},{:.6g},{:.6g},{:.5g},{:.5g},{},{},rebounded\n",
-                    csv_cell(table.series[down.series]), down.line, events[impact.up].line,
+                    csv_cell(table.series[down.series]), down.line, passages[impact.up].line,
                     down.time, down.velocity, impact.incident, impact.rebound, impact.restitution,
                     impact.diameter / units::um, impact.number, impact.used ? 1 : 0);
   }
   for (const Unpaired& lone : pairs.unpaired) {
-    const Event& down = events[lone.down];
+    const Passage& down = passages[lone.down];
     out += fmt::format("{},{},,{:.7f},{:.6g},{:.6g},,,{:.5g},{},{},{}\n",
                        csv_cell(table.series[down.series]), down.line, down.time, down.velocity,
                        lone.incident, down.diameter / units::um, lone.number, lone.used ? 1 : 0,
@@ -122,18 +122,18 @@ std::string package_json(const std::filesystem::path& like, const std::string& i
   return package_text(package);
 }
 
-Distributions distributions(const EventTable& table, const PairResult& pairs) {
+Distributions distributions(const PassageTable& table, const PairingResult& pairs) {
   Distributions result;
-  for (const Event& event : table.events) result.raw_velocities.push_back(event.velocity);
+  for (const Passage& passage : table.passages) result.raw_velocities.push_back(passage.velocity);
   for (const Impact& impact : pairs.impacts) {
-    if (impact.number == 1) result.incoming_sizes.push_back(table.events[impact.down].diameter);
+    if (impact.number == 1) result.incoming_sizes.push_back(table.passages[impact.down].diameter);
     if (!impact.used) continue;
     result.paired_sizes.push_back(impact.diameter);
-    result.paired_velocities.push_back(table.events[impact.down].velocity);
-    result.paired_velocities.push_back(table.events[impact.up].velocity);
+    result.paired_velocities.push_back(table.passages[impact.down].velocity);
+    result.paired_velocities.push_back(table.passages[impact.up].velocity);
   }
   for (const Unpaired& lone : pairs.unpaired) {
-    if (lone.number == 1) result.incoming_sizes.push_back(table.events[lone.down].diameter);
+    if (lone.number == 1) result.incoming_sizes.push_back(table.passages[lone.down].diameter);
   }
   return result;
 }

@@ -7,19 +7,19 @@
 
 #include "data/dataset.hpp"
 #include "experiment/averages.hpp"
-#include "experiment/events.hpp"
 #include "experiment/histogram.hpp"
 #include "experiment/pairing.hpp"
+#include "experiment/passages.hpp"
 
 namespace recoil {
 
 /// `points.csv`: series, diameter [um], incident_velocity [m/s], velocity_sd, restitution,
-/// restitution_sd, events, captured. A cell is empty where nothing is known.
+/// restitution_sd, passages, captured. A cell is empty where nothing is known.
 std::string points_csv(const Averages& averages);
 
 /// One row per passage down that is used or not: line numbers, velocities at plane and surface,
 /// restitution, diameter, number of the impact, what became of it.
-std::string impacts_csv(const EventTable& table, const PairResult& pairs);
+std::string impacts_csv(const PassageTable& table, const PairingResult& pairs);
 
 /// `datapackage.json` for points_csv, with the materials and overrides of the dataset in `like`.
 /// @param id its name
@@ -37,7 +37,7 @@ struct Distributions {
   std::vector<double> incoming_sizes;     ///< of the first passages down, rebounded or not
   std::vector<double> paired_sizes;       ///< of the used impacts
 };
-Distributions distributions(const EventTable& table, const PairResult& pairs);
+Distributions distributions(const PassageTable& table, const PairingResult& pairs);
 
 /// Sturges' bins of the incoming spheres: lower and upper end [um] and count, as `recoil predict
 /// --sizes` and the reports read them.

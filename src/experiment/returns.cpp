@@ -14,27 +14,28 @@ constexpr std::size_t fewest_to_narrow = 20;
 constexpr std::size_t most_visits = 400'000'000;  ///< a few seconds; beyond, too crowded to tell
 constexpr double sqrt2 = 1.4142135623730951;
 
-/// One past the last event of the series of `events[i]`, for every i: found by stepping.
+/// One past the last passage of the series of `passages[i]`, for every i: found by stepping.
 class SeriesEnds {
  public:
-  explicit SeriesEnds(const std::vector<Event>& events) : events_(events) {}
+  explicit SeriesEnds(const std::vector<Passage>& passages) : passages_(passages) {}
   std::size_t of(std::size_t i) {
     if (i >= end_ || end_ == 0) {
-      while (end_ < events_.size() && (end_ <= i || events_[end_].series == events_[i].series))
+      while (end_ < passages_.size() &&
+             (end_ <= i || passages_[end_].series == passages_[i].series))
         ++end_;
     }
     return end_;
   }
 
  private:
-  const std::vector<Event>& events_;
+  const std::vector<Passage>& passages_;
   std::size_t end_ = 0;
 };
 
 double squared(double x) { return x * x; }
 
 /// Cost of the agreement in size, or nothing when they disagree.
-std::optional<double> size_cost(const Event& a, const Event& b, const PairModel& model) {
+std::optional<double> size_cost(const Passage& a, const Passage& b, const PairingModel& model) {
   const double deviation =
       std::log(b.diameter / a.diameter) / model.diameter_sd.at(std::log(a.diameter));
   if (std::abs(deviation) > widest_agreement) return std::nullopt;
@@ -49,22 +50,22 @@ std::vector<Link> chosen_of(const std::vector<Link>& links, std::size_t passages
 
 /// Relative scatter of a passage with `speed`: that of the velocities, and that of the place in the
 /// probe volume where it is taken, which at low speed changes it by g dh / v^2.
-double local_scatter(double velocity_sd, double speed, double height, const PairModel& model) {
+double local_scatter(double velocity_sd, double speed, double height, const PairingModel& model) {
   const double place = height * model.height_sd.at(std::log(speed));
   return std::hypot(velocity_sd, std::min(standard_gravity * place / (speed * speed), 0.2));
 }
 
 /// Returns with the time above the plane multiplied by `scale`; nothing when it takes too long.
-std::optional<std::vector<Link>> returns_at(const std::vector<Event>& events,
-                                            const PairOptions& options, const PairModel& model,
-                                            double velocity_sd, double scale,
-                                            std::size_t stride = 1) {
+std::optional<std::vector<Link>> returns_at(const std::vector<Passage>& passages,
+                                            const PairingOptions& options,
+                                            const PairingModel& model, double velocity_sd,
+                                            double scale, std::size_t stride = 1) {
   const double height = options.height * std::exp(model.log_height);
   std::vector<Link> links;
-  SeriesEnds ends(events);
+  SeriesEnds ends(passages);
   std::size_t visits = 0;
-  for (std::size_t j = 0; j < events.size(); ++j) {
-    const Event& up = events[j];
+  for (std::size_t j = 0; j < passages.size(); ++j) {
+    const Passage& up = passages[j];
     const std::size_t end = ends.of(j);
     if (up.velocity >= 0.0 || j % stride != 0) continue;
     const double speed = -up.velocity;
@@ -72,12 +73,12 @@ std::optional<std::vector<Link>> returns_at(const std::vector<Event>& events,
     const double widest = std::min(std::max(options.velocity_tolerance, widest_agreement * sd),
                                    std::min(widest_agreement * sqrt2 * sd, 0.6));
     const double middle = scale * flight::time_above(speed);
-    const auto first = std::lower_bound(events.begin() + static_cast<std::ptrdiff_t>(j + 1),
-                                        events.begin() + static_cast<std::ptrdiff_t>(end),
-                                        up.time + middle * (1.0 - widest),
-                                        [](const Event& e, double time) { return e.time < time; });
-    for (auto k = static_cast<std::size_t>(first - events.begin()); k < end; ++k) {
-      const Event& down = events[k];
+    const auto first = std::lower_bound(
+        passages.begin() + static_cast<std::ptrdiff_t>(j + 1),
+        passages.begin() + static_cast<std::ptrdiff_t>(end), up.time + middle * (1.0 - widest),
+        [](const Passage& e, double time) { return e.time < time; });
+    for (auto k = static_cast<std::size_t>(first - passages.begin()); k < end; ++k) {
+      const Passage& down = passages[k];
       if (++visits > most_visits) return std::nullopt;
       if (down.time > up.time + middle * (1.0 + widest)) break;
       if (down.velocity <= 0.0) continue;
@@ -93,7 +94,7 @@ std::optional<std::vector<Link>> returns_at(const std::vector<Event>& events,
           {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(k), cost, lateness, ratio});
     }
   }
-  return chosen_of(links, events.size());
+  return chosen_of(links, passages.size());
 }
 
 std::vector<double> sorted_costs(const std::vector<Link>& links) {
@@ -155,52 +156,52 @@ double scatter_of(const std::vector<Link>& links, double otherwise) {
   return std::clamp(sd, 1e-3, otherwise);
 }
 
-double widest_scatter(const PairOptions& options) {
+double widest_scatter(const PairingOptions& options) {
   return options.velocity_tolerance / (widest_agreement / sqrt2);
 }
 
 }  // namespace
 
-double velocity_scatter(const Followers& returns, const PairOptions& options) {
+double velocity_scatter(const Followers& returns, const PairingOptions& options) {
   return scatter_of(returns.links, widest_scatter(options));
 }
 
-Followers find_returns(const std::vector<Event>& events, const PairOptions& options,
-                       const PairModel& model) {
+Followers find_returns(const std::vector<Passage>& passages, const PairingOptions& options,
+                       const PairingModel& model) {
   // The scatter of the velocities is the one with which most is gained, on a part of the stream.
   constexpr std::size_t enough = 20000;
-  const std::size_t stride = events.size() / enough + 1;
+  const std::size_t stride = passages.size() / enough + 1;
   double sd = widest_scatter(options);
   double most = 0.0;
   for (double trial = sd; trial > 2e-3; trial /= 1.35) {
     const double gain = judged([&](double scale) {
-                          return returns_at(events, options, model, trial, scale, stride);
+                          return returns_at(passages, options, model, trial, scale, stride);
                         }).gain;
     if (gain <= most) continue;
     most = gain;
     sd = trial;
   }
-  return judged([&](double scale) { return returns_at(events, options, model, sd, scale); })
+  return judged([&](double scale) { return returns_at(passages, options, model, sd, scale); })
       .followers;
 }
 
-Followers find_unseen(const std::vector<Event>& events, const PairOptions& options,
-                      const PairModel& model, const std::vector<bool>& open_down,
+Followers find_unseen(const std::vector<Passage>& passages, const PairingOptions& options,
+                      const PairingModel& model, const std::vector<bool>& open_down,
                       const std::vector<bool>& open_next, double velocity_sd) {
   const double height = options.height * std::exp(model.log_height);
   const auto search = [&](double scale) -> std::optional<std::vector<Link>> {
     std::vector<Link> links;
-    SeriesEnds ends(events);
+    SeriesEnds ends(passages);
     std::size_t visits = 0;
-    for (std::size_t i = 0; i < events.size(); ++i) {
+    for (std::size_t i = 0; i < passages.size(); ++i) {
       if (!open_down[i]) continue;
-      const Event& down = events[i];
+      const Passage& down = passages[i];
       const std::size_t end = ends.of(i);
       const double latest = down.time + flight::longest_round_trip(down.velocity, height) +
                             1.3 * scale * flight::time_above(down.velocity);
-      for (std::size_t k = i + 1; k < end && events[k].time <= latest; ++k) {
+      for (std::size_t k = i + 1; k < end && passages[k].time <= latest; ++k) {
         if (++visits > most_visits) return std::nullopt;
-        const Event& next = events[k];
+        const Passage& next = passages[k];
         if (!open_next[k] || next.velocity > down.velocity) continue;
         const double below = flight::round_trip(down.velocity, next.velocity, height);
         const double above = next.time - down.time - below;
@@ -215,7 +216,7 @@ Followers find_unseen(const std::vector<Event>& events, const PairOptions& optio
             {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), cost, lateness, 0.0});
       }
     }
-    return chosen_of(links, events.size());
+    return chosen_of(links, passages.size());
   };
   return judged(search).followers;
 }

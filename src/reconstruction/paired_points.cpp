@@ -5,16 +5,16 @@
 
 namespace recoil {
 
-EventTable recipe_events(const Recipe& recipe, int times) {
-  const EventFormat format = {
+PassageTable recipe_passages(const Recipe& recipe, int times) {
+  const PassageFormat format = {
       {{"time", "s"}, {"velocity", "m/s"}, {"tangential_velocity", "m/s"}, {"diameter", "um"}},
       {},
       false};
-  return parse_events(draw_passages(recipe, recipe.seed, times), "events.csv", "", format);
+  return parse_passages(draw_passages(recipe, recipe.seed, times), "events.csv", "", format);
 }
 
-PairOptions recipe_pairing(const Recipe& recipe) {
-  PairOptions options;
+PairingOptions recipe_pairing(const Recipe& recipe) {
+  PairingOptions options;
   options.height = recipe.pairing.value().height;
   options.angle = recipe.pairing.value().angle;
   return options;
@@ -28,9 +28,9 @@ AverageOptions recipe_averaging(const Recipe& recipe) {
 }
 
 PairedPoints pair_passages(const Recipe& recipe) {
-  const EventTable table = recipe_events(recipe);
-  const PairResult pairs = pair_events(table.events, recipe_pairing(recipe));
-  const Averages averages = average(table.events, table.series, pairs, recipe_averaging(recipe));
+  const PassageTable table = recipe_passages(recipe);
+  const PairingResult pairs = pair_passages(table.passages, recipe_pairing(recipe));
+  const Averages averages = average(table.passages, table.series, pairs, recipe_averaging(recipe));
   PairedPoints made;
   made.csv = points_csv(averages);
   for (const PointMean& point : averages.points) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "experiment/averages.hpp"
-#include "experiment/events.hpp"
 #include "experiment/pairing.hpp"
+#include "experiment/passages.hpp"
 #include "reconstruction/facts.hpp"
 #include "reconstruction/recipe.hpp"
 
@@ -15,11 +15,11 @@ namespace recoil {
 
 /// What `recoil reconstruct --passages` writes for `recipe`, read as `recoil pair` reads it.
 /// @param times with so many times as many spheres.
-EventTable recipe_events(const Recipe& recipe, int times = 1);
+PassageTable recipe_passages(const Recipe& recipe, int times = 1);
 
 /// The options of `recoil pair` that the recipe's table [pairing] stands for.
 /// @pre recipe.pairing
-PairOptions recipe_pairing(const Recipe& recipe);
+PairingOptions recipe_pairing(const Recipe& recipe);
 AverageOptions recipe_averaging(const Recipe& recipe);
 
 struct PairedPoints {

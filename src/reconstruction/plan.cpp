@@ -13,7 +13,7 @@ namespace {
 double square(double x) { return x * x; }
 
 /// Variance of one observed event about a true restitution `e`.
-double event_variance(const EventNoise& noise, double e) {
+double event_variance(const ImpactNoise& noise, double e) {
   return square(noise.relative * e) + square(noise.floor);
 }
 
@@ -53,7 +53,7 @@ double rounded(double value, int decimals) {
 }
 
 double draw_mean(const Recipe& recipe, const PlannedPoint& point, RandomStream& stream) {
-  const EventNoise& noise = recipe.noise;
+  const ImpactNoise& noise = recipe.noise;
   double sum = 0.0;
   for (int event = 0; event < noise.events; ++event) {
     double e = point.restitution;

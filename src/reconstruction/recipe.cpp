@@ -77,8 +77,8 @@ Truth read_truth(TomlTable table, const Recipe& recipe) {
   return truth;
 }
 
-EventNoise read_noise(TomlTable table) {
-  EventNoise noise;
+ImpactNoise read_noise(TomlTable table) {
+  ImpactNoise noise;
   noise.relative = table.not_negative("relative");
   noise.floor = table.not_negative("floor");
   noise.events = static_cast<int>(table.whole("events", 1));

@@ -21,7 +21,7 @@ struct RecipeSeries {
 };
 
 /// What one observed impact adds to the truth, and how many make a point.
-struct EventNoise {
+struct ImpactNoise {
   double relative = 0.0;  ///< standard deviation of one event's e, as a part of e [1]
   double floor = 0.0;     ///< a constant one, added in quadrature [1]
   int events = 0;         ///< events that rebounded, per point
@@ -92,7 +92,7 @@ struct Recipe {
   Material surface;
   Truth truth;
   std::vector<RecipeSeries> series;
-  EventNoise noise;
+  ImpactNoise noise;
   std::optional<SizeDistribution> sizes;
   std::optional<PassageDesign> passages;
   std::optional<PairingDesign> pairing;  ///< points come from the passages; else means are drawn

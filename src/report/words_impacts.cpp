@@ -45,14 +45,14 @@ double percent(double part, double whole) { return whole > 0.0 ? 100.0 * part / 
 
 double as_number(std::size_t n) { return static_cast<double>(n); }
 
-std::string rows_text(const EventTable& table) {
+std::string rows_text(const PassageTable& table) {
   std::vector<std::string> units;
   for (const FieldUnit& field : table.units) {
     units.push_back(fmt::format("{} [{}]", field.field, field.unit));
   }
   std::string out =
-      line("events", fmt::format("{}: {} passages in {} rows; {}", table.file, table.events.size(),
-                                 table.rows, fmt::join(units, ", ")));
+      line("events", fmt::format("{}: {} passages in {} rows; {}", table.file,
+                                 table.passages.size(), table.rows, fmt::join(units, ", ")));
   if (table.damaged > 0) {
     std::string first;
     for (const BadRow& row : table.first_damaged) {
@@ -81,7 +81,7 @@ std::string rows_text(const EventTable& table) {
   return out;
 }
 
-std::string plane_text(const PairResult& pairs) {
+std::string plane_text(const PairingResult& pairs) {
   std::string out;
   if (pairs.refined) {
     out = line("plane",
@@ -101,7 +101,7 @@ std::string plane_text(const PairResult& pairs) {
   return out;
 }
 
-std::string pairs_text(const PairResult& pairs) {
+std::string pairs_text(const PairingResult& pairs) {
   std::string out = line(
       "passages", fmt::format("{} towards the surface, {} away from it", pairs.down, pairs.up));
   out += plane_text(pairs);
@@ -135,7 +135,7 @@ struct Selected {
 };
 
 template <class Rule>
-Selected selected(const PairResult& pairs, const Rule& rule) {
+Selected selected(const PairingResult& pairs, const Rule& rule) {
   Selected result;
   for (const Impact& impact : pairs.impacts) {
     if (!rule(impact)) continue;
@@ -150,10 +150,10 @@ Selected selected(const PairResult& pairs, const Rule& rule) {
 }
 
 /// What the threshold took away, and what that does to the means.
-std::string threshold_text(const EventTable& table, const PairResult& pairs) {
+std::string threshold_text(const PassageTable& table, const PairingResult& pairs) {
   if (!pairs.options.threshold) return "";
   const double threshold = *pairs.options.threshold;
-  const auto below = [&](const Impact& i) { return table.events[i.down].velocity < threshold; };
+  const auto below = [&](const Impact& i) { return table.passages[i.down].velocity < threshold; };
   const Selected first = selected(pairs, [](const Impact& i) { return i.number == 1; });
   const Selected later = selected(pairs, [](const Impact& i) { return i.number > 1; });
   const Selected first_out =
@@ -182,7 +182,7 @@ std::string threshold_text(const EventTable& table, const PairResult& pairs) {
   return out;
 }
 
-std::string angle_text(const EventTable& table, const PairResult& pairs) {
+std::string angle_text(const PassageTable& table, const PairingResult& pairs) {
   if (!pairs.options.angle) return "";
   if (!table.has_tangential) {
     return line("angle", "not applied: the file has no tangential_velocity");
@@ -195,7 +195,7 @@ std::string angle_text(const EventTable& table, const PairResult& pairs) {
                           outside.number, *pairs.options.angle / degree));
 }
 
-std::string unpaired_text(const PairResult& pairs, const Averages& averages) {
+std::string unpaired_text(const PairingResult& pairs, const Averages& averages) {
   std::string out =
       line("unpaired",
            fmt::format("{} used passages towards the surface have no rebound:", averages.unpaired));
@@ -261,7 +261,8 @@ std::string points_text(const Averages& averages) {
 
 }  // namespace
 
-std::string describe(const EventTable& table, const PairResult& pairs, const Averages& averages) {
+std::string describe(const PassageTable& table, const PairingResult& pairs,
+                     const Averages& averages) {
   return rows_text(table) + pairs_text(pairs) + threshold_text(table, pairs) +
          angle_text(table, pairs) + unpaired_text(pairs, averages) + points_text(averages);
 }

@@ -3,12 +3,13 @@
 #include <string>
 
 #include "experiment/averages.hpp"
-#include "experiment/events.hpp"
 #include "experiment/pairing.hpp"
+#include "experiment/passages.hpp"
 
 namespace recoil {
 
 /// The text that `recoil pair` prints.
-std::string describe(const EventTable& table, const PairResult& pairs, const Averages& averages);
+std::string describe(const PassageTable& table, const PairingResult& pairs,
+                     const Averages& averages);
 
 }  // namespace recoil

@@ -17,24 +17,24 @@ bool leaves_out(Correction row, Correction correction) {
   return row == correction || row == Correction::all_left_out;
 }
 
-Averages averages_without(Correction left_out, const EventTable& table, PairOptions pairing,
+Averages averages_without(Correction left_out, const PassageTable& table, PairingOptions pairing,
                           const AverageOptions& averaging) {
   pairing.keep_later = leaves_out(left_out, Correction::second_impacts);
-  PairResult pairs = pair_events(table.events, pairing);
+  PairingResult pairs = pair_passages(table.passages, pairing);
   if (leaves_out(left_out, Correction::probe_plane)) {
     for (Impact& impact : pairs.impacts) {
-      impact.incident = table.events[impact.down].velocity;
-      impact.rebound = -table.events[impact.up].velocity;
+      impact.incident = table.passages[impact.down].velocity;
+      impact.rebound = -table.passages[impact.up].velocity;
       impact.restitution = impact.rebound / impact.incident;
     }
-    for (Unpaired& lone : pairs.unpaired) lone.incident = table.events[lone.down].velocity;
+    for (Unpaired& lone : pairs.unpaired) lone.incident = table.passages[lone.down].velocity;
   }
-  return average(table.events, table.series, pairs, averaging);
+  return average(table.passages, table.series, pairs, averaging);
 }
 
 /// Mean of e - truth over the rebounds of the points that `chosen` takes.
 template <class Chosen>
-std::optional<double> mean_error(const KnownEvents& events, const Averages& averages,
+std::optional<double> mean_error(const KnownPassages& events, const Averages& averages,
                                  const Chosen& chosen) {
   double sum = 0.0;
   double rebounds = 0.0;
@@ -48,7 +48,7 @@ std::optional<double> mean_error(const KnownEvents& events, const Averages& aver
   return sum / rebounds;
 }
 
-std::vector<std::optional<double>> errors_by_velocity(const KnownEvents& events,
+std::vector<std::optional<double>> errors_by_velocity(const KnownPassages& events,
                                                       const Averages& averages) {
   const auto nearest = [&](double velocity) {
     const auto distance = [&](double v) { return std::abs(std::log(v / velocity)); };
@@ -62,7 +62,7 @@ std::vector<std::optional<double>> errors_by_velocity(const KnownEvents& events,
   return errors;
 }
 
-void fit_points(const FitSpec& spec, const Dataset& like, const KnownEvents& events,
+void fit_points(const FitSpec& spec, const Dataset& like, const KnownPassages& events,
                 const Averages& averages, CorrectionRow& row) {
   const Dataset dataset = parse_dataset(
       package_json(like.folder, like.id, like.provenance, events.table.file, "a study"),
@@ -83,11 +83,11 @@ void fit_points(const FitSpec& spec, const Dataset& like, const KnownEvents& eve
 }  // namespace
 
 CorrectionStudy study_corrections(const FitSpec& spec, const Dataset& like,
-                                  const KnownEvents& events, const PairOptions& pairing,
+                                  const KnownPassages& events, const PairingOptions& pairing,
                                   const AverageOptions& averaging,
                                   std::span<const Correction> ways) {
   CorrectionStudy study;
-  study.passages = events.table.events.size();
+  study.passages = events.table.passages.size();
   study.rebounds_per_velocity = events.rebounds_per_velocity;
   study.size_classes =
       averaging.size_edges.size() > 2 ? averaging.size_edges.size() - 1 : averaging.size_classes;
@@ -116,10 +116,10 @@ CorrectionStudy study_corrections(const FitSpec& spec, const Dataset& like,
   return study;
 }
 
-KnownEvents known_events(const Recipe& recipe, int times) {
+KnownPassages known_passages(const Recipe& recipe, int times) {
   const std::map<std::string, double> truth = true_parameters(recipe);
-  KnownEvents known;
-  known.table = recipe_events(recipe, times);
+  KnownPassages known;
+  known.table = recipe_passages(recipe, times);
   known.rebounds_per_velocity = static_cast<double>(times) * recipe.noise.events;
   known.velocities = recipe.series.front().velocities;
   known.diameter = recipe.series.front().diameter;
@@ -136,16 +136,16 @@ std::vector<CorrectionStudy> study_recipe(const FitSpec& spec, const Recipe& rec
                                           const Dataset& like, int many_times,
                                           std::size_t many_classes) {
   if (!recipe.pairing || true_parameters(recipe).empty()) return {};
-  const PairOptions pairing = recipe_pairing(recipe);
+  const PairingOptions pairing = recipe_pairing(recipe);
   AverageOptions averaging = recipe_averaging(recipe);
   std::vector<CorrectionStudy> studies;
-  studies.push_back(study_corrections(spec, like, known_events(recipe, 1), pairing, averaging));
+  studies.push_back(study_corrections(spec, like, known_passages(recipe, 1), pairing, averaging));
   averaging.per_bin *= static_cast<std::size_t>(many_times);
   averaging.per_bin /= many_classes;
   averaging.size_classes = many_classes;
   averaging.mean_diameter = false;
   studies.push_back(
-      study_corrections(spec, like, known_events(recipe, many_times), pairing, averaging));
+      study_corrections(spec, like, known_passages(recipe, many_times), pairing, averaging));
   return studies;
 }
 

@@ -9,8 +9,8 @@
 #include "estimate/fit_spec.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/correction_study.hpp"
-#include "experiment/events.hpp"
 #include "experiment/pairing.hpp"
+#include "experiment/passages.hpp"
 #include "reconstruction/recipe.hpp"
 
 namespace recoil {
@@ -19,8 +19,8 @@ namespace recoil {
 inline constexpr std::array all_ways = values_of<Correction>();
 
 /// Events of which the truth is known, because they were simulated.
-struct KnownEvents {
-  EventTable table;
+struct KnownPassages {
+  PassageTable table;
   double rebounds_per_velocity = 0.0;  ///< as many spheres are seen to rebound per velocity
   std::vector<double> velocities;      ///< of the design [m/s], ascending
   double diameter = 0.0;               ///< the mean one, d10 [m]
@@ -36,13 +36,13 @@ struct KnownEvents {
 /// @param like the dataset whose materials the points get.
 /// @param ways the rows that are wanted.
 CorrectionStudy study_corrections(const FitSpec& spec, const Dataset& like,
-                                  const KnownEvents& events, const PairOptions& pairing,
+                                  const KnownPassages& events, const PairingOptions& pairing,
                                   const AverageOptions& averaging,
                                   std::span<const Correction> ways = all_ways);
 
 /// The events of a recipe whose truth is the model of a fit, with that truth.
 /// @pre true_parameters(recipe) is not empty
-KnownEvents known_events(const Recipe& recipe, int times);
+KnownPassages known_passages(const Recipe& recipe, int times);
 
 /// What each correction of the pairing does: to the points of the recipe themselves, and, where
 /// chance is smaller and sizes do not mix, to `many_times` as many spheres in `many_classes` size

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "report/words_dataset.hpp"
+
 namespace recoil {
 namespace {
 

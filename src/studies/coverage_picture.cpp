@@ -7,7 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "report/format.hpp"
+#include "document/number.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {
@@ -151,29 +152,29 @@ const std::array<DesignColumn, 5> design_columns = {{
     {"captures", 62.0, [](const GridDesign& d) { return std::string(d.captures ? "with" : "–"); }},
 }};
 
-void add_cells(Sheet& sheet, const Group& group, const CoverageRow& row, int usable, double level,
+void add_cells(Sheet& sheet, const Group& group, const ParameterCoverage& row, double level,
                double y) {
   double x = group.x;
   const double middle = y + cell_height / 2.0;
-  const double share = usable > 0 ? static_cast<double>(row.identifiable) / usable : 0.0;
-  const bool warned = group.judged && share <= warned_at_most;
+  const bool warned = group.judged && row.share_identifiable() <= warned_at_most;
   if (group.judged) {
-    sheet.say(x + cell_width / 2.0, middle, fmt::format("{:.0f}", 100.0 * share), plot::grey)
+    sheet
+        .say(x + cell_width / 2.0, middle, fmt::format("{:.0f}", 100.0 * row.share_identifiable()),
+             plot::grey)
         .align = plot::Align::centre;
     x += cell_width;
   }
   for (const std::string& kind : group.kinds) {
-    const auto cell = std::find_if(row.cells.begin(), row.cells.end(),
-                                   [&](const CoverageCell& c) { return c.interval == kind; });
-    if (cell != row.cells.end() && cell->offered > 0) {
-      const double held = static_cast<double>(cell->held) / cell->offered;
+    const IntervalCoverage* at = row.find(kind);
+    const std::optional<double> share = at == nullptr ? std::nullopt : at->share();
+    if (share) {
       const double strength = warned ? pale : 1.0;
-      const Colour& end = held < level ? orange : blue;
-      const std::string_view ink = warned                       ? "#9a9a9a"
-                                   : white_letters(held, level) ? "#ffffff"
-                                                                : plot::ink;
-      sheet.cell(x, y, cell_width, mixed(end, strength * depth(held, level)),
-                 fmt::format("{:.1f}", 100.0 * held), ink);
+      const Colour& end = *share < level ? orange : blue;
+      const std::string_view ink = warned                         ? "#9a9a9a"
+                                   : white_letters(*share, level) ? "#ffffff"
+                                                                  : plot::ink;
+      sheet.cell(x, y, cell_width, mixed(end, strength * depth(*share, level)),
+                 fmt::format("{:.1f}", 100.0 * *share), ink);
       std::get<plot::Words>(sheet.words.back()).bold = kind == "recommended";
     }
     x += cell_width;
@@ -215,10 +216,10 @@ void add_legend(Sheet& sheet, double y, double level, const std::string& remark)
   sheet.say(margin, middle, "coverage:", soft);
   double x = margin + 66.0;
   for (const double off : {-0.15, -0.10, -0.06, -0.03, 0.0, 0.03, 1.0}) {
-    const double held = std::min(level + off, 1.0);
-    sheet.cell(x, y, cell_width + 6.0, coverage_colour(held, level),
-               fmt::format("{}{:.0f}", off == -0.15 ? "≤ " : "", 100.0 * held),
-               white_letters(held, level) ? std::string_view("#ffffff") : plot::ink);
+    const double share = std::min(level + off, 1.0);
+    sheet.cell(x, y, cell_width + 6.0, coverage_colour(share, level),
+               fmt::format("{}{:.0f}", off == -0.15 ? "≤ " : "", 100.0 * share),
+               white_letters(share, level) ? std::string_view("#ffffff") : plot::ink);
     x += cell_width + 6.0;
   }
   sheet.say(margin, middle + line_height,
@@ -234,9 +235,7 @@ std::string coverage_colour(double share, double level) {
   return mixed(share < level ? orange : blue, depth(share, level));
 }
 
-plot::Picture coverage_picture(const std::vector<GridResult>& results, const FitSpec& spec,
-                               const CoverageOptions& options, const std::string& remark) {
-  const double level = options.uncertainty.level;
+plot::Picture coverage_picture(const CoverageStudy& study) {
   const std::string title = fmt::format(
       "Coverage of {} intervals by kind of data, {}: {} data sets per design, {} bootstrap "
       "replicates each",
@@ -246,9 +245,9 @@ plot::Picture coverage_picture(const std::vector<GridResult>& results, const Fit
                           fmt::format("{}: {}", source.id, provenance_sentence(source.provenance)));
 }
 
-plot::Picture coverage_picture(const std::vector<GridResult>& results, double level,
+plot::Picture coverage_picture(const std::vector<ParameterCoverage>& rows, double level,
                                const std::string& title, const std::string& remark) {
-  std::vector<Group> groups = groups_of(results);
+  std::vector<Group> groups = groups_of(rows);
   double x = margin;
   for (const DesignColumn& column : design_columns) x += column.width;
   for (Group& group : groups) {
@@ -269,8 +268,8 @@ plot::Picture coverage_picture(const std::vector<GridResult>& results, double le
   Sheet sheet;
   sheet.say(margin, 16.0, title).size = 14.0;
   add_heads(sheet, groups);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const GridResult& result = results[i];
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    const GridDesign& design = designs[i];
     const double y = head_height + cell_height * static_cast<double>(i);
     const bool new_size = i == 0 || designs[i - 1].points != design.points;
     const bool new_noise = new_size || designs[i - 1].noise != design.noise;
@@ -282,13 +281,13 @@ plot::Picture coverage_picture(const std::vector<GridResult>& results, double le
     }
     double at = margin;
     for (const DesignColumn& column : design_columns) {
-      sheet.say(at, y + cell_height / 2.0, column.words(result.design));
+      sheet.say(at, y + cell_height / 2.0, column.words(design));
       at += column.width;
     }
     for (const Group& group : groups) {
-      for (const CoverageRow& row : result.coverage.rows) {
-        if (family(row.parameter) == group.parameter) {
-          add_cells(sheet, group, row, usable, level, y);
+      for (const ParameterCoverage& row : rows) {
+        if (row.design == design.name() && family(row.parameter) == group.parameter) {
+          add_cells(sheet, group, row, level, y);
         }
       }
     }

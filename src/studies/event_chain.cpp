@@ -28,7 +28,7 @@ struct Reconstruction {
     averaging.per_bin = averaging.per_bin * static_cast<std::size_t>(times) / classes;
     averaging.size_classes = classes;
     averaging.mean_diameter = classes == 1;
-    return study_corrections(spec, dataset, known_events(recipe, times), recipe_pairing(recipe),
+    return study_corrections(spec, dataset, known_passages(recipe, times), recipe_pairing(recipe),
                              averaging, ways);
   }
 

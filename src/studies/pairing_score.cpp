@@ -15,8 +15,8 @@ double Score::efficiency() const { return share(found, possible); }
 double Score::purity() const { return share(right, reported); }
 double Score::first_purity() const { return share(right_first, reported); }
 
-Score score(const Stream& stream, const recoil::EventTable& table,
-            const recoil::PairResult& result) {
+Score score(const Stream& stream, const recoil::PassageTable& table,
+            const recoil::PairingResult& result) {
   Score score;
   std::vector<std::pair<bool, bool>> both;
   for (const Row& row : stream.rows) {
@@ -28,8 +28,8 @@ Score score(const Stream& stream, const recoil::EventTable& table,
   for (const recoil::Impact& impact : result.impacts) {
     if (!impact.used) continue;
     ++score.reported;
-    const Row& down = stream.rows[static_cast<std::size_t>(table.events[impact.down].line)];
-    const Row& up = stream.rows[static_cast<std::size_t>(table.events[impact.up].line)];
+    const Row& down = stream.rows[static_cast<std::size_t>(table.passages[impact.down].line)];
+    const Row& up = stream.rows[static_cast<std::size_t>(table.passages[impact.up].line)];
     if (down.sphere != up.sphere || down.impact != up.impact) continue;
     ++score.right;
     if (down.impact != 1) continue;
@@ -39,11 +39,11 @@ Score score(const Stream& stream, const recoil::EventTable& table,
   return score;
 }
 
-recoil::EventTable read(const Stream& stream) {
-  recoil::EventFormat format;
+recoil::PassageTable read(const Stream& stream) {
+  recoil::PassageFormat format;
   format.units = {
       {"time", "s"}, {"velocity", "m/s"}, {"tangential_velocity", "m/s"}, {"diameter", "um"}};
-  return recoil::parse_events(stream.csv, "events.csv", "", format);
+  return recoil::parse_passages(stream.csv, "events.csv", "", format);
 }
 
 }  // namespace stream

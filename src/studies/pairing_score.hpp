@@ -1,7 +1,7 @@
 #pragma once
 
-#include "experiment/events.hpp"
 #include "experiment/pairing.hpp"
+#include "experiment/passages.hpp"
 #include "studies/synthetic/event_stream.hpp"
 
 namespace stream {
@@ -18,10 +18,10 @@ struct Score {
   double first_purity() const;  ///< right_first / reported
 };
 
-Score score(const Stream& stream, const recoil::EventTable& table,
-            const recoil::PairResult& result);
+Score score(const Stream& stream, const recoil::PassageTable& table,
+            const recoil::PairingResult& result);
 
 /// The events of the stream as `recoil pair` reads them.
-recoil::EventTable read(const Stream& stream);
+recoil::PassageTable read(const Stream& stream);
 
 }  // namespace stream

@@ -27,18 +27,18 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 PairingRow row_of(PairingTable table, const std::string& label, const stream::Design& design,
-                  const PairOptions& options = {}) {
+                  const PairingOptions& options = {}) {
   const stream::Stream events = stream::simulate(design);
   const auto start = std::chrono::steady_clock::now();
-  const EventTable read = stream::read(events);
-  const PairResult result = pair_events(read.events, options);
+  const PassageTable read = stream::read(events);
+  const PairingResult result = pair_passages(read.passages, options);
   const double seconds = seconds_since(start);
   const stream::Score score = stream::score(events, read, result);
   PairingRow row;
   row.table = table;
   row.label = label;
   row.rate = design.rate;
-  row.events = read.events.size();
+  row.events = read.passages.size();
   row.possible = score.possible;
   row.reported = score.reported;
   row.efficiency = score.efficiency();
@@ -77,7 +77,7 @@ void add_worse_instruments(PairingStudy& study) {
     stream::Design design = usual_design();
     design.rate = rate;
     const auto add = [&](const std::string& what, const stream::Design& changed,
-                         const PairOptions& options = {}) {
+                         const PairingOptions& options = {}) {
       study.rows.push_back(row_of(PairingTable::instruments, what + fmt::format(", {:g}/s", rate),
                                   changed, options));
     };
@@ -99,7 +99,7 @@ void add_worse_instruments(PairingStudy& study) {
     stream::Design falling = design;
     falling.return_time = 1.0;
     add("most rebounds come back", falling);
-    PairOptions far;
+    PairingOptions far;
     far.height = 1.5e-3;
     add("first estimate 1.5 mm", design, far);
   }

@@ -17,8 +17,8 @@ namespace {
 using namespace recoil;
 
 struct Made {
-  std::vector<Event> events;
-  PairResult pairs;
+  std::vector<Passage> events;
+  PairingResult pairs;
 
   Made() {
     pairs.height = 1e-3;
@@ -191,13 +191,13 @@ struct Sorted {
   Averages averages;
 };
 
-Sorted sorted(const stream::Design& design, const PairOptions& options = {}) {
+Sorted sorted(const stream::Design& design, const PairingOptions& options = {}) {
   const stream::Stream events = stream::simulate(design);
-  const EventTable table = stream::read(events);
+  const PassageTable table = stream::read(events);
   AverageOptions by_size;
   by_size.size_classes = 4;
   return {truth_of(events),
-          average(table.events, table.series, pair_events(table.events, options), by_size)};
+          average(table.passages, table.series, pair_passages(table.passages, options), by_size)};
 }
 
 TEST(Averages, FatesAgreeWithTheTruth) {
@@ -223,7 +223,7 @@ TEST(Averages, ReboundsThatAreMissedMoreOftenNeedTheStatedShare) {
       << "if the assumption did no harm, the option would not be needed";
   // The share among the fastest says so, and with it the count is right.
   EXPECT_NEAR(assumed.averages.fast_unpaired, 1.0 - 0.97 * 0.8, 0.03);
-  PairOptions options;
+  PairingOptions options;
   options.lost_share = assumed.averages.fast_unpaired;
   const Sorted stated = sorted(design, options);
   EXPECT_NEAR(static_cast<double>(stated.averages.captured), all, 0.25 * all);

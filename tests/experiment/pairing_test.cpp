@@ -16,15 +16,15 @@ namespace {
 using namespace recoil;
 
 /// One sphere by hand: down at 1 m/s, up at 0.5 m/s, from a plane 1 mm above the surface.
-std::vector<Event> one_impact(double diameter_up = 49e-6) {
+std::vector<Passage> one_impact(double diameter_up = 49e-6) {
   // sqrt(1 + 0.0196133) - 1 = 0.00975902, sqrt(0.25 + 0.0196133) - 0.5 = 0.01924300; by g.
   const double time = (0.009759022 + 0.019243002) / 9.80665;
   return {{1.0, 1.0, 0.0, 49e-6, 0, 2}, {1.0 + time, -0.5, 0.0, diameter_up, 0, 3}};
 }
 
 TEST(Pairing, OneImpactByHand) {
-  PairOptions options;
-  const PairResult result = pair_events(one_impact(), options);
+  PairingOptions options;
+  const PairingResult result = pair_passages(one_impact(), options);
   ASSERT_EQ(result.impacts.size(), 1U);
   EXPECT_FALSE(result.refined);
   EXPECT_DOUBLE_EQ(result.height, 1e-3);
@@ -37,74 +37,74 @@ TEST(Pairing, OneImpactByHand) {
 }
 
 TEST(Pairing, AnotherSizeIsNoPartner) {
-  const PairResult result = pair_events(one_impact(65e-6), {});
+  const PairingResult result = pair_passages(one_impact(65e-6), {});
   EXPECT_TRUE(result.impacts.empty());
   EXPECT_EQ(result.unpaired.size(), 1U);
   EXPECT_EQ(result.orphans, 1U);
 }
 
 TEST(Pairing, AnotherTimeOrAnotherRunIsNoPartner) {
-  std::vector<Event> late = one_impact();
+  std::vector<Passage> late = one_impact();
   late[1].time += 0.002;
-  EXPECT_TRUE(pair_events(late, {}).impacts.empty());
-  std::vector<Event> elsewhere = one_impact();
+  EXPECT_TRUE(pair_passages(late, {}).impacts.empty());
+  std::vector<Passage> elsewhere = one_impact();
   elsewhere[1].series = 1;
-  EXPECT_TRUE(pair_events(elsewhere, {}).impacts.empty());
+  EXPECT_TRUE(pair_passages(elsewhere, {}).impacts.empty());
 }
 
 TEST(Pairing, FasterThanItCameIsNoPartner) {
-  std::vector<Event> events = one_impact();
+  std::vector<Passage> events = one_impact();
   events[0].velocity = 0.5;
   events[1].velocity = -1.0;
-  EXPECT_TRUE(pair_events(events, {}).impacts.empty());
+  EXPECT_TRUE(pair_passages(events, {}).impacts.empty());
 }
 
 TEST(Pairing, AReturnIsASecondImpact) {
-  std::vector<Event> events = one_impact();
+  std::vector<Passage> events = one_impact();
   const double back = events[1].time + 2.0 * 0.5 / 9.80665;
   events.push_back({back, 0.5, 0.0, 49e-6, 0, 4});
   const double time = (0.019243002 + 0.032160340) / 9.80665;  // up at 0.289 m/s
   events.push_back({back + time, -0.288764, 0.0, 49e-6, 0, 5});
-  PairResult result = pair_events(events, {});
+  PairingResult result = pair_passages(events, {});
   ASSERT_EQ(result.impacts.size(), 2U);
   EXPECT_TRUE(result.impacts[0].used);
   EXPECT_EQ(result.impacts[1].number, 2);
   EXPECT_FALSE(result.impacts[1].used);
-  PairOptions all;
+  PairingOptions all;
   all.keep_later = true;
-  EXPECT_TRUE(pair_events(events, all).impacts[1].used);
+  EXPECT_TRUE(pair_passages(events, all).impacts[1].used);
 }
 
 TEST(Pairing, NothingIsNoError) {
-  EXPECT_TRUE(pair_events({}, {}).impacts.empty());
-  EXPECT_EQ(pair_events({{1.0, 1.0, 0.0, 49e-6, 0, 2}}, {}).unpaired.size(), 1U);
+  EXPECT_TRUE(pair_passages({}, {}).impacts.empty());
+  EXPECT_EQ(pair_passages({{1.0, 1.0, 0.0, 49e-6, 0, 2}}, {}).unpaired.size(), 1U);
 }
 
 TEST(Pairing, ThresholdAndAngleSelect) {
-  std::vector<Event> events = one_impact();
+  std::vector<Passage> events = one_impact();
   events[1].tangential = 0.1;  // atan(0.1 / 0.5192) = 10.9 degrees
-  PairOptions options;
-  EXPECT_NEAR(pair_events(events, options).impacts[0].angle, std::atan(0.1 / 0.519243), 1e-6);
+  PairingOptions options;
+  EXPECT_NEAR(pair_passages(events, options).impacts[0].angle, std::atan(0.1 / 0.519243), 1e-6);
   options.angle = 8.0 * M_PI / 180.0;
-  EXPECT_FALSE(pair_events(events, options).impacts[0].used);
+  EXPECT_FALSE(pair_passages(events, options).impacts[0].used);
   options.angle = 12.0 * M_PI / 180.0;
-  EXPECT_TRUE(pair_events(events, options).impacts[0].used);
+  EXPECT_TRUE(pair_passages(events, options).impacts[0].used);
   options.threshold = 1.001;
-  EXPECT_FALSE(pair_events(events, options).impacts[0].used);
+  EXPECT_FALSE(pair_passages(events, options).impacts[0].used);
 }
 
 struct Paired {
   stream::Stream stream;
-  EventTable table;
-  PairResult result;
+  PassageTable table;
+  PairingResult result;
   stream::Score score;
 };
 
-Paired run(const stream::Design& design, const PairOptions& options = {}) {
+Paired run(const stream::Design& design, const PairingOptions& options = {}) {
   Paired done;
   done.stream = stream::simulate(design);
   done.table = stream::read(done.stream);
-  done.result = pair_events(done.table.events, options);
+  done.result = pair_passages(done.table.passages, options);
   done.score = stream::score(done.stream, done.table, done.result);
   return done;
 }
@@ -154,9 +154,9 @@ TEST(PairingOfStreams, HeightIsRefinedWithinItsError) {
       stream::Design design;
       design.spheres = 800;
       design.seed = seed;
-      PairOptions options;
+      PairingOptions options;
       options.height = estimate;
-      const PairResult result = run(design, options).result;
+      const PairingResult result = run(design, options).result;
       ASSERT_TRUE(result.refined);
       const double pull = (result.height - design.probe_height) / result.height_sd;
       EXPECT_LT(std::abs(pull), 4.5) << estimate << " " << seed;
@@ -174,7 +174,7 @@ TEST(PairingOfStreams, RestitutionsAreThoseOfTheSpheres) {
   design.spheres = 500;
   design.velocity_sd = design.volume_sd = design.diameter_noise = design.restitution_sd = 0.0;
   design.damaged = design.duplicated = 0.0;
-  PairOptions options;
+  PairingOptions options;
   options.height = design.probe_height;
   options.refine = false;
   const Paired exact = run(design, options);
@@ -195,7 +195,7 @@ TEST(PairingOfStreams, SecondImpactsAreKeptOutOrAnalysed) {
   design.return_time = 1.0;  // most come back
   const Paired kept_out = run(design);
   EXPECT_GE(kept_out.score.first_purity(), 0.99);
-  PairOptions options;
+  PairingOptions options;
   options.keep_later = true;
   const Paired analysed = run(design, options);
   EXPECT_GT(analysed.score.reported, 2 * kept_out.score.reported);
@@ -225,8 +225,8 @@ TEST(PairingOfStreams, OrderOfTheRowsDoesNotMatter) {
   for (auto it = lines.rbegin(); it != lines.rend(); ++it) reversed += *it;
   stream::Stream other = straight.stream;
   other.csv = reversed;
-  const EventTable table = stream::read(other);
-  const PairResult result = pair_events(table.events, {});
+  const PassageTable table = stream::read(other);
+  const PairingResult result = pair_passages(table.passages, {});
   ASSERT_EQ(result.impacts.size(), straight.result.impacts.size());
   EXPECT_EQ(result.height, straight.result.height);
   for (std::size_t i = 0; i < result.impacts.size(); ++i) {
@@ -246,12 +246,12 @@ TEST(PairingOfStreams, CountsOfTheFile) {
 }
 
 TEST(PairingOfStreams, TooCrowdedIsAnAnswer) {
-  std::vector<Event> events;
+  std::vector<Passage> events;
   for (int i = 0; i < 4000; ++i) {
     events.push_back({i * 1e-6, i % 2 == 0 ? 1.0 : -0.01, 0.0, 49e-6, 0, i});
   }
   for (int i = 0; i < 40000; ++i) events.push_back({0.012 + i * 1e-7, -0.02, 0.0, 49e-6, 0, i});
-  EXPECT_THROW(pair_events(events, {}), ComputationError);
+  EXPECT_THROW(pair_passages(events, {}), ComputationError);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // What an instrument recorded, on arbitrary texts: every file is refused with one clear line or
 // paired soundly, and the points are such as a dataset may hold. An input is the package beside the
 // events (or nothing) and the events, divided by a line "====".
-#include "experiment/events.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,21 +11,23 @@
 #include "experiment/averages.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
+#include "experiment/passages.hpp"
 
 namespace {
 
-const recoil::EventFormat kUnits = {
+const recoil::PassageFormat kUnits = {
     {{"time", "s"}, {"velocity", "m/s"}, {"tangential_velocity", "m/s"}, {"diameter", "um"}},
     {},
     false};
 
-void require_sound(const recoil::EventTable& table) {
-  fuzz::require(table.events.size() + table.damaged + table.duplicated == table.rows, "every row");
-  const auto earlier = [](const recoil::Event& a, const recoil::Event& b) {
+void require_sound(const recoil::PassageTable& table) {
+  fuzz::require(table.passages.size() + table.damaged + table.duplicated == table.rows,
+                "every row");
+  const auto earlier = [](const recoil::Passage& a, const recoil::Passage& b) {
     return a.series != b.series ? a.series < b.series : a.time < b.time;
   };
-  fuzz::require(std::is_sorted(table.events.begin(), table.events.end(), earlier), "order");
-  for (const recoil::Event& event : table.events) {
+  fuzz::require(std::is_sorted(table.passages.begin(), table.passages.end(), earlier), "order");
+  for (const recoil::Passage& event : table.passages) {
     fuzz::require(std::isfinite(event.time) && std::isfinite(event.tangential), "finite");
     fuzz::require(std::abs(event.velocity) > 0.0 && std::abs(event.velocity) <= 1e4, "velocity");
     fuzz::require(event.diameter > 0.0 && event.diameter <= 1.0, "diameter");
@@ -35,8 +35,8 @@ void require_sound(const recoil::EventTable& table) {
   }
 }
 
-void require_sound(const recoil::EventTable& table, const recoil::PairResult& pairs) {
-  fuzz::require(pairs.down + pairs.up == table.events.size(), "all passages");
+void require_sound(const recoil::PassageTable& table, const recoil::PairingResult& pairs) {
+  fuzz::require(pairs.down + pairs.up == table.passages.size(), "all passages");
   fuzz::require(pairs.impacts.size() + pairs.unpaired.size() == pairs.down, "all passages down");
   fuzz::require(pairs.impacts.size() + pairs.orphans == pairs.up, "all passages up");
   fuzz::require(std::isfinite(pairs.height) && pairs.height > 0.0, "height");
@@ -69,15 +69,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string package = at == std::string::npos ? "" : input.substr(0, at);
   const std::string events = at == std::string::npos ? input : input.substr(at + divider.size());
   try {
-    const recoil::EventTable table = recoil::parse_events(
-        events, "events.csv", package, package.empty() ? kUnits : recoil::EventFormat());
+    const recoil::PassageTable table = recoil::parse_passages(
+        events, "events.csv", package, package.empty() ? kUnits : recoil::PassageFormat());
     require_sound(table);
-    const recoil::PairResult pairs = recoil::pair_events(table.events, {});
+    const recoil::PairingResult pairs = recoil::pair_passages(table.passages, {});
     require_sound(table, pairs);
     recoil::AverageOptions by;
     by.size_classes = 1 + size % 3;
     by.mean_diameter = size % 2 == 0;
-    const recoil::Averages averages = recoil::average(table.events, table.series, pairs, by);
+    const recoil::Averages averages = recoil::average(table.passages, table.series, pairs, by);
     require_sound(averages);
     fuzz::require(!recoil::describe(table, pairs, averages).empty(), "description");
     recoil::histogram_files(recoil::distributions(table, pairs));

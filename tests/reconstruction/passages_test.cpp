@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "experiment/averages.hpp"
-#include "experiment/events.hpp"
 #include "experiment/pairing.hpp"
+#include "experiment/passages.hpp"
 
 namespace {
 
@@ -19,11 +19,11 @@ Recipe steel(const std::string& id) {
   return load_recipe(std::filesystem::path(RECOIL_SOURCE_DIR) / "datasets" / id);
 }
 
-EventTable read(const std::string& csv) {
-  EventFormat format;
+PassageTable read(const std::string& csv) {
+  PassageFormat format;
   format.units = {
       {"time", "s"}, {"velocity", "m/s"}, {"tangential_velocity", "m/s"}, {"diameter", "um"}};
-  return parse_events(csv, "events.csv", "", format);
+  return parse_passages(csv, "events.csv", "", format);
 }
 
 TEST(Passages, TheSeedFixesEveryDigit) {
@@ -35,11 +35,11 @@ TEST(Passages, TheSeedFixesEveryDigit) {
 
 TEST(Passages, AsManyReboundsAsTheRecipeAsksFor) {
   const Recipe recipe = steel("li1999-sst125-silicon");
-  const EventTable table = read(draw_passages(recipe, recipe.seed, 4));
+  const PassageTable table = read(draw_passages(recipe, recipe.seed, 4));
   EXPECT_EQ(table.damaged + table.duplicated + table.unsorted, 0U);
-  PairOptions options;
+  PairingOptions options;
   options.height = 1.2e-3;
-  const PairResult pairs = pair_events(table.events, options);
+  const PairingResult pairs = pair_passages(table.passages, options);
   std::size_t first = 0;
   for (const Impact& impact : pairs.impacts) first += impact.used ? 1 : 0;
   const double expected = 4.0 * 40.0 * 14.0;
@@ -50,11 +50,12 @@ TEST(Passages, AsManyReboundsAsTheRecipeAsksFor) {
 
 TEST(Passages, PointsFromThemAreTheTruth) {
   const Recipe recipe = steel("li1999-sst125-silicon");
-  const EventTable table = read(draw_passages(recipe, recipe.seed, 10));
+  const PassageTable table = read(draw_passages(recipe, recipe.seed, 10));
   AverageOptions by;
   by.size_edges = {60e-6, 70e-6, 80e-6, 90e-6};
   by.per_bin = 130;
-  const Averages averages = average(table.events, table.series, pair_events(table.events, {}), by);
+  const Averages averages =
+      average(table.passages, table.series, pair_passages(table.passages, {}), by);
   double squares = 0.0;
   for (const PointMean& point : averages.points) {
     const double truth = true_restitution(recipe.truth, point.diameter, point.velocity);

@@ -31,7 +31,7 @@ class Stream {
     pass(hits, restitution * velocity, 1.0);
     pass(hits, e_second * restitution * velocity, -1.0);
   }
-  const std::vector<Event>& events() const { return events_; }
+  const std::vector<Passage>& events() const { return events_; }
 
  private:
   void pass(double hits, double speed, double direction) {
@@ -40,7 +40,7 @@ class Stream {
     events_.push_back({hits - apart, direction * plane, 0.0, 75e-6, 0, 0});
   }
   double now_ = 0.0;
-  std::vector<Event> events_;
+  std::vector<Passage> events_;
 };
 
 struct Shipped {
@@ -50,7 +50,7 @@ struct Shipped {
 };
 
 CorrectionStudy study_of(int captured, bool again) {
-  KnownEvents known;
+  KnownPassages known;
   known.velocities = {0.45, 1.0, 3.0};
   Stream stream;
   for (const double velocity : known.velocities) {
@@ -61,7 +61,7 @@ CorrectionStudy study_of(int captured, bool again) {
     }
     for (int i = 0; i < captured && velocity < 0.5; ++i) stream.sphere(velocity, 0.0, false);
   }
-  known.table.events = stream.events();
+  known.table.passages = stream.events();
   known.table.series = {"run"};
   known.table.file = "events.csv";
   known.diameter = 75e-6;
@@ -124,7 +124,7 @@ TEST(CorrectionStudy, SecondImpactsAreKeptOutOrLeftIn) {
 
 TEST(CorrectionStudy, OnlyTheRowsThatAreWanted) {
   const Shipped shipped;
-  KnownEvents known;
+  KnownPassages known;
   known.velocities = {1.0, 3.0};
   known.diameter = 75e-6;
   known.restitution = [](double, double) { return e_first; };
@@ -133,7 +133,7 @@ TEST(CorrectionStudy, OnlyTheRowsThatAreWanted) {
     stream.sphere(1.0, i % 2 == 0 ? 0.7 : 0.75, false);
     stream.sphere(3.0, i % 2 == 0 ? 0.8 : 0.85, false);
   }
-  known.table.events = stream.events();
+  known.table.passages = stream.events();
   known.table.series = {"run"};
   const std::array<Correction, 1> wanted = {Correction::probe_plane};
   const CorrectionStudy study =

@@ -50,13 +50,35 @@ IntervalCoverage counted(const std::string& interval, int offered, int contained
   return {interval, offered, contained, 0, 0, {}};
 }
 
-plot::Picture picture(const std::vector<GridResult>& results) {
-  FitSpec spec;
-  spec.id = "example <fit>";
-  CoverageOptions options;
-  options.datasets = 1010;
-  options.uncertainty.level = 0.95;
-  return coverage_picture(results, spec, options, "made up & not measured");
+/// Every design, numbers that can be recognised.
+std::vector<ParameterCoverage> study() {
+  std::vector<ParameterCoverage> rows;
+  int n = 0;
+  for (const GridDesign& design : coverage_grid()) {
+    for (const char* name : {"C_H", "C_A", "f0", "V*(4.90 um)"}) {
+      if (std::string(name) == "f0" && !design.adhesion_free) continue;
+      ParameterCoverage row;
+      row.design = design.name();
+      row.parameter = name;
+      row.usable = 1000;
+      row.identifiable = std::string(name) == "V*(4.90 um)" ? 0 : 1000 - 13 * n;
+      int k = 0;
+      for (const char* kind :
+           {"recommended", "profile", "percentile", "bca", "studentized", "wald"}) {
+        const bool none = std::string(name) == "V*(4.90 um)" && k != 0 && k != 2;
+        row.intervals.push_back(
+            counted(kind, none ? 0 : 1000, 950 + 2 * (n % 21 - 10) - 25 * (k > 1 ? k : 0)));
+        ++k;
+      }
+      rows.push_back(row);
+    }
+    ++n;
+  }
+  return rows;
+}
+
+plot::Picture picture(const std::vector<ParameterCoverage>& rows) {
+  return coverage_picture(rows, 0.95, "example <fit>", "made up & not measured");
 }
 
 /// The words of a picture, with their colours.
@@ -72,7 +94,7 @@ const plot::Boxes& cells_of(const plot::Picture& picture) {
   return std::get<plot::Boxes>(picture.plots.at(0).layers.at(0));
 }
 
-TEST(CoveragePicture, HoldsEveryCellOfTheGrid) {
+TEST(CoveragePicture, HasEveryCellOfTheGrid) {
   const plot::Picture shown = picture(study());
   EXPECT_THAT(shown.title, HasSubstr("example <fit>"));
   EXPECT_TRUE(words_of(shown).contains("made up & not measured"));
@@ -93,21 +115,23 @@ TEST(CoveragePicture, ShowsTheShareThatContainedAndTheShareThatWasCalledIdentifi
   ParameterCoverage row;
   row.design = GridDesign{20, GridNoise::near_capture, false, true, true}.name();
   row.parameter = "f0";
-  row.identifiable = 150;  // of 200 usable: 75 %
-  row.cells = {{"recommended", 200, 183, 0, 0, 0.0}, {"wald", 80, 60, 0, 0, 0.0}};
-  result.coverage.rows = {row};
-  const plot::Picture shown = picture({result});
+  row.usable = 200;
+  row.identifiable = 150;
+  row.intervals = {counted("recommended", 200, 183), counted("wald", 80, 60),
+                   {"bca", {}, {}, {}, {}, 0.876}};
+  const plot::Picture shown = picture({row});
   std::map<std::string, plot::Colour> words = words_of(shown);
   EXPECT_TRUE(words.contains("91.5"));
   EXPECT_TRUE(words.contains("75.0")) << "of those that were offered";
+  EXPECT_TRUE(words.contains("87.6")) << "of which only the share is known";
   for (const char* word : {"75", "near-capture", "estimated", "free", "with"}) {
     EXPECT_TRUE(words.contains(word)) << word;
   }
-  const plot::Colour clear = cells_of(shown).colours.at(1);
+  const plot::Colour clear = cells_of(shown).colours.at(2);
   EXPECT_EQ(clear, coverage_colour(0.75, 0.95));
-  result.coverage.rows[0].identifiable = 20;
-  const plot::Picture warned = picture({result});
-  EXPECT_GT(cells_of(warned).colours.at(1), clear) << "pale: warned in nine of ten";
+  row.identifiable = 20;
+  const plot::Picture warned = picture({row});
+  EXPECT_GT(cells_of(warned).colours.at(2), clear) << "pale: warned in nine of ten";
 }
 
 }  // namespace

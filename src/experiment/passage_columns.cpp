@@ -1,4 +1,4 @@
-#include "experiment/event_columns.hpp"
+#include "experiment/passage_columns.hpp"
 
 #include <fmt/format.h>
 
@@ -17,21 +17,21 @@
 namespace recoil {
 namespace {
 
-bool needed(EventField field) {
-  return field == EventField::time || field == EventField::velocity ||
-         field == EventField::diameter;
+bool needed(PassageField field) {
+  return field == PassageField::time || field == PassageField::velocity ||
+         field == PassageField::diameter;
 }
 
-Dimension dimension_of(EventField field) {
+Dimension dimension_of(PassageField field) {
   switch (field) {
-    case EventField::time:
+    case PassageField::time:
       return Dimension::time;
-    case EventField::velocity:
-    case EventField::tangential:
+    case PassageField::velocity:
+    case PassageField::tangential:
       return Dimension::velocity;
-    case EventField::diameter:
+    case PassageField::diameter:
       return Dimension::length;
-    case EventField::series:
+    case PassageField::series:
       break;
   }
   return Dimension::text;
@@ -60,25 +60,25 @@ StatedUnits read_stated(const std::string& package_text, const std::string& file
 
 void require_known(const std::map<std::string, std::string>& given, const std::string& option) {
   for (const auto& [field, value] : given) {
-    if (value_named<EventField>(field)) continue;
+    if (value_named<PassageField>(field)) continue;
     throw InputError(
         {}, fmt::format("{} {}={}: there is no field {}", option, field, value, quote(field)), "",
-        did_you_mean(field, all_names<EventField>()));
+        did_you_mean(field, all_names<PassageField>()));
   }
 }
 
 }  // namespace
 
-EventColumns event_columns(const std::vector<std::string>& header, const std::string& file,
-                           const std::string& package_text, const EventFormat& format) {
+PassageColumns passage_columns(const std::vector<std::string>& header, const std::string& file,
+                               const std::string& package_text, const PassageFormat& format) {
   require_known(format.units, "--unit");
   require_known(format.columns, "--column");
   const StatedUnits stated = read_stated(package_text, file);
-  EventColumns columns;
+  PassageColumns columns;
   columns.width = header.size();
   columns.provenance = stated.provenance;
   std::vector<bool> used(header.size(), false);
-  for (const EventField field : values_of<EventField>()) {
+  for (const PassageField field : values_of<PassageField>()) {
     const std::string name = to_string(field);
     const auto renamed = format.columns.find(name);
     const std::string& wanted = renamed != format.columns.end() ? renamed->second : name;
@@ -97,7 +97,7 @@ EventColumns event_columns(const std::vector<std::string>& header, const std::st
     }
     used[index] = true;
     columns.index[field] = index;
-    if (field == EventField::series) continue;
+    if (field == PassageField::series) continue;
     const auto by_option = format.units.find(name);
     const auto by_package = stated.unit.find(wanted);
     const std::vector<std::string> known = unit_names(dimension_of(field));

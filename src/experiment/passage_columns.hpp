@@ -7,23 +7,23 @@
 #include <vector>
 
 #include "core/names.hpp"
-#include "experiment/events.hpp"
+#include "experiment/passages.hpp"
 
 namespace recoil {
 
-/// A field of the events.
-enum class EventField { time, velocity, tangential, diameter, series };
+/// A field of the passages.
+enum class PassageField { time, velocity, tangential, diameter, series };
 
 template <>
-struct NamesOf<EventField> {
+struct NamesOf<PassageField> {
   static constexpr std::array<std::string_view, 5> names = {
       "time", "velocity", "tangential_velocity", "diameter", "series"};
 };
 
 /// Where each field stands in a row, and its factor to SI.
-struct EventColumns {
-  PerValue<EventField, std::optional<std::size_t>> index;  ///< nothing: no such column
-  PerValue<EventField, double> factor;
+struct PassageColumns {
+  PerValue<PassageField, std::optional<std::size_t>> index;  ///< nothing: no such column
+  PerValue<PassageField, double> factor;
   std::size_t width = 0;                 ///< cells of a row
   std::vector<std::string> ignored;      ///< columns that are no field
   std::optional<Provenance> provenance;  ///< of the data package
@@ -33,7 +33,7 @@ struct EventColumns {
 /// Ties the fields to the header's columns and finds their units.
 /// @param package_text the data package beside the file; empty for none.
 /// @throws InputError when a needed column or a unit is missing or not known.
-EventColumns event_columns(const std::vector<std::string>& header, const std::string& file,
-                           const std::string& package_text, const EventFormat& format);
+PassageColumns passage_columns(const std::vector<std::string>& header, const std::string& file,
+                               const std::string& package_text, const PassageFormat& format);
 
 }  // namespace recoil

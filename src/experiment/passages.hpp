@@ -12,7 +12,7 @@
 namespace recoil {
 
 /// One passage of a sphere through the probe volume, SI units.
-struct Event {
+struct Passage {
   double time = 0.0;        ///< [s]
   double velocity = 0.0;    ///< normal to the surface, positive towards it [m/s]
   double tangential = 0.0;  ///< along the surface [m/s]; 0 where it was not measured
@@ -33,10 +33,10 @@ struct FieldUnit {
   std::string unit;
 };
 
-/// The events of one file, cleaned and sorted by series and time.
-struct EventTable {
+/// The passages of one file, cleaned and sorted by series and time.
+struct PassageTable {
   std::string file;
-  std::vector<Event> events;
+  std::vector<Passage> passages;
   std::vector<std::string> series;  ///< names in order of appearance; one, "all", without a column
   bool has_tangential = false;      ///< the second component was measured
   std::size_t rows = 0;             ///< rows below the header
@@ -54,7 +54,7 @@ struct EventTable {
 inline constexpr std::size_t most_examples = 3;
 
 /// How the columns of an instrument's file are to be understood.
-struct EventFormat {
+struct PassageFormat {
   /// Field -> unit; goes before the data package. Fields: time, velocity, tangential_velocity,
   /// diameter, series.
   std::map<std::string, std::string> units;
@@ -62,15 +62,15 @@ struct EventFormat {
   bool positive_away = false;  ///< the instrument counts velocities away from the surface positive
 };
 
-/// Reads the events of `path`. Units come from `format`, else from the fields of the resource of
+/// Reads the passages of `path`. Units come from `format`, else from the fields of the resource of
 /// this name in `datapackage.json` beside the file. Rows that are damaged or repeated are left out
 /// and counted; rows out of order are sorted. Reads 10^6 rows in about a second.
 /// @throws InputError when the file cannot be read, a column or a unit is missing, or most rows are
 ///   damaged (a wrong separator, decimal commas).
-EventTable read_events(const std::filesystem::path& path, const EventFormat& format);
+PassageTable read_passages(const std::filesystem::path& path, const PassageFormat& format);
 
 /// The same from texts; `package_text` is the data package beside the file, empty for none.
-EventTable parse_events(const std::string& text, const std::string& file,
-                        const std::string& package_text, const EventFormat& format);
+PassageTable parse_passages(const std::string& text, const std::string& file,
+                            const std::string& package_text, const PassageFormat& format);
 
 }  // namespace recoil

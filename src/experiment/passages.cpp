@@ -1,4 +1,4 @@
-#include "experiment/events.hpp"
+#include "experiment/passages.hpp"
 
 #include <fmt/format.h>
 
@@ -13,12 +13,12 @@
 #include "data/folder_names.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
-#include "experiment/event_columns.hpp"
+#include "experiment/passage_columns.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::uintmax_t largest_file = 2ULL << 30;  ///< some 5 10^7 events [bytes]
+constexpr std::uintmax_t largest_file = 2ULL << 30;  ///< some 5 10^7 passages [bytes]
 constexpr std::size_t most_columns = 200;
 
 std::string_view trimmed(std::string_view cell) {
@@ -54,23 +54,23 @@ char likely_delimiter(std::string_view header) {
   return best;
 }
 
-/// Turns lines into events and counts what it cannot use.
-class EventReader {
+/// Turns lines into passages and counts what it cannot use.
+class PassageReader {
  public:
-  EventReader(EventTable& table, EventColumns columns, double sign)
+  PassageReader(PassageTable& table, PassageColumns columns, double sign)
       : table_(table), columns_(std::move(columns)), sign_(sign) {}
 
   void row(const std::vector<std::string_view>& cells, int line) {
     ++table_.rows;
-    Event event;
-    event.line = line;
-    const std::string problem = understand(cells, event);
+    Passage passage;
+    passage.line = line;
+    const std::string problem = understand(cells, passage);
     if (problem.empty()) {
       latest_.resize(table_.series.size(), -INFINITY);
-      double& latest = latest_[event.series];
-      if (event.time < latest && table_.unsorted++ == 0) table_.first_unsorted = line;
-      latest = std::max(latest, event.time);
-      table_.events.push_back(event);
+      double& latest = latest_[passage.series];
+      if (passage.time < latest && table_.unsorted++ == 0) table_.first_unsorted = line;
+      latest = std::max(latest, passage.time);
+      table_.passages.push_back(passage);
       return;
     }
     if (table_.first_damaged.size() < most_examples)
@@ -79,15 +79,15 @@ class EventReader {
   }
 
  private:
-  std::string understand(const std::vector<std::string_view>& cells, Event& event) {
+  std::string understand(const std::vector<std::string_view>& cells, Passage& passage) {
     if (cells.size() != columns_.width) {
       return fmt::format("{} cells, the header has {}", cells.size(), columns_.width);
     }
-    const std::array<std::pair<EventField, double*>, 4> places = {{
-        {EventField::time, &event.time},
-        {EventField::velocity, &event.velocity},
-        {EventField::tangential, &event.tangential},
-        {EventField::diameter, &event.diameter},
+    const std::array<std::pair<PassageField, double*>, 4> places = {{
+        {PassageField::time, &passage.time},
+        {PassageField::velocity, &passage.velocity},
+        {PassageField::tangential, &passage.tangential},
+        {PassageField::diameter, &passage.diameter},
     }};
     for (const auto& [field, place] : places) {
       if (!columns_.index[field]) continue;
@@ -99,26 +99,26 @@ class EventReader {
       }
       *place = *value * columns_.factor[field];
     }
-    const double speed = std::abs(event.velocity);
+    const double speed = std::abs(passage.velocity);
     if (!(speed >= limits::slowest_velocity && speed <= limits::fastest_velocity)) {
-      return fmt::format("velocity = {:g} m/s", event.velocity);
+      return fmt::format("velocity = {:g} m/s", passage.velocity);
     }
-    if (!(std::abs(event.tangential) <= limits::fastest_velocity)) {
-      return fmt::format("tangential_velocity = {:g} m/s", event.tangential);
+    if (!(std::abs(passage.tangential) <= limits::fastest_velocity)) {
+      return fmt::format("tangential_velocity = {:g} m/s", passage.tangential);
     }
-    if (!(event.diameter >= limits::smallest_diameter &&
-          event.diameter <= limits::largest_diameter)) {
-      return fmt::format("diameter = {:g} m", event.diameter);
+    if (!(passage.diameter >= limits::smallest_diameter &&
+          passage.diameter <= limits::largest_diameter)) {
+      return fmt::format("diameter = {:g} m", passage.diameter);
     }
-    event.velocity *= sign_;
-    return read_series(cells, event);
+    passage.velocity *= sign_;
+    return read_series(cells, passage);
   }
 
-  std::string read_series(const std::vector<std::string_view>& cells, Event& event) {
-    const auto index = columns_.index[EventField::series];
+  std::string read_series(const std::vector<std::string_view>& cells, Passage& passage) {
+    const auto index = columns_.index[PassageField::series];
     const std::string_view name = index ? cells[*index] : "all";
     if (!table_.series.empty() && table_.series[last_series_] == name) {
-      event.series = static_cast<std::uint32_t>(last_series_);
+      passage.series = static_cast<std::uint32_t>(last_series_);
       return "";
     }
     if (name.empty()) return "series is empty";
@@ -132,42 +132,42 @@ class EventReader {
     const auto found = std::find(table_.series.begin(), table_.series.end(), text);
     last_series_ = static_cast<std::size_t>(found - table_.series.begin());
     if (found == table_.series.end()) table_.series.push_back(text);
-    event.series = static_cast<std::uint32_t>(last_series_);
+    passage.series = static_cast<std::uint32_t>(last_series_);
     return "";
   }
 
-  EventTable& table_;
-  EventColumns columns_;
+  PassageTable& table_;
+  PassageColumns columns_;
   double sign_;
   std::vector<double> latest_;  ///< of each series
   std::size_t last_series_ = 0;
 };
 
-void sort_and_unite(EventTable& table) {
-  std::vector<Event>& events = table.events;
-  const auto content = [](const Event& e) {
+void sort_and_unite(PassageTable& table) {
+  std::vector<Passage>& passages = table.passages;
+  const auto content = [](const Passage& e) {
     return std::tie(e.series, e.time, e.velocity, e.diameter, e.tangential);
   };
-  std::sort(events.begin(), events.end(), [&](const Event& a, const Event& b) {
+  std::sort(passages.begin(), passages.end(), [&](const Passage& a, const Passage& b) {
     return std::tuple_cat(content(a), std::tie(a.line)) <
            std::tuple_cat(content(b), std::tie(b.line));
   });
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    if (kept > 0 && content(events[kept - 1]) == content(events[i])) {
-      table.first_duplicated.push_back(events[i].line);
+  for (std::size_t i = 0; i < passages.size(); ++i) {
+    if (kept > 0 && content(passages[kept - 1]) == content(passages[i])) {
+      table.first_duplicated.push_back(passages[i].line);
     } else {
-      events[kept++] = events[i];
+      passages[kept++] = passages[i];
     }
   }
-  events.resize(kept);
+  passages.resize(kept);
   table.duplicated = table.first_duplicated.size();
   std::sort(table.first_duplicated.begin(), table.first_duplicated.end());
   if (table.duplicated > most_examples) table.first_duplicated.resize(most_examples);
 }
 
 /// A file of which most is damage was not understood.
-void require_sense(const EventTable& table) {
+void require_sense(const PassageTable& table) {
   if (table.rows == 0) {
     throw InputError({table.file, 1, 1}, "there is a header but no row below it", "",
                      "write one row for each passage through the probe volume");
@@ -181,13 +181,13 @@ void require_sense(const EventTable& table) {
 
 }  // namespace
 
-EventTable parse_events(const std::string& text, const std::string& file,
-                        const std::string& package_text, const EventFormat& format) {
-  EventTable table;
+PassageTable parse_passages(const std::string& text, const std::string& file,
+                            const std::string& package_text, const PassageFormat& format) {
+  PassageTable table;
   table.file = file;
   std::string_view rest = text;
   std::vector<std::string_view> cells;
-  std::optional<EventReader> reader;
+  std::optional<PassageReader> reader;
   char delimiter = ',';
   for (int line = 1; !rest.empty(); ++line) {
     const std::size_t end = rest.find('\n');
@@ -199,11 +199,11 @@ EventTable parse_events(const std::string& text, const std::string& file,
       delimiter = likely_delimiter(content);
       split(content, delimiter, cells);
       const std::vector<std::string> header(cells.begin(), cells.end());
-      EventColumns columns = event_columns(header, file, package_text, format);
+      PassageColumns columns = passage_columns(header, file, package_text, format);
       table.ignored = columns.ignored;
       table.provenance = columns.provenance;
       table.units = columns.units;
-      table.has_tangential = columns.index[EventField::tangential].has_value();
+      table.has_tangential = columns.index[PassageField::tangential].has_value();
       reader.emplace(table, std::move(columns), format.positive_away ? -1.0 : 1.0);
       continue;
     }
@@ -219,12 +219,12 @@ EventTable parse_events(const std::string& text, const std::string& file,
   return table;
 }
 
-EventTable read_events(const std::filesystem::path& path, const EventFormat& format) {
+PassageTable read_passages(const std::filesystem::path& path, const PassageFormat& format) {
   const std::string text = read_text_file(path, largest_file);
   const std::filesystem::path package = path.parent_path() / package_file_name;
   const std::string package_text =
       std::filesystem::is_regular_file(package) ? read_text_file(package) : std::string();
-  return parse_events(text, path.string(), package_text, format);
+  return parse_passages(text, path.string(), package_text, format);
 }
 
 }  // namespace recoil
