@@ -80,14 +80,14 @@ Sentence symbol(std::string_view label) {
   return words;
 }
 
-Sentence unit(std::string name) { return Sentence(Run{RunKind::unit, std::move(name)}); }
+Sentence unit(std::string_view name) { return Sentence(Run{RunKind::unit, std::string(name)}); }
 Sentence strong(std::string text) { return Sentence(Run{RunKind::strong, std::move(text)}); }
 Sentence code(std::string text) { return Sentence(Run{RunKind::code, std::move(text)}); }
 Sentence link(std::string text, std::string address) {
   return Sentence(Run{RunKind::link, std::move(text), std::move(address)});
 }
 
-Sentence unit_after_number(const std::string& name) {
+Sentence unit_after_number(std::string_view name) {
   return name.empty() || name == "1" ? Sentence() : Sentence(" ") + unit(name);
 }
 

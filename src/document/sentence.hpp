@@ -58,13 +58,13 @@ std::vector<std::string> plain_texts(const std::vector<Sentence>& sentences);
 
 /// The symbol of a parameter's label: "C_A[mica]" is C_A of mica.
 Sentence symbol(std::string_view label);
-Sentence unit(std::string name);
+Sentence unit(std::string_view name);
 Sentence strong(std::string text);
 Sentence code(std::string text);
 Sentence link(std::string text, std::string address);
 
 /// " m/s"; nothing for a pure number, whose unit is empty or "1".
-Sentence unit_after_number(const std::string& name);
+Sentence unit_after_number(std::string_view name);
 
 /// What may be filled into a sentence.
 class Filling {

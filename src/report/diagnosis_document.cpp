@@ -172,8 +172,8 @@ Table both_models_table(const Diagnosis& d) {
   for (const ParameterSlot& slot : d.extended_fit->model.slots) {
     const UnderModel base = under_model(d.base, d.base_intervals, slot.label());
     const UnderModel extended = under_model(*d.extended_fit, d.extended_intervals, slot.label());
-    table.rows.push_back({symbol(slot.label()), unit(slot.unit), base.estimate, base.interval,
-                          extended.estimate, extended.interval,
+    table.rows.push_back({symbol(slot.label()), unit(slot.parameter->unit), base.estimate,
+                          base.interval, extended.estimate, extended.interval,
                           said_of_both(base.remark, extended.remark)});
   }
   return table;

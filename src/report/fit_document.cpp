@@ -14,6 +14,8 @@
 #include "report/format.hpp"
 #include "report/pair_words.hpp"
 #include "report/prediction.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_two_point.hpp"
 
 namespace recoil {
 namespace {
@@ -33,7 +35,7 @@ Sentence estimate_words(const Analysis& a, std::size_t s) {
   const ParameterSlot& slot = a.fitted.model.slots[s];
   const Interval interval = recommended_interval(intervals_of(a, s));
   Sentence words = say("{} = {}", symbol(slot.label()), number(a.fitted.theta[s], 3)) +
-                   unit_after_number(slot.unit);
+                   unit_after_number(slot.parameter->unit);
   if (interval.available()) {
     words += say(" ({} to {})", number(*interval.lower, 3), number(*interval.upper, 3));
   }
@@ -61,7 +63,7 @@ Sentence fit_quality_words(const Analysis& a) {
       quality_words(f.p_value), number(f.rmse, 2));
 }
 
-Sentence two_point_words(const Analysis& a) {
+Sentence calibration_words(const Analysis& a) {
   const TwoPointComparison* comparison = two_point_of(a, 0);
   if (comparison == nullptr) return {};
   const TwoPointResult& two = comparison->result;
@@ -157,9 +159,9 @@ Section two_point_section(const Analysis& a, bool with_pairs) {
   for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
     const TwoPointResult& two = comparison.result;
     section.blocks.emplace_back(two_point_table(a, comparison));
-    section.blocks.emplace_back(
-        Paragraph{as_sentence(say("Two-point iteration: {} ({} iterations): {}",
-                                  words_of(to_string(two.status)), two.iterations, two.text))});
+    section.blocks.emplace_back(Paragraph{as_sentence(
+        say("Two-point iteration: {} ({} iterations): {}", words_of(to_string(two.status)),
+            two.iterations, two_point_words(a.fitted, comparison.dataset, two)))});
     if (comparison.full_held_out_rmse) {
       section.blocks.emplace_back(
           Paragraph{"For the diameters not seen, all points of the calibration diameter alone were "
@@ -290,7 +292,7 @@ Sentence fit_summary(const Analysis& a) {
              number(largest, 3)) +
          say("A least-squares fit to all of them gives {}, with {} intervals in brackets. ",
              join(estimates, ", "), percent(a.uncertainty.options.level)) +
-         fit_quality_words(a) + two_point_words(a);
+         fit_quality_words(a) + calibration_words(a);
 }
 
 std::vector<Block> provenance_banners(const std::vector<Dataset>& datasets) {

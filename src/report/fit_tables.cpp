@@ -7,6 +7,7 @@
 
 #include "core/units.hpp"
 #include "report/format.hpp"
+#include "report/words_noise.hpp"
 
 namespace recoil {
 namespace {
@@ -42,7 +43,7 @@ std::size_t free_parameters(const FitResult& fitted) {
 }
 
 Sentence solver_words(const FitResult& f) {
-  if (f.model.solver == Solver::reference) return "reference (CVODES)";
+  if (f.model.solver.kind == Solver::reference) return "reference (CVODES)";
   return say("fast; {} impacts of the fit were handed over to the reference", f.handovers);
 }
 
@@ -57,7 +58,7 @@ Cell p_value_cell(const Analysis& a) {
 }  // namespace
 
 Sentence labelled(const ParameterSlot& slot) {
-  return symbol(slot.label()) + " [" + unit(slot.unit) + "]";
+  return symbol(slot.label()) + " [" + unit(slot.parameter->unit) + "]";
 }
 
 Table statistics_table(const Analysis& a) {
@@ -74,7 +75,7 @@ Table statistics_table(const Analysis& a) {
                                         : Cell("not defined (no degrees of freedom left)")},
        {"p-value", p_value_cell(a)},
        {say("rms of {e}"), Number{f.rmse}},
-       {"noise", Sentence(f.noise_text)}});
+       {"noise", Sentence(noise_words(f))}});
 }
 
 Table parameters_table(const Analysis& a) {
@@ -91,7 +92,7 @@ Table parameters_table(const Analysis& a) {
     const ParameterSlot& slot = f.model.slots[s];
     if (!slot.free) {
       table.rows.push_back(
-          {symbol(slot.label()), Number{f.theta[s]}, {}, unit(slot.unit), {}, "fixed"});
+          {symbol(slot.label()), Number{f.theta[s]}, {}, unit(slot.parameter->unit), {}, "fixed"});
       continue;
     }
     const double error =
@@ -102,7 +103,7 @@ Table parameters_table(const Analysis& a) {
     table.rows.push_back(
         {symbol(slot.label()), Number{f.theta[s], significant(4), error},
          relative ? Cell(Number{100.0 * error / std::abs(f.theta[s]), significant(3)}) : Cell(),
-         unit(slot.unit), interval_cell(interval),
+         unit(slot.parameter->unit), interval_cell(interval),
          interval.available() ? Cell(Sentence(set.recommended)) : Cell(), Number{slot.initial}});
   }
   return table;
@@ -246,7 +247,7 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
     const ParameterSlot& slot = f.model.slots[s];
     table.rows.push_back({labelled(slot), number_at(two.theta, s, significant(4)),
                           number_at(f.theta, s, significant(4))});
-    table.rows.push_back({symbol(slot.name) + ", spread under resampling",
+    table.rows.push_back({symbol(slot.parameter->name) + ", spread under resampling",
                           number_at(comparison.spread, s, significant(2)),
                           number_at(comparison.full_spread, s, significant(2))});
   }
@@ -394,7 +395,7 @@ Table points_table(const Analysis& a) {
     row.emplace_back(Sentence(diameter_text(point.diameter)));
     row.emplace_back(Number{point.velocity});
     row.push_back(point.censored ? Cell("captured") : Cell(Number{point.restitution, fixed(4)}));
-    row.push_back(f.data.sd_stated ? Cell(Number{point.sd, significant(2)}) : Cell());
+    row.push_back(f.data.sd_stated ? Cell(Number{point.weights.sd, significant(2)}) : Cell());
     row.push_back(number_at(f.prediction, i, fixed(4)));
     row.push_back(i < f.residuals.size() ? Cell(Number{f.residuals[i] / scale, signed_fixed(2)})
                                          : Cell());

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "document/html.hpp"
+#include "mechanism/parameter.hpp"
 #include "report/format.hpp"
 
 namespace recoil {
@@ -105,6 +106,15 @@ const char* sign_of(Verdict verdict) {
   return "";
 }
 
+/// Is it C_H or C_A, which are shown even where they are fixed?
+bool is_damping(const std::string& label) {
+  const std::string name = label.substr(0, label.find('['));
+  const std::vector<Parameter>& base = base_parameters();
+  return std::any_of(base.begin(), base.end(), [&](const Parameter& parameter) {
+    return parameter.name == name && parameter.is_damping();
+  });
+}
+
 Cell range_cell(const std::optional<TwoPointRange>& range) {
   if (!range) return {};
   const std::string first = number(range->lower, 3);
@@ -161,7 +171,8 @@ FitSummary summary_of(const Analysis& a) {
   summary.provenances = provenances(a.datasets);
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
-    ParameterSummary parameter{slot.label(), slot.unit, f.theta[s], slot.free, {}, {}};
+    ParameterSummary parameter{
+        slot.label(), std::string(slot.parameter->unit), f.theta[s], slot.free, {}, {}};
     const Interval interval = recommended_interval(intervals_of(a, s));
     if (interval.available()) parameter.interval = NumberRange{*interval.lower, *interval.upper};
     for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
@@ -234,8 +245,7 @@ Table summary_table(const FitSummary& fit) {
   Table table;
   table.columns = {{}, {"all points"}, {"interval"}, {"two points"}};
   for (const ParameterSummary& parameter : fit.parameters) {
-    const bool damping = parameter.label.starts_with("C_H") || parameter.label.starts_with("C_A");
-    if (!parameter.free && !damping) continue;
+    if (!parameter.free && !is_damping(parameter.label)) continue;
     table.rows.push_back({symbol(parameter.label) + " [" + unit(parameter.unit) + "]",
                           Number{parameter.value, significant(3)}, interval_cell(parameter),
                           range_cell(parameter.two_point)});

@@ -279,7 +279,6 @@ Analysis four_diameters() {
   add_statistics(a, {0.00021, 0.0023, 0.0});
   add_two_point(a, 0, 0.0046, 0.062);
   add_pairs(a, 0);
-  a.fitted.data = a.data;
   return a;
 }
 

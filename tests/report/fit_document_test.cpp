@@ -132,7 +132,7 @@ TEST(FitDocument, EscapesWhatAFileSays) {
   analysis.datasets[0].sources = {hostile};
   analysis.datasets[0].system.particle.name = hostile;
   analysis.spec.id = hostile;
-  analysis.fitted.warnings = {hostile};
+  analysis.uncertainty.warnings = {hostile};
   const std::string html = html_report(analysis);
   expect_self_contained(html);
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(1)"));
@@ -171,9 +171,8 @@ TEST(FitDocument, StaysSmallWithManyPoints) {
   Analysis analysis = example::two_datasets();
   for (int copy = 0; copy < 5; ++copy) {
     const Analysis more = example::two_datasets();
-    for (Observations* data : {&analysis.data, &analysis.fitted.data}) {
-      data->points.insert(data->points.end(), more.data.points.begin(), more.data.points.end());
-    }
+    auto& points = analysis.fitted.data.points;
+    points.insert(points.end(), more.fitted.data.points.begin(), more.fitted.data.points.end());
     for (const auto member : {&FitResult::residuals, &FitResult::prediction,
                               &FitResult::prediction_squared, &FitResult::leverage}) {
       auto& list = analysis.fitted.*member;
@@ -242,8 +241,8 @@ TEST(FitDocument, StaysNarrowWhateverTheWordsAre) {
   analysis.datasets[0].id =
       "a-dataset-with-a-name-that-is-far-too-long-to-stand-in-one-line-of-text";
   analysis.spec.file = "/a/path/" + std::string(150, 'p') + "/fit.toml";
-  analysis.fitted.warnings = {std::string(250, 'w') + " and the reason why " +
-                              std::string(40, 'z')};
+  analysis.uncertainty.warnings = {std::string(250, 'w') + " and the reason why " +
+                                   std::string(40, 'z')};
   analysis.fitted.model.slots[0].dataset = analysis.datasets[0].id;
   analysis.uncertainty.identifiability.text = std::string(500, 'i');
   EXPECT_LE(longest_line(text_report(analysis)), terminal_columns) << text_report(analysis);
@@ -312,10 +311,10 @@ TEST(FitTables, SetTwoPointsBesideAll) {
 TEST(FitTables, ShowEveryPointWithItsResidual) {
   const Analysis analysis = example::two_datasets();
   const Table table = points_table(analysis);
-  ASSERT_EQ(table.rows.size(), analysis.data.points.size());
+  ASSERT_EQ(table.rows.size(), analysis.fitted.data.points.size());
   EXPECT_EQ(words(table.rows[0][0]), "example-molybdenum");
   EXPECT_EQ(words(table.rows[0][4]), "captured");
-  EXPECT_EQ(number_in(table.rows[1][4]).value, analysis.data.points[1].restitution);
+  EXPECT_EQ(number_in(table.rows[1][4]).value, analysis.fitted.data.points[1].restitution);
 }
 
 TEST(FitTables, WithoutAdhesionThereIsNoCaptureVelocity) {
