@@ -9,8 +9,10 @@
 #include "cli/manual.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "data/datapackage.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
+#include "estimate/fit_keys.hpp"
 #include "estimate/fit_spec.hpp"
 #include "mechanism/mechanism.hpp"
 
@@ -37,7 +39,7 @@ std::string code(std::string_view text) { return fmt::format("`{}`", text); }
 // ---- commands --------------------------------------------------------------------------------
 
 /// "FLOAT", "`fast` or `reference`", "INT from 1 to 4096": what CLI11 knows of an option's values.
-std::string values_of(const CLI::Option& option) {
+std::string accepted_by(const CLI::Option& option) {
   std::string type = option.get_type_name();
   if (option.get_expected_max() == 0) return "";
   const std::size_t colon = type.find(':');
@@ -69,7 +71,7 @@ std::string option_row(const CLI::Option& option) {
   if (!option.get_default_str().empty()) {
     remarks += fmt::format(" (default: {})", option.get_default_str());
   }
-  return fmt::format("| {} | {} | {} |\n", name, literal(positional ? "" : values_of(option)),
+  return fmt::format("| {} | {} | {} |\n", name, literal(positional ? "" : accepted_by(option)),
                      literal(remarks));
 }
 
@@ -104,7 +106,7 @@ std::string mechanisms_block(const CLI::App&) {
       "|---|---|---|---|\n";
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     std::string parameters;
-    for (const MechanismParameter& p : mechanism.info.parameters) {
+    for (const Parameter& p : mechanism.info.parameters) {
       const std::string name = p.free ? code(p.name) : fmt::format("[{}]", code(p.name));
       parameters += (parameters.empty() ? "" : ", ") + name;
       if (p.unit != "1") parameters += fmt::format(" {}", p.unit);
@@ -128,7 +130,7 @@ std::string mechanism_details_block(const CLI::App&) {
     out +=
         "\n| parameter | unit | meaning | absent at | start | bounds | plausible |\n"
         "|---|---|---|---|---|---|---|\n";
-    for (const MechanismParameter& p : info.parameters) {
+    for (const Parameter& p : info.parameters) {
       out += fmt::format(
           "| {} | {} | {} | {:.4g} | {:.4g} | {:.4g} to {:.4g} | {:.4g} to {:.4g}: "
           "{} |\n",
@@ -141,32 +143,55 @@ std::string mechanism_details_block(const CLI::App&) {
 
 std::string base_parameters_block(const CLI::App&) {
   std::string out =
-      "| parameter | unit | meaning | start | bounds | fitted unless the file says "
-      "otherwise |\n|---|---|---|---|---|---|\n";
-  for (const ParameterEntry& p : parameter_catalogue()) {
+      "| parameter | unit | meaning | start | bounds | fitted unless the file says otherwise |\n"
+      "|---|---|---|---|---|---|\n";
+  for (const Parameter& p : base_parameters()) {
+    const bool derived = default_of(p).is_derived();
     out += fmt::format("| {} | {} | {} | {} | {:g} to {:g} | {} |\n", code(p.name), p.unit,
-                       literal(p.meaning),
-                       p.name == "f0" ? "equation 12" : fmt::format("{:g}", p.initial), p.lower,
-                       p.upper, p.free ? "yes" : "no");
+                       literal(p.meaning), derived ? "equation 12" : fmt::format("{:g}", p.initial),
+                       p.lower, p.upper, p.free ? "yes" : "no");
   }
   return out;
+}
+
+// ---- fit files -------------------------------------------------------------------------------
+
+std::string fit_keys_block(std::string_view table) {
+  const bool defaults = table != "parameter";
+  std::string out =
+      defaults ? "| key | default | meaning |\n|---|---|---|\n" : "| key | meaning |\n|---|---|\n";
+  for (const FitKey& key : fit_keys()) {
+    if (key.table != table) continue;
+    out += fmt::format("| {} |", code(key.name));
+    if (defaults) out += fmt::format(" {} |", code(key.standard));
+    out += fmt::format(" {} |\n", literal(key.meaning));
+  }
+  return out;
+}
+
+template <NamedEnum Enum>
+std::string words_block(std::string_view key) {
+  std::string words;
+  for (const Enum value : values_of<Enum>()) words += fmt::format(", {}", code(name_of(value)));
+  return fmt::format("{} takes {}.\n", code(key), words.substr(2));
 }
 
 // ---- datasets --------------------------------------------------------------------------------
 
 std::string units_block(const CLI::App&) {
-  const std::pair<const char*, Dimension> dimensions[] = {
-      {"length (`diameter`, `diameter_sd`)", Dimension::length},
-      {"velocity (`incident_velocity`, `rebound_velocity`, `velocity_sd`)", Dimension::velocity},
-      {"ratio (`restitution`, `restitution_sd`)", Dimension::ratio},
-      {"count (`events`, `captured`)", Dimension::count}};
-  std::string out = "| what | units |\n|---|---|\n";
-  for (const auto& [name, dimension] : dimensions) {
+  std::string out = "| columns | measure a | units |\n|---|---|---|\n";
+  for (const Dimension dimension : values_of<Dimension>()) {
+    std::string columns;
+    for (const Quantity quantity : values_of<Quantity>()) {
+      if (dimension_of(quantity) != dimension) continue;
+      columns += (columns.empty() ? "" : ", ") + code(name_of(quantity));
+    }
     std::string units;
     for (const std::string& unit : unit_names(dimension)) {
       units += (units.empty() ? "" : ", ") + code(unit);
     }
-    out += fmt::format("| {} | {} |\n", name, units);
+    if (columns.empty() || units.empty()) continue;
+    out += fmt::format("| {} | {} | {} |\n", columns, name_of(dimension), units);
   }
   return out;
 }
@@ -208,13 +233,24 @@ struct Block {
 };
 
 const std::vector<Block>& blocks() {
-  static const std::vector<Block> all = {{"topics", topics_block},
-                                         {"commands", commands_block},
-                                         {"base parameters", base_parameters_block},
-                                         {"mechanisms", mechanisms_block},
-                                         {"mechanism details", mechanism_details_block},
-                                         {"units", units_block},
-                                         {"limits", limits_block}};
+  static const std::vector<Block> all = {
+      {"topics", topics_block},
+      {"commands", commands_block},
+      {"base parameters", base_parameters_block},
+      {"keys of [model]", [](const CLI::App&) { return fit_keys_block("model"); }},
+      {"keys of a parameter", [](const CLI::App&) { return fit_keys_block("parameter"); }},
+      {"keys of [noise]",
+       [](const CLI::App&) {
+         return fit_keys_block("noise") + "\n" + words_block<VarianceFunction>("variance");
+       }},
+      {"keys of [uncertainty]",
+       [](const CLI::App&) {
+         return fit_keys_block("uncertainty") + "\n" + words_block<Scheme>("scheme");
+       }},
+      {"mechanisms", mechanisms_block},
+      {"mechanism details", mechanism_details_block},
+      {"units", units_block},
+      {"limits", limits_block}};
   return all;
 }
 

@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "data/text.hpp"
 #include "data/toml_reader.hpp"
+#include "estimate/fit_keys.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -84,9 +85,7 @@ void read_input_errors(const TomlReader& reader, const toml::table& table,
 
 /// The `[noise]` table.
 NoiseSpec read_noise_spec(const TomlReader& reader, const toml::table& table) {
-  reader.allow_only(table, "[noise]",
-                    {"variance", "residuals", "student_dof", "velocity_errors",
-                     "velocity_relative_sd", "diameter_errors", "diameter_relative_sd"});
+  reader.allow_only(table, "[noise]", fit_keys_of("noise"));
   NoiseSpec spec;
   if (const toml::node* node = table.get("variance")) read_variance(reader, *node, spec);
   read_residuals(reader, table, spec);
@@ -112,7 +111,7 @@ class FitReader : private TomlReader {
 
   LocatedFit read() {
     const toml::table root = parse(text_);
-    allow_only(root, "the fit", {"dataset", "model", "parameters", "noise", "uncertainty"});
+    allow_only(root, "the fit", fit_keys_of(""));
     read_datasets(root);
     if (const toml::table* model = table(root, "model")) read_model(*model);
     read_parameters(table(root, "parameters"));
@@ -165,7 +164,7 @@ class FitReader : private TomlReader {
   }
 
   void read_model(const toml::table& model) {
-    allow_only(model, "[model]", {"adhesion_damping_phase", "mechanisms"});
+    allow_only(model, "[model]", fit_keys_of("model"));
     if (const toml::node* node = model.get("adhesion_damping_phase")) {
       const std::string word = string(*node, "adhesion_damping_phase", "\"rebound\"");
       const auto phase = value_named<AdhesionDampingPhase>(word);
@@ -239,7 +238,7 @@ class FitReader : private TomlReader {
                                             entry.name, entry.initial, entry.lower, entry.upper);
     if (!node.is_table()) wrong_type(node, name, "a table", example);
     const toml::table& table = *node.as_table();
-    allow_only(table, fmt::format("'{}'", entry.name), {"initial", "bounds", "free", "per"});
+    allow_only(table, fmt::format("'{}'", entry.name), fit_keys_of("parameter"));
     if (const toml::node* free = table.get("free")) {
       spec.free = boolean(*free, "free");
     }
@@ -312,7 +311,7 @@ class FitReader : private TomlReader {
   }
 
   void read_uncertainty(const toml::table& table) {
-    allow_only(table, "[uncertainty]", {"replicates", "scheme", "level", "seed"});
+    allow_only(table, "[uncertainty]", fit_keys_of("uncertainty"));
     UncertaintySpec& spec = fit_.spec.uncertainty;
     if (const toml::node* node = table.get("scheme")) {
       const std::string word = string(*node, "scheme", "scheme = \"auto\"");

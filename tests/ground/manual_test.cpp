@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -222,10 +221,9 @@ constexpr const char* its_package = R"({
 
 TEST(Manual, EveryKeyOfFitJsonIsDescribed) {
   const page::Sandbox sandbox;
-  fs::create_directories(sandbox.folder() / "counted");
-  std::ofstream(sandbox.folder() / "counted/points.csv") << impacts_that_differ;
-  std::ofstream(sandbox.folder() / "counted/datapackage.json") << its_package;
-  std::ofstream(sandbox.folder() / "counted.toml") << "dataset = \"counted\"\n";
+  sandbox.write("counted/points.csv", impacts_that_differ);
+  sandbox.write("counted/datapackage.json", its_package);
+  sandbox.write("counted.toml", "dataset = \"counted\"\n");
   const page::Sandbox::Outcome outcome = sandbox.run(
       "build/release/recoil fit counted.toml --replicates 39 --out one\n"
       "build/release/recoil fit fits/wall1990-mica.toml --replicates 19 --out two\n");

@@ -1,13 +1,10 @@
 #include "page.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <regex>
 
+#include "support/command.hpp"
 #include "tree.hpp"
 
 namespace page {
@@ -99,27 +96,17 @@ std::vector<std::vector<std::string>> table_of(const fs::path& markdown,
 }
 
 Sandbox::Sandbox() {
-  std::string place = (fs::temp_directory_path() / "recoil-page-XXXXXX").string();
-  EXPECT_NE(mkdtemp(place.data()), nullptr);
-  folder_ = place;
-  fs::create_directories(folder_ / "build/release");
-  fs::create_symlink(RECOIL_BINARY, folder_ / "build/release/recoil");
+  fs::create_directories(folder() / "build/release");
+  fs::create_symlink(RECOIL_BINARY, folder() / "build/release/recoil");
   for (const char* name : {"datasets", "fits"}) {
-    fs::copy(tree::root() / name, folder_ / name, fs::copy_options::recursive);
+    fs::copy(tree::root() / name, folder() / name, fs::copy_options::recursive);
   }
 }
 
-Sandbox::~Sandbox() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
 Sandbox::Outcome Sandbox::run(const std::string& script) const {
-  std::ofstream(folder_ / "script") << script;
-  const std::string command =
-      "cd '" + folder_.string() + "' && bash -eu script >output 2>&1 </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, tree::text_of(folder_ / "output")};
+  const support::Outcome outcome =
+      support::run_command({"bash", "-eu", "-c", "exec 2>&1\n" + script}, folder());
+  return {outcome.status, outcome.out};
 }
 
 Sandbox::Counts Sandbox::follow(const std::vector<Block>& blocks) const {
@@ -128,8 +115,7 @@ Sandbox::Counts Sandbox::follow(const std::vector<Block>& blocks) const {
     const Block& block = blocks[i];
     if (block.language != "sh") {
       if (block.file.empty()) continue;
-      fs::create_directories((folder_ / block.file).parent_path());
-      std::ofstream(folder_ / block.file) << block.text;
+      folder_.write(block.file, block.text);
       ++counts.files;
       continue;
     }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "support/temporary_folder.hpp"
+
 /// The README and the pages of docs/, as what they promise: files to write, commands to run, output
 /// to see.
 namespace page {
@@ -27,11 +29,9 @@ std::vector<std::vector<std::string>> table_of(const std::filesystem::path& mark
 class Sandbox {
  public:
   Sandbox();
-  ~Sandbox();
-  Sandbox(const Sandbox&) = delete;
-  Sandbox& operator=(const Sandbox&) = delete;
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
 
   struct Outcome {
     int status = -1;
@@ -49,7 +49,7 @@ class Sandbox {
   Counts follow(const std::vector<Block>& blocks) const;
 
  private:
-  std::filesystem::path folder_;
+  support::TemporaryFolder folder_;
 };
 
 }  // namespace page

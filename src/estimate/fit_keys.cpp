@@ -1,0 +1,76 @@
+#include "estimate/fit_keys.hpp"
+
+#include <fmt/format.h>
+
+#include "estimate/fit_spec.hpp"
+
+namespace recoil {
+namespace {
+
+std::string quoted(std::string_view word) { return fmt::format("\"{}\"", word); }
+
+std::string truth_value(bool value) { return value ? "true" : "false"; }
+
+std::vector<FitKey> all_keys() {
+  const FitSpec fit;
+  const NoiseSpec noise;
+  const UncertaintySpec uncertainty;
+  return {
+      {"", "dataset", "", "the folder with the points, or a list: they are fitted together"},
+      {"", "model", "", "the table [model]"},
+      {"", "parameters", "", "the table [parameters]"},
+      {"", "noise", "", "the table [noise]"},
+      {"", "uncertainty", "", "the table [uncertainty]"},
+
+      {"model", "adhesion_damping_phase", quoted(name_of(fit.phase)),
+       "when the damping of the adhesion acts: while the sphere moves outward (rebound), or in "
+       "both "
+       "phases"},
+      {"model", "mechanisms", "[]", "ids of what is added to the base model"},
+
+      {"parameter", "initial", "", "where the fit starts; the value of a fixed parameter"},
+      {"parameter", "bounds", "", "[lower, upper]"},
+      {"parameter", "free", "", "whether it is fitted"},
+      {"parameter", "per", "",
+       "\"dataset\": one value for each dataset of a joint fit instead of one for all"},
+
+      {"noise", "variance", quoted("auto"), "how the scatter depends on e"},
+      {"noise", "residuals", quoted(noise.student ? "student" : "normal"),
+       "normal, or student against outliers"},
+      {"noise", "student_dof", fmt::format("{:g}", noise.student_dof),
+       "degrees of freedom of Student's t"},
+      {"noise", "velocity_errors", truth_value(noise.velocity_errors),
+       "use the column velocity_sd"},
+      {"noise", "velocity_relative_sd", fmt::format("{:g}", noise.velocity_relative_sd),
+       "for points that state no velocity_sd"},
+      {"noise", "diameter_errors", truth_value(noise.diameter_errors),
+       "use the column diameter_sd"},
+      {"noise", "diameter_relative_sd", fmt::format("{:g}", noise.diameter_relative_sd),
+       "for points that state no diameter_sd"},
+
+      {"uncertainty", "replicates", fmt::format("{}", uncertainty.replicates),
+       "of the bootstrap; 0: none, \"auto\": as many as it takes"},
+      {"uncertainty", "scheme", quoted(name_of(uncertainty.scheme)),
+       "how the bootstrap draws new data sets"},
+      {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "of every interval"},
+      {"uncertainty", "seed", fmt::format("{}", uncertainty.seed),
+       "fixes every digit of every output"},
+  };
+}
+
+}  // namespace
+
+const std::vector<FitKey>& fit_keys() {
+  static const std::vector<FitKey> keys = all_keys();
+  return keys;
+}
+
+std::vector<std::string> fit_keys_of(std::string_view table) {
+  std::vector<std::string> names;
+  for (const FitKey& key : fit_keys()) {
+    if (key.table == table) names.emplace_back(key.name);
+  }
+  return names;
+}
+
+}  // namespace recoil
