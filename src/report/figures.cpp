@@ -77,7 +77,7 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
 
   const PointColumns columns = point_columns(analysis, panel.points);
   const auto points =
-      rebound_layer(analysis, columns, points_name(dataset, analysis.data.sd_stated));
+      rebound_layer(analysis, columns, points_name(dataset, analysis.fitted.data.sd_stated));
   if (points) shown.layers.push_back(*points);
   if (!columns.captured.empty()) {
     plot::Points captured{columns.captured, std::vector<double>(columns.captured.size(), 0.0)};

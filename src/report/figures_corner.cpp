@@ -6,6 +6,7 @@
 #include "report/density.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
+#include "report/parameter_axis.hpp"
 
 namespace recoil {
 namespace {
@@ -16,9 +17,9 @@ constexpr double inner_share = 0.5;        // of the replicates within the conto
 constexpr double outer_share = 0.95;
 
 /// One parameter, an axis of the corner plot.
-struct Parameter {
+struct CornerAxis {
   std::size_t slot = 0;
-  plot::Scaling scaling;
+  double factor = 1.0;  // from values to the axis
   plot::Axis axis;
   int label_lines = 1;
   std::vector<double> values;  // of the replicates
@@ -26,15 +27,15 @@ struct Parameter {
   plot::Range range;
 };
 
-Parameter parameter_of(const Analysis& analysis, std::size_t slot) {
+CornerAxis parameter_of(const Analysis& analysis, std::size_t slot) {
   const ParameterSlot& of = analysis.fitted.model.slots[slot];
-  Parameter parameter;
+  CornerAxis parameter;
   parameter.slot = slot;
-  parameter.scaling = plot::scaling_for(std::abs(analysis.fitted.theta[slot]), of.unit);
-  const double factor = parameter.scaling.factor;
-  parameter.axis = {of.name, parameter.scaling.unit};
+  const ParameterAxis shown_as = parameter_axis(of, analysis.fitted.theta[slot]);
+  const double factor = parameter.factor = shown_as.factor;
+  parameter.axis = shown_as.axis;
   if (!of.dataset.empty()) {
-    parameter.axis.label = of.dataset + "\n" + of.name;
+    parameter.axis.label = of.dataset + "\n" + std::string(of.parameter->name);
     parameter.label_lines = 2;
   }
   parameter.values = column(analysis.uncertainty.bootstrap.theta, slot, factor);
@@ -78,7 +79,7 @@ struct Layout {
 
 /// Replicates as bars and the relative profile likelihood exp(-rise / 2) as a line, both 1 at
 /// their peak; dashed the height at which the profile interval ends.
-plot::Plot diagonal_panel(const Analysis& analysis, const Parameter& parameter) {
+plot::Plot diagonal_panel(const Analysis& analysis, const CornerAxis& parameter) {
   plot::Plot panel;
   panel.x = parameter.axis;
   panel.y = {"relative to the peak"};
@@ -95,7 +96,7 @@ plot::Plot diagonal_panel(const Analysis& analysis, const Parameter& parameter) 
   ends.name = "interval ends";
   if (analysis.uncertainty.intervals.size() > parameter.slot) {
     for (const ProfilePoint& point : analysis.uncertainty.intervals[parameter.slot].profile_curve) {
-      profile.x.push_back(point.value * parameter.scaling.factor);
+      profile.x.push_back(point.value * parameter.factor);
       profile.y.push_back(std::exp(-0.5 * point.rise));
       ends.y.push_back(std::exp(-0.5 * point.allowed));
     }
@@ -108,7 +109,7 @@ plot::Plot diagonal_panel(const Analysis& analysis, const Parameter& parameter) 
 }
 
 /// Replicates as points, with the lines within which half and 95 % of them lie.
-plot::Plot lower_panel(const Parameter& x, const Parameter& y, std::size_t stride) {
+plot::Plot lower_panel(const CornerAxis& x, const CornerAxis& y, std::size_t stride) {
   plot::Plot panel;
   panel.x = x.axis;
   panel.y = y.axis;
@@ -139,7 +140,7 @@ plot::Plot lower_panel(const Parameter& x, const Parameter& y, std::size_t strid
 }  // namespace
 
 std::vector<Figure> corner_figures(const Analysis& analysis) {
-  std::vector<Parameter> parameters;
+  std::vector<CornerAxis> parameters;
   std::size_t free = 0;
   const auto& slots = analysis.fitted.model.slots;
   const bool any = !analysis.uncertainty.bootstrap.theta.empty();
@@ -150,7 +151,7 @@ std::vector<Figure> corner_figures(const Analysis& analysis) {
   if (parameters.empty()) return {};
   const std::size_t count = parameters.size();
   int label_lines = 1;
-  for (const Parameter& parameter : parameters) {
+  for (const CornerAxis& parameter : parameters) {
     label_lines = std::max(label_lines, parameter.label_lines);
   }
   const Layout layout(count, label_lines);

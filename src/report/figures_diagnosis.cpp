@@ -57,7 +57,7 @@ Misses misses_of(const Diagnosis& d, std::size_t dataset) {
     all.velocities.push_back(point.velocity);
     all.diameters.push_back(point.diameter / unit);
     all.misses.push_back(miss);
-    all.in_sd.push_back(point.sd > 0.0 ? miss / point.sd : 0.0);
+    all.in_sd.push_back(point.weights.sd > 0.0 ? miss / point.weights.sd : 0.0);
   }
   return all;
 }
@@ -185,8 +185,8 @@ plot::Axis axis_around_points(const Diagnosis& d, std::size_t dataset) {
   double bottom = 1.0;
   for (const Observation& point : d.base.data.points) {
     if (point.dataset != dataset) continue;
-    top = std::max(top, point.restitution + 2.0 * point.sd);
-    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * point.sd);
+    top = std::max(top, point.restitution + 2.0 * point.weights.sd);
+    bottom = std::min(bottom, point.censored ? 0.0 : point.restitution - 2.0 * point.weights.sd);
   }
   const bool high = bottom > 0.7;
   const double room = 0.3 * (top - bottom);
@@ -210,7 +210,7 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
     Measured& size = sizes[point.diameter];
     size.velocity.push_back(point.velocity);
     size.restitution.push_back(point.censored ? 0.0 : point.restitution);
-    size.sd.push_back(point.sd);
+    size.sd.push_back(point.weights.sd);
     size.series = point.series;
   }
   plot::Plot shown;

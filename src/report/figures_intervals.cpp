@@ -5,6 +5,7 @@
 
 #include "report/figures.hpp"
 #include "report/format.hpp"
+#include "report/parameter_axis.hpp"
 
 namespace recoil {
 namespace {
@@ -36,29 +37,28 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
   const ParameterSlot& parameter = analysis.fitted.model.slots[slot];
   const IntervalSet set = intervals_of(analysis, slot);
   const double estimate = analysis.fitted.theta[slot];
-  const plot::Scaling scale = plot::scaling_for(std::abs(estimate), parameter.unit);
+  const auto [factor, axis] = parameter_axis(parameter, estimate);
   const Kind kinds[] = {{"wald", "Wald", &set.wald},
                         {"profile", "profile", &set.profile},
                         {"percentile", "percentile", &set.percentile},
                         {"bca", "BCa", &set.bca},
                         {"studentized", "studentized", &set.studentized}};
-  std::vector<double> ends = {estimate * scale.factor};
+  std::vector<double> ends = {estimate * factor};
   for (const Kind& kind : kinds) {
     if (!kind.interval->available()) continue;
-    ends.push_back(*kind.interval->lower * scale.factor);
-    ends.push_back(*kind.interval->upper * scale.factor);
+    ends.push_back(*kind.interval->lower * factor);
+    ends.push_back(*kind.interval->upper * factor);
   }
   plot::Range range = plot::range_of(ends, 0.08);
-  const double lower = parameter.lower * scale.factor;
-  const double upper = parameter.upper * scale.factor;
+  const double lower = parameter.lower * factor;
+  const double upper = parameter.upper * factor;
   // A bound that is near belongs into the picture: that none of the intervals reaches it is news.
   const double width = range.width();
   if (lower > range.lower - 0.35 * width) range.lower = lower - 0.06 * width;
   if (upper < range.upper + 0.35 * width) range.upper = upper + 0.06 * width;
 
   plot::Plot shown;
-  shown.x = {parameter.dataset.empty() ? parameter.name : parameter.name + ", " + parameter.dataset,
-             scale.unit};
+  shown.x = axis;
   shown.x.set_range(range);
   shown.x.about = 7;
   shown.y.set_range({-4.6, 0.6});
@@ -66,7 +66,7 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
   shown.key.place = plot::KeyPlace::above;
   add_bound(lower, true, range, shown);
   add_bound(upper, false, range, shown);
-  plot::Rule middle{plot::Direction::vertical, estimate * scale.factor, {plot::vermillion, 2.0}};
+  plot::Rule middle{plot::Direction::vertical, estimate * factor, {plot::vermillion, 2.0}};
   middle.name = "estimate";
   plot::Spans usual;
   usual.stroke = {plot::blue, 2.5};
@@ -80,8 +80,8 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
     if (kind.interval->available()) {
       plot::Spans& spans = is_recommended ? chosen : usual;
       spans.y.push_back(row);
-      spans.lower.push_back(*kind.interval->lower * scale.factor);
-      spans.upper.push_back(*kind.interval->upper * scale.factor);
+      spans.lower.push_back(*kind.interval->lower * factor);
+      spans.upper.push_back(*kind.interval->upper * factor);
     } else {
       plot::Words none{"none", plot::share_of_plot(0.02), plot::on_axis(row)};
       none.size = 11.0;

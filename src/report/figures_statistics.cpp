@@ -9,6 +9,7 @@
 #include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
+#include "report/parameter_axis.hpp"
 
 namespace recoil {
 namespace {
@@ -166,15 +167,15 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
   const double estimate = analysis.fitted.theta[slot];
   const IntervalSet set = intervals_of(analysis, slot);
   const Interval interval = recommended_interval(set);
-  const plot::Scaling scale = plot::scaling_for(std::abs(estimate), parameter.unit);
+  const auto [factor, axis] = parameter_axis(parameter, estimate);
   const std::vector<double> values =
-      column(analysis.uncertainty.bootstrap.theta, slot, scale.factor);
+      column(analysis.uncertainty.bootstrap.theta, slot, factor);
 
   const plot::Range bulk = plot::quantile_range(values, 0.005, 0.995);
-  std::vector<double> ends = {bulk.lower, bulk.upper, estimate * scale.factor};
+  std::vector<double> ends = {bulk.lower, bulk.upper, estimate * factor};
   if (interval.available()) {
-    ends.push_back(*interval.lower * scale.factor);
-    ends.push_back(*interval.upper * scale.factor);
+    ends.push_back(*interval.lower * factor);
+    ends.push_back(*interval.upper * factor);
   }
   plot::Range range = plot::range_of(ends, 0.06);
   range.lower = std::max(range.lower, parameter.lower >= 0.0 ? 0.0 : -INFINITY);
@@ -182,19 +183,18 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
   bars.boxes.fill = {std::string(plot::sky), 0.75};
 
   plot::Plot shown;
-  shown.x = {parameter.dataset.empty() ? parameter.name : parameter.name + ", " + parameter.dataset,
-             scale.unit};
+  shown.x = axis;
   shown.x.set_range(range);
   shown.y = {"replicates"};
   shown.y.from = 0.0;
   shown.key.place = plot::KeyPlace::above;
   shown.layers.push_back(std::move(bars.boxes));
   plot::Rule middle{
-      plot::Direction::vertical, estimate * scale.factor, {plot::vermillion, 2.0}, true};
+      plot::Direction::vertical, estimate * factor, {plot::vermillion, 2.0}, true};
   middle.name = "estimate";
   shown.layers.push_back(std::move(middle));
   if (interval.available()) {
-    plot::Region inside{*interval.lower * scale.factor, *interval.upper * scale.factor};
+    plot::Region inside{*interval.lower * factor, *interval.upper * factor};
     inside.name = fmt::format("{} interval ({})", percent(analysis.uncertainty.options.level),
                               set.recommended);
     shown.layers.push_back(std::move(inside));

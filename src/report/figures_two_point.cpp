@@ -6,6 +6,7 @@
 #include "report/density.hpp"
 #include "report/figures.hpp"
 #include "report/format.hpp"
+#include "report/parameter_axis.hpp"
 
 namespace recoil {
 namespace {
@@ -73,8 +74,8 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
   const std::size_t A = model.slot_C_A[comparison.dataset];
   const std::vector<double>& full = analysis.fitted.theta;
   const std::vector<double>& two = comparison.result.theta;
-  const plot::Scaling scale_H = plot::scaling_for(std::abs(full[H]), model.slots[H].unit);
-  const plot::Scaling scale_A = plot::scaling_for(std::abs(full[A]), model.slots[A].unit);
+  const ParameterAxis scale_H = parameter_axis(model.slots[H], full[H]);
+  const ParameterAxis scale_A = parameter_axis(model.slots[A], full[A]);
   const BootstrapResult& bootstrap = analysis.uncertainty.bootstrap;
   const Pairs all_points = pairs_of(bootstrap.theta, H, A, scale_H.factor, scale_A.factor);
   const Pairs two_points = comparison.dataset < bootstrap.two_point_theta.size()
@@ -92,9 +93,9 @@ Figure scatter(const Analysis& analysis, const TwoPointComparison& comparison) {
   std::size_t outside = 0;
 
   plot::Plot shown;
-  shown.x = {"C_H", scale_H.unit};
+  shown.x = {"C_H", scale_H.axis.unit};
   shown.x.set_range(x);
-  shown.y = {"C_A", scale_A.unit};
+  shown.y = {"C_A", scale_A.axis.unit};
   shown.y.set_range(y);
   shown.key.place = plot::KeyPlace::above;
   shown.layers = {cloud_of(two_points, x, y, plot::orange, outside),

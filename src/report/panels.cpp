@@ -132,7 +132,7 @@ PointColumns point_columns(const Analysis& analysis, const std::vector<std::size
     } else {
       columns.velocity.push_back(point.velocity);
       columns.restitution.push_back(point.restitution);
-      columns.sd.push_back(point.sd);
+      columns.sd.push_back(point.weights.sd);
     }
   }
   return columns;
@@ -142,7 +142,7 @@ std::optional<plot::Points> rebound_layer(const Analysis& analysis, const PointC
                                           const std::string& name) {
   if (columns.velocity.empty()) return std::nullopt;
   plot::Points points{columns.velocity, columns.restitution};
-  if (analysis.data.sd_stated) points.with_sd(columns.sd);
+  if (analysis.fitted.data.sd_stated) points.with_sd(columns.sd);
   points.name = name;
   return points;
 }

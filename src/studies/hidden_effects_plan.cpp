@@ -45,13 +45,13 @@ Arm arm_of(const CaseOrder& order) {
 
 std::vector<CaseOrder> plan_study(const StudySize& size) {
   Plan plan(size.seed);
-  for (const HiddenEffect& effect : hidden_effects()) {
-    const std::vector<std::string> effect = {std::string(effect.id)};
-    if (effect.kind == EffectKind::careless) {
+  for (const HiddenEffect& known : hidden_effects()) {
+    const std::vector<std::string> effect = {std::string(known.id)};
+    if (known.kind == EffectKind::careless) {
       for (const char* design : {"wall", "li"}) plan.add(design, effect, 0.0, size.careless);
       continue;
     }
-    const bool outside = effect.kind == EffectKind::outside;
+    const bool outside = known.kind == EffectKind::outside;
     for (const double strength : study_strengths()) {
       const int count = outside ? size.outside : size.per_cell;
       if (outside && strength < visible) continue;

@@ -22,7 +22,7 @@ std::string per_effect(const std::vector<Answered>& all, Arm arm) {
   };
   std::map<std::pair<std::string, double>, Row> rows;
   for (const Answered& a : all) {
-    if (!a.reached || arm_of(a.order) != chapter) continue;
+    if (!a.reached || arm_of(a.order) != arm) continue;
     std::string name;
     for (const std::string& effect : a.order.effects) name += (name.empty() ? "" : " + ") + effect;
     Row& row = rows[{name.empty() ? "nothing" : name, a.order.signal_to_noise}];

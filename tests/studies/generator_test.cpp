@@ -103,9 +103,8 @@ TEST(Generator, FilesSayNothingOfWhatIsHidden) {
       if (!entry.is_regular_file()) continue;
       files.insert(entry.path().filename().string());
       const std::string text = text_of(entry.path());
-      for (const HiddenEffect& effect : hidden_effects()) {
-        EXPECT_EQ(text.find(effect.id), std::string::npos)
-            << entry.path() << " names " << effect.id;
+      for (const HiddenEffect& known : hidden_effects()) {
+        EXPECT_EQ(text.find(known.id), std::string::npos) << entry.path() << " names " << known.id;
       }
     }
     EXPECT_EQ(files, (std::set<std::string>{"datapackage.json", "points.csv",
