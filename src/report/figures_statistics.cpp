@@ -168,8 +168,7 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
   const IntervalSet set = intervals_of(analysis, slot);
   const Interval interval = recommended_interval(set);
   const auto [factor, axis] = parameter_axis(parameter, estimate);
-  const std::vector<double> values =
-      column(analysis.uncertainty.bootstrap.theta, slot, factor);
+  const std::vector<double> values = column(analysis.uncertainty.bootstrap.theta, slot, factor);
 
   const plot::Range bulk = plot::quantile_range(values, 0.005, 0.995);
   std::vector<double> ends = {bulk.lower, bulk.upper, estimate * factor};
@@ -189,8 +188,7 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
   shown.y.from = 0.0;
   shown.key.place = plot::KeyPlace::above;
   shown.layers.push_back(std::move(bars.boxes));
-  plot::Rule middle{
-      plot::Direction::vertical, estimate * factor, {plot::vermillion, 2.0}, true};
+  plot::Rule middle{plot::Direction::vertical, estimate * factor, {plot::vermillion, 2.0}, true};
   middle.name = "estimate";
   shown.layers.push_back(std::move(middle));
   if (interval.available()) {

@@ -1,0 +1,267 @@
+// What the pictures of a fit show, as facts: axes, layers, numbers. Nothing is drawn here.
+#include "report/figures.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/units.hpp"
+#include "example_analysis.hpp"
+#include "report/corrections.hpp"
+#include "report/experiment_figures.hpp"
+
+namespace recoil {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+template <class Kind>
+std::vector<Kind> layers_of(const plot::Plot& shown) {
+  std::vector<Kind> found;
+  for (const plot::Layer& layer : shown.layers) {
+    if (const auto* one = std::get_if<Kind>(&layer)) found.push_back(*one);
+  }
+  return found;
+}
+
+/// The layer of that kind and name; an empty one where there is none.
+template <class Kind>
+Kind layer_named(const plot::Plot& shown, const std::string& name) {
+  for (const Kind& one : layers_of<Kind>(shown)) {
+    if (one.name == name) return one;
+  }
+  ADD_FAILURE() << "no layer " << name;
+  return {};
+}
+
+const plot::Plot& plot_of(const Figure& figure, std::size_t index = 0) {
+  return figure.picture.plots.at(index);
+}
+
+bool inside(double value, const plot::Axis& axis) {
+  const double low = std::min(*axis.from, *axis.to);
+  const double high = std::max(*axis.from, *axis.to);
+  return value >= low && value <= high;
+}
+
+TEST(RestitutionFigures, ShowEveryPointOnce) {
+  const Analysis analysis = example::four_diameters();
+  const std::vector<Figure> figures = restitution_figures(analysis);
+  ASSERT_EQ(figures.size(), 4U);
+  std::size_t shown = 0;
+  for (const Figure& figure : figures) {
+    const plot::Plot& plot = plot_of(figure);
+    EXPECT_TRUE(plot.x.logarithmic);
+    EXPECT_EQ(plot.x.unit, "m/s");
+    EXPECT_EQ(plot.y.from, 0.0);
+    for (const plot::Points& points : layers_of<plot::Points>(plot)) {
+      shown += points.x.size();
+      for (std::size_t i = 0; i < points.x.size(); ++i) {
+        EXPECT_TRUE(inside(points.x[i], plot.x)) << points.x[i];
+        EXPECT_TRUE(inside(points.y[i], plot.y)) << points.y[i];
+      }
+    }
+  }
+  EXPECT_EQ(shown, analysis.fitted.data.points.size());
+}
+
+TEST(RestitutionFigures, ErrorBarsAreOneStandardDeviation) {
+  const Analysis analysis = example::four_diameters();
+  ASSERT_TRUE(analysis.fitted.data.sd_stated);
+  const auto points = layers_of<plot::Points>(plot_of(restitution_figures(analysis).front()));
+  ASSERT_FALSE(points.empty());
+  const Observation& first = analysis.fitted.data.points.front();
+  EXPECT_DOUBLE_EQ(points[0].x[0], first.velocity);
+  EXPECT_DOUBLE_EQ(points[0].y[0], first.restitution);
+  EXPECT_DOUBLE_EQ(points[0].upper[0] - points[0].lower[0], 2.0 * first.sd);
+}
+
+TEST(RestitutionFigures, TheCurveAndItsBandAreThoseOfTheFit) {
+  const Analysis analysis = example::four_diameters();
+  const RestitutionCurve& curve = analysis.uncertainty.curves.front();
+  const plot::Plot& plot = plot_of(restitution_figures(analysis).front());
+  const auto line = layer_named<plot::Line>(plot, "fit to all points");
+  const auto band = layers_of<plot::Band>(plot).at(0);
+  ASSERT_FALSE(line.x.empty());
+  EXPECT_EQ(line.x.front(), curve.velocity.front());
+  EXPECT_EQ(line.x.back(), curve.velocity.back());
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    const auto at = std::find(curve.velocity.begin(), curve.velocity.end(), line.x[i]);
+    ASSERT_NE(at, curve.velocity.end());
+    const auto k = static_cast<std::size_t>(at - curve.velocity.begin());
+    EXPECT_EQ(line.y[i], curve.restitution[k]);
+    EXPECT_EQ(band.lower[i], curve.lower[k]);
+    EXPECT_EQ(band.upper[i], curve.upper[k]);
+  }
+}
+
+TEST(RestitutionFigures, TheCaptureVelocityStandsInItsInterval) {
+  const Analysis analysis = example::four_diameters();
+  const CaptureEstimate& capture = analysis.uncertainty.capture.front();
+  ASSERT_TRUE(capture.found);
+  const plot::Plot& plot = plot_of(restitution_figures(analysis).front());
+  const auto rules = layers_of<plot::Rule>(plot);
+  const auto regions = layers_of<plot::Region>(plot);
+  ASSERT_EQ(rules.size(), 1U);
+  EXPECT_EQ(rules[0].at, capture.value);
+  ASSERT_EQ(regions.size(), 1U);
+  EXPECT_LE(*regions[0].left, rules[0].at);
+  EXPECT_GE(*regions[0].right, rules[0].at);
+}
+
+TEST(ResidualFigures, LieAboutZeroWithLinesAtTwo) {
+  for (const auto& figures : {residual_velocity_figures(example::four_diameters()),
+                              residual_diameter_figures(example::four_diameters())}) {
+    ASSERT_EQ(figures.size(), 1U);
+    const plot::Plot& plot = plot_of(figures[0]);
+    EXPECT_EQ(*plot.y.from, -*plot.y.to);
+    std::vector<double> places;
+    for (const plot::Rule& rule : layers_of<plot::Rule>(plot)) places.push_back(rule.at);
+    EXPECT_THAT(places, ElementsAre(-2.0, 2.0, 0.0));
+  }
+}
+
+TEST(ResidualFigures, TheMeanOfADiameterIsThatOfItsResiduals) {
+  const Analysis analysis = example::four_diameters();
+  const auto means = layer_named<plot::Points>(plot_of(residual_diameter_figures(analysis).front()),
+                                               "mean ± 1 sd");
+  ASSERT_EQ(means.x.size(), 4U);
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < analysis.fitted.data.points.size(); ++i) {
+    if (std::abs(analysis.fitted.data.points[i].diameter / units::um - means.x[0]) > 1e-9) continue;
+    sum += analysis.fitted.residuals[i];
+    count += 1.0;
+  }
+  EXPECT_NEAR(means.y[0], sum / count, 1e-12);
+  EXPECT_NEAR(means.upper[0] - means.y[0], 1.0 / std::sqrt(count), 1e-12);
+}
+
+TEST(BootstrapFigures, BarsCountEveryReplicateInThePicture) {
+  const Analysis analysis = example::four_diameters();
+  const Figure figure = bootstrap_figures(analysis).front();
+  const plot::Boxes bars = layers_of<plot::Boxes>(plot_of(figure)).at(0);
+  double counted = 0.0;
+  for (const double top : bars.top) counted += top;
+  const double all = static_cast<double>(analysis.uncertainty.bootstrap.theta.size());
+  EXPECT_LE(counted, all);
+  EXPECT_GE(counted, 0.98 * all);
+  const double estimate = layer_named<plot::Rule>(plot_of(figure), "estimate").at;
+  EXPECT_TRUE(inside(estimate, plot_of(figure).x));
+}
+
+TEST(IntervalFigures, EveryIntervalHasItsRow) {
+  const Analysis analysis = example::four_diameters();
+  for (const Figure& figure : interval_figures(analysis)) {
+    const plot::Plot& plot = plot_of(figure);
+    EXPECT_EQ(plot.y.ticks.size(), 5U);
+    std::size_t rows = 0;
+    for (const plot::Spans& spans : layers_of<plot::Spans>(plot)) {
+      rows += spans.y.size();
+      for (std::size_t i = 0; i < spans.y.size(); ++i) EXPECT_LE(spans.lower[i], spans.upper[i]);
+    }
+    for (const plot::Words& words : layers_of<plot::Words>(plot)) rows += words.text == "none";
+    EXPECT_EQ(rows, 5U);
+  }
+}
+
+TEST(CornerFigures, HaveAPanelForEveryPairAndEveryParameter) {
+  const std::vector<Figure> figures = corner_figures(example::two_datasets());
+  ASSERT_EQ(figures.size(), 1U);
+  std::size_t diagonal = 0;
+  for (const plot::Plot& plot : figures[0].picture.plots) {
+    ASSERT_TRUE(plot.frame.has_value());
+    EXPECT_GE(plot.frame->left, 0.0);
+    EXPECT_LE(plot.frame->right, figures[0].picture.width);
+    EXPECT_LE(plot.frame->top, figures[0].picture.height);
+    diagonal += layers_of<plot::Boxes>(plot).size();
+  }
+  EXPECT_EQ(figures[0].picture.plots.size(), diagonal * (diagonal + 1) / 2);
+  Analysis without = example::two_datasets();
+  without.uncertainty.bootstrap.theta.clear();
+  EXPECT_THAT(corner_figures(without), IsEmpty());
+}
+
+TEST(CornerFigures, PanelsDoNotOverlap) {
+  const Figure figure = corner_figures(example::two_datasets()).at(0);
+  const auto& plots = figure.picture.plots;
+  for (std::size_t a = 0; a < plots.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const plot::Frame& one = *plots[a].frame;
+      const plot::Frame& other = *plots[b].frame;
+      EXPECT_TRUE(one.right <= other.left || other.right <= one.left || one.top <= other.bottom ||
+                  other.top <= one.bottom)
+          << a << " and " << b;
+    }
+  }
+}
+
+TEST(AdhesionForceFigures, FollowTheCubeRoot) {
+  const Figure figure = adhesion_force_figures(example::four_diameters()).at(0);
+  const plot::Line line = layers_of<plot::Line>(plot_of(figure)).at(0);
+  const double scale = line.y.back() / std::cbrt(line.x.back());
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    EXPECT_NEAR(line.y[i], scale * std::cbrt(line.x[i]), 1e-9 * line.y.back());
+  }
+}
+
+TEST(ForceHistoryFigures, TheSumIsThatOfTheFourForces) {
+  const Figure figure = force_history_figures(example::four_diameters()).at(0);
+  const auto lines = layers_of<plot::Line>(plot_of(figure));
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[4].name, "sum");
+  for (std::size_t i = 0; i < lines[4].y.size(); ++i) {
+    const double sum = lines[0].y[i] + lines[1].y[i] + lines[2].y[i] + lines[3].y[i];
+    EXPECT_NEAR(lines[4].y[i], sum, 1e-9 * (1.0 + std::abs(sum)));
+    EXPECT_TRUE(inside(lines[0].x[i], plot_of(figure).x));
+  }
+}
+
+TEST(CorrectionFigures, LeaveOutTheRowThatCannotDiffer) {
+  const CorrectionStudy study = example::corrections(1);
+  const std::vector<Figure> figures = correction_figures(study, 1);
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(layers_of<plot::Line>(plot_of(figures[0])).size(), study.rows.size() - 1);
+  EXPECT_EQ(plot_of(figures[1]).y.ticks.size(), study.rows.size());
+}
+
+TEST(ExperimentPictures, BarsAndOutlineHoldTheSameShare) {
+  Distributions shown;
+  for (int i = 0; i < 300; ++i) {
+    shown.raw_velocities.push_back(std::sin(i));
+    shown.paired_velocities.push_back(std::cos(i));
+    shown.incoming_sizes.push_back((40.0 + 10.0 * std::sin(7 * i)) * 1e-6);
+  }
+  const std::vector<plot::Picture> pictures = experiment_pictures(shown, {}, "made up");
+  std::vector<std::string> names;
+  for (const plot::Picture& picture : pictures) names.push_back(picture.name);
+  EXPECT_THAT(names, ElementsAre("sizes", "velocities-raw", "velocities-paired", "restitution"));
+  const plot::Boxes bars = layers_of<plot::Boxes>(pictures[0].plots[0]).at(0);
+  double share = 0.0;
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    share += bars.top[i] * (bars.right[i] - bars.left[i]);
+  }
+  EXPECT_NEAR(share, 100.0, 1e-9);
+  const plot::Line outline = layers_of<plot::Line>(pictures[0].plots[0]).at(0);
+  EXPECT_EQ(outline.y.front(), 0.0);
+  EXPECT_EQ(outline.y.back(), 0.0);
+}
+
+TEST(Figures, HoldTheirDataAsColumnsWithUnits) {
+  const std::vector<plot::DataTable> tables =
+      plot::data_of(restitution_figures(example::four_diameters()).front().picture);
+  ASSERT_FALSE(tables.empty());
+  for (const plot::DataTable& table : tables) {
+    ASSERT_GE(table.columns.size(), 2U);
+    EXPECT_EQ(table.columns[0].name, "incident velocity V");
+    EXPECT_EQ(table.columns[0].unit, "m/s");
+    for (const plot::Column& column : table.columns) {
+      EXPECT_EQ(column.values.size(), table.columns[0].values.size());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace recoil
