@@ -75,7 +75,7 @@ TEST(RestitutionFigures, ErrorBarsAreOneStandardDeviation) {
   const Observation& first = analysis.fitted.data.points.front();
   EXPECT_DOUBLE_EQ(points[0].x[0], first.velocity);
   EXPECT_DOUBLE_EQ(points[0].y[0], first.restitution);
-  EXPECT_DOUBLE_EQ(points[0].upper[0] - points[0].lower[0], 2.0 * first.sd);
+  EXPECT_DOUBLE_EQ(points[0].upper[0] - points[0].lower[0], 2.0 * first.weights.sd);
 }
 
 TEST(RestitutionFigures, TheCurveAndItsBandAreThoseOfTheFit) {
