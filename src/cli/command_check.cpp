@@ -4,7 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "data/dataset.hpp"
-#include "report/words_dataset.hpp"
+#include "report/dataset_document.hpp"
 
 namespace recoil {
 
@@ -19,7 +19,7 @@ void add_check(CLI::App& program) {
       "  recoil check datasets/dahneke1975-quartz");
   const auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "the dataset's folder")->required();
-  command->callback([folder] { fmt::print("{}", describe(load_dataset(*folder))); });
+  command->callback([folder] { fmt::print("{}", dataset_text(load_dataset(*folder))); });
 }
 
 }  // namespace recoil

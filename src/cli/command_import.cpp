@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "data/text.hpp"
 #include "experiment/import.hpp"
-#include "report/words_dataset.hpp"
+#include "report/dataset_document.hpp"
 #include "report/words_import.hpp"
 
 namespace recoil {
@@ -34,7 +34,7 @@ void run_import(ImportFlags flags) {
   flags.request.format = *format;
   flags.request.provenance = value_named<Provenance>(flags.provenance);
   const ImportResult result = import_points(flags.request);
-  fmt::print("{}", describe(result.dataset));
+  fmt::print("{}", dataset_text(result.dataset));
   for (const ImportNote& note : result.notes) fmt::print("note: {}\n", note_sentence(note));
   fmt::print("{}: written\n", flags.into);
 }

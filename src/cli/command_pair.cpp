@@ -15,7 +15,7 @@
 #include "experiment/passages.hpp"
 #include "plot/draw.hpp"
 #include "report/experiment_figures.hpp"
-#include "report/words_impacts.hpp"
+#include "report/pairing_document.hpp"
 
 namespace recoil {
 namespace {
@@ -150,7 +150,7 @@ void run_pair(PairCommand command) {
   if (!command.into.empty()) provenance_of(command, table);  // complain before the work
   const PairingResult pairs = pair_passages(table.passages, command.pairing);
   const Averages averages = average(table.passages, table.series, pairs, command.averaging);
-  fmt::print("{}", describe(table, pairs, averages));
+  fmt::print("{}", pairing_text(table, pairs, averages));
   if (pairs.impacts.empty()) {
     throw ComputationError(fmt::format(
         "{}: no impacts found (no passage up follows one down in the time that a plane {:g} mm "

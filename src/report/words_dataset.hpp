@@ -13,8 +13,4 @@ std::string provenance_sentence(Provenance provenance);
 /// "2 points with a restitution above 1 (first in line 5): ..."
 std::string warning_sentence(const DatasetWarning& warning);
 
-/// What `recoil check` prints: the system, the columns with their units, the series and ranges,
-/// the provenance sentence and the warnings.
-std::string describe(const Dataset& dataset);
-
 }  // namespace recoil

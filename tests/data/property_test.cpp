@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "data/dataset.hpp"
+#include "report/dataset_document.hpp"
 #include "support/dataset_folder.hpp"
 
 namespace recoil {
@@ -101,7 +102,7 @@ void assert_sound(const Dataset& dataset) {
     RC_ASSERT(point.captured >= 0 && point.captured <= point.events);
     RC_ASSERT((!point.restitution_sd || *point.restitution_sd > 0.0));  // short-circuits
   }
-  RC_ASSERT(!describe(dataset).empty());
+  RC_ASSERT(!dataset_text(dataset).empty());
 }
 
 /// Some bytes of `text` replaced, removed or put in.

@@ -6,8 +6,8 @@
 
 #include "core/files.hpp"
 #include "predict/measured_sizes.hpp"
-#include "support/workplace.hpp"
 #include "studies/synthetic/event_stream.hpp"
+#include "support/workplace.hpp"
 
 namespace {
 
@@ -31,7 +31,7 @@ TEST(PairCommand, EventsToADatasetThatCheckAccepts) {
                                   "--into", "set", "--like", "data", "--provenance", "synthetic",
                                   "--size-classes", "2", "--impacts", "i.csv"});
   ASSERT_EQ(pair.status, 0) << pair.err;
-  EXPECT_NE(pair.out.find("damaged rows left out (e.csv:"), std::string::npos) << pair.out;
+  EXPECT_NE(pair.out.find("damaged rows left out"), std::string::npos) << pair.out;
   EXPECT_EQ(place.read("points.csv"), place.read("set/points.csv"));
   EXPECT_NE(place.read("i.csv").find(",rebounded\n"), std::string::npos);
   const Outcome check = place.run({"check", "set"});
@@ -131,9 +131,8 @@ TEST(PairCommand, ThresholdStatesItsSelection) {
   const Outcome pair =
       place.run({"pair", "e.csv", "--unit", kUnits, "--threshold", "0.7", "--angle", "8"});
   ASSERT_EQ(pair.status, 0) << pair.err;
-  EXPECT_NE(pair.out.find("threshold  0.7 m/s at the plane: takes away"), std::string::npos);
-  EXPECT_NE(pair.out.find("selection: among first impacts the mean e goes from"),
-            std::string::npos);
+  EXPECT_NE(pair.out.find("0.7 m/s at the plane: takes away"), std::string::npos);
+  EXPECT_NE(pair.out.find("Selection: among first impacts the mean e"), std::string::npos);
   EXPECT_NE(pair.out.find("more than 8 degrees from the normal"), std::string::npos);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "check.hpp"
+#include "report/dataset_document.hpp"
 
 namespace {
 
@@ -30,7 +31,7 @@ void require_sound(const recoil::Dataset& dataset) {
     fuzz::require(body->poisson_ratio > -1.0 && body->poisson_ratio <= 0.5, "poisson_ratio");
   }
   fuzz::require(dataset.system.particle.density > 0.0, "density");
-  fuzz::require(recoil::describe(dataset).find("[um]") != std::string::npos, "description");
+  fuzz::require(recoil::dataset_text(dataset).find("[um]") != std::string::npos, "description");
   fuzz::require(recoil::distinct_diameters(dataset).size() <= dataset.points.size(), "diameters");
 }
 

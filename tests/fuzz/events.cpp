@@ -12,6 +12,7 @@
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
 #include "experiment/passages.hpp"
+#include "report/pairing_document.hpp"
 
 namespace {
 
@@ -79,7 +80,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     by.mean_diameter = size % 2 == 0;
     const recoil::Averages averages = recoil::average(table.passages, table.series, pairs, by);
     require_sound(averages);
-    fuzz::require(!recoil::describe(table, pairs, averages).empty(), "description");
+    fuzz::require(!recoil::pairing_text(table, pairs, averages).empty(), "description");
     recoil::histogram_files(recoil::distributions(table, pairs));
   } catch (const recoil::InputError& error) {
     fuzz::require_one_line(error);

@@ -1,0 +1,94 @@
+#include "report/dataset_document.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "report/words_dataset.hpp"
+#include "support/dataset_folder.hpp"
+
+namespace recoil {
+namespace {
+
+using testing::HasSubstr;
+
+Dataset dataset_of(const std::string& package, const std::string& points = example::points) {
+  return parse_dataset(package, points, "folder");
+}
+
+/// What stands behind `name`; empty where it is not mentioned.
+std::string value_of(const Table& table, const std::string& name) {
+  for (const auto& row : table.rows) {
+    if (plain_text(words_of_cell(row[0])) == name) return plain_text(words_of_cell(row[1]));
+  }
+  return "";
+}
+
+std::vector<std::string> titles(const Dataset& dataset) {
+  std::vector<std::string> shown;
+  for (const Section& section : dataset_sections(dataset)) {
+    if (!empty(section)) shown.push_back(plain_text(section.title));
+  }
+  return shown;
+}
+
+TEST(DatasetDocument, SaysWhatWasReadWithUnits) {
+  const Dataset dataset = dataset_of(example::package);
+  const Table table = dataset_table(dataset);
+  EXPECT_EQ(value_of(table, "dataset"), "example-quartz");
+  EXPECT_EQ(value_of(table, "title"), dataset.title);
+  EXPECT_EQ(value_of(table, "provenance"), "measured");
+  EXPECT_THAT(value_of(table, "particle"),
+              HasSubstr("polystyrene, density 1050 kg/m3, E 2.56 GPa"));
+  EXPECT_THAT(value_of(table, "surface"), HasSubstr("quartz, E 73 GPa"));
+  EXPECT_THAT(value_of(table, "columns"), HasSubstr("restitution_sd [%]"));
+  EXPECT_EQ(value_of(table, "points"), "4 in 2 series");
+  EXPECT_EQ(value_of(table, "stated"), "");
+  EXPECT_THAT(titles(dataset), testing::ElementsAre("Dataset", "Series", "Sources"));
+}
+
+TEST(DatasetDocument, ShowsOverridesAndWarnings) {
+  const Dataset dataset =
+      dataset_of(support::changed(example::package, "\"provenance\"",
+                                  "\"stiffness_K\": 3.745e9, \"adhesion_energy\": 0.235,\n"
+                                  "\"adhesion_force_f0\": 5.74, \"reference_diameter\": 1.28e-6,"
+                                  "\"provenance\""),
+                 support::changed(example::points, "0.912", "1.1"));
+  EXPECT_EQ(value_of(dataset_table(dataset), "stated"),
+            "K 3.745 GPa, adhesion energy 0.235 J/m2, f0 5.74 N/m, reference diameter 1.28 um");
+  EXPECT_THAT(titles(dataset), testing::Contains("Warnings"));
+}
+
+TEST(DatasetDocument, SumsUpEverySeries) {
+  const Dataset dataset = dataset_of(example::package);
+  const Table table = series_table(dataset);
+  ASSERT_EQ(table.rows.size(), 2U);
+  double points = 0.0;
+  for (const auto& row : table.rows) points += std::get<Number>(row[2]).value;
+  EXPECT_EQ(points, 4.0);
+  EXPECT_EQ(plain_text(words_of_cell(table.rows[0][0])), dataset.series[0]);
+}
+
+TEST(Provenance, EachHasItsOneSentence) {
+  for (const Provenance provenance : {Provenance::measured, Provenance::digitised,
+                                      Provenance::reconstruction, Provenance::synthetic}) {
+    const std::string sentence = provenance_sentence(provenance);
+    EXPECT_EQ(std::count(sentence.begin(), sentence.end(), '.'), 1) << sentence;
+    Dataset dataset = dataset_of(example::package);
+    dataset.provenance = provenance;
+    EXPECT_EQ(value_of(dataset_table(dataset), "provenance"), to_string(provenance));
+    const auto* words =
+        std::get_if<Paragraph>(&dataset_sections(dataset)[0].blocks.at(1).content());
+    ASSERT_NE(words, nullptr);
+    EXPECT_EQ(plain_text(words->text), sentence);
+  }
+}
+
+TEST(Provenance, AReconstructionSaysThatNothingWasMeasured) {
+  EXPECT_THAT(provenance_sentence(Provenance::reconstruction),
+              HasSubstr("not one of them was measured"));
+}
+
+}  // namespace
+}  // namespace recoil
