@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
+#include "plot/draw.hpp"
 #include "report/corrections.hpp"
 #include "report/figures.hpp"
 #include "report/fit_tables.hpp"
@@ -401,7 +402,7 @@ std::string html_report(const Analysis& analysis, std::vector<Block> diagnosis) 
 }
 
 std::string thumbnail(const Analysis& analysis) {
-  return restitution_overview(analysis, analysis.spec.id);
+  return plot::draw_svg(restitution_overview(analysis, analysis.spec.id));
 }
 
 }  // namespace recoil
