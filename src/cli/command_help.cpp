@@ -40,8 +40,8 @@ void print_topic(const CLI::App& program, const std::string& topic) {
   }
   const std::string near = nearest_word(topic, known);
   throw InputError(
-      {}, fmt::format("no page {}", quote(topic)), "the manual does not have it",
-      near.empty() ? "recoil help lists the pages" : fmt::format("did you mean {}?", near));
+      {}, fmt::format("the manual has no page {}", quote(topic)), "",
+      near.empty() ? "see recoil help for the pages" : fmt::format("did you mean {}?", near));
 }
 
 /// Brings the tables that are made from the code up to date in every page of `folder`.

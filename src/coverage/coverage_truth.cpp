@@ -187,10 +187,9 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed) {
   if (!spec.mechanisms.empty()) {
-    throw InputError({spec.file.string()}, "coverage knows no truth with mechanisms",
-                     "its simulator shares no code with the fitter and has the base model only, so "
-                     "that it would blame the intervals for what the mechanisms do",
-                     "leave `mechanisms` out");
+    throw InputError({spec.file.string()}, "coverage can simulate no truth with mechanisms",
+                     "its simulator, which shares no code with the fitter, has the base model only",
+                     "leave 'mechanisms' out");
   }
   std::vector<KnownRecipe> recipes = known_recipes(datasets);
   if (!recipes.empty()) return from_recipes(spec, datasets, std::move(recipes), seed);

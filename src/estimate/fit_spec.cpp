@@ -34,16 +34,15 @@ void read_variance(const TomlReader& reader, const toml::node& node, NoiseSpec& 
   if (spec.variance) return;
   std::vector<std::string> names = all_names<VarianceFunction>();
   names.insert(names.begin(), "auto");
-  reader.fail(node, fmt::format("unknown variance function {}", quote(word)),
-              fmt::format("known are {}", join(names)), did_you_mean(word, names));
+  reader.fail(node, fmt::format("unknown variance function {}", quote(word)), "",
+              did_you_mean(word, names));
 }
 
 void read_residuals(const TomlReader& reader, const toml::table& table, NoiseSpec& spec) {
   if (const toml::node* node = table.get("residuals")) {
     const std::string word = reader.string(*node, "residuals", "residuals = \"normal\"");
     if (word != "normal" && word != "student") {
-      reader.fail(*node, fmt::format("unknown distribution {}", quote(word)),
-                  "residuals are taken as normal or, against outliers, as Student's t",
+      reader.fail(*node, fmt::format("unknown distribution {} of residuals", quote(word)), "",
                   did_you_mean(word, {"normal", "student"}));
     }
     spec.student = word == "student";
@@ -53,7 +52,7 @@ void read_residuals(const TomlReader& reader, const toml::table& table, NoiseSpe
   spec.student_dof = reader.number(*node, "student_dof");
   if (!spec.student) {
     reader.fail(*node, "'student_dof' without Student's t",
-                "normal residuals have no degrees of freedom of their own",
+                "normal residuals have no degrees of freedom",
                 "add residuals = \"student\", or remove it");
   }
   if (spec.student_dof < 1.0 || spec.student_dof > largest_student_dof) {
@@ -78,8 +77,8 @@ void read_input_errors(const TomlReader& reader, const toml::table& table,
                 "two per cent is written 0.02");
   }
   if (!used) {
-    reader.fail(*node, fmt::format("'{}' though {} = false", size_name, switch_name),
-                "it would be ignored silently", "remove one of the two");
+    reader.fail(*node, fmt::format("'{}' is given though {} = false", size_name, switch_name),
+                "it would have no effect", "remove one of the two");
   }
 }
 
@@ -130,8 +129,8 @@ class FitReader : private TomlReader {
     const std::string text =
         string(node, "dataset", "dataset = \"../datasets/dahneke1975-quartz\"");
     if (text.empty() || printable(text) != text) {
-      fail(node, "'dataset' names no folder", "the points are read from it",
-           "write the path of a dataset folder, seen from this file");
+      fail(node, "'dataset' names no folder", "",
+           "write the path of a dataset folder, as seen from this file");
     }
     std::filesystem::path path = (folder_ / text).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();  // "../datasets/mica/"
@@ -147,8 +146,7 @@ class FitReader : private TomlReader {
   void read_datasets(const toml::table& root) {
     const toml::node* const node = root.get("dataset");
     if (node == nullptr) {
-      throw InputError({file(), 1, 1}, "the key 'dataset' is missing",
-                       "it names the folder with the points",
+      throw InputError({file(), 1, 1}, "the key 'dataset' is missing", "",
                        "add dataset = \"../datasets/...\" above all tables");
     }
     const toml::array* const list = node->as_array();
@@ -157,8 +155,7 @@ class FitReader : private TomlReader {
       return;
     }
     if (list->empty()) {
-      fail(*node, "'dataset' is an empty list", "there would be nothing to fit",
-           "name at least one dataset folder");
+      fail(*node, "'dataset' is an empty list", "", "name at least one dataset folder");
     }
     for (const toml::node& item : *list) add_dataset(item);
   }
@@ -169,8 +166,7 @@ class FitReader : private TomlReader {
       const std::string word = string(*node, "adhesion_damping_phase", "\"rebound\"");
       const auto phase = value_named<AdhesionDampingPhase>(word);
       if (!phase) {
-        fail(*node, fmt::format("unknown phase {}", quote(word)),
-             "the adhesion damping acts during the rebound or during both phases",
+        fail(*node, fmt::format("unknown phase {}", quote(word)), "",
              did_you_mean(word, all_names<AdhesionDampingPhase>()));
       }
       fit_.spec.phase = *phase;
@@ -188,13 +184,11 @@ class FitReader : private TomlReader {
     std::vector<std::string> known;
     for (const Mechanism& mechanism : mechanism_catalogue()) known.emplace_back(mechanism.info.id);
     if (find_mechanism(id) == nullptr) {
-      fail(item, fmt::format("unknown mechanism {}", quote(id)), "the catalogue does not have it",
-           did_you_mean(id, known));
+      fail(item, fmt::format("unknown mechanism {}", quote(id)), "", did_you_mean(id, known));
     }
     std::vector<std::string>& mechanisms = fit_.spec.mechanisms;
     if (std::find(mechanisms.begin(), mechanisms.end(), id) != mechanisms.end()) {
-      fail(item, fmt::format("the mechanism {} stands here twice", quote(id)),
-           "it acts once or not at all", "remove one");
+      fail(item, fmt::format("the mechanism {} stands here twice", quote(id)), "", "remove one");
     }
     mechanisms.push_back(id);
   }
@@ -208,8 +202,10 @@ class FitReader : private TomlReader {
       for (const Parameter& parameter : mechanism.info.parameters) {
         const toml::node* const node = parameters.get(parameter.name);
         if (node == nullptr) continue;
-        fail(*node, fmt::format("'{}' belongs to the mechanism '{}'", parameter.name, id),
-             "[model] does not name it", fmt::format("add \"{}\" to its mechanisms", id));
+        fail(*node,
+             fmt::format("'{}' belongs to the mechanism '{}', which [model] does not name",
+                         parameter.name, id),
+             "", fmt::format("add \"{}\" to its mechanisms", id));
       }
     }
   }
@@ -246,7 +242,7 @@ class FitReader : private TomlReader {
       const std::string word = string(*per, "per", "per = \"dataset\"");
       if (word != "dataset") {
         fail(*per, fmt::format("per = {}", quote(word)),
-             "a parameter is shared by all datasets unless it is fitted for each",
+             "a parameter is either shared or fitted for each dataset",
              "write per = \"dataset\", or leave it out");
       }
       spec.per_dataset = true;
@@ -288,9 +284,8 @@ class FitReader : private TomlReader {
     const Parameter& entry = *spec.parameter;
     const toml::array* const pair = node.as_array();
     if (pair == nullptr || pair->size() != 2) {
-      fail(node, fmt::format("'bounds' of '{}' is not a pair of numbers", entry.name),
-           "it has to be [lower, upper]",
-           fmt::format("for example bounds = [{:g}, {:g}]", entry.lower, entry.upper));
+      fail(node, fmt::format("'bounds' of '{}' is not [lower, upper]", entry.name), "",
+           fmt::format("write for example bounds = [{:g}, {:g}]", entry.lower, entry.upper));
     }
     spec.lower = admissible(*pair->get(0), "bounds", entry);
     spec.upper = admissible(*pair->get(1), "bounds", entry);
@@ -300,8 +295,7 @@ class FitReader : private TomlReader {
            fmt::format("write bounds = [{:g}, {:g}]", spec.upper, spec.lower));
     }
     if (spec.lower == spec.upper) {
-      fail(node, fmt::format("the bounds of '{}' leave no room", entry.name),
-           fmt::format("both are {:g}", spec.lower),
+      fail(node, fmt::format("the bounds of '{}' are both {:g}", entry.name, spec.lower), "",
            fmt::format("to fix it, write free = false, initial = {:g}", spec.lower));
     }
     if (entry.log_scale && spec.lower <= 0.0) {
@@ -317,8 +311,8 @@ class FitReader : private TomlReader {
       const std::string word = string(*node, "scheme", "scheme = \"auto\"");
       const std::optional<Scheme> scheme = value_named<Scheme>(word);
       if (!scheme) {
-        fail(*node, fmt::format("unknown scheme {}", quote(word)),
-             "the bootstrap would not know how to draw", did_you_mean(word, all_names<Scheme>()));
+        fail(*node, fmt::format("unknown scheme {} of the bootstrap", quote(word)), "",
+             did_you_mean(word, all_names<Scheme>()));
       }
       spec.scheme = *scheme;
     }
@@ -385,7 +379,7 @@ FitSpec load_fit(const std::filesystem::path& file) {
     if (std::filesystem::is_directory(fit.spec.datasets[i], failed)) continue;
     throw InputError(fit.dataset_places[i],
                      fmt::format("there is no folder '{}'", fit.spec.datasets[i].string()),
-                     "'dataset' is seen from the folder of this file", "correct the path");
+                     "paths are seen from the folder of this file", "correct the path");
   }
   return std::move(fit.spec);
 }

@@ -96,9 +96,10 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
   }
   if (spec.variance == VarianceFunction::stated && missing > 0) {
     throw InputError(
-        variance_place, "variance = \"stated\"",
-        fmt::format("{} of {} points state no restitution_sd", missing, data.points.size()),
-        "write \"auto\", or state them all");
+        variance_place,
+        fmt::format("variance = \"stated\", but {} of {} points state no restitution_sd", missing,
+                    data.points.size()),
+        "", "write \"auto\", or state them all");
   }
   data.sd_stated = spec.variance ? spec.variance == VarianceFunction::stated : missing == 0;
   if (data.sd_stated) {

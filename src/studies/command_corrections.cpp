@@ -14,15 +14,15 @@ namespace {
 void study_corrections_of(const std::string& fit_file, const StudyRun& run) {
   const FitSpec spec = load_fit(fit_file);
   if (spec.datasets.size() != 1) {
-    throw InputError({fit_file}, "several datasets", "one recipe is studied at a time",
+    throw InputError({fit_file}, "this fit has several datasets", "one recipe is studied at a time",
                      "name the fit of one reconstruction");
   }
   const Dataset dataset = load_dataset(spec.datasets.front());
   CorrectionStudies found;
   found.studies = study_recipe(spec, load_recipe(dataset.folder), dataset);
   if (found.studies.empty()) {
-    throw InputError({(dataset.folder / recipe_name).string()}, "no corrections to study",
-                     "its points do not go by way of events, or its truth is another model",
+    throw InputError({(dataset.folder / recipe_name).string()}, "there are no corrections to study",
+                     "its points do not come from passages, or its truth is another model",
                      "name a fit of li1999-sst65-silicon or li1999-sst125-silicon");
   }
   found.inputs =

@@ -103,7 +103,7 @@ std::vector<GridDesign> designs_named(const std::vector<std::string>& words) {
       const std::string near = nearest_word(word, known);
       throw InputError(
           {}, fmt::format("--designs: no design has the word '{}'", word),
-          fmt::format("there are: {}", fmt::join(known, ", ")),
+          fmt::format("the words are {}", fmt::join(known, ", ")),
           near.empty() ? "take words of this list" : fmt::format("did you mean '{}'?", near));
     }
     std::erase_if(left, [&](const GridDesign& design) { return !has(design, word); });

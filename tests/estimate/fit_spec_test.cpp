@@ -204,7 +204,7 @@ const Mistake mistakes[] = {
      "fit.toml:6:19: ", "0.6 of 'C_H' lies outside", "within"},
     {"bounds_reversed", "[0, 0.5]", "[0.5, 0]", "fit.toml:6:34: ", "wrong way round",
      "write bounds = [0, 0.5]"},
-    {"bounds_equal", "[0, 0.5]", "[0.5, 0.5]", "fit.toml:6:34: ", "leave no room", "free = false"},
+    {"bounds_equal", "[0, 0.5]", "[0.5, 0.5]", "fit.toml:6:34: ", "are both 0.5", "free = false"},
     {"bounds_negative", "[0, 0.5]", "[-1, 0.5]", "fit.toml:6:35: ", "'bounds' of 'C_H' is -1",
      "0 is the lowest"},
     {"bounds_nan", "[0, 0.5]", "[0, nan]", "fit.toml:6:38: ", "'bounds' is nan", "write a number"},
