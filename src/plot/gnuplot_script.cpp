@@ -158,19 +158,6 @@ std::string sample(const Layer& layer) {
       layer);
 }
 
-const std::string& name_of_layer(const Layer& layer) {
-  static const std::string none;
-  return std::visit(
-      [](const auto& shown) -> const std::string& {
-        if constexpr (requires { shown.name; }) {
-          return shown.name;
-        } else {
-          return none;
-        }
-      },
-      layer);
-}
-
 std::string title(const std::string& name) {
   return name.empty() ? std::string("notitle") : "title " + gnuplot_text(name);
 }
@@ -366,7 +353,7 @@ class ScriptWriter {
   }
 
   static std::string key_entry(const Layer& layer) {
-    const std::string& name = name_of_layer(layer);
+    const std::string& name = name_of(layer);
     return name.empty() ? std::string() : fmt::format("NaN {} {}", sample(layer), title(name));
   }
 
@@ -521,7 +508,7 @@ class ScriptWriter {
     std::set<std::string> named;
     for (const Plot& plot : picture.plots) {
       for (const Layer& layer : plot.layers) {
-        const std::string& name = name_of_layer(layer);
+        const std::string& name = name_of(layer);
         if (!name.empty() && named.insert(name).second) entries.push_back(key_entry(layer));
       }
     }

@@ -53,19 +53,6 @@ std::vector<Column> columns_of(const Layer& layer, const Plot& plot) {
       layer);
 }
 
-const std::string& name_of_layer(const Layer& layer) {
-  static const std::string none;
-  return std::visit(
-      [](const auto& shown) -> const std::string& {
-        if constexpr (requires { shown.name; }) {
-          return shown.name;
-        } else {
-          return none;
-        }
-      },
-      layer);
-}
-
 }  // namespace
 
 Points& Points::with_sd(const std::vector<double>& sd) {
@@ -85,6 +72,19 @@ void Boxes::add(double from_x, double to_x, double from_y, double to_y) {
   top.push_back(to_y);
 }
 
+const std::string& name_of(const Layer& layer) {
+  static const std::string none;
+  return std::visit(
+      [](const auto& shown) -> const std::string& {
+        if constexpr (requires { shown.name; }) {
+          return shown.name;
+        } else {
+          return none;
+        }
+      },
+      layer);
+}
+
 std::string Axis::title() const {
   return unit.empty() || label.empty() ? label : fmt::format("{}  [{}]", label, unit);
 }
@@ -94,7 +94,7 @@ std::vector<DataTable> data_of(const Picture& picture) {
   for (const Plot& plot : picture.plots) {
     for (const Layer& layer : plot.layers) {
       std::vector<Column> columns = columns_of(layer, plot);
-      if (!columns.empty()) tables.push_back({name_of_layer(layer), std::move(columns)});
+      if (!columns.empty()) tables.push_back({name_of(layer), std::move(columns)});
     }
   }
   return tables;

@@ -119,6 +119,9 @@ struct Words {
 
 using Layer = std::variant<Points, Line, Band, Boxes, Spans, Discs, Rule, Region, Contour, Words>;
 
+/// The name of a layer in the key; empty where it has none.
+const std::string& name_of(const Layer& layer);
+
 struct Tick {
   double at = 0.0;
   std::string label = {};
@@ -127,7 +130,7 @@ struct Tick {
 
 struct Axis {
   std::string label = {};
-  std::string unit = {};                ///< "m/s"; empty: a pure number
+  std::string unit = {};                     ///< "m/s"; empty: a pure number
   std::optional<double> from = {}, to = {};  ///< ends, as the data need them where not given
   bool logarithmic = false;
   std::vector<Tick> ticks = {};  ///< empty: round numbers
