@@ -9,13 +9,15 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
-#include "data/text.hpp"
+#include "document/terminal.hpp"
 #include "estimate/predictor.hpp"
 #include "impact/sensitivity.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {
+
+constexpr std::size_t indent = 2;  // of tables
 
 struct SimulateOptions {
   std::string fit_file;
@@ -93,20 +95,46 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
   fmt::print("outcome: {}\n", all > 0.0 ? "rebound" : "captured");
   fmt::print("e^2 with mechanisms: {:+.8f}, base model alone: {:+.8f}\n", all,
              square(without_mechanisms(model, theta)));
-  fmt::print("change of e^2 when one mechanism is left out, the others kept:\n");
+  Table table;
+  table.caption = "change of e^2 when one mechanism is left out, the others kept:";
+  table.columns = {{"mechanism"}, {say("{e}^2")}, {"kind", "", true}, {"parameters", "", true}};
   for (const Mechanism* mechanism : model.chain) {
     std::vector<double> without = theta;
-    std::string values;
+    std::vector<Sentence> values;
     for (std::size_t j = 0; j < theta.size(); ++j) {
       const ParameterSlot& slot = model.slots[j];
       if (slot.mechanism() != mechanism) continue;
       without[j] = slot.parameter->null_value;
-      values += fmt::format("{}{} = {:.6g}{}", values.empty() ? "" : ", ", slot.label(),
-                            slot.initial, unit_suffix(slot.parameter->unit));
+      values.push_back(say("{} = {:.6g}", symbol(slot.label()), slot.initial) +
+                       unit_after_number(slot.parameter->unit));
     }
-    fmt::print("  {:<22}{:>+12.6f}  ({}; {})\n", mechanism->info.id, square(without) - all,
-               to_string(mechanism->info.kind), values);
+    table.rows.push_back({Sentence(mechanism->info.id),
+                          Number{square(without) - all, signed_fixed(6)},
+                          Sentence(to_string(mechanism->info.kind)), join(values, ", ")});
   }
+  fmt::print("{}", terminal_text(table, indent));
+}
+
+/// Where the incident energy went.
+Table energy_budget(const ImpactGroups& groups, const ImpactScales& scales,
+                    const ImpactResult& impact) {
+  const bool captured = impact.outcome == ImpactOutcome::captured;
+  Table table;
+  table.caption = say("energy budget, of {:.6g} J incident:", 0.5 * scales.energy);
+  table.columns = {{}, {"share", "%"}, {"energy", "J"}};
+  const auto share = [&](const Sentence& name, double energy) {
+    table.rows.push_back(
+        {name, Number{200.0 * energy, fixed(5)}, Number{energy * scales.energy, significant(6)}});
+  };
+  share("rebound", captured ? 0.0 : impact.energy.kinetic);
+  share(say("Hertz damping ({C_H})"), impact.energy.hertz_loss);
+  share(say("adhesion damping ({C_A})"), impact.energy.adhesion_loss);
+  if (groups.kappa > 0.0) share("dashpot of the mechanisms", impact.energy.dashpot_loss);
+  if (captured) {
+    share("still bound in the contact", impact.energy.kinetic + impact.energy.potential);
+  }
+  table.rows.push_back({"audit (should be 0)", Number{impact.energy.audit(), scientific(1)}, {}});
+  return table;
 }
 
 /// The impact of the base model. @param extended the conditions are those in which mechanisms leave
@@ -114,7 +142,6 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
 void print_impact(const ImpactGroups& groups, const ImpactScales& scales, const ImpactConditions& c,
                   const ImpactResult& impact, const Dataset& dataset,
                   const ContactProperties& contact, AdhesionDampingPhase phase, bool extended) {
-  const double incident = 0.5 * scales.energy;
   const double e = std::sqrt(std::max(impact.restitution_squared, 0.0));
   const bool captured = impact.outcome == ImpactOutcome::captured;
   if (extended) {
@@ -131,17 +158,7 @@ void print_impact(const ImpactGroups& groups, const ImpactScales& scales, const 
              impact.penetration_max * scales.length / units::nm);
   fmt::print("largest push: {:.6g} uN\n", impact.force_compression * scales.force * 1e6);
   fmt::print("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
-  fmt::print("energy budget, of {:.6g} J incident:\n", incident);
-  const auto share = [&](const char* name, double energy) {
-    fmt::print("  {:<28}{:>14.5f} %  {:>13.6g} J\n", name, 200.0 * energy, energy * scales.energy);
-  };
-  share("rebound", captured ? 0.0 : impact.energy.kinetic);
-  share("Hertz damping (C_H)", impact.energy.hertz_loss);
-  share("adhesion damping (C_A)", impact.energy.adhesion_loss);
-  if (groups.kappa > 0.0) share("dashpot of the mechanisms", impact.energy.dashpot_loss);
-  if (captured)
-    share("still bound in the contact", impact.energy.kinetic + impact.energy.potential);
-  fmt::print("  {:<28}{:>14.1e}\n", "audit (should be 0)", impact.energy.audit());
+  fmt::print("{}", terminal_text(energy_budget(groups, scales, impact), indent));
   fmt::print("groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)\n",
              groups.alpha, groups.gamma,
              groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY,
@@ -160,22 +177,24 @@ void print_impact(const ImpactGroups& groups, const ImpactScales& scales, const 
 }
 
 /// Percent of e for one percent of every quantity.
-void print_sensitivity(const ImpactConditions& c, const ImpactResult& impact,
-                       const Dataset& dataset) {
-  if (!(impact.restitution_squared > 0.0)) return;
+Table sensitivities(const ImpactConditions& c, const ImpactResult& impact, const Dataset& dataset) {
+  Table table;
+  if (!(impact.restitution_squared > 0.0)) return table;
+  table.caption = "change of e for 1 % more of one quantity, the others held:";
+  table.columns = {{}, {say("{e}"), "%"}};
   const ImpactSensitivity s = impact_sensitivity(c, impact);
-  const auto line = [&](const char* name, double slope, double value) {
-    fmt::print("  {:<28}{:>+14.5f} %\n", name, 0.5 * slope * value / impact.restitution_squared);
+  const auto line = [&](const Sentence& name, double slope, double value) {
+    table.rows.push_back(
+        {name, Number{0.5 * slope * value / impact.restitution_squared, signed_fixed(5)}});
   };
-  fmt::print("change of e for 1 % more of one quantity, the others held:\n");
   line("incident velocity", s.velocity, c.velocity);
-  line("diameter (f0 held)", s.diameter, c.diameter);
-  line("C_H", s.hertz_damping, c.hertz_damping);
-  line("C_A", s.adhesion_damping, c.adhesion_damping);
-  line("f0", s.adhesion_force, c.adhesion_force);
-  line("K", s.stiffness, c.stiffness);
+  line(say("diameter ({f0} held)"), s.diameter, c.diameter);
+  line(say("{C_H}"), s.hertz_damping, c.hertz_damping);
+  line(say("{C_A}"), s.adhesion_damping, c.adhesion_damping);
+  line(say("{f0}"), s.adhesion_force, c.adhesion_force);
+  line(say("{K}"), s.stiffness, c.stiffness);
   line("density", s.density, c.density);
-  if (dataset.system.stiffness_K) return;
+  if (dataset.system.stiffness_K) return table;
   const StiffnessSensitivity k = stiffness_sensitivity(dataset.system);
   const Material& sphere = dataset.system.particle;
   const Material& surface = dataset.system.surface;
@@ -183,6 +202,7 @@ void print_sensitivity(const ImpactConditions& c, const ImpactResult& impact,
   line("Young's modulus, surface", s.stiffness * k.youngs_surface, surface.youngs_modulus);
   line("Poisson's ratio, sphere", s.stiffness * k.poisson_particle, sphere.poisson_ratio);
   line("Poisson's ratio, surface", s.stiffness * k.poisson_surface, surface.poisson_ratio);
+  return table;
 }
 
 void simulate(const SimulateOptions& options) {
@@ -223,7 +243,9 @@ void simulate(const SimulateOptions& options) {
   }
   print_impact(groups, scales, conditions, impact, datasets[d], model.contacts[d], model.phase,
                extended);
-  if (!extended) print_sensitivity(conditions, impact, datasets[d]);
+  if (!extended) {
+    fmt::print("{}", terminal_text(sensitivities(conditions, impact, datasets[d]), indent));
+  }
   fmt::print("parameters: C_H = {:.6g} s/m, C_A = {:.6g} s/m ({})\n", conditions.hertz_damping,
              conditions.adhesion_damping,
              options.parameters.empty()
@@ -248,9 +270,12 @@ void add_simulate(CLI::App& program) {
   command->add_option("--diameter", options->diameter, "sphere diameter [um]")
       ->required()
       ->check(positive("diameter", 1e-3, 1e6));
-  command->add_option("--dataset", options->dataset, "which dataset of a joint fit (its id)");
-  command->add_option("--parameters", options->parameters, "take the values from this fit.json");
-  command->add_option("--history", options->history, "write the forces against time as CSV");
+  command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
+      ->type_name("ID");
+  command->add_option("--parameters", options->parameters, "take the values from this fit.json")
+      ->type_name("FILE");
+  command->add_option("--history", options->history, "write the forces against time (CSV)")
+      ->type_name("FILE");
   command->callback([options] { simulate(*options); });
 }
 
