@@ -93,15 +93,15 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
   return picture;
 }
 
-std::string restitution_caption(const Analysis& analysis, const Panel& panel) {
-  std::string text = fmt::format("{}: {} point{}.", analysis.datasets[panel.dataset].id,
-                                 panel.points.size(), panel.points.size() == 1 ? "" : "s");
+Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
+  Sentence text = fmt::format("{}: {} point{}.", analysis.datasets[panel.dataset].id,
+                              panel.points.size(), panel.points.size() == 1 ? "" : "s");
   const std::size_t drawn_every = panel.points.size() / most_panel_points + 1;
   if (drawn_every > 1) text += fmt::format(" One point in {} is drawn.", drawn_every);
   if (panel.capture == nullptr) {
     text += " No capture velocity was found at this diameter.";
   } else {
-    text += fmt::format(" Capture below V* = {} m/s", digits(panel.capture->value, 3));
+    text += say(" Capture below {V*} = {} m/s", digits(panel.capture->value, 3));
     if (panel.capture->interval.available()) {
       text += fmt::format(", {} interval {}", percent(analysis.uncertainty.options.level),
                           interval_text(panel.capture->interval, 3));

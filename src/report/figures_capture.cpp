@@ -86,7 +86,7 @@ Figure comparison_figure(const Analysis& analysis, const CaptureComparison& comp
                                 falls ? fmt::format(", V* ~ d^{:.2f}", *falls) : std::string()));
   }
   for (const PublishedCapture& one : comparison.published) {
-    words.push_back(fmt::format("published, {} at {} um: {} m/s, {}", one.what,
+    words.push_back(fmt::format("published, {} at {} µm: {} m/s, {}", one.what,
                                 diameter_text(one.diameter), number(one.velocity, 3), one.source));
   }
   add_published(comparison, true, shown);

@@ -80,10 +80,10 @@ Figure damping_figure(const CorrectionStudy& study, std::size_t index) {
     point.size = 0.9;
     shown.layers.push_back(std::move(point));
   }
-  return figure_of(
-      picture_of("damping", index, std::move(shown)),
-      "C_A with one standard error (none where it rests on its bound), for the points of each "
-      "way. The line is what the recipe put into the events.");
+  return figure_of(picture_of("damping", index, std::move(shown)),
+                   say("{C_A} with one standard error (none where it rests on its bound), for the "
+                       "points of each "
+                       "way. The line is what the recipe put into the events."));
 }
 
 }  // namespace

@@ -99,8 +99,8 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
   picture.height = 250;
   picture.plots = {std::move(shown)};
 
-  std::string caption = fmt::format("{} intervals of {}",
-                                    percent(analysis.uncertainty.options.level), parameter.label());
+  Sentence caption = say("{} intervals of {}", percent(analysis.uncertainty.options.level),
+                         symbol(parameter.label()));
   const Interval recommended = recommended_interval(set);
   caption += recommended.available()
                  ? fmt::format("; the {} one is recommended.", set.recommended)

@@ -78,16 +78,15 @@ Figure sizes_figure(const Analysis& analysis, const PolydispersePrediction& mixt
     line.name = diameter_text(size.diameter) + " µm";
     shown.layers.push_back(std::move(line));
     captures.push_back(size.capture_velocity > 0.0
-                           ? fmt::format("{} m/s ({} um)", number(size.capture_velocity, 3),
+                           ? fmt::format("{} m/s ({} µm)", number(size.capture_velocity, 3),
                                          diameter_text(size.diameter))
-                           : fmt::format("none found ({} um)", diameter_text(size.diameter)));
+                           : fmt::format("none found ({} µm)", diameter_text(size.diameter)));
   }
   add_points(analysis, mixture.dataset, shown);
-  const std::string caption = fmt::format(
-      "{}. One curve for each of three sizes with the same C_H and C_A, f0 by eq. 12, as in Fig. "
-      "10 "
-      "of Li, Dunn & Brach (1999). Capture velocities: {}.",
-      analysis.datasets[mixture.dataset].id, fmt::join(captures, ", "));
+  const Sentence caption = say(
+      "{}. One curve for each of three sizes with the same {C_H} and {C_A}, {f0} by eq. 12, as in "
+      "Fig. 10 of Li, Dunn & Brach (1999). Capture velocities: {}.",
+      analysis.datasets[mixture.dataset].id, fmt::format("{}", fmt::join(captures, ", ")));
   return figure_of(picture_of(analysis, mixture, "sizes", std::move(shown)), caption);
 }
 

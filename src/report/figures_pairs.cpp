@@ -205,10 +205,10 @@ Figure pair_figure(const Analysis& analysis, const PairStudy& study) {
   picture.key = {plot::KeyPlace::above, 2};
   for (std::size_t i = 0; i < panels.all.size(); ++i) picture.plots.push_back(panels.panel(i));
 
-  std::string caption = fmt::format(
-      "{}, d = {} um. Each mark is a pair of points on which C_H and C_A are calibrated, in {} "
-      "data "
-      "sets simulated from the fit to all points. Bias: median over the true value; spread: robust "
+  Sentence caption = say(
+      "{}, d = {} {um}. Each mark is a pair of points on which {C_H} and {C_A} are calibrated, in "
+      "{} data sets simulated from the fit to all points. Bias: median over the true value; "
+      "spread: robust "
       "standard deviation over that of the full fit on the same data; both of the data sets that "
       "have an answer. Error: root mean square miss of a new measurement of the points that the "
       "pair did not use, noise included.",

@@ -94,10 +94,10 @@ std::vector<plot::Layer> history_lines(const std::vector<ImpactMoment>& history,
   return layers;
 }
 
-std::string budget_words(const ImpactResult& result) {
+Sentence budget_words(const ImpactResult& result) {
   const EnergyBudget& energy = result.energy;
-  return fmt::format("Of the incident kinetic energy C_H takes {:.3g} % and C_A {:.3g} %",
-                     200.0 * energy.hertz_loss, 200.0 * energy.adhesion_loss);
+  return say("Of the incident kinetic energy {C_H} takes {:.3g} % and {C_A} {:.3g} %",
+             200.0 * energy.hertz_loss, 200.0 * energy.adhesion_loss);
 }
 
 Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
@@ -142,14 +142,14 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
   picture.height = 390;
   picture.plots = {std::move(shown)};
 
-  std::string caption = fmt::format(
+  Sentence caption = fmt::format(
       "{}. Reference diameter {} µm at {} m/s with the fitted parameters: {}. Forces "
       "away from the surface are positive.",
       analysis.datasets[dataset].id, diameter_text(conditions.diameter), number(velocity, 3),
       to_string(result.outcome));
   if (result.outcome == ImpactOutcome::rebound) {
-    caption += fmt::format(" e = {}. {}.", number(std::sqrt(result.restitution_squared), 3),
-                           budget_words(result));
+    caption +=
+        say(" e = {}. {}.", number(std::sqrt(result.restitution_squared), 3), budget_words(result));
   } else if (result.outcome == ImpactOutcome::captured) {
     caption += " The curves end where the sphere turns back for good.";
   }
@@ -216,8 +216,8 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
   picture.name = "adhesion-force-1";
   picture.title = "Adhesion force per length against radius";
   picture.plots = {std::move(shown)};
-  std::string caption =
-      "f0 grows with the cube root of the radius (eq. 12); marks: the diameters of the data.";
+  Sentence caption = say(
+      "{f0} grows with the cube root of the radius (eq. 12); marks: the diameters of the data.");
   for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
     caption += fmt::format(" {}: {} N/m at d = {} µm{}.", analysis.datasets[k].id,
                            number(analysis.fitted.theta[model.slot_f0[k]]),
