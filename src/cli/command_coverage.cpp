@@ -68,11 +68,11 @@ void add_coverage(CLI::App& program) {
       "Grids of designs, tables of several fits and their summary are studies of recoil's\n"
       "authors: ./run study, or recoil_study --help.");
   const auto options = std::make_shared<Options>();
-  command->add_option("FIT", options->fit_file, "the fit file")->required();
+  command->add_option("FIT", options->fit_file, "a fit file")->required();
   command->add_option("--datasets", options->datasets, "simulated data sets")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--out", options->out, "write the table here, too");
+  command->add_option("--out", options->out, "write the table here, too")->type_name("FILE");
   point_to_studies(*command);
   add_analysis_flags(*command, options->analysis);
   command->callback([options] { run(*options); });

@@ -59,10 +59,13 @@ void add_diagnose(CLI::App& program) {
       "  recoil fit diagnosis/extended.toml");
   const auto flags = std::make_shared<DiagnoseFlags>();
   command->add_option("FIT", flags->fit, "a fit file")->required();
-  command->add_option("--out", flags->out, "folder for the results (default: nothing is written)");
-  command->add_option("--threads", flags->threads, "threads (default: all cores)")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--seed", flags->seed, "of the simulated data sets (default: the fit file's)")
+  command->add_option("--out", flags->out, "folder for the results (default: nothing is written)")
+      ->type_name("DIR");
+  command->add_option("--threads", flags->threads, "threads to use (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  command
+      ->add_option("--seed", flags->seed,
+                   "seed of the simulated data sets (default: the fit file's)")
       ->check(CLI::NonNegativeNumber);
   command->callback([flags] { run_diagnosis(*flags); });
 }

@@ -13,16 +13,16 @@ void add_fit(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("fit", "fit all points, with intervals and the two-point comparison");
   command->footer(
-      "Prints the report and writes DIR/fit.json. Every digit depends on the fit file, the data "
-      "and\n"
-      "the seed only, at any number of threads. Ctrl-C keeps finished replicates in DIR, and the\n"
-      "same command goes on from there.\n\n"
+      "Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the\n"
+      "data and the seed, not on the number of threads. Ctrl-C keeps finished replicates in DIR,\n"
+      "and the same command goes on from there.\n\n"
       "  recoil fit fits/dahneke1975-quartz.toml --out results");
   const auto options = std::make_shared<AnalysisFlags>();
   const auto out = std::make_shared<std::string>();
   const auto fit_file = std::make_shared<std::string>();
   command->add_option("FIT", *fit_file, "a fit file")->required();
-  command->add_option("--out", *out, "folder for fit.json (default: nothing is written)");
+  command->add_option("--out", *out, "folder for fit.json (default: nothing is written)")
+      ->type_name("DIR");
   add_analysis_flags(*command, *options);
   command->callback([=] {
     if (!out->empty()) require_writable_folder(*out);

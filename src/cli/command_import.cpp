@@ -72,36 +72,43 @@ void add_import(CLI::App& program) {
       "replace the points of the dataset that is there; it keeps its materials, and a "
       "reconstruction becomes digitised");
   command->add_option("--map", r.map, "quantity=column:unit, several with commas");
-  command->add_option("--diameter", r.diameters, "4.9um, or SERIES=4.9um (repeatable)");
-  command->add_option("--diameter-error", r.diameter_error, "one standard deviation: 1% or 0.1um");
+  command->add_option("--diameter", r.diameters,
+                      "diameter of the spheres: 4.9um, or SERIES=4.9um once for each");
+  command->add_option("--diameter-error", r.diameter_error,
+                      "one standard deviation of the diameters: 1% or 0.1um");
   command->add_option("--series", r.series, "name of the series when the file has none");
   command->add_option(
       "--particle", r.particle,
-      "a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
-  command->add_option("--surface", r.surface, "the same, without density");
+      "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
+  command->add_option("--surface", r.surface, "the same of the surface, without density");
   command->add_option("--like", flags->like, "take the materials of this dataset");
-  command->add_option("--adhesion-energy", r.adhesion_energy, "[J/m2]; 0: no adhesion");
+  command->add_option("--adhesion-energy", r.adhesion_energy,
+                      "of the pair of materials [J/m2]; 0: no adhesion");
   command
       ->add_option("--provenance", flags->provenance,
                    "measured, digitised or synthetic (default: that of the format)")
       ->check(CLI::IsMember({"measured", "digitised", "synthetic"}));
-  command->add_option("--title", r.title, "of the dataset");
-  command->add_option("--source", r.sources, "who published or measured it (repeatable)");
-  command->add_option("--axis", r.axes,
-                      "of a figure: x=log,MIN,MAX or y=linear,MIN,MAX,LENGTHpx (once for each)");
+  command->add_option("--title", r.title, "title of the dataset");
+  command->add_option("--source", r.sources, "who published or measured it; once for each");
+  command->add_option(
+      "--axis", r.axes,
+      "axis of a figure: x=log,MIN,MAX or y=linear,MIN,MAX,LENGTHpx; once for each");
   command->add_option("--reading-error", r.reading_error,
                       "one standard deviation of a reading: 0.5% of an axis, or 2px");
   command->add_option("--scatter", r.scatter,
-                      "of e beside the errors of the reading: 10%, or 0.02");
+                      "scatter of e besides the errors of reading: 10%, or 0.02");
   command
       ->add_option("--captured-below", r.captured_below,
                    "a digitised restitution below this is a capture")
       ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--drop-error", r.drop_error, "of the drop height: 1mm or 1%");
-  command->add_option("--rebound-error", r.rebound_error, "of the rebound height");
-  command->add_option("--time-error", r.time_error, "of the time of one bounce: 1ms");
-  command->add_flag("--average", r.average, "drops from the same height become one point");
-  command->add_option("--gravity", r.gravity, "[m/s2]")->capture_default_str();
+  command->add_option("--drop-error", r.drop_error,
+                      "one standard deviation of the drop height: 1mm or 1%");
+  command->add_option("--rebound-error", r.rebound_error,
+                      "one standard deviation of the rebound height");
+  command->add_option("--time-error", r.time_error,
+                      "one standard deviation of the time of one bounce: 1ms");
+  command->add_flag("--average", r.average, "make one point of all drops from the same height");
+  command->add_option("--gravity", r.gravity, "gravity [m/s2]")->capture_default_str();
   for (CLI::Option* option : command->get_options()) {
     if (option->get_items_expected_max() > 1)
       option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

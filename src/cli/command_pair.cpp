@@ -186,7 +186,7 @@ void add_input_options(CLI::App& app, PairCommand& command) {
                  "FIELD=NAME, for files that name their columns otherwise, e.g. velocity=LDA1")
       ->delimiter(',');
   app.add_option("--positive", command.positive,
-                 "the direction in which velocities are positive: towards the surface or away")
+                 "in which direction velocities are positive: towards the surface or away")
       ->capture_default_str()
       ->check(CLI::IsMember({"towards", "away"}));
 }
@@ -216,16 +216,17 @@ void add_search_options(CLI::App& app, PairCommand& command) {
 void add_selection_options(CLI::App& app, PairCommand& command) {
   app.add_flag("--keep-later", command.pairing.keep_later, "use second and third impacts as well");
   app.add_option("--threshold", command.threshold,
-                 "use no incident velocity below this [m/s, at the plane]; the paper's way to "
-                 "remove second impacts. Its selection effect is printed")
+                 "leave out incident velocities below this [m/s, at the plane], the paper's way to "
+                 "remove second impacts; what that selects is printed")
       ->check(CLI::Range(0.0, 1e4));
   app.add_option("--angle", command.angle_degrees,
                  "use rebounds within this of the normal [degrees]; the paper: 8. Needs "
                  "tangential_velocity")
       ->check(CLI::Range(0.0, 90.0));
-  app.add_option("--lost-share", command.lost_share,
-                 "share of rebounds that the instrument misses (default: as many as lack their way "
-                 "down)")
+  app.add_option(
+         "--lost-share", command.lost_share,
+         "share of rebounds that the instrument misses (default: the share of rebounds whose "
+         "way down it missed)")
       ->check(CLI::Range(0.0, 0.9));
 }
 
@@ -236,21 +237,23 @@ void add_output_options(CLI::App& app, PairCommand& command) {
                      "write a dataset folder: points, datapackage.json and, unless there are "
                      "size classes, sizes.csv");
   CLI::Option* like =
-      app.add_option("--like", command.like, "a dataset folder whose materials it takes over");
+      app.add_option("--like", command.like, "take the materials of this dataset folder");
   into->needs(like);
   like->needs(into);
   app.add_option("--provenance", command.provenance,
-                 "of the events, where no datapackage.json beside them states it")
+                 "where the passages come from, if no datapackage.json beside them says it")
       ->check(CLI::IsMember(all_names<Provenance>()));
-  app.add_option("--per-bin", command.averaging.per_bin, "impacts of one point, about")
+  app.add_option("--per-bin", command.averaging.per_bin, "about so many impacts make one point")
       ->capture_default_str()
       ->check(CLI::Range(2, 1000000));
-  CLI::Option* classes = app.add_option("--size-classes", command.averaging.size_classes,
-                                        "size classes of equal number, each a series of points")
-                             ->capture_default_str()
-                             ->check(CLI::Range(1, 100));
-  app.add_option("--size-edges", command.size_edges_um,
-                 "or their limits [um], e.g. 20,40,60,110; what lies outside is left out")
+  CLI::Option* classes =
+      app.add_option("--size-classes", command.averaging.size_classes,
+                     "so many size classes of equal number, each a series of points")
+          ->capture_default_str()
+          ->check(CLI::Range(1, 100));
+  app.add_option(
+         "--size-edges", command.size_edges_um,
+         "limits of the size classes [um], e.g. 20,40,60,110; what lies outside is left out")
       ->delimiter(',')
       ->excludes(classes)
       ->check(CLI::PositiveNumber);

@@ -71,29 +71,32 @@ void add_predict(CLI::App& program) {
   command->footer(
       "Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter "
       "and\n"
-      "count) under three conventions side by side: captured spheres count as e = 0; are left "
-      "out;\n"
-      "are left out also when they return too slowly to climb back to the measuring plane. With\n"
-      "--out it writes predict.csv, predict.json and pictures.\n\n"
+      "count) under three conventions: captured spheres count as e = 0; they are left out; they\n"
+      "are left out together with those that return too slowly to climb back to the measuring\n"
+      "plane. With --out it writes predict.csv, predict.json and pictures.\n\n"
       "  recoil predict fits/li1999-sst65-silicon.toml --sizes "
       "datasets/li1999-sst65-silicon/sizes.csv");
   const auto options = std::make_shared<PredictOptions>();
   command->add_option("FIT", options->fit_file, "a fit file")->required();
-  command->add_option("--sizes", options->sizes, "the size distribution, CSV")->required();
-  command->add_option("--unit", options->unit,
-                      "of its diameters: um, mm or m (default: what the datapackage.json beside it "
-                      "says, else um)");
+  command->add_option("--sizes", options->sizes, "the size distribution (CSV)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option(
+      "--unit", options->unit,
+      "unit of its diameters: um, mm or m (default: what the datapackage.json beside "
+      "it says, else um)");
   command
       ->add_option("--height", options->height,
-                   "of the measuring plane above the surface [mm] (default: what the package says, "
-                   "else 1)")
+                   "height of the measuring plane above the surface [mm] (default: what the "
+                   "datapackage.json says, else 1)")
       ->check(CLI::Range(0.0, 1000.0));
   command->add_flag(
       "--midpoints", options->midpoints,
-      "all spheres of a bin have its mid-point as diameter, as in the paper (default: "
-      "spread over the bin)");
-  command->add_option("--dataset", options->dataset, "which dataset of a joint fit (its id)");
-  command->add_option("--out", options->out, "folder for the files (default: none are written)");
+      "put all spheres of a bin at its middle, as the paper did (default: spread over the bin)");
+  command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
+      ->type_name("ID");
+  command->add_option("--out", options->out, "folder for the files (default: none are written)")
+      ->type_name("DIR");
   add_analysis_flags(*command, options->analysis);
   command->callback([options] { predict_sizes(*options); });
 }

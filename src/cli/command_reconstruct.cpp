@@ -33,23 +33,25 @@ void add_reconstruct(CLI::App& program) {
   command->footer(
       "Makes points.csv of DIR from DIR/recipe.toml and verifies every published fact that the\n"
       "recipe names. With --check nothing is written: the file has to be what the recipe makes,\n"
-      "byte for byte. A recipe with a table [pairing] makes events, and its points by recoil "
-      "pair.\n\n"
+      "byte for byte. A recipe with a table [pairing] simulates passages, and makes its\n"
+      "points from them by recoil pair.\n\n"
       "  recoil reconstruct datasets/wall1990-silicon --check\n\n"
-      "Where the recipe says what the instrument records, the raw events can be had as well:\n\n"
+      "Where the recipe says what the instrument records, the passages can be had as well:\n\n"
       "  recoil reconstruct datasets/li1999-sst65-silicon --passages events.csv\n"
       "  recoil pair events.csv --unit time=s,velocity=m/s,tangential_velocity=m/s,diameter=um");
   const auto folder = std::make_shared<std::string>();
   const auto check = std::make_shared<bool>(false);
   command->add_option("DIR", *folder, "the dataset's folder")->required();
-  command->add_flag("--check", *check, "only compare, and verify the facts");
+  command->add_flag("--check", *check, "write nothing; compare, and verify the facts");
   const auto passages = std::make_shared<std::string>();
   const auto times = std::make_shared<int>(1);
   CLI::Option* to =
-      command->add_option("--passages", *passages,
-                          "instead, write what the instrument would have recorded (CSV), for "
-                          "recoil pair; needs a table [passages] in the recipe");
-  command->add_option("--times", *times, "with so many times as many spheres")
+      command
+          ->add_option("--passages", *passages,
+                       "write what the instrument would have recorded instead (CSV), for recoil "
+                       "pair; the recipe needs a table [passages]")
+          ->type_name("FILE");
+  command->add_option("--times", *times, "so many times as many spheres as in the recipe")
       ->needs(to)
       ->check(CLI::Range(1, 10000));
   command->callback([folder, check, passages, times] {
@@ -63,9 +65,8 @@ void add_reconstruct(CLI::App& program) {
     fmt::print("{}", describe(result));
     if (result.from_events) fmt::print("\n{}", pair_command_words(load_recipe(*folder)));
     if (!result.good()) {
-      throw ComputationError(
-          fmt::format("{}: {}", *folder,
-                      result.identical ? "a fact of the recipe does not hold" : result.difference));
+      throw ComputationError(fmt::format(
+          "{}: {}", *folder, result.identical ? "a published fact is not met" : result.difference));
     }
   });
 }

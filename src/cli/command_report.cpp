@@ -130,14 +130,18 @@ void add_report(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("report", "fit and write pages for every fit, with an index");
   command->footer(
-      "One self-contained page per fit and index.html. Pages whose inputs have not changed are "
-      "kept.\n\n"
+      "Writes one page per fit, which needs no other file, and index.html. Pages whose inputs "
+      "have\n"
+      "not changed are kept.\n\n"
       "  recoil report                      every fits/*.toml into reports/\n"
       "  recoil report my.toml --out pages  one fit");
   const auto options = std::make_shared<ReportOptions>();
   command->add_option("FIT", options->fits, "fit files (default: fits/*.toml)");
-  command->add_option("--out", options->out, "folder for the pages")->capture_default_str();
-  command->add_flag("--force", options->force, "write every page anew");
+  command->add_option("--out", options->out, "folder for the pages")
+      ->capture_default_str()
+      ->type_name("DIR");
+  command->add_flag("--force", options->force,
+                    "write every page anew, even if nothing has changed");
   add_analysis_flags(*command, options->analysis);
   command->callback([options] { report(*options); });
 }

@@ -19,19 +19,21 @@ void add_analysis_flags(CLI::App& command, AnalysisFlags& flags) {
   command
       .add_option(
           "--replicates", flags.replicates,
-          "bootstrap replicates, 0 for none, or auto: as many as it takes (default: the fit "
-          "file's)")
+          "bootstrap replicates; 0: none, auto: as many as it takes (default: the fit file's)")
       ->check(CLI::IsMember({"auto"}) | CLI::Range(0, 1000000));
   command
       .add_option("--scheme", flags.scheme,
-                  "how new data sets are drawn: auto, parametric, residual, wild, case, cluster "
-                  "(default: the fit file's)")
+                  "how the bootstrap draws new data sets (default: the fit file's)")
       ->check(CLI::IsMember(all_names<Scheme>()));
-  command.add_option("--seed", flags.seed, "fixes every digit (default: the fit file's)")
+  command
+      .add_option("--seed", flags.seed,
+                  "seed of the random numbers; fixes every digit (default: the fit file's)")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   command.add_option("--threads", flags.threads, "threads to use (default: all cores)")
       ->check(CLI::Range(1, 4096));
-  command.add_option("--solver", flags.solver, "fast (default) or reference (CVODES)")
+  command
+      .add_option("--solver", flags.solver,
+                  "how impacts are integrated; reference: CVODES (default: fast)")
       ->check(CLI::IsMember(all_names<Solver>()));
 }
 
