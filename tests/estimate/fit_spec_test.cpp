@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using support::changed;
+using support::expect_mistake;
 using support::Mistake;
 
 const std::string full = R"(dataset = "../datasets/quartz"

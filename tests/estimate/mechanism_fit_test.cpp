@@ -152,7 +152,7 @@ TEST(MechanismCapture, FollowsTheExtendedModelAndForgetsTheMeasurement) {
   EXPECT_NEAR(found.value, expected, 1e-6 * expected);
   for (std::size_t j = 0; j < theta.size(); ++j) {
     // d ln V* / d ln W = 5/6; the instrument's errors do not move it.
-    const std::string& name = model.slots[j].parameter->name;
+    const std::string_view name = model.slots[j].parameter->name;
     if (name == "jkr_work") {
       EXPECT_NEAR(found.gradient[j] * 0.2 / expected, 5.0 / 6.0, 1e-6);
     }
