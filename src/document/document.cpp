@@ -77,9 +77,9 @@ Table without_empty_columns(Table table) {
 
 Table items(std::vector<std::pair<Sentence, Cell>> entries) {
   Table table;
-  table.columns = {{}, {}};
+  table.columns = {{}, {{}, "", true}};
   for (auto& [name, value] : entries) {
-    table.rows.push_back({std::move(name), std::move(value)});
+    if (!says_nothing(value)) table.rows.push_back({std::move(name), std::move(value)});
   }
   return table;
 }

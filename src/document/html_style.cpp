@@ -91,12 +91,14 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
 .card table { font-size: .86rem; }
 .card tbody th, .card td:last-child { white-space: normal; }
 .card th, .card td { padding: .35rem .6rem; }
-.card .more { margin: auto 0 0; padding: .7rem 1rem; border-top: 1px solid var(--line); }
+.card > p:last-child { margin: auto 0 0; padding: .7rem 1rem;
+  border-top: 1px solid var(--line); }
 @media (max-width: 34rem) {
   body { padding: 1rem .75rem 2rem; }
   h1 { font-size: 1.4rem; }
   th, td { padding: .38rem .6rem; }
   tbody th { white-space: normal; min-width: 6.5rem; }
+  td.prose { min-width: 11rem; }
 }
 @media print {
   :root { --paper: #fff; --ground: #fff; --ink: #000; --quiet: #333; --line: #bbb;
@@ -104,7 +106,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
     --doubt: #000; }
   @page { margin: 15mm; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
-  nav, .more { display: none; }
+  nav, .card > p:last-child { display: none; }
   h1 { font-size: 17pt; }
   h2 { font-size: 12.5pt; margin-top: 1.4rem; break-after: avoid; }
   h3 { break-after: avoid; }

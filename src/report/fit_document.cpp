@@ -170,8 +170,9 @@ Section two_point_section(const Analysis& a, bool with_pairs) {
     }
     add_paragraphs(section.blocks, {comparison.held_out_why});
     for (const PairStudy& study : a.uncertainty.pairs) {
-      if (with_pairs && study.dataset == comparison.dataset) {
-        add_paragraphs(section.blocks, pair_words(a, study));
+      if (!with_pairs || study.dataset != comparison.dataset) continue;
+      for (const std::string& words : pair_words(a, study)) {
+        section.blocks.emplace_back(Paragraph{words});
       }
     }
   }
@@ -376,11 +377,14 @@ Document fit_document(const Analysis& a, std::vector<Block> diagnosis) {
   }
   Section parameters = parameters_section(a, true);
   parameters.blocks.emplace_back(correlations_table(a));
+  parameters.title = "Parameters";
   page.sections.push_back(std::move(parameters));
-  page.sections.push_back(statistics_section(a));
+  Section statistics = statistics_section(a);
+  statistics.title = "Fit statistics";
+  page.sections.push_back(std::move(statistics));
   Table capture = capture_table(a);
   capture.caption = "Capture velocity: slower spheres stay on the surface";
-  page.sections.push_back({"capture", "Capture Velocity", {}, {std::move(capture)}});
+  page.sections.push_back({"capture", "Capture velocity", {}, {std::move(capture)}});
   page.sections.push_back(identifiability_section(a));
   page.sections.push_back(two_point_section(a, false));
   page.sections.push_back(bootstrap_section(a));
