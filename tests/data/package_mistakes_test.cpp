@@ -8,6 +8,7 @@ namespace example {
 namespace {
 
 using support::changed;
+using support::expect_mistake;
 using support::Mistake;
 
 class PackageMistake : public testing::TestWithParam<Mistake> {};
