@@ -49,9 +49,8 @@ Figure error_figure(const CorrectionStudy& study, std::size_t index) {
   }
   const std::string caption = fmt::format(
       "{}. Mean over the rebounds of each velocity of e less the recipe's truth at the point's own "
-      "diameter and velocity; zero is right. All lines rest on the same events, so what they "
-      "differ "
-      "by is no chance. Not counting captures leaves e as it is.",
+      "diameter and velocity; zero is right. All lines rest on the same events, so that "
+      "chance is no part of their differences. Not counting captures leaves e as it is.",
       study_words(study));
   return figure_of(picture_of("e", index, std::move(shown)), caption);
 }

@@ -76,8 +76,8 @@ Sentence plane_words(const PairingResult& pairs) {
 
 Sentence later_words(const PairingResult& pairs) {
   if (!pairs.returns_usable) {
-    return "rebounds that come down again do not stand out of chance: second impacts, where there "
-           "are any, are among the first";
+    return "rebounds that come down again cannot be told from chance: second impacts, if there are "
+           "any, are among the first";
   }
   const auto later = std::count_if(pairs.impacts.begin(), pairs.impacts.end(),
                                    [](const Impact& impact) { return impact.number > 1; });
@@ -209,13 +209,13 @@ Section points_section(const Averages& averages) {
 }  // namespace
 
 Table unpaired_table(const PairingResult& pairs, const Averages& averages) {
-  const std::string seen =
-      pairs.options.lost_share
-          ? std::string("as stated")
-          : fmt::format(
-                "{} of {} rebounds lack their way down, and the way up is taken to be missed as "
-                "often",
-                pairs.orphans, pairs.up);
+  const std::string seen = pairs.options.lost_share
+                               ? std::string("as stated")
+                               : fmt::format(
+                                     "of {} of {} rebounds the way down was not seen, and the way "
+                                     "up is taken to be missed "
+                                     "as often",
+                                     pairs.orphans, pairs.up);
   Table table;
   table.columns = {{"taken for"}, {"passages"}, {"because", "", true}};
   table.rows = {
@@ -228,7 +228,7 @@ Table unpaired_table(const PairingResult& pairs, const Averages& averages) {
            flight::slowest_return(pairs.height))},
       {"captured", Number{static_cast<double>(averages.captured), fixed(0)}, {}},
       {"not assigned", Number{averages.unresolved, fixed(0)},
-       "too few in their bins to be told from accident"}};
+       "too few in their bins to be told from chance"}};
   return table;
 }
 
