@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/statistics.hpp"
-#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {

@@ -89,22 +89,6 @@ std::string words_of(Correction left_out) {
   return "";
 }
 
-std::string words_of(Correction left_out) {
-  switch (left_out) {
-    case Correction::none_left_out:
-      return "all corrections";
-    case Correction::probe_plane:
-      return "velocities taken at the measuring plane";
-    case Correction::second_impacts:
-      return "second and further impacts left in";
-    case Correction::survivors:
-      return "captured spheres not counted";
-    case Correction::all_left_out:
-      return "none of the three corrections";
-  }
-  return "";
-}
-
 std::string study_words(const CorrectionStudy& study) {
   return fmt::format(
       "{:g} spheres seen to rebound per drop height, {}", study.rebounds_per_velocity,
@@ -129,13 +113,6 @@ std::vector<Block> corrections_blocks(const Analysis& analysis) {
         Paragraph{say("What each correction does was studied for another fit, dataset or "
                       "recipe than these. {} studies it again.",
                       code("recoil_study corrections " + analysis.spec.file.string()))}};
-  }
-  if (analysis.corrections_outdated) {
-    return {Paragraph{
-        Sentence("What each correction does was studied for another fit, dataset or recipe than "
-                 "these. ") +
-        code(fmt::format("recoil_study corrections {}", analysis.spec.file.generic_string())) +
-        " studies it again."}};
   }
   if (analysis.corrections.empty()) return {};
   std::vector<Block> blocks = {Paragraph{

@@ -6,7 +6,6 @@
 #include "core/files.hpp"
 #include "studies/commands.hpp"
 #include "studies/coverage_page.hpp"
-#include "studies/coverage_picture.hpp"
 #include "studies/coverage_study.hpp"
 #include "studies/study_pages.hpp"
 
@@ -44,8 +43,7 @@ void study_grid(const Options& options) {
   CoverageStudy study = measure_grid(spec, load_datasets(spec).front(), designs,
                                      coverage_options(options, spec), options.run.keep);
   study.stamp = options.run.stamp();
-  publish(options.run, coverage_study_json(study), coverage_page(study, study.stamp.study),
-          coverage_picture(study));
+  publish(options.run, coverage_study_json(study), coverage_page(study, study.stamp.study));
 }
 
 /// All files are read before the first design is measured.
@@ -61,7 +59,7 @@ void study_designs(const Options& options) {
     add_design(study, specs[k], datasets[k], coverage_options(options, specs[k]), options.run.keep);
   }
   study.stamp = options.run.stamp();
-  publish(options.run, coverage_study_json(study), coverage_page(study, ""), "");
+  publish(options.run, coverage_study_json(study), coverage_page(study, ""));
 }
 
 CLI::App* add_command(CLI::App& program, const char* name, const char* what,

@@ -16,7 +16,7 @@ void add_event_chain(CLI::App& program, const std::string& words) {
   command->callback([run] {
     EventChain chain = study_event_chain(".");
     chain.stamp = run->stamp();
-    publish(*run, event_chain_json(chain), event_chain_page(chain), "");
+    publish(*run, event_chain_json(chain), event_chain_page(chain));
   });
 }
 

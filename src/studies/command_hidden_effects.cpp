@@ -9,13 +9,11 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "studies/commands.hpp"
-#include "studies/hidden_effects_file.hpp"
-#include "studies/study_pages.hpp"
+#include "studies/hidden_effects_page.hpp"
 
 namespace recoil {
 namespace {
@@ -67,15 +65,10 @@ void study(const Options& options) {
   for (const hidden::CaseOrder& order : hidden::plan_study(options.size)) {
     if (order.key().find(options.only) != std::string::npos) orders.push_back(order);
   }
-  hidden::StudyResult result{options.run.stamp(), options.size, orders.size(), {}};
-  result.answers = answers_to(orders, options);
-  if (options.run.out.empty()) {
-    fmt::print("{}",
-               hidden::study_report(result.answers, result.planned, result.size, result.stamp));
-    return;
-  }
-  write_whole_file(options.run.out, hidden::study_json(result));
-  render_study(options.run.out);
+  hidden::StudyTally tally =
+      hidden::tally_of(answers_to(orders, options), orders.size(), options.size);
+  tally.stamp = options.run.stamp();
+  publish(options.run, hidden::tally_json(tally), hidden::hidden_effects_page(tally));
 }
 
 }  // namespace

@@ -66,17 +66,13 @@ void add_run_options(CLI::App& command, StudyRun& run) {
       ->check(CLI::Range(1, 4096));
 }
 
-void publish(const StudyRun& run, const std::string& json, const Document& page,
-             const std::string& picture) {
-  const std::string text = markdown_page(page);
+void publish(const StudyRun& run, const std::string& json, const Document& page) {
   if (run.out.empty()) {
-    fmt::print("{}", text);
+    fmt::print("{}", markdown_page(page));
     return;
   }
-  fs::path file = run.out;
-  write_whole_file(file, json);
-  write_whole_file(file.replace_extension(".md"), text);
-  if (!picture.empty()) write_whole_file(file.replace_extension(".svg"), picture);
+  write_whole_file(run.out, json);
+  render_study(run.out);
 }
 
 void add_list(CLI::App& program) {

@@ -22,9 +22,9 @@ struct StudyRun {
 /// The options of `StudyRun` but the command.
 void add_run_options(CLI::App& command, StudyRun& run);
 
-/// Writes `json` where the run wants it, with its page and picture beside it, and prints the page.
-void publish(const StudyRun& run, const std::string& json, const Document& page,
-             const std::string& picture);
+/// Writes `json` where the run wants it, with its page and picture beside it; without such a place
+/// prints the page.
+void publish(const StudyRun& run, const std::string& json, const Document& page);
 
 /// Each adds one command. `words` is the command line without places and threads.
 void add_coverage_grid(CLI::App& program, const std::string& words);

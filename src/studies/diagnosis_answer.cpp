@@ -142,28 +142,6 @@ Mark mark_with_margin(const Answered& answered, double margin) {
   return mark_of(other);
 }
 
-std::string to_string(Mark mark) {
-  switch (mark) {
-    case Mark::nothing:
-      return "adequate";
-    case Mark::unexplained:
-      return "unexplained";
-    case Mark::named:
-      return "named";
-    case Mark::part:
-      return "one of several named";
-    case Mark::wrong:
-      return "wrong cause named";
-    case Mark::inside:
-      return "not separable, listed";
-    case Mark::outside:
-      return "not separable, not listed";
-    case Mark::failed:
-      return "no answer";
-  }
-  return "";
-}
-
 std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep) {
   if (keep.empty()) return {};
   std::ifstream in(kept_file(order, keep));

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
 #include "studies/nearest_rival.hpp"
 
 namespace hidden {
@@ -53,7 +56,6 @@ enum class Mark {
   failed,       ///< the command gave no answer
 };
 Mark mark_of(const Answered& answered);
-std::string to_string(Mark mark);
 
 /// The same had the diagnosis taken all causes within `margin` of the best for its rivals: for one
 /// hidden effect in a design of several diameters.
@@ -68,3 +70,15 @@ Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
              const std::filesystem::path& keep);
 
 }  // namespace hidden
+
+template <>
+struct recoil::NamesOf<hidden::Mark> {
+  static constexpr std::array<std::string_view, 8> names = {"adequate",
+                                                            "unexplained",
+                                                            "named",
+                                                            "one of several named",
+                                                            "wrong cause named",
+                                                            "not separable, listed",
+                                                            "not separable, not listed",
+                                                            "no answer"};
+};

@@ -2,8 +2,7 @@
 #include <limits>
 #include <optional>
 
-#include "plot/draw.hpp"
-#include "study.hpp"
+#include "studies/hidden_effects_page.hpp"
 
 namespace hidden {
 namespace {
@@ -30,24 +29,22 @@ constexpr int width = 1240;
 constexpr int height = 640;
 
 /// The share of the data sets of one strength that a curve counts [%]; none where there are none.
-std::optional<double> share_of(const std::vector<Answered>& answers, const Curve& curve,
+std::optional<double> share_of(const std::vector<PowerRow>& powers, const Curve& curve,
                                double strength) {
   double n = 0.0;
   double hits = 0.0;
-  for (const Answered& a : answers) {
-    if (!a.reached || chapter_of(a.order) != Chapter::effect ||
-        a.order.signal_to_noise != strength) {
-      continue;
+  for (const PowerRow& row : powers) {
+    if (row.arm != Arm::effect || row.signal_to_noise != strength) continue;
+    for (const auto& [mark, count] : row.marks) {
+      const bool in = std::find(curve.marks.begin(), curve.marks.end(), mark) != curve.marks.end();
+      n += count;
+      hits += in != curve.without ? count : 0;
     }
-    const bool in =
-        std::find(curve.marks.begin(), curve.marks.end(), mark_of(a)) != curve.marks.end();
-    n += 1.0;
-    hits += in != curve.without ? 1.0 : 0.0;
   }
   return n > 0.0 ? std::optional(100.0 * hits / n) : std::nullopt;
 }
 
-plot::Plot power_panel(const std::vector<Answered>& answers) {
+plot::Plot power_panel(const StudyTally& tally) {
   plot::Plot panel;
   panel.frame = plot::Frame{0.07 * width, 0.33 * width, 0.30 * height, 0.86 * height};
   panel.heading = "One effect, several diameters";
@@ -64,7 +61,7 @@ plot::Plot power_panel(const std::vector<Answered>& answers) {
     plot::Line line{{}, {}, {marker.colour, 2.0}, marker.mark, 0.9};
     line.name = curves()[k].label;
     for (const double strength : study_strengths()) {
-      const std::optional<double> share = share_of(answers, curves()[k], strength);
+      const std::optional<double> share = share_of(tally.powers, curves()[k], strength);
       line.x.push_back(strength);
       line.y.push_back(share.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
@@ -73,8 +70,7 @@ plot::Plot power_panel(const std::vector<Answered>& answers) {
   return panel;
 }
 
-plot::Plot heat_panel(const std::vector<Answered>& answers) {
-  const Confusion c = confusion_of(answers);
+plot::Plot heat_panel(const Confusion& c) {
   plot::Plot panel;
   panel.frame = plot::Frame{0.50 * width, 0.93 * width, 0.30 * height, 0.92 * height};
   panel.heading = "Hidden (rows) and answered (columns), snr 10 and more";
@@ -108,50 +104,14 @@ plot::Plot heat_panel(const std::vector<Answered>& answers) {
 
 }  // namespace
 
-Confusion confusion_of(const std::vector<Answered>& answers) {
-  Confusion c;
-  std::vector<std::string> ids;
-  for (const HiddenEffect& effect : hidden_effects()) {
-    if (effect.kind == EffectKind::careless) continue;
-    c.rows.emplace_back(effect.id);
-    if (effect.kind != EffectKind::outside) ids.emplace_back(effect.id);
-  }
-  c.rows.emplace_back("nothing");
-  c.columns = ids;
-  const std::vector<Mark> others = {Mark::inside, Mark::outside, Mark::unexplained, Mark::nothing,
-                                    Mark::failed};
-  for (const Mark mark : others) c.columns.push_back(to_string(mark));
-  c.counts.assign(c.rows.size(), std::vector<int>(c.columns.size(), 0));
-  const auto index = [](const std::vector<std::string>& list, const std::string& word) {
-    return static_cast<std::size_t>(std::find(list.begin(), list.end(), word) - list.begin());
-  };
-  for (const Answered& a : answers) {
-    const Arm arm = arm_of(a.order);
-    if (!a.reached || arm == Arm::pair || arm == Arm::single) continue;
-    if (arm != Arm::correct && a.order.signal_to_noise < visible) continue;
-    const std::size_t row =
-        index(c.rows, a.order.effects.empty() ? "nothing" : a.order.effects.front());
-    const Mark mark = mark_of(a);
-    if (std::find(others.begin(), others.end(), mark) != others.end()) {
-      ++c.counts[row][index(c.columns, to_string(mark))];
-      continue;
-    }
-    for (const std::string& name : a.named) {
-      const std::size_t column = index(c.columns, name);
-      if (column < c.columns.size()) ++c.counts[row][column];
-    }
-  }
-  return c;
-}
-
-std::string study_picture(const std::vector<Answered>& answers) {
+recoil::plot::Picture hidden_effects_picture(const StudyTally& tally) {
   plot::Picture picture;
   picture.name = "hidden-effects";
   picture.title = "Power of the diagnosis against strength, and what is taken for what";
   picture.width = width;
   picture.height = height;
-  picture.plots = {power_panel(answers), heat_panel(answers)};
-  return plot::draw_svg(picture) + "\n";
+  picture.plots = {power_panel(tally), heat_panel(tally.confusion)};
+  return picture;
 }
 
 }  // namespace hidden

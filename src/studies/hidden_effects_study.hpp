@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "studies/diagnosis_answer.hpp"
-#include "studies/study_stamp.hpp"
 
 namespace hidden {
 
@@ -33,14 +32,6 @@ Arm arm_of(const CaseOrder& order);
 /// fair sample of all of it.
 std::vector<CaseOrder> plan_study(const StudySize& size);
 
-/// The whole report in Markdown.
-/// @param planned how many data sets `answers` would have if all were done
-std::string study_report(const std::vector<Answered>& answers, std::size_t planned,
-                         const StudySize& size, const recoil::StudyStamp& stamp);
-
-/// Power against strength, and the confusion matrix, as one picture (SVG).
-std::string study_picture(const std::vector<Answered>& answers);
-
 /// Rows: what was hidden (visible effects in designs of several diameters). Columns: what was
 /// answered.
 struct Confusion {
@@ -51,3 +42,9 @@ struct Confusion {
 Confusion confusion_of(const std::vector<Answered>& answers);
 
 }  // namespace hidden
+
+template <>
+struct recoil::NamesOf<hidden::Arm> {
+  static constexpr std::array<std::string_view, 6> names = {"effect",  "correct", "pair",
+                                                            "outside", "single",  "careless"};
+};

@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "document/markdown.hpp"
+#include "plot/draw.hpp"
 #include "studies/coverage_page.hpp"
 #include "studies/coverage_picture.hpp"
 #include "studies/event_chain.hpp"
-#include "studies/hidden_effects_file.hpp"
+#include "studies/hidden_effects_page.hpp"
 #include "studies/pairing_study.hpp"
 #include "studies/study_stamp.hpp"
 
@@ -20,10 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_page(const fs::path& json, const Document& page, const std::string& picture) {
+void write_page(const fs::path& json, const Document& page,
+                const std::optional<plot::Picture>& picture = {}) {
   fs::path file = json;
   write_whole_file(file.replace_extension(".md"), markdown_page(page));
-  if (!picture.empty()) write_whole_file(file.replace_extension(".svg"), picture);
+  if (picture) write_whole_file(file.replace_extension(".svg"), plot::draw_svg(*picture) + "\n");
 }
 
 }  // namespace
@@ -33,18 +36,15 @@ void render_study(const fs::path& json) {
   if (name.starts_with("coverage-")) {
     const CoverageStudy study = read_coverage_study(json);
     const bool grid = !study.grid_of.empty();
-    write_page(json, coverage_page(study, grid ? name : ""), grid ? coverage_picture(study) : "");
+    write_page(json, coverage_page(study, grid ? name : ""),
+               grid ? std::optional(coverage_picture(study)) : std::nullopt);
   } else if (name == "event-chain") {
-    write_page(json, event_chain_page(read_event_chain(json)), "");
+    write_page(json, event_chain_page(read_event_chain(json)));
   } else if (name == "pairing") {
-    write_page(json, pairing_page(read_pairing_study(json)), "");
+    write_page(json, pairing_page(read_pairing_study(json)));
   } else if (name == "hidden-effects") {
-    const hidden::StudyResult result = hidden::read_study(json);
-    fs::path file = json;
-    write_whole_file(
-        file.replace_extension(".md"),
-        hidden::study_report(result.answers, result.planned, result.size, result.stamp));
-    write_whole_file(file.replace_extension(".svg"), hidden::study_picture(result.answers));
+    const hidden::StudyTally tally = hidden::read_tally(json);
+    write_page(json, hidden::hidden_effects_page(tally), hidden::hidden_effects_picture(tally));
   } else {
     throw InputError({json.string()}, "no page is made from this file",
                      "its name is that of no study with a page",
@@ -64,8 +64,8 @@ void write_coverage_summary(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   if (files.empty()) {
-    throw InputError({folder.string()}, "no studies of coverage here",
-                     "they are files named coverage-*.json", "./run study writes them");
+    throw InputError({folder.string()}, "there are no studies of coverage here",
+                     "they are files named coverage-*.json", "write them with ./run study");
   }
   std::vector<CoverageStudy> studies;
   std::vector<ParameterCoverage> recommended;

@@ -117,8 +117,8 @@ TEST(CoveragePicture, ShowsTheShareThatContainedAndTheShareThatWasCalledIdentifi
   row.parameter = "f0";
   row.usable = 200;
   row.identifiable = 150;
-  row.intervals = {counted("recommended", 200, 183), counted("wald", 80, 60),
-                   {"bca", {}, {}, {}, {}, 0.876}};
+  row.intervals = {
+      counted("recommended", 200, 183), counted("wald", 80, 60), {"bca", {}, {}, {}, {}, 0.876}};
   const plot::Picture shown = picture({row});
   std::map<std::string, plot::Colour> words = words_of(shown);
   EXPECT_TRUE(words.contains("91.5"));
