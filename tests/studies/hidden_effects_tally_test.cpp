@@ -1,0 +1,110 @@
+// What is counted of answers to hidden effects, from answers made up by hand.
+#include "studies/hidden_effects_tally.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace {
+
+using namespace hidden;
+
+Answered answer(const std::string& design, const std::vector<std::string>& effects, double strength,
+                const std::string& verdict, const std::vector<std::string>& named,
+                const std::vector<std::string>& rivals = {}) {
+  Answered made;
+  made.order = {design, effects, strength, 0, 1};
+  made.reached = true;
+  made.verdict = verdict;
+  made.named = named;
+  made.rivals = rivals;
+  made.seconds = 1.0;
+  return made;
+}
+
+std::vector<Answered> answers() {
+  std::vector<Answered> all;
+  all.push_back(answer("wall", {"plastic_yield"}, 20.0, "cause_named", {"plastic_yield"}));
+  all.back().nearest_rival = {"elastic_waves", 8.0};
+  all.push_back(answer("wall", {"plastic_yield"}, 5.0, "adequate", {}));
+  all.push_back(answer("li", {"jkr_hysteresis"}, 20.0, "not_separable", {},
+                       {"jkr_hysteresis", "adhesion_hysteresis"}));
+  all.back().shared_cause = "adhesion hysteresis";
+  all.back().nearest_rival = {"adhesion_hysteresis", 1.5};
+  all.push_back(answer("li", {"gas_film"}, 10.0, "cause_named", {"probe_plane"}));
+  all.back().nearest_rival = {"plate_flexure", 5.0};
+  all.push_back(answer("wall", {}, 0.0, "adequate", {}));
+  all.push_back(answer("wall", {}, 0.0, "unexplained", {}));
+  all.back().p_value = 0.01;
+  all.push_back(answer("wall", {"dip"}, 20.0, "unexplained", {}));
+  all.push_back(answer("wall", {"velocities"}, 0.0, "unexplained", {}));
+  all.back().errors_told = true;
+  all.push_back(answer("wall-one", {"plastic_yield"}, 20.0, "not_separable", {}, {"gas_film"}));
+  all.push_back(answer("li", {"capillary"}, 40.0, "", {}));
+  all.back().reached = false;
+  all.back().signal_to_noise = 7.5;
+  return all;
+}
+
+void expect(const StudyTally& tally, Bar bar, int k, int n) {
+  const Count count = tally.bars.at(bar);
+  EXPECT_EQ(count.k, k) << recoil::name_of(bar);
+  EXPECT_EQ(count.n, n) << recoil::name_of(bar);
+}
+
+TEST(HiddenEffectsTally, CountsEveryBarOverItsOwnDataSets) {
+  const StudyTally tally = tally_of(answers(), 12, {});
+  EXPECT_EQ(tally.planned, 12);
+  EXPECT_EQ(tally.tried, 10);
+  EXPECT_EQ(tally.made, 9);
+  expect(tally, Bar::named, 1, 3);
+  expect(tally, Bar::separable_named, 1, 2);
+  expect(tally, Bar::named_or_law, 2, 3);
+  expect(tally, Bar::listed, 2, 3);
+  expect(tally, Bar::wrong, 1, 3);
+  expect(tally, Bar::false_alarm, 1, 2);
+  expect(tally, Bar::outside_unexplained, 1, 1);
+  expect(tally, Bar::unstated_named, 0, 1);
+  expect(tally, Bar::unstated_told, 1, 1);
+  expect(tally, Bar::single_diameter, 1, 1);
+  EXPECT_EQ(tally.not_named, 2);
+  EXPECT_EQ(tally.alike, 1);
+  EXPECT_EQ(tally.told_by_cause, 1);
+  EXPECT_EQ(tally.errors_told_astray.k, 0);
+  EXPECT_EQ(tally.errors_told_astray.n, 3);
+}
+
+TEST(HiddenEffectsTally, KeepsWhatWasHiddenApartByStrengthAndDesign) {
+  const StudyTally tally = tally_of(answers(), 10, {});
+  int of_yield = 0;
+  for (const PowerRow& row : tally.powers) {
+    if (row.hidden != "plastic_yield" || row.arm != Arm::effect) continue;
+    ++of_yield;
+    EXPECT_EQ(row.n, 1);
+    EXPECT_EQ(row.marks.at(row.signal_to_noise == 5.0 ? Mark::nothing : Mark::named), 1);
+  }
+  EXPECT_EQ(of_yield, 2);
+  ASSERT_EQ(tally.unreached.size(), 1U);
+  EXPECT_EQ(tally.unreached[0].not_made.at(40.0), 1);
+  EXPECT_DOUBLE_EQ(tally.unreached[0].largest, 7.5);
+  ASSERT_FALSE(tally.alarms.empty());
+  EXPECT_EQ(tally.alarms[0].design, "wall");
+  EXPECT_EQ(tally.alarms[0].alarms.k, 1);
+  EXPECT_EQ(tally.alarms[0].low_p.k, 1);
+}
+
+TEST(HiddenEffectsTally, ComesBackFromItsJson) {
+  StudyTally tally = tally_of(answers(), 10, {});
+  tally.stamp = {"hidden-effects", "recoil_study hidden-effects", "0123", ""};
+  const std::filesystem::path file =
+      testing::TempDir() + "recoil-tally-" + std::to_string(getpid()) + ".json";
+  recoil::write_whole_file(file, tally_json(tally));
+  EXPECT_EQ(tally_json(read_tally(file)), tally_json(tally));
+  recoil::write_whole_file(file, R"({"study": "hidden-effects"})");
+  EXPECT_THROW(read_tally(file), recoil::InputError);
+  std::filesystem::remove(file);
+}
+
+}  // namespace
