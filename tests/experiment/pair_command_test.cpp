@@ -65,7 +65,7 @@ TEST(PairCommand, MixedSizesTravelWithTheirPoints) {
                 .status,
             0);
   EXPECT_EQ(place.run({"check", "set"}).status, 0);
-  const recoil::MeasuredSizes sizes = recoil::load_sizes(place.folder() / "set/sizes.csv");
+  const recoil::MeasuredSizes sizes = recoil::load_sizes(place.path() / "set/sizes.csv");
   EXPECT_EQ(sizes.provenance, "synthetic");
   EXPECT_NEAR(sizes.probe_height.value_or(0.0), 1.04e-3, 5e-6);
   EXPECT_NEAR(sizes.mean_diameter(), 49e-6, 2e-6);  // d10 of the stream's distribution
