@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/reconstruction_document.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
@@ -62,7 +63,7 @@ void add_reconstruct(CLI::App& program) {
       return;
     }
     const ReconstructionResult result = reconstruct(*folder, *check);
-    fmt::print("{}", describe(result));
+    fmt::print("{}", reconstruction_text(result));
     if (result.from_events) fmt::print("\n{}", pair_command_words(load_recipe(*folder)));
     if (!result.good()) {
       throw ComputationError(fmt::format(

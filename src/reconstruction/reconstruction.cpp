@@ -135,33 +135,4 @@ ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check
   return result;
 }
 
-std::string describe(const ReconstructionResult& result) {
-  std::string text = fmt::format("{}: a reconstruction, {} points, seed {}\n", result.id,
-                                 result.points, result.seed);
-  text += "  No point of it was measured: a committed recipe makes them from the facts below.\n";
-  if (result.from_events) {
-    text += "  The points come from simulated events through the tool's own pairing.\n";
-  }
-  if (result.written) {
-    text += "  points.csv: written\n";
-  } else if (result.identical) {
-    text += "  points.csv: byte for byte what the recipe makes\n";
-  } else {
-    text += fmt::format("  points.csv: NOT what the recipe makes ({})\n", result.difference);
-  }
-  text += "\nFacts\n";
-  std::size_t held = 0;
-  for (const FactCheck& fact : result.facts) {
-    held += fact.holds ? 1 : 0;
-    text += fmt::format("  {}  {} [{}]\n         {}: {}\n", fact.holds ? "holds" : "FAILS",
-                        fact.statement, fact.source, fact.id, fact.found);
-  }
-  if (!result.assumptions.empty()) text += "\nAssumptions (not published, chosen here)\n";
-  for (const std::string& assumption : result.assumptions) {
-    text += fmt::format("  - {}\n", assumption);
-  }
-  text += fmt::format("\n{} of {} facts hold.\n", held, result.facts.size());
-  return text;
-}
-
 }  // namespace recoil

@@ -47,7 +47,4 @@ struct ReconstructionResult {
 /// @throws InputError for a mistake in the recipe, or a missing points.csv when only checking.
 ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only);
 
-/// The facts as a table, with what is assumed and a verdict, for the terminal.
-std::string describe(const ReconstructionResult& result);
-
 }  // namespace recoil

@@ -46,9 +46,6 @@ TEST_P(Committed, EveryFactHolds) {
     EXPECT_TRUE(fact.holds) << fact.id << ": " << fact.found;
   EXPECT_TRUE(result.good());
   EXPECT_FALSE(result.assumptions.empty());
-  const std::string text = describe(result);
-  EXPECT_NE(text.find("reconstruction"), std::string::npos);
-  EXPECT_NE(text.find("No point of it was measured"), std::string::npos);
 }
 
 TEST_P(Committed, EveryFactWithALimitCanFail) {
@@ -101,7 +98,6 @@ TEST(Reconstruction, TamperedPointsAreFound) {
   EXPECT_FALSE(result.good());
   EXPECT_FALSE(result.identical);
   EXPECT_NE(result.difference.find("line 2"), std::string::npos) << result.difference;
-  EXPECT_NE(describe(result).find("NOT what the recipe makes"), std::string::npos);
   // Making it anew puts it right.
   EXPECT_TRUE(reconstruct(copies.folder(id), false).good());
   EXPECT_EQ(text_of(copies.folder(id) / "points.csv"), text);
