@@ -1,0 +1,97 @@
+// Every fact that a reader of a fit should beware of becomes one warning.
+#include "report/words_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "estimate/fit.hpp"
+#include "example_analysis.hpp"
+#include "report/words_noise.hpp"
+#include "report/words_two_point.hpp"
+
+namespace recoil {
+namespace {
+
+/// A usable fit of which there is nothing to say.
+FitResult sound() {
+  FitResult fitted = example::four_diameters().fitted;
+  fitted.usable = true;
+  fitted.noise_verdict = NoiseVerdict::explained;
+  fitted.at_bound.assign(fitted.theta.size(), false);
+  fitted.starts.clear();
+  StartSummary best;
+  best.end = fitted.theta;
+  best.converged = true;
+  best.outcome = StartOutcome::best;
+  fitted.starts.push_back(best);
+  return fitted;
+}
+
+template <class Change>
+std::size_t warnings_after(const Change& change) {
+  FitResult fitted = sound();
+  change(fitted);
+  return fit_warnings(fitted).size();
+}
+
+TEST(FitWarnings, OneForEveryFact) {
+  EXPECT_TRUE(fit_warnings(sound()).empty());
+  EXPECT_EQ(warnings_after([](FitResult& f) { f.data.sd_stated = false; }), 1U);
+  EXPECT_EQ(warnings_after([](FitResult& f) {
+              f.data.sd_stated = false;
+              f.data.sd_set_aside = 5;
+            }),
+            2U);
+  EXPECT_EQ(warnings_after([](FitResult& f) { f.weights_at_rest = false; }), 1U);
+  EXPECT_EQ(warnings_after([](FitResult& f) { f.noise_verdict = NoiseVerdict::exceeded; }), 1U);
+  EXPECT_EQ(warnings_after([](FitResult& f) { f.noise_verdict = NoiseVerdict::doubtful; }), 0U);
+  EXPECT_EQ(warnings_after([](FitResult& f) { f.strained_points = 3; }), 1U);
+  EXPECT_EQ(warnings_after([](FitResult& f) { f.covariance.clear(); }), 1U);
+  EXPECT_EQ(warnings_after([](FitResult& f) { f.at_bound[0] = true; }), 1U);
+  EXPECT_EQ(warnings_after([](FitResult& f) {
+              f.unused_counts = {&mechanism_catalogue().front(), 2};
+            }),
+            1U);
+}
+
+TEST(FitWarnings, TellHowStartsEnded) {
+  const auto with = [](StartOutcome outcome, std::vector<std::size_t> differing) {
+    return warnings_after([&](FitResult& f) {
+      StartSummary start = f.starts.front();
+      start.outcome = outcome;
+      start.differing = differing;
+      f.starts.push_back(start);
+    });
+  };
+  EXPECT_EQ(with(StartOutcome::same, {}), 0U);
+  EXPECT_EQ(with(StartOutcome::worse, {}), 1U);
+  EXPECT_EQ(with(StartOutcome::not_converged, {}), 1U);
+  EXPECT_EQ(with(StartOutcome::tie, {0, 1}), 2U);  // one for each parameter that differs
+}
+
+TEST(NoiseWords, ThereIsSomethingToSayOfEveryVerdict) {
+  FitResult fitted = sound();
+  for (const NoiseVerdict verdict :
+       {NoiseVerdict::unchecked, NoiseVerdict::estimated, NoiseVerdict::explained,
+        NoiseVerdict::doubtful, NoiseVerdict::exceeded}) {
+    fitted.noise_verdict = verdict;
+    EXPECT_FALSE(noise_words(fitted).empty());
+  }
+  fitted.usable = false;
+  EXPECT_TRUE(noise_words(fitted).empty());
+}
+
+TEST(TwoPointWords, EveryEndHasItsOwn) {
+  const Analysis analysis = example::four_diameters();
+  TwoPointResult result = analysis.uncertainty.two_point.front().result;
+  std::set<std::string> words;
+  for (const TwoPointStatus status : values_of<TwoPointStatus>()) {
+    result.status = status;
+    words.insert(two_point_words(analysis.fitted, 0, result));
+  }
+  EXPECT_EQ(words.size(), count_of<TwoPointStatus>);
+}
+
+}  // namespace
+}  // namespace recoil
