@@ -147,7 +147,7 @@ TEST(PackageFile, FolderOrFileIsNotThere) {
   expect_mistake(error("no/such/folder"),
                  {"", "", "", "no/such/folder: ", "no such folder", "check the path"});
   const auto file = folder.path() / "points.csv";
-  expect_mistake(error(file), {"", "", "", file.string(), "this is not a folder", "name the"});
+  expect_mistake(error(file), {"", "", "", file.string(), "not a folder", "name the"});
   std::filesystem::remove(folder.path() / "datapackage.json");
   folder.expect({"", "", "", "datapackage.json: ", "no such file", "a shipped dataset"});
 }
