@@ -4,7 +4,8 @@
 
 #include "cli/event_points.hpp"
 #include "core/error.hpp"
-#include "uncertainty/resample.hpp"
+#include "report/words_intervals.hpp"
+#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -38,10 +39,11 @@ UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOption
 }
 
 void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data) {
-  const std::string obstacle = scheme_obstacle(scheme, data);
-  if (obstacle.empty()) return;
+  const std::optional<SchemeObstacle> obstacle = scheme_obstacle(scheme, data);
+  if (!obstacle) return;
   throw InputError({spec.file.string()},
-                   fmt::format("the scheme \"{}\" cannot be used", to_string(scheme)), obstacle,
+                   fmt::format("the scheme \"{}\" cannot be used", to_string(scheme)),
+                   obstacle_words(*obstacle),
                    "scheme = \"auto\" chooses one that can");
 }
 

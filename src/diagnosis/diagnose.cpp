@@ -16,6 +16,7 @@
 #include "diagnosis/search.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "diagnosis/verdict_words.hpp"
+#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {

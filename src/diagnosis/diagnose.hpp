@@ -8,7 +8,7 @@
 #include "diagnosis/candidate.hpp"
 #include "diagnosis/held_out.hpp"
 #include "diagnosis/structure.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "uncertainty/uncertainty_result.hpp"
 
 namespace recoil {
 

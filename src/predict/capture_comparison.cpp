@@ -11,11 +11,11 @@
 #include "predict/capture_jkr.hpp"
 #include "predict/capture_thornton_ning.hpp"
 #include "predict/capture_wall.hpp"
+#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t fewest_for_band = 39;
 constexpr double share_for_band = 0.9;  // of the replicates that have to answer at a diameter
 
 std::vector<double> spaced(double first, double last, int count) {
@@ -46,7 +46,7 @@ CaptureCurve fitted_curve(const FitResult& fitted, std::size_t dataset,
   curve.velocity = fitted_velocities(fitted.model, fitted.theta, dataset, diameters);
   const std::size_t count =
       std::min(bootstrap.theta.size(), static_cast<std::size_t>(options.replicates));
-  if (count < fewest_for_band) return curve;
+  if (count < fewest_replicates) return curve;
   std::vector<std::vector<double>> values(count);
   parallel_over(count, options.threads, [&](std::size_t i) {
     values[i] = fitted_velocities(fitted.model, bootstrap.theta[i], dataset, diameters);

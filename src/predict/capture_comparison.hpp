@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "predict/published_captures.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "data/dataset.hpp"
+#include "estimate/fit.hpp"
+#include "uncertainty/bootstrap_result.hpp"
 
 namespace recoil {
 

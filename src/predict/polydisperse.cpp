@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "core/units.hpp"
+#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "predict/measured_sizes.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "data/dataset.hpp"
+#include "estimate/fit.hpp"
+#include "uncertainty/bootstrap_result.hpp"
 
 namespace recoil {
 

@@ -42,7 +42,7 @@ Axis make_axis(const Analysis& analysis, std::size_t slot) {
   axis.estimate = analysis.fitted.theta[slot] * axis.scale.factor;
   const style::Range bulk = style::quantile_range(axis.values, 0.003, 0.997);
   std::vector<double> shown = {bulk.lower, bulk.upper, axis.estimate};
-  const Interval interval = intervals_of(analysis, slot).profile;
+  const Interval interval = intervals_of(analysis, slot)[IntervalKind::profile];
   if (interval.available()) {
     shown.push_back(*interval.lower * axis.scale.factor);
     shown.push_back(*interval.upper * axis.scale.factor);
@@ -216,7 +216,7 @@ std::vector<Figure> corner_figures(const Analysis& analysis) {
       "The {} usable replicates of the {} bootstrap. On the diagonal their histogram and the "
       "profile likelihood, both relative to their peaks: where the two differ, so do the intervals "
       "that rest on them. The dashed line is the height at which the profile interval ends.",
-      replicates, analysis.uncertainty.bootstrap.scheme);
+      replicates, to_string(analysis.uncertainty.bootstrap.scheme));
   if (panels > 0) {
     caption +=
         " Below it each pair of parameters, with the lines within which half and 95 % of the "

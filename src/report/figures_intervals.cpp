@@ -7,17 +7,12 @@
 #include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/svg_plot.hpp"
+#include "report/words_intervals.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr std::size_t most_figures = 16;
-
-struct Kind {
-  const char* id;
-  const char* name;
-  const Interval* interval;
-};
 
 /// A bound inside the picture: a thick line, and the forbidden side shaded.
 std::string bound_commands(double bound, bool lower, style::Range range, int tag) {
@@ -41,16 +36,11 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
   const IntervalSet set = intervals_of(analysis, slot);
   const double estimate = analysis.fitted.theta[slot];
   const style::Scale scale = style::scale_for(std::abs(estimate), parameter.unit);
-  const Kind kinds[] = {{"wald", "Wald", &set.wald},
-                        {"profile", "profile", &set.profile},
-                        {"percentile", "percentile", &set.percentile},
-                        {"bca", "BCa", &set.bca},
-                        {"studentized", "studentized", &set.studentized}};
   std::vector<double> shown = {estimate * scale.factor};
-  for (const Kind& kind : kinds) {
-    if (!kind.interval->available()) continue;
-    shown.push_back(*kind.interval->lower * scale.factor);
-    shown.push_back(*kind.interval->upper * scale.factor);
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    if (!set[kind].available()) continue;
+    shown.push_back(*set[kind].lower * scale.factor);
+    shown.push_back(*set[kind].upper * scale.factor);
   }
   style::Range range = style::range_of(shown, 0.08);
   const double lower = parameter.lower * scale.factor;
@@ -69,15 +59,16 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
   std::string ticks;
   std::string missing;
   int row = 0;
-  for (const Kind& kind : kinds) {
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    const Interval& interval = set[kind];
     const double y = -static_cast<double>(row++);
-    const bool recommended = set.recommended == kind.id;
+    const bool recommended = set.recommended == kind;
     ticks += fmt::format("{}'{}{}{}' {}", ticks.empty() ? "" : ", ", recommended ? "{/:Bold " : "",
-                         kind.name, recommended ? "}" : "", y);
-    if (kind.interval->available()) {
+                         words_of(kind), recommended ? "}" : "", y);
+    if (interval.available()) {
       (recommended ? chosen : usual)
-          .push_back({*kind.interval->lower * scale.factor, y,
-                      (*kind.interval->upper - *kind.interval->lower) * scale.factor});
+          .push_back({*interval.lower * scale.factor, y,
+                      (*interval.upper - *interval.lower) * scale.factor});
     } else {
       missing += fmt::format(
           "set label {} 'none' at graph 0.02, first {} left font ',11' textcolor rgb '{}'\n",
@@ -112,9 +103,11 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
                                     percent(analysis.uncertainty.options.level), parameter.label());
   const Interval recommended = recommended_interval(set);
   caption += recommended.available()
-                 ? fmt::format("; the {} one is recommended.", set.recommended)
-                 : fmt::format(". None is recommended: {}.", reason_without(set));
-  if (!set.disagreement.empty()) caption += " " + as_sentence(set.disagreement);
+                 ? fmt::format("; the {} one is recommended.", words_of(set.recommended))
+                 : fmt::format(". None is recommended: {}.", missing_words(recommended));
+  if (set.disagreement) {
+    caption += " " + as_sentence(disagreement_words(analysis.fitted, slot, set));
+  }
   return {script.name, script.title, caption, draw_svg(script)};
 }
 

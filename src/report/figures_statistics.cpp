@@ -10,6 +10,7 @@
 #include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/svg_plot.hpp"
+#include "report/words_intervals.hpp"
 
 namespace recoil {
 namespace {
@@ -216,20 +217,21 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
         ", \\\n  NaN with filledcurves fc rgb '{}' fs transparent solid 0.16 title {}",
         style::green,
         gnuplot_text(fmt::format("{} interval ({})", percent(analysis.uncertainty.options.level),
-                                 set.recommended)));
+                                 words_of(set.recommended))));
   }
   c += '\n';
 
   std::string caption =
       fmt::format("{} usable replicates of {} ({} bootstrap).", values.size(),
-                  analysis.uncertainty.bootstrap.replicates, analysis.uncertainty.bootstrap.scheme);
+                  analysis.uncertainty.bootstrap.replicates,
+                  to_string(analysis.uncertainty.bootstrap.scheme));
   if (h.outside > 0) {
     caption += fmt::format(" {} of them lie outside this picture.", h.outside);
   }
   if (interval.available()) {
     caption += fmt::format(" Recommended interval {} {}.", interval_text(interval), parameter.unit);
-  } else if (!interval.why.empty()) {
-    caption += fmt::format(" No recommended interval: {}.", interval.why);
+  } else {
+    caption += fmt::format(" No recommended interval: {}.", missing_words(interval));
   }
   return {script.name, script.title, caption, draw_svg(script)};
 }

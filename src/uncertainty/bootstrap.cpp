@@ -14,6 +14,8 @@
 #include "core/progress.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/noise.hpp"
+#include "uncertainty/locate_failures.hpp"
+#include "uncertainty/refit.hpp"
 #include "uncertainty/replicate_errors.hpp"
 
 namespace recoil {
@@ -35,15 +37,6 @@ constexpr int most_two_point = 999;
 // A bootstrap quicker than this is not worth a file.
 constexpr auto worth_keeping = std::chrono::seconds(1);
 
-/// Weights of a replicate need no more digits than its own scatter has.
-SettleOptions settle_options() {
-  SettleOptions options;
-  options.minimiser = refit_options();
-  options.parameters = 0.02;
-  options.scale = 0.01;
-  return options;
-}
-
 /// What one thread needs to refit samples one after the other without building anything anew: the
 /// problem refers to the sample beside it, and outlives its data as long as the points stay where
 /// they are and only their restitution changes.
@@ -61,7 +54,7 @@ class Workspace {
   LeastSquaresResult refit(std::uint64_t seed, std::uint64_t index) {
     resample(plan_, seed, index, sample_);
     if (sample_.weights_depend_on_fit()) {
-      Settled settled = settle(model_, sample_, plan_.fitted->theta, settle_options());
+      Settled settled = settle(model_, sample_, plan_.fitted->theta, refit_settle_options());
       weighted_ = std::move(settled.data);
       return std::move(settled.run);
     }
@@ -82,12 +75,25 @@ class Workspace {
   std::optional<LeastSquaresProblem> problem_;
 };
 
+/// The settings of the noise, which are settled anew in every replicate.
+std::string noise_key(const Observations& data) {
+  const NoiseSpec& spec = data.spec;
+  const NoiseModel& noise = data.noise;
+  return fmt::format("{} {} {} {} {:a} {} {:a} {} {:a} {} {:a} {:a}|", data.sd_stated,
+                     data.weights_depend_on_fit(),
+                     spec.variance ? to_string(*spec.variance) : "auto", spec.student,
+                     spec.student_dof, spec.velocity_errors, spec.velocity_relative_sd,
+                     spec.diameter_errors, spec.diameter_relative_sd, to_string(noise.variance),
+                     noise.scale, noise.event_spread);
+}
+
 /// Everything that decides a replicate's digits, hashed.
 std::string bootstrap_key(const FitResult& fitted, const Observations& data,
                           const ResamplingPlan& plan, const UncertaintyOptions& options) {
   std::string text = fmt::format("{}|{}|{}|{}|{}|{:a}|", options.keep_key, options.seed,
                                  to_string(plan.scheme), static_cast<int>(fitted.model.phase),
                                  static_cast<int>(fitted.model.solver), fitted.noise_scale);
+  text += noise_key(data);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     text += fmt::format("{} {:a} {:a} {:a} {} {}|", slot.label(), fitted.theta[j], slot.lower,
@@ -98,30 +104,14 @@ std::string bootstrap_key(const FitResult& fitted, const Observations& data,
     text += fmt::format("{} {} {:a} {:a} {:a} {:a} {} {:a} {:a} {:a}|", point.dataset, point.series,
                         point.diameter, point.velocity, point.restitution, point.sd, point.censored,
                         fitted.prediction[i], fitted.residuals[i], fitted.leverage[i]);
+    text += fmt::format("{} {} {} {} {:a} {:a} {:a} {:a}|", point.events, point.captured,
+                        point.counted, point.rebound_measured, point.velocity_sd,
+                        point.diameter_sd, point.input_sd, point.scatter);
   }
   return sha256_hex(text);
 }
 
 }  // namespace
-
-LeastSquaresOptions refit_options() {
-  LeastSquaresOptions options;
-  options.function_tolerance = 1e-9;
-  options.gradient_tolerance = 1e-10;
-  options.parameter_tolerance = 1e-8;
-  options.max_iterations = 100;
-  return options;
-}
-
-LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
-                         std::span<const double> start) {
-  if (sample.weights_depend_on_fit()) return settle(model, sample, start, settle_options()).run;
-  return minimise(impact_problem(model, sample), start, refit_options());
-}
-
-bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted) {
-  return refit.converged && (!refit.covariance.empty() || fitted.covariance.empty());
-}
 
 Bootstrap::Bootstrap(const FitResult& fitted, const Observations& data,
                      const std::vector<CaptureEstimate>& capture, const UncertaintyOptions& options)
@@ -216,8 +206,9 @@ BootstrapResult Bootstrap::result() const {
   BootstrapResult result;
   result.replicates = static_cast<int>(count_);
   result.seed = options_.seed;
-  result.scheme = to_string(plan_.scheme);
-  result.scheme_why = plan_.why;
+  result.scheme = plan_.scheme;
+  result.because = plan_.because;
+  result.series = plan_.clusters.size();
   result.reference_error = roots_of_diagonal(reference_covariance_, table_.slots);
   for (std::size_t k = 0; k < table_.derived; ++k) {
     const CaptureVelocity v = capture_velocity(fitted_.model, fitted_.theta, capture_[k].dataset,

@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "uncertainty/uncertainty.hpp"
+#include "data/dataset.hpp"
+#include "estimate/fit.hpp"
+#include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
 
-/// How often one kind of interval of one parameter held the truth.
+/// How often one kind of interval of one parameter contained the truth.
 struct CoverageCell {
   std::string interval;          ///< "wald", "profile", ..., "recommended"
   int offered = 0;               ///< data sets in which there was such an interval
@@ -54,7 +56,7 @@ struct CoverageTruth {
 };
 
 /// Fits every simulated data set as a user would and counts how often each interval of each free
-/// parameter holds the truth. Deterministic in (seed, number of data sets).
+/// parameter contains the truth. Deterministic in (seed, number of data sets).
 CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
                                 const CoverageOptions& options);
 

@@ -2,24 +2,11 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "uncertainty/interval.hpp"
+
 namespace recoil {
-
-/// [lower, upper] in the parameter's unit, or the reason why there is none.
-struct Interval {
-  std::optional<double> lower;
-  std::optional<double> upper;
-  std::string why;    ///< set when there is no interval
-  std::string shape;  ///< of a profile: "bounded", "one-sided", "flat"
-  std::string note;   ///< what a reader has to know beside the numbers, such as an end at a bound
-  /// Monte-Carlo error of each end: its standard deviation over repetitions of the resampling with
-  /// other seeds. None where nothing is random.
-  std::optional<double> lower_error, upper_error;
-
-  bool available() const { return lower.has_value() && upper.has_value(); }
-};
 
 /// The p-quantile of an ascending sample by the (B + 1) p rule with linear interpolation (Davison &
 /// Hinkley 1997, section 5.2.1), clamped to the sample.
@@ -41,12 +28,6 @@ double quantile_error(std::span<const double> ascending, double p, double rank_s
 
 /// Percentile interval of bootstrap replicates (Efron 1979).
 Interval percentile_interval(std::vector<double> replicates, double level);
-
-/// Constants of the BCa interval (Efron 1987, JASA 82, 171-185).
-struct BcaConstants {
-  double bias = 0.0;          ///< z0 = Phi^-1( fraction of replicates below the estimate )
-  double acceleration = 0.0;  ///< a = sum d^3 / (6 (sum d^2)^(3/2)), d = mean - delete-one value
-};
 
 /// Ties with the estimate count one half each. Nothing when all replicates lie on one side.
 std::optional<BcaConstants> bca_constants(std::span<const double> replicates, double estimate,

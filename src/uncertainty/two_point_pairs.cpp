@@ -5,8 +5,9 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "uncertainty/bootstrap.hpp"
 #include "uncertainty/intervals.hpp"
+#include "uncertainty/refit.hpp"
+#include "uncertainty/resample.hpp"
 
 namespace recoil {
 namespace {
