@@ -43,8 +43,7 @@ void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data
   if (!obstacle) return;
   throw InputError({spec.file.string()},
                    fmt::format("the scheme \"{}\" cannot be used", to_string(scheme)),
-                   obstacle_words(*obstacle),
-                   "scheme = \"auto\" chooses one that can");
+                   obstacle_words(*obstacle), "scheme = \"auto\" chooses one that can");
 }
 
 void forget_replicates(const std::filesystem::path& folder) {
@@ -101,18 +100,24 @@ void add_corrections(Analysis& analysis) {
   analysis.corrections = study_recipe(analysis.spec, load_recipe(dataset.folder), dataset);
 }
 
-Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& options) {
-  Analysis analysis = analyse_fit(fit_file, options);
+FitInputs load_inputs(const std::filesystem::path& fit_file) {
+  FitSpec spec = load_fit(fit_file);
+  std::vector<Dataset> datasets = load_datasets(spec);
+  return {std::move(spec), std::move(datasets)};
+}
+
+Analysis analyse(FitInputs inputs, const AnalysisOptions& options) {
+  Analysis analysis = analyse_fit(std::move(inputs), options);
   const UncertaintyOptions assess = uncertainty_options(analysis.spec, options);
   analysis.uncertainty =
       assess_uncertainty(analysis.fitted, analysis.data, analysis.datasets, assess);
   return analysis;
 }
 
-Analysis analyse_fit(const std::filesystem::path& fit_file, const AnalysisOptions& options) {
+Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {
   Analysis analysis;
-  analysis.spec = load_fit(fit_file);
-  analysis.datasets = load_datasets(analysis.spec);
+  analysis.spec = std::move(inputs.spec);
+  analysis.datasets = std::move(inputs.datasets);
   const Observations gathered = gather(analysis.datasets, analysis.spec.noise);
   require_scheme(analysis.spec, options.scheme.value_or(analysis.spec.uncertainty.scheme),
                  gathered);
@@ -120,8 +125,8 @@ Analysis analyse_fit(const std::filesystem::path& fit_file, const AnalysisOption
   model.solver = options.solver;
   analysis.fitted = fit(model, gathered);
   if (!analysis.fitted.usable) {
-    throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", fit_file.string(),
-                                       analysis.fitted.failure));
+    throw ComputationError(fmt::format("{}: the fit has no usable answer: {}",
+                                       analysis.spec.file.string(), analysis.fitted.failure));
   }
   analysis.data = analysis.fitted.data;
   return analysis;

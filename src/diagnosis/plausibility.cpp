@@ -1,12 +1,8 @@
 #include "diagnosis/plausibility.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-
-#include "data/text.hpp"
 
 namespace recoil {
 namespace {
@@ -107,20 +103,18 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
       const auto [lower, upper, why] = entry->plausible;
       const double value = nearest_to_range(slot, parameter.value, errors[j], lower, upper);
       if (value < lower || value > upper) {
-        parameter.plausible = false;
-        parameter.nearly = is_near(slot, value, lower, upper);
-        parameter.why_not =
-            fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}", parameter.label,
-                        parameter.value, unit_suffix(slot.unit), lower, upper, why);
+        parameter.implausible = Implausible::outside_range;
+        parameter.near_plausible = is_near(slot, value, lower, upper);
+        parameter.lower = lower;
+        parameter.upper = upper;
+        parameter.range_why = why;
       }
       const double limit = firmest * softest(candidate.model);
       if (slot.name == "yield_pressure" &&
           nearest_to_range(slot, parameter.value, errors[j], lower, limit) > limit) {
-        parameter.plausible = parameter.nearly = false;
-        parameter.why_not = fmt::format(
-            "a yield pressure of {:.3g} Pa is {:.2g} times the reduced modulus: no solid resists "
-            "more than about 0.3 of it",
-            parameter.value, parameter.value / softest(candidate.model));
+        parameter.implausible = Implausible::firmer_than_solids;
+        parameter.near_plausible = false;
+        parameter.over_modulus = parameter.value / softest(candidate.model);
       }
     }
     found.push_back(std::move(parameter));

@@ -8,6 +8,7 @@
 #include "report/format.hpp"
 #include "report/prediction.hpp"
 #include "report/svg_plot.hpp"
+#include "report/words_predict.hpp"
 
 namespace recoil {
 namespace {
@@ -79,9 +80,10 @@ Figure figure_of(const Analysis& analysis, const CaptureComparison& comparison) 
     }
     layers.push_back(fmt::format("$curve{} using 1:2 with lines lc rgb '{}' lw 2 {} title {}", i,
                                  colours[i % colours.size()], dashes[i % dashes.size()],
-                                 gnuplot_text(curve.label)));
+                                 gnuplot_text(words_of(curve.model))));
     const auto falls = slope(comparison.diameter, curve);
-    words.push_back(fmt::format("{}: {}{}", curve.label, curve.rests_on,
+    words.push_back(fmt::format("{}: {}{}", words_of(curve.model),
+                                rests_on_words(comparison, curve.model),
                                 falls ? fmt::format(", V* ~ d^{:.2f}", *falls) : std::string()));
   }
   std::vector<std::vector<double>> measured;
@@ -101,7 +103,7 @@ Figure figure_of(const Analysis& analysis, const CaptureComparison& comparison) 
   add_published("measured", measured, 7, "published, measured");
   add_published("modelled", modelled, 6, "published, of a model");
   c += fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
-  for (const std::string& note : comparison.notes) words.push_back(note);
+  for (const std::string& note : capture_notes(comparison, dataset)) words.push_back(note);
   const std::string caption =
       fmt::format("{}, with the {} band of the fit. {}.", dataset.id,
                   percent(analysis.uncertainty.options.level), fmt::join(words, "; "));

@@ -10,6 +10,7 @@
 #include "report/figure_style.hpp"
 #include "report/format.hpp"
 #include "report/svg_plot.hpp"
+#include "report/words_diagnosis.hpp"
 
 namespace recoil {
 namespace {
@@ -140,12 +141,7 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
 
 /// Is it the extended model, or one that cannot be told from it?
 bool is_answer(const Diagnosis& d, const CandidateResult& c) {
-  return d.extended && c.explains() && c.delta_aicc <= d.extended->delta_aicc + d.options.apart;
-}
-
-std::string short_aside(const CandidateResult& c) {
-  if (c.explains()) return "";
-  return c.aside.substr(0, c.aside.find(':'));
+  return d.extended && c.explains() && c.delta_aicc <= d.extended->delta_aicc + d.options.margin;
 }
 
 /// The base curve and the extended one of one diameter, as rows V, base, extended.
@@ -268,7 +264,7 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
     (is_answer(d, c) ? taken : aside)
         .push_back({0.0, row, 0.0, -c.delta_aicc, row - 0.32, row + 0.32});
     names.push_back(fmt::format("{} {}", gnuplot_text(c.candidate.name()), row));
-    const std::string label = short_aside(c);
+    const std::string label = short_set_aside_words(c);
     if (!label.empty()) {
       labels.push_back(
           fmt::format("set label {} at {:.6g},{} left offset 0.6,0 tc rgb '{}' "
@@ -302,7 +298,7 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
            "parameters paid for. Blue: the answer. Grey: further behind, or set aside "
            "for the reason beside it. Bars within {:.0f} of each other ({:.0f} where two act at "
            "once) cannot be told apart.",
-           d.options.apart, d.options.apart_in_pairs),
+           d.options.margin, d.options.margin_in_pairs),
        draw_svg(script), true}};
 }
 

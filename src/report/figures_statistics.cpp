@@ -221,10 +221,9 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
   }
   c += '\n';
 
-  std::string caption =
-      fmt::format("{} usable replicates of {} ({} bootstrap).", values.size(),
-                  analysis.uncertainty.bootstrap.replicates,
-                  to_string(analysis.uncertainty.bootstrap.scheme));
+  std::string caption = fmt::format("{} usable replicates of {} ({} bootstrap).", values.size(),
+                                    analysis.uncertainty.bootstrap.replicates,
+                                    to_string(analysis.uncertainty.bootstrap.scheme));
   if (h.outside > 0) {
     caption += fmt::format(" {} of them lie outside this picture.", h.outside);
   }

@@ -105,8 +105,7 @@ std::vector<std::string> all_warnings(const Analysis& analysis) {
   for (const Dataset& dataset : analysis.datasets) add_new(warnings, dataset.warnings);
   add_new(warnings, analysis.data.warnings);
   add_new(warnings, analysis.fitted.warnings);
-  add_new(warnings,
-          uncertainty_warnings(analysis.uncertainty, analysis.data, analysis.datasets));
+  add_new(warnings, uncertainty_warnings(analysis.uncertainty, analysis.data, analysis.datasets));
   return warnings;
 }
 

@@ -99,8 +99,7 @@ Json parameter_json(const Analysis& a, std::size_t s) {
   intervals["why"] = reasons;
   Json recommended;
   const Interval& quoted = recommended_interval(set);
-  recommended["interval"] =
-      quoted.available() ? Json(to_string(set.recommended)) : Json(nullptr);
+  recommended["interval"] = quoted.available() ? Json(to_string(set.recommended)) : Json(nullptr);
   recommended["why"] = quoted.available() ? recommended_words(set) : why_none(quoted);
   intervals["recommended"] = recommended;
   out["intervals"] = intervals;

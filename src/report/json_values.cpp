@@ -77,8 +77,7 @@ Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
   }
   out["parameters"] = parameters;
   put(out, "rmse", answered ? comparison.rmse : NAN, two.text);
-  put(out, "held_out_rmse", comparison.held_out_rmse,
-      held_out_why(comparison));
+  put(out, "held_out_rmse", comparison.held_out_rmse, held_out_why(comparison));
   out["failed"] = comparison.failed;
   put_pairs(out, a, comparison.dataset);
   return out;
@@ -87,8 +86,7 @@ Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
 Json full_json(const Analysis& a, const TwoPointComparison& comparison) {
   Json out;
   put(out, "rmse", comparison.full_rmse, "no point rebounded");
-  put(out, "held_out_rmse", comparison.full_held_out_rmse,
-      held_out_why(comparison));
+  put(out, "held_out_rmse", comparison.full_held_out_rmse, held_out_why(comparison));
   Json spread = Json::object();
   for (const std::size_t s : damping_slots(a, comparison.dataset)) {
     spread[a.fitted.model.slots[s].label()] = s < comparison.full_spread.size()

@@ -81,11 +81,10 @@ void describe_parameters(const FitResult& fitted, const UncertaintyResult& uncer
 void describe_correlations(const FitResult& fitted, const Identifiability& found,
                            Sentences& sentences) {
   for (const auto& [one, other, correlation] : found.correlated) {
-    sentences.push_back(
-        fmt::format("{} and {} can hardly be told from each other (correlation {:.3f}): quote "
-                    "their intervals together",
-                    fitted.model.slots[one].label(), fitted.model.slots[other].label(),
-                    correlation));
+    sentences.push_back(fmt::format(
+        "{} and {} can hardly be told from each other (correlation {:.3f}): quote "
+        "their intervals together",
+        fitted.model.slots[one].label(), fitted.model.slots[other].label(), correlation));
   }
   const auto& directions = found.information.directions;
   if (found.correlated.empty() || directions.size() < 2) return;
@@ -101,18 +100,14 @@ void describe_reach(const FitResult& fitted, const Identifiability& found, Sente
     sentences.push_back(fmt::format(
         "the slowest impacts are at {:.2g} times the fitted capture velocity", *found.slowest));
   }
-  if (!found.more_points || found.information.plans.empty()) return;
-  const PlannedPoints& plan = found.information.plans.front();
+  if (!found.more_points) return;
   Sentences gains;
-  constexpr double worth_a_word = 0.8;  // of the present error
-  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
-    const double now = found.information.relative_sd[j];
-    const double then = plan.relative_sd[j];
-    if (!(now > 0.0) || !(then < worth_a_word * now)) continue;
-    gains.push_back(fmt::format("{} to {} instead of {}", fitted.model.slots[j].label(),
+  for (const auto& [slot, now, then] : worthwhile_gains(found.information)) {
+    gains.push_back(fmt::format("{} to {} instead of {}", fitted.model.slots[slot].label(),
                                 known_to(then), known_to(now)));
   }
   if (gains.empty()) return;
+  const PlannedPoints& plan = found.information.plans.front();
   sentences.push_back(fmt::format(
       "{} more points at d = {:.3g} um, V = {:.3g} m/s ({:.3g} times the capture velocity) would "
       "determine {}",
@@ -178,8 +173,8 @@ std::vector<std::string> uncertainty_warnings(const UncertaintyResult& uncertain
   }
   for (const TwoPointComparison& comparison : uncertainty.two_point) {
     if (comparison.result.status == TwoPointStatus::converged) continue;
-    warnings.push_back(fmt::format("two-point iteration on {}: {}",
-                                   datasets[comparison.dataset].id, comparison.result.text));
+    warnings.push_back(fmt::format("two-point iteration on {}: {}", datasets[comparison.dataset].id,
+                                   comparison.result.text));
   }
   for (const CaptureEstimate& capture : uncertainty.capture) {
     const double um = capture.diameter / units::um;

@@ -16,7 +16,8 @@ std::string bound_words(const Disagreement& found, const FitResult& fitted, std:
   }
   if (!found.on_bound) return "";
   const auto& [other, share, correlation] = *found.on_bound;
-  if (other == slot) return fmt::format("{:.0f} % of the replicates rest on a bound", 100.0 * share);
+  if (other == slot)
+    return fmt::format("{:.0f} % of the replicates rest on a bound", 100.0 * share);
   return fmt::format(
       "{:.0f} % of the replicates have {} on its bound, with which it is correlated ({:.2f})",
       100.0 * share, fitted.model.slots[other].label(), correlation);
@@ -167,8 +168,7 @@ std::string recommended_words(const CaptureEstimate& capture) {
       return "the noise is stated, and the replicates follow the bend of V* in the parameters, "
              "which the delta method takes as straight";
     case CaptureBecause::no_percentiles:
-      return "there are no percentiles: " +
-             missing_words(capture[CaptureIntervalKind::percentile]);
+      return "there are no percentiles: " + missing_words(capture[CaptureIntervalKind::percentile]);
     case CaptureBecause::spread_estimated:
       return "its error allows for the spread of the impacts, which is estimated, too";
     case CaptureBecause::noise_estimated:

@@ -105,8 +105,8 @@ std::string bootstrap_key(const FitResult& fitted, const Observations& data,
                         point.diameter, point.velocity, point.restitution, point.sd, point.censored,
                         fitted.prediction[i], fitted.residuals[i], fitted.leverage[i]);
     text += fmt::format("{} {} {} {} {:a} {:a} {:a} {:a}|", point.events, point.captured,
-                        point.counted, point.rebound_measured, point.velocity_sd,
-                        point.diameter_sd, point.input_sd, point.scatter);
+                        point.counted, point.rebound_measured, point.velocity_sd, point.diameter_sd,
+                        point.input_sd, point.scatter);
   }
   return sha256_hex(text);
 }

@@ -9,10 +9,10 @@ namespace recoil {
 
 /// Ways to an interval of a capture velocity V*.
 enum class CaptureIntervalKind {
-  delta,       ///< V* exp(+- q sd(ln V*)), sd by the covariance and d V* / d theta; q of Student,
-               ///< averaged over the variance functions, where the noise is estimated
-  percentile,  ///< of the bootstrap
-  studentized, ///< of ln V*, errors by its gradient in every replicate
+  delta,        ///< V* exp(+- q sd(ln V*)), sd by the covariance and d V* / d theta; q of Student,
+                ///< averaged over the variance functions, where the noise is estimated
+  percentile,   ///< of the bootstrap
+  studentized,  ///< of ln V*, errors by its gradient in every replicate
 };
 template <>
 struct NamesOf<CaptureIntervalKind> {
@@ -41,7 +41,7 @@ struct CaptureEstimate {
   double value = 0.0;     ///< [m/s]
   bool found = false;
   PerValue<CaptureIntervalKind, Interval> of_kind;
-  Interval interval;  ///< the one to quote
+  Interval interval;                                             ///< the one to quote
   CaptureIntervalKind recommended = CaptureIntervalKind::delta;  ///< its kind
   std::optional<CaptureBecause> because;                         ///< none without a velocity
 

@@ -116,8 +116,7 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
     };
     add("recommended", recommended_interval);
     for (const IntervalKind kind : values_of<IntervalKind>()) {
-      add(name_of(kind),
-          [kind](const IntervalSet& set) -> const Interval& { return set[kind]; });
+      add(name_of(kind), [kind](const IntervalSet& set) -> const Interval& { return set[kind]; });
     }
     result.rows.push_back(std::move(row));
   }
@@ -133,11 +132,9 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
           // V* has no verdict of its own but what stands beside its interval.
           [&](const Trial& t) { return !t.capture[k].interval.note; }));
     };
-    add("recommended",
-        [](const CaptureEstimate& at) -> const Interval& { return at.interval; });
+    add("recommended", [](const CaptureEstimate& at) -> const Interval& { return at.interval; });
     for (const CaptureIntervalKind kind : values_of<CaptureIntervalKind>()) {
-      add(name_of(kind),
-          [kind](const CaptureEstimate& at) -> const Interval& { return at[kind]; });
+      add(name_of(kind), [kind](const CaptureEstimate& at) -> const Interval& { return at[kind]; });
     }
     row.identifiable = row.cells.front().offered_identifiable;
     result.rows.push_back(std::move(row));
@@ -155,7 +152,8 @@ std::string to_markdown(const CoverageResult& result, const FitSpec& spec,
       options.uncertainty.replicates, options.uncertainty.seed, result.failed,
       result.refits_failed);
   text +=
-      "| parameter | truth | called identifiable | interval | contains the truth | where identifiable "
+      "| parameter | truth | called identifiable | interval | contains the truth | where "
+      "identifiable "
       "| median width |\n|---|---|---|---|---|---|---|\n";
   for (const CoverageRow& row : result.rows) {
     for (const CoverageCell& cell : row.cells) {

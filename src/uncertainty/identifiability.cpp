@@ -123,8 +123,8 @@ Identifiability judge_identifiability(const FitResult& fitted, const Observation
     if (!alternatives.empty()) {
       found.noise_factor = undecided_factor(terms_of_slot(alternatives, j));
     }
-    found.hindrance = hindrance_of(fitted, j, interval, error,
-                                   std::max(std::abs(fitted.theta[j]), scales[j]));
+    found.hindrance =
+        hindrance_of(fitted, j, interval, error, std::max(std::abs(fitted.theta[j]), scales[j]));
     if (!found.hindrance && result.event_spread > widest_spread) {
       found.hindrance = Hindrance::wide_spread;
     } else if (!found.hindrance && found.noise_factor > undecided) {

@@ -39,9 +39,9 @@ struct NamesOf<Hindrance> {
 struct ParameterIdentifiability {
   bool identifiable = false;           ///< on its own; false where it is not free
   std::optional<Hindrance> hindrance;  ///< none where it is not free
-  double relative_error = 0.0;         ///< standard error over the estimate, where that is large [1]
-  double noise_factor = 1.0;           ///< between its errors under the variance functions
-  bool upper_limit = false;            ///< identifiable though its interval begins at zero
+  double relative_error = 0.0;  ///< standard error over the estimate, where that is large [1]
+  double noise_factor = 1.0;    ///< between its errors under the variance functions
+  bool upper_limit = false;     ///< identifiable though its interval begins at zero
 };
 
 /// Two parameters that trade against each other over the whole of their errors.

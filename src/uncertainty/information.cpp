@@ -180,6 +180,18 @@ std::vector<PlannedPoints> plans_for(const FitResult& fitted, const Observations
 
 }  // namespace
 
+std::vector<ErrorGain> worthwhile_gains(const Information& information) {
+  constexpr double worth_a_word = 0.8;  // of the present error
+  std::vector<ErrorGain> gains;
+  if (information.plans.empty()) return gains;
+  const std::vector<double>& then = information.plans.front().relative_sd;
+  for (std::size_t j = 0; j < information.relative_sd.size(); ++j) {
+    const double now = information.relative_sd[j];
+    if (now > 0.0 && then[j] < worth_a_word * now) gains.push_back({j, now, then[j]});
+  }
+  return gains;
+}
+
 Information information_at(const FitResult& fitted, const Observations& data,
                            const std::vector<CapturePlace>& capture) {
   Information information;

@@ -23,16 +23,16 @@ struct NamesOf<Combination> {
 /// One direction of the expected information: the product of powers of the free parameters that is
 /// known best, next best, ...
 struct InformationDirection {
-  std::vector<double> exponents;  ///< [slots] of unit length; 0 for what is not free
-  double relative_sd = 0.0;       ///< standard deviation of the logarithm of that product [1]
+  std::vector<double> exponents;       ///< [slots] of unit length; 0 for what is not free
+  double relative_sd = 0.0;            ///< standard deviation of the logarithm of that product [1]
   std::optional<Combination> meaning;  ///< along which it points within acos(0.97)
 };
 
 /// What more points at one place would do.
 struct PlannedPoints {
   std::size_t dataset = 0;
-  double diameter = 0.0;  ///< [m]
-  double velocity = 0.0;  ///< [m/s]
+  double diameter = 0.0;          ///< [m]
+  double velocity = 0.0;          ///< [m/s]
   double capture_velocity = 0.0;  ///< of this diameter [m/s]
   int points = 0;
   std::vector<double> relative_sd;  ///< [slots] then, 0 for what is not free
@@ -47,6 +47,15 @@ struct Information {
   double condition = 1.0;                        ///< largest over smallest eigenvalue
   std::vector<PlannedPoints> plans;  ///< the most useful place first, for the worst known parameter
 };
+
+/// The error of a parameter now, and with the points of a plan.
+struct ErrorGain {
+  std::size_t slot = 0;
+  double now = 0.0, then = 0.0;  ///< relative [1]
+};
+
+/// The parameters of which the most useful plan takes at least a fifth of the error.
+std::vector<ErrorGain> worthwhile_gains(const Information& information);
 
 /// A diameter of the data with its capture velocity.
 struct CapturePlace {

@@ -30,40 +30,39 @@ struct NamesOf<ProfileShape> {
 
 /// Why there is no interval.
 enum class NoInterval {
-  not_assessed,             ///< nothing was asked about uncertainty
-  fixed,                    ///< the parameter was not fitted
-  not_asked_for,            ///< of this run
-  nothing_free,             ///< nothing was fitted
-  no_standard_error,        ///< it rests on a bound, or the points do not determine it
-  refit_failed,             ///< one along the profile, with the parameter held
-  few_replicates,           ///< fewer than `fewest_replicates`
-  few_delete_one_refits,    ///< fewer than three
-  one_sided_replicates,     ///< all on one side of the estimate, as at a bound
-  large_acceleration,       ///< too large for the level
-  replicates_without_error, ///< more than a tenth of them rest on a bound
-  refits_failed,            ///< more than a tenth of them
-  never_rebounds,           ///< a capture velocity: spheres of this size stay at any velocity
-  never_captured,           ///< a capture velocity of spheres that always rebound
-  no_covariance,            ///< the fit has no standard errors
+  not_assessed,              ///< nothing was asked about uncertainty
+  fixed,                     ///< the parameter was not fitted
+  not_asked_for,             ///< of this run
+  nothing_free,              ///< nothing was fitted
+  no_standard_error,         ///< it rests on a bound, or the points do not determine it
+  refit_failed,              ///< one along the profile, with the parameter held
+  few_replicates,            ///< fewer than `fewest_replicates`
+  few_delete_one_refits,     ///< fewer than three
+  one_sided_replicates,      ///< all on one side of the estimate, as at a bound
+  large_acceleration,        ///< too large for the level
+  replicates_without_error,  ///< more than a tenth of them rest on a bound
+  refits_failed,             ///< more than a tenth of them
+  never_rebounds,            ///< a capture velocity: spheres of this size stay at any velocity
+  never_captured,            ///< a capture velocity of spheres that always rebound
+  no_covariance,             ///< the fit has no standard errors
 };
 template <>
 struct NamesOf<NoInterval> {
-  static constexpr std::array<std::string_view, 15> names = {
-      "not_assessed",
-      "fixed",
-      "not_asked_for",
-      "nothing_free",
-      "no_standard_error",
-      "refit_failed",
-      "few_replicates",
-      "few_delete_one_refits",
-      "one_sided_replicates",
-      "large_acceleration",
-      "replicates_without_error",
-      "refits_failed",
-      "never_rebounds",
-      "never_captured",
-      "no_covariance"};
+  static constexpr std::array<std::string_view, 15> names = {"not_assessed",
+                                                             "fixed",
+                                                             "not_asked_for",
+                                                             "nothing_free",
+                                                             "no_standard_error",
+                                                             "refit_failed",
+                                                             "few_replicates",
+                                                             "few_delete_one_refits",
+                                                             "one_sided_replicates",
+                                                             "large_acceleration",
+                                                             "replicates_without_error",
+                                                             "refits_failed",
+                                                             "never_rebounds",
+                                                             "never_captured",
+                                                             "no_covariance"};
 };
 
 /// The least number of replicates that have an interval: (B + 1) 0.025 >= 1.
@@ -100,9 +99,7 @@ struct Interval {
   std::optional<double> lower_error, upper_error;
 
   bool available() const { return lower.has_value() && upper.has_value(); }
-  bool contains(double value) const {
-    return available() && *lower <= value && value <= *upper;
-  }
+  bool contains(double value) const { return available() && *lower <= value && value <= *upper; }
 };
 
 inline Interval no_interval(NoInterval why) {

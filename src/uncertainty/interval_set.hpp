@@ -76,8 +76,6 @@ struct IntervalSet {
   const Interval& operator[](IntervalKind kind) const { return of_kind[kind]; }
 };
 
-inline const Interval& recommended_interval(const IntervalSet& set) {
-  return set[set.recommended];
-}
+inline const Interval& recommended_interval(const IntervalSet& set) { return set[set.recommended]; }
 
 }  // namespace recoil

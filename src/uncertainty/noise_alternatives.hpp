@@ -34,8 +34,9 @@ constexpr double undecided = 1.5;
 /// Where the capture velocity scatters from impact to impact by more than this, the intervals are
 /// not to be trusted: e^2 of the impacts at one velocity is taken as normal (see `settle`), while
 /// in truth it is about 1 - (V* exp(-omega z) / V)^3 and has a long tail below. With omega = 0.1
-/// intervals contain the truth as often as they promise; in simulations of 14 points with omega = 0.27 to 0.5 those of
-/// C_H and of the capture velocity contained the truth in 8 to 67 % of the data sets.
+/// intervals contain the truth as often as they promise; in simulations of 14 points with omega =
+/// 0.27 to 0.5 those of C_H and of the capture velocity contained the truth in 8 to 67 % of the
+/// data sets.
 constexpr double widest_spread = 0.2;
 
 /// The Wald interval of slot j, averaged over the alternatives (`averaged_wald_interval`), cut at

@@ -88,8 +88,8 @@ void recommend(IntervalSet& set, bool sd_stated) {
         sd_stated ? RecommendedBecause::noise_stated : RecommendedBecause::noise_estimated;
     return;
   }
-  set.recommended = set[IntervalKind::percentile].available() ? IntervalKind::percentile
-                                                              : IntervalKind::wald;
+  set.recommended =
+      set[IntervalKind::percentile].available() ? IntervalKind::percentile : IntervalKind::wald;
   set.because = RecommendedBecause::no_profile;
 }
 

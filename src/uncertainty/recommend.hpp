@@ -13,11 +13,11 @@ namespace recoil {
 /// coverage study (reports/coverage-grid-n{10,20,60}-{stated,estimated}.md).
 ///
 /// The profile, which follows the likelihood where that is not a parabola, stops at the bounds and
-/// refits the spread of the impacts with the parameters; where the noise is estimated, under the variance function
-/// that the points choose and with Student's factor. The studentized interval of the wild bootstrap
-/// assumes nothing about where the points scatter more, but a parameter that hangs on two or three
-/// points near capture has only their own residuals for its noise, and it contained the truth less
-/// often. Without a profile percentile, else Wald.
+/// refits the spread of the impacts with the parameters; where the noise is estimated, under the
+/// variance function that the points choose and with Student's factor. The studentized interval of
+/// the wild bootstrap assumes nothing about where the points scatter more, but a parameter that
+/// hangs on two or three points near capture has only their own residuals for its noise, and it
+/// contained the truth less often. Without a profile percentile, else Wald.
 void recommend(IntervalSet& set, bool sd_stated);
 
 /// Why the intervals of one free parameter differ: which of them differ by how much from the

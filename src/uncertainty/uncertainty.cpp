@@ -86,8 +86,9 @@ void add_resampled(const FitResult& fitted, const BootstrapResult& boot, std::si
   if (!replicates.empty() && !without_one.empty()) {
     set.bca_constants = bca_constants(replicates, fitted.theta[j], without_one);
   }
-  set[IntervalKind::studentized] = studentized_interval(replicates, column(boot.std_error, j), fitted.theta[j],
-                                         boot.reference_error[j], level, slot.lower, slot.upper);
+  set[IntervalKind::studentized] =
+      studentized_interval(replicates, column(boot.std_error, j), fitted.theta[j],
+                           boot.reference_error[j], level, slot.lower, slot.upper);
   set.bound_share = bound_share(boot, slot, j);
 }
 
@@ -228,9 +229,8 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const Observations
   result.identifiability =
       judge_identifiability(fitted, data, result.intervals, result.capture, alternatives);
   if (options.curves) {
-    result.curves =
-        restitution_curves(fitted, data, datasets, result.capture, result.two_point,
-                           {result.bootstrap.theta, options.level, options.threads});
+    result.curves = restitution_curves(fitted, data, datasets, result.capture, result.two_point,
+                                       {result.bootstrap.theta, options.level, options.threads});
   }
   return result;
 }

@@ -5,9 +5,11 @@
 
 #include <cmath>
 
+#include "estimate/impact_problem.hpp"
 #include "noisy_case.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/identifiability.hpp"
+#include "uncertainty/intervals.hpp"
 #include "uncertainty/profile.hpp"
 
 namespace recoil {
@@ -37,7 +39,8 @@ TEST(Bootstrap, SeedChangesTheReplicatesOnly) {
   const UncertaintyResult b = assess_uncertainty(c.fitted, c.data, c.datasets, other);
   EXPECT_NE(a.bootstrap.theta, b.bootstrap.theta);
   EXPECT_EQ(a.intervals[0][IntervalKind::wald].lower, b.intervals[0][IntervalKind::wald].lower);
-  EXPECT_EQ(a.intervals[0][IntervalKind::profile].lower, b.intervals[0][IntervalKind::profile].lower);
+  EXPECT_EQ(a.intervals[0][IntervalKind::profile].lower,
+            b.intervals[0][IntervalKind::profile].lower);
 }
 
 TEST(Capture, StudentizedAndDeltaRestOnTheSameError) {
@@ -204,6 +207,39 @@ Case above_the_bound(double errors) {
     design.C_H = errors * c.fitted.std_error[0];
   }
   return c;
+}
+
+TEST(Profile, IsCalibratedNearABoundWithAllOtherParametersMoving) {
+  // C_A rests on its bound; what it would scatter by without it decides how far the profile may
+  // rise, and that takes C_H as unknown, too: 1 / error^2 = |J_A|^2 - (J_A . J_H)^2 / |J_H|^2.
+  Case c;
+  Design design;
+  design.C_A = 0.0;
+  c.datasets = {synthetic::dataset(design)};
+  c.data = gather(c.datasets);
+  c.fitted = fit(make_model(synthetic::spec(), c.datasets), c.data);
+  ASSERT_TRUE(c.fitted.at_bound[1]);
+  ASSERT_GT(c.fitted.std_error[0], 0.0);
+  const std::size_t n = c.data.points.size();
+  const std::size_t p = c.fitted.theta.size();
+  std::vector<double> residuals(n);
+  std::vector<double> jacobian(n * p);
+  ASSERT_TRUE(impact_problem(c.fitted.model, c.data).evaluate(c.fitted.theta, residuals, jacobian));
+  double HH = 0.0, HA = 0.0, AA = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    HH += jacobian[i * p] * jacobian[i * p];
+    HA += jacobian[i * p] * jacobian[i * p + 1];
+    AA += jacobian[i * p + 1] * jacobian[i * p + 1];
+  }
+  EXPECT_GT(HA * HA / (HH * AA), 0.1) << "C_H has to matter for this to be a test";
+  const double error = 1.0 / std::sqrt(AA - HA * HA / HH);
+  const Interval interval = profile_interval(c.fitted, c.data, 1, 0.95);
+  int between = 0;
+  for (const ProfilePoint& point : profile_curve(c.fitted, c.data, 1, 0.95, interval)) {
+    EXPECT_NEAR(point.allowed, profile_quantile(0.95, 0, point.value / error), 1e-6);
+    between += point.allowed > 2.8 && point.allowed < 3.8 ? 1 : 0;
+  }
+  EXPECT_GT(between, 3) << "points at which the distance from the bound counts";
 }
 
 TEST(Profile, ExcludesTheBoundAsAOneSidedTestWould) {
