@@ -7,6 +7,7 @@
 #include "document/terminal.hpp"
 #include "report/format.hpp"
 #include "report/prediction.hpp"
+#include "report/words_predict.hpp"
 
 namespace recoil {
 namespace {
