@@ -54,7 +54,7 @@ Interval between(double lower, double upper) {
   Interval interval;
   interval.lower = lower;
   interval.upper = upper;
-  interval.shape = "bounded";
+  interval.shape = ProfileShape::bounded;
   return interval;
 }
 
