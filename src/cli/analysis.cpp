@@ -5,7 +5,9 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/folder_names.hpp"
+#include "report/words_intervals.hpp"
 #include "uncertainty/resample.hpp"
+#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -39,11 +41,11 @@ UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOption
 }
 
 void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data) {
-  const std::string obstacle = scheme_obstacle(scheme, data);
-  if (obstacle.empty()) return;
+  const std::optional<SchemeObstacle> obstacle = scheme_obstacle(scheme, data);
+  if (!obstacle) return;
   throw InputError({spec.file.string()},
-                   fmt::format("the scheme \"{}\" cannot be used", to_string(scheme)), obstacle,
-                   "scheme = \"auto\" chooses one that can");
+                   fmt::format("the scheme \"{}\" cannot be used", to_string(scheme)),
+                   obstacle_words(*obstacle), "scheme = \"auto\" chooses one that can");
 }
 
 void forget_replicates(const std::filesystem::path& folder) {
@@ -108,17 +110,23 @@ void add_corrections(Analysis& analysis) {
   }
 }
 
-Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& options) {
-  Analysis analysis = analyse_fit(fit_file, options);
+FitInputs load_inputs(const std::filesystem::path& fit_file) {
+  FitSpec spec = load_fit(fit_file);
+  std::vector<Dataset> datasets = load_datasets(spec);
+  return {std::move(spec), std::move(datasets)};
+}
+
+Analysis analyse(FitInputs inputs, const AnalysisOptions& options) {
+  Analysis analysis = analyse_fit(std::move(inputs), options);
   const UncertaintyOptions assess = uncertainty_options(analysis.spec, options);
   analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
   return analysis;
 }
 
-Analysis analyse_fit(const std::filesystem::path& fit_file, const AnalysisOptions& options) {
+Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {
   Analysis analysis;
-  analysis.spec = load_fit(fit_file);
-  analysis.datasets = load_datasets(analysis.spec);
+  analysis.spec = std::move(inputs.spec);
+  analysis.datasets = std::move(inputs.datasets);
   const Observations gathered = gather(analysis.datasets, analysis.spec);
   require_scheme(analysis.spec, options.scheme.value_or(analysis.spec.uncertainty.scheme),
                  gathered);
@@ -126,8 +134,8 @@ Analysis analyse_fit(const std::filesystem::path& fit_file, const AnalysisOption
   model.solver.kind = options.solver;
   analysis.fitted = fit(model, gathered);
   if (!analysis.fitted.usable) {
-    throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", fit_file.string(),
-                                       analysis.fitted.failure));
+    throw ComputationError(fmt::format("{}: the fit has no usable answer: {}",
+                                       analysis.spec.file.string(), analysis.fitted.failure));
   }
   return analysis;
 }

@@ -34,12 +34,19 @@ void forget_replicates(const std::filesystem::path& folder);
 /// Reads every dataset of a fit.
 std::vector<Dataset> load_datasets(const FitSpec& spec);
 
+/// A fit file and its datasets as they were read.
+struct FitInputs {
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+};
+FitInputs load_inputs(const std::filesystem::path& fit_file);
+
 /// Which of `datasets` --dataset names; the first when `id` is empty. @throws InputError
 std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id);
 
 /// The pipeline up to the fit: `uncertainty` stays empty.
 /// @throws ComputationError when the fit has no usable answer.
-Analysis analyse_fit(const std::filesystem::path& fit_file, const AnalysisOptions& options);
+Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options);
 
 /// What a report adds: the mixtures of the datasets that come with a size distribution, and the
 /// older capture models.
@@ -52,6 +59,6 @@ void add_corrections(Analysis& analysis);
 /// The whole pipeline for one fit: data, fit, uncertainty.
 /// @throws Interrupted when the user stops it and `options.folder` keeps what was finished.
 /// @throws ComputationError when the fit has no usable answer.
-Analysis analyse(const std::filesystem::path& fit_file, const AnalysisOptions& options);
+Analysis analyse(FitInputs inputs, const AnalysisOptions& options);
 
 }  // namespace recoil

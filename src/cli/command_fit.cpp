@@ -28,7 +28,7 @@ void add_fit(CLI::App& program) {
     if (!out->empty()) require_writable_folder(*out);
     AnalysisOptions resolved = options->resolved();
     resolved.folder = *out;
-    const Analysis analysis = analyse(*fit_file, resolved);
+    const Analysis analysis = analyse(load_inputs(*fit_file), resolved);
     if (!out->empty()) {
       write_whole_file(std::filesystem::path(*out) / "fit.json", json_report(analysis));
       forget_replicates(*out);

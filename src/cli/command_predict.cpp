@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "plot/draw.hpp"
 #include "report/prediction.hpp"
+#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -29,7 +30,7 @@ void predict_sizes(const PredictOptions& options) {
   if (!options.out.empty()) require_writable_folder(options.out);
   const MeasuredSizes sizes = load_sizes(options.sizes, options.unit);
   const AnalysisOptions resolved = options.analysis.resolved();
-  Analysis analysis = analyse_fit(options.fit_file, resolved);
+  Analysis analysis = analyse_fit(load_inputs(options.fit_file), resolved);
   const std::size_t dataset = choose_dataset(analysis.datasets, options.dataset);
   UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
   assess.profile = false;

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/folder_names.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "diagnosis/extended_toml.hpp"
 #include "report/diagnosis_document.hpp"
 #include "report/index_document.hpp"
@@ -43,10 +44,9 @@ std::vector<fs::path> fits_to_report(const ReportOptions& options) {
 }
 
 /// Changes whenever the page could: program, fit file, data, options.
-std::string fingerprint(const fs::path& fit_file, const AnalysisFlags& flags) {
-  const FitSpec spec = load_fit(fit_file);
-  std::string text = spec.sha256;
-  for (const Dataset& dataset : load_datasets(spec)) {
+std::string fingerprint(const FitInputs& inputs, const AnalysisFlags& flags) {
+  std::string text = inputs.spec.sha256;
+  for (const Dataset& dataset : inputs.datasets) {
     text += dataset.sha256;
     for (const char* name : {recipe_name, correction_studies_name}) {
       if (fs::exists(dataset.folder / name)) {
@@ -71,7 +71,8 @@ Diagnosis diagnose_for_report(const Analysis& analysis, const AnalysisFlags& fla
   DiagnosisOptions options;
   options.seed = analysis.uncertainty.options.seed;
   options.threads = flags.threads;
-  Diagnosis diagnosis = diagnose(analysis.spec, analysis.datasets, options);
+  Diagnosis diagnosis = diagnose(analysis.spec, analysis.datasets, analysis.fitted, options,
+                                 analysis.uncertainty.intervals);
   diagnosis.remarks = recipe_remarks(diagnosis.datasets);
   return diagnosis;
 }
@@ -88,7 +89,8 @@ void report(const ReportOptions& options) {
     const fs::path picture = out / id / "picture.svg";
     const fs::path diagnosed = out / id / "diagnosis.json";
     const fs::path stamp = out / id / "inputs.sha256";
-    const std::string expected = fingerprint(fit_file, options.analysis);
+    FitInputs inputs = load_inputs(fit_file);
+    const std::string expected = fingerprint(inputs, options.analysis);
     IndexEntry entry;
     entry.page = id + ".html";
     entry.diagnosis_page = id + "/diagnosis.html";
@@ -99,7 +101,7 @@ void report(const ReportOptions& options) {
     } else {
       AnalysisOptions resolved = options.analysis.resolved();
       resolved.folder = out / id;
-      Analysis analysis = analyse(fit_file, resolved);
+      Analysis analysis = analyse(std::move(inputs), resolved);
       add_predictions(analysis);
       add_corrections(analysis);
       const Diagnosis diagnosis = diagnose_for_report(analysis, options.analysis);

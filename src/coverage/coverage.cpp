@@ -9,8 +9,8 @@
 #include "core/progress.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
-#include "uncertainty/identifiability.hpp"
 #include "uncertainty/intervals.hpp"
+#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -20,27 +20,9 @@ struct Trial {
   bool usable = false;
   int refits_failed = 0;
   std::vector<IntervalSet> intervals;
-  std::vector<bool> identifiable;
+  std::vector<ParameterIdentifiability> identifiable;
   std::vector<CaptureEstimate> capture;
 };
-
-struct Kind {
-  const char* name;
-  const Interval& (*of)(const IntervalSet&);
-};
-
-const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> list = {
-      {"recommended",
-       [](const IntervalSet& s) -> const Interval& { return recommended_interval(s); }},
-      {"profile", [](const IntervalSet& s) -> const Interval& { return s.profile; }},
-      {"percentile", [](const IntervalSet& s) -> const Interval& { return s.percentile; }},
-      {"bca", [](const IntervalSet& s) -> const Interval& { return s.bca; }},
-      {"studentized", [](const IntervalSet& s) -> const Interval& { return s.studentized; }},
-      {"wald", [](const IntervalSet& s) -> const Interval& { return s.wald; }},
-  };
-  return list;
-}
 
 Trial run_trial(const FitSpec& spec, const CoverageTruth& truth, const UncertaintyOptions& options,
                 std::uint64_t index) {
@@ -64,7 +46,7 @@ Trial run_trial(const FitSpec& spec, const CoverageTruth& truth, const Uncertain
 
 /// Counts over the usable trials; `interval_of` and `identifiable` look into one of them.
 template <class IntervalOf, class Identifiable>
-CoverageCell count(const std::vector<Trial>& trials, const char* name, double truth,
+CoverageCell count(const std::vector<Trial>& trials, std::string_view name, double truth,
                    const IntervalOf& interval_of, const Identifiable& identifiable) {
   CoverageCell cell;
   cell.interval = name;
@@ -73,7 +55,7 @@ CoverageCell count(const std::vector<Trial>& trials, const char* name, double tr
     if (!trial.usable) continue;
     const Interval& interval = interval_of(trial);
     if (!interval.available()) continue;
-    const int held = *interval.lower <= truth && truth <= *interval.upper ? 1 : 0;
+    const int held = interval.contains(truth) ? 1 : 0;
     ++cell.offered;
     cell.held += held;
     if (identifiable(trial)) {
@@ -117,13 +99,17 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
     row.unit = model.slots[j].parameter->unit;
     row.truth = truth.theta[j];
     for (const Trial& trial : trials) {
-      if (trial.usable && trial.identifiable[j]) ++row.identifiable;
+      if (trial.usable && trial.identifiable[j].identifiable) ++row.identifiable;
     }
-    for (const Kind& kind : kinds()) {
+    const auto add = [&](std::string_view name, const auto& of) {
       row.cells.push_back(count(
-          trials, kind.name, row.truth,
-          [&](const Trial& t) -> const Interval& { return kind.of(t.intervals[j]); },
-          [&](const Trial& t) { return static_cast<bool>(t.identifiable[j]); }));
+          trials, name, row.truth,
+          [&](const Trial& t) -> const Interval& { return of(t.intervals[j]); },
+          [&](const Trial& t) { return t.identifiable[j].identifiable; }));
+    };
+    add("recommended", recommended_interval);
+    for (const IntervalKind kind : values_of<IntervalKind>()) {
+      add(name_of(kind), [kind](const IntervalSet& set) -> const Interval& { return set[kind]; });
     }
     result.rows.push_back(std::move(row));
   }
@@ -132,17 +118,17 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
     row.parameter = fmt::format("V*({:.4g} um)", truth.capture[k].diameter / units::um);
     row.unit = "m/s";
     row.truth = truth.capture[k].velocity;
-    const auto add = [&](const char* name, Interval CaptureEstimate::*kind) {
+    const auto add = [&](std::string_view name, const auto& of) {
       row.cells.push_back(count(
           trials, name, row.truth,
-          [&](const Trial& t) -> const Interval& { return t.capture[k].*kind; },
+          [&](const Trial& t) -> const Interval& { return of(t.capture[k]); },
           // V* has no verdict of its own but what stands beside its interval.
-          [&](const Trial& t) { return t.capture[k].interval.note.empty(); }));
+          [&](const Trial& t) { return !t.capture[k].interval.note; }));
     };
-    add("recommended", &CaptureEstimate::interval);
-    add("percentile", &CaptureEstimate::percentile);
-    add("studentized", &CaptureEstimate::studentized);
-    add("delta", &CaptureEstimate::delta);
+    add("recommended", [](const CaptureEstimate& at) -> const Interval& { return at.interval; });
+    for (const CaptureIntervalKind kind : values_of<CaptureIntervalKind>()) {
+      add(name_of(kind), [kind](const CaptureEstimate& at) -> const Interval& { return at[kind]; });
+    }
     row.identifiable = row.cells.front().offered_identifiable;
     result.rows.push_back(std::move(row));
   }

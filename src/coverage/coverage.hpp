@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "core/names.hpp"
+#include "data/dataset.hpp"
+#include "estimate/fit.hpp"
 #include "uncertainty/uncertainty.hpp"
+#include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
 

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "estimate/impact_problem.hpp"
-#include "uncertainty/bootstrap.hpp"
+#include "uncertainty/refit.hpp"
 
 namespace recoil {
 namespace {

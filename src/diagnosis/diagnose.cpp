@@ -17,42 +17,31 @@
 #include "diagnosis/unstated_errors.hpp"
 #include "diagnosis/verdict_words.hpp"
 #include "estimate/capture_velocity.hpp"
+#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr double size_factor = 1.2;         // diameters within this factor are one size
-constexpr double apart_at_one_size = 20.0;  // there nothing but the shape of one curve speaks
-
-bool has_one_size(const Observations& data) {
-  double low = INFINITY, high = 0.0;
-  for (const Observation& point : data.points) {
-    low = std::min(low, point.diameter);
-    high = std::max(high, point.diameter);
-  }
-  return high < low * size_factor;
-}
+constexpr double margin_at_one_size = 20.0;  // there nothing but the shape of one curve speaks
 
 /// Step 1: does the base model leave structure?
 void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const StructureStatistics statistics(base.fitted.data, base.refit,
                                        base.fitted.prediction_squared);
   const auto count = static_cast<std::size_t>(diagnosis.options.simulated);
-  std::vector<std::vector<double>> simulated(count);
+  std::vector<std::optional<PerValue<StructureQuestion, double>>> answers(count);
   parallel_over(count, diagnosis.options.threads, [&](std::size_t b) {
     const Observations sample = simulate_base(base, b);
     const Refit refit = refit_candidate(base.candidate, sample, base.refit.theta, 1);
-    if (refit.usable) simulated[b] = statistics(refit.residuals);
+    if (refit.usable) answers[b] = statistics(refit.residuals);
     if (b % 10 == 0) progress.advance();
   });
-  const auto failed = std::erase_if(simulated, [](const auto& row) { return row.empty(); });
-  diagnosis.structure = judge_structure(statistics, base.refit.residuals, simulated);
-  diagnosis.structure.failed = static_cast<int>(failed);
-  if (static_cast<double>(failed) > 0.01 * static_cast<double>(count)) {
-    diagnosis.warnings.push_back(fmt::format(
-        "{} of {} simulated data sets could not be fitted: the p-values rest on the others", failed,
-        count));
+  std::vector<PerValue<StructureQuestion, double>> simulated;
+  for (const auto& answer : answers) {
+    if (answer) simulated.push_back(*answer);
   }
+  diagnosis.structure = judge_structure(statistics, base.refit.residuals, simulated);
+  diagnosis.structure.failed = static_cast<int>(count - simulated.size());
   diagnosis.free_form = statistics.free_form(base.refit.residuals);
   if (!diagnosis.free_form.empty()) {
     Observations rest = base.fitted.data;
@@ -71,17 +60,18 @@ void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress)
 /// The best explanation among `candidates` (the best first), and what cannot be told from it; none
 /// without an explanation.
 std::vector<const CandidateResult*> explanations(const std::vector<CandidateResult>& candidates,
-                                                 double apart, bool one_size) {
+                                                 double margin, bool one_size) {
   const auto best = std::find_if(candidates.begin(), candidates.end(),
                                  [](const CandidateResult& c) { return c.explains(); });
   if (best == candidates.end()) return {};
   std::vector<const CandidateResult*> found = {&*best};
   for (const CandidateResult& c : candidates) {
-    if (c.delta_aicc > best->delta_aicc + apart) break;
+    if (c.delta_aicc > best->delta_aicc + margin) break;
     if (&c == &*best) continue;
     // So close to the best one, or before it, the other reasons to set something aside are as
     // doubtful as it.
-    const bool possible = c.nearly && c.kind != MechanismKind::description && c.delta_aicc < 0.0;
+    const bool possible =
+        c.near_plausible && c.kind != MechanismKind::description && c.delta_aicc < 0.0;
     const bool pair = c.candidate.added.size() > 1;
     if (one_size || pair ? c.explains() : possible) found.push_back(&c);
   }
@@ -171,23 +161,24 @@ void extend(const SearchBase& base, Diagnosis& diagnosis) {
   const Observations gathered = gather(base.datasets, base.spec);
   diagnosis.extended_fit = fit(best.candidate.model, gathered, options);
   if (!diagnosis.extended_fit->usable) {
-    diagnosis.warnings.push_back("the extended model has no usable fit of its own: " +
-                                 diagnosis.extended_fit->failure);
+    diagnosis.extended_failure = diagnosis.extended_fit->failure;
     diagnosis.extended_fit.reset();
     return;
   }
-  diagnosis.base_intervals = intervals_of_fit(diagnosis.base, diagnosis);
+  if (diagnosis.base_intervals.empty()) {
+    diagnosis.base_intervals = intervals_of_fit(diagnosis.base, diagnosis);
+  }
   diagnosis.extended_intervals = intervals_of_fit(*diagnosis.extended_fit, diagnosis);
   diagnosis.gain = best.gain;
   compare_capture(diagnosis);
 }
 
 /// Do errors that were not stated leave nothing, and fit so well that no cause can be told beside
-/// them? Better by `apart` than a single cause; nearly as well as two, the best of so many pairs:
+/// them? Better by `margin` than a single cause; nearly as well as two, the best of so many pairs:
 /// chance gives the best of N independent ones a criterion that is smaller by about 2 ln N.
-bool outdone_by_errors(const CandidateResult& best, const Diagnosis& diagnosis, double apart) {
+bool outdone_by_errors(const CandidateResult& best, const Diagnosis& diagnosis, double margin) {
   const bool pair = best.candidate.added.size() > 1;
-  const double lead = pair ? -2.0 * std::log(static_cast<double>(diagnosis.pairs.size())) : apart;
+  const double lead = pair ? -2.0 * std::log(static_cast<double>(diagnosis.pairs.size())) : margin;
   return std::any_of(diagnosis.unstated.begin(), diagnosis.unstated.end(),
                      [&](const UnstatedErrors& errors) {
                        return errors.leave_nothing() && errors.delta_aicc + lead < best.delta_aicc;
@@ -206,21 +197,21 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   diagnosis.candidates = try_singles(base);
   calibrate(base, diagnosis.candidates, [&] { progress.advance(); });
   const std::vector<Fold> folds =
-      held_out_folds(base.fitted.data, base.datasets, base.candidate.free_count + 1);
+      held_out_folds(base.fitted.data, base.datasets.size(), base.candidate.free_count + 1);
   const std::vector<FoldPrediction> base_folds =
       predict_folds(base.candidate, base.fitted.data, folds, base.refit.theta, options.threads);
   const bool one_size = has_one_size(base.fitted.data);
-  const double apart = one_size ? apart_at_one_size : options.apart;
+  const double margin = one_size ? margin_at_one_size : options.margin;
   judge(base, diagnosis.candidates, INFINITY, folds, base_folds);
-  std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, apart, one_size);
+  std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
   if (found.empty() && more_than_chance(diagnosis)) {
     diagnosis.pairs = try_pairs(base, diagnosis.candidates);
-    const double both_apart = std::max(apart, options.apart_in_pairs);
-    judge(base, diagnosis.pairs, both_apart, folds, base_folds);
-    found = explanations(diagnosis.pairs, both_apart, one_size);
+    const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
+    judge(base, diagnosis.pairs, margin_in_pairs, folds, base_folds);
+    found = explanations(diagnosis.pairs, margin_in_pairs, one_size);
   }
   diagnosis.unstated = unstated_errors(base);
-  if (!found.empty() && outdone_by_errors(*found.front(), diagnosis, apart)) {
+  if (!found.empty() && outdone_by_errors(*found.front(), diagnosis, margin)) {
     diagnosis.outdone = found.front()->candidate.name();
     found.clear();
   }
@@ -233,31 +224,24 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
 
 }  // namespace
 
-std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::adequate:
-      return "adequate";
-    case Verdict::cause_named:
-      return "cause_named";
-    case Verdict::not_separable:
-      return "not_separable";
-    case Verdict::unexplained:
-      return "unexplained";
+Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                   const DiagnosisOptions& options) {
+  const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+  if (!fitted.usable) {
+    throw ComputationError(
+        fmt::format("{}: the fit has no usable answer: {}", spec.file.string(), fitted.failure));
   }
-  return "";
+  return diagnose(spec, datasets, fitted, options);
 }
 
 Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
-                   const DiagnosisOptions& options) {
+                   const FitResult& fitted, const DiagnosisOptions& options,
+                   const std::vector<IntervalSet>& base_intervals) {
   Diagnosis diagnosis;
   diagnosis.options = options;
   diagnosis.spec = spec;
   diagnosis.datasets = datasets;
-  diagnosis.base = fit(make_model(spec, datasets), gather(datasets, spec));
-  if (!diagnosis.base.usable) {
-    throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", spec.file.string(),
-                                       diagnosis.base.failure));
-  }
+  diagnosis.base = fitted;
   const SearchBase base = search_base(spec, datasets, diagnosis.base, options);
   if (!base.refit.usable) {
     throw ComputationError(
@@ -271,9 +255,10 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
     diagnosis.verdict = Verdict::adequate;
     progress.advance(static_cast<std::size_t>(options.compared));
   } else {
+    diagnosis.base_intervals = base_intervals;
     search(base, diagnosis, progress);
+    if (!diagnosis.extended_fit) diagnosis.base_intervals.clear();
   }
-  diagnosis.text = verdict_text(diagnosis);
   return diagnosis;
 }
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/diagnosis_result.hpp"
 
 namespace recoil {
 

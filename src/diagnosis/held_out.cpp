@@ -1,7 +1,5 @@
 #include "diagnosis/held_out.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -52,11 +50,7 @@ void add_size_folds(const Observations& data, std::vector<Fold>& folds) {
   for (const Observation& point : data.points) diameters.insert(point.diameter);
   if (diameters.size() < 2) return;
   for (const std::vector<double>& group : groups_of(diameters, most_size_folds)) {
-    Fold fold{"size", fmt::format("{:.3g} um", group.front() / units::um), {}};
-    if (group.size() > 1) {
-      fold.name =
-          fmt::format("{:.3g} to {:.3g} um", group.front() / units::um, group.back() / units::um);
-    }
+    Fold fold{FoldKind::size, group.front(), group.back(), 0, {}};
     for (std::size_t i = 0; i < data.points.size(); ++i) {
       const double d = data.points[i].diameter;
       if (d >= group.front() && d <= group.back()) fold.points.push_back(i);
@@ -75,7 +69,7 @@ void add_velocity_folds(const Observations& data, std::vector<Fold>& folds) {
     const auto edge = [&](std::size_t j) {
       return low * std::pow(high / low, static_cast<double>(j) / velocity_bands);
     };
-    Fold fold{"velocity", fmt::format("{:.3g} to {:.3g} m/s", edge(k), edge(k + 1)), {}};
+    Fold fold{FoldKind::velocity, edge(k), edge(k + 1), 0, {}};
     for (std::size_t i = 0; i < data.points.size(); ++i) {
       const double V = data.points[i].velocity;
       const bool last = k + 1 == velocity_bands;
@@ -93,14 +87,13 @@ double mean_square(const std::vector<double>& errors) {
 
 }  // namespace
 
-std::vector<Fold> held_out_folds(const Observations& data, const std::vector<Dataset>& datasets,
-                                 int free_count) {
+std::vector<Fold> held_out_folds(const Observations& data, std::size_t datasets, int free_count) {
   std::vector<Fold> folds;
   add_size_folds(data, folds);
   add_velocity_folds(data, folds);
-  if (datasets.size() > 1) {
-    for (std::size_t k = 0; k < datasets.size(); ++k) {
-      Fold fold{"target", datasets[k].id, {}};
+  if (datasets > 1) {
+    for (std::size_t k = 0; k < datasets; ++k) {
+      Fold fold{FoldKind::target, 0.0, 0.0, k, {}};
       for (std::size_t i = 0; i < data.points.size(); ++i) {
         if (data.points[i].dataset == k) fold.points.push_back(i);
       }
@@ -154,14 +147,15 @@ HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<Fold
   std::vector<std::size_t> used;
   std::vector<double> all_base, all_extended;
   for (std::size_t f = 0; f < folds.size(); ++f) {
-    if (base[f].usable && extended[f].usable && folds[f].kind != "velocity") gain.decisive = true;
+    if (base[f].usable && extended[f].usable && folds[f].kind != FoldKind::velocity)
+      gain.decisive = true;
   }
   for (std::size_t f = 0; f < folds.size(); ++f) {
     if (!base[f].usable || !extended[f].usable) continue;
     gain.folds.push_back({folds[f], std::sqrt(mean_square(base[f].error)),
                           std::sqrt(mean_square(extended[f].error)),
                           0.5 * (base[f].deviance - extended[f].deviance), true});
-    gain.folds.back().counted = !gain.decisive || folds[f].kind != "velocity";
+    gain.folds.back().counted = !gain.decisive || folds[f].kind != FoldKind::velocity;
     if (!gain.folds.back().counted) continue;
     used.push_back(f);
     gain.log_score += gain.folds.back().log_score;

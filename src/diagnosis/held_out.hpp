@@ -1,25 +1,33 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "core/names.hpp"
 #include "diagnosis/candidate.hpp"
 
 namespace recoil {
 
+/// What the points of a block have in common.
+enum class FoldKind { size, velocity, target };
+template <>
+struct NamesOf<FoldKind> {
+  static constexpr std::array<std::string_view, 3> names = {"size", "velocity", "target"};
+};
+
 /// A block of points that is predicted from the others.
 struct Fold {
-  std::string kind;  ///< "size", "velocity" or "target"
-  std::string name;  ///< "2.58 um", "1.1 to 4.7 m/s", "wall1990-mica"
+  FoldKind kind = FoldKind::size;
+  double lower = 0.0, upper = 0.0;  ///< of the diameters [m] or velocities [m/s]
+  std::size_t dataset = 0;          ///< the target
   std::vector<std::size_t> points;
 };
 
 /// Every diameter (of more than six: six groups of neighbours), the lower, middle and upper third
 /// of ln V, and every dataset of several. Blocks that leave too few points to fit are left out.
 /// Single points are not held out: their neighbours would tell what they are.
-std::vector<Fold> held_out_folds(const Observations& data, const std::vector<Dataset>& datasets,
-                                 int free_count);
+/// @param datasets how many there are
+std::vector<Fold> held_out_folds(const Observations& data, std::size_t datasets, int free_count);
 
 /// How one model predicts the points of one fold from all others.
 struct FoldPrediction {

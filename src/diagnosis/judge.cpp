@@ -1,7 +1,5 @@
 #include "diagnosis/judge.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -16,20 +14,15 @@ constexpr double tolerated_part = 0.03;
 constexpr std::size_t shown_leads = 8;  // are held out whatever is held against them
 constexpr double lead_within = 30.0;    // of the criterion, of the best
 
-std::string reason_aside(const SearchBase& base, const CandidateResult& c) {
-  if (c.kind == MechanismKind::description) return "a description explains nothing";
-  if (!(c.delta_aicc < 0.0)) return "it gains less than its parameters cost";
-  if (c.p_value && *c.p_value > base.options.chance) {
-    return fmt::format("chance gives the best of all candidates as much in {:.0f} % of data sets",
-                       100.0 * *c.p_value);
-  }
-  for (const FoundParameter& parameter : c.parameters) {
-    if (!parameter.plausible) return "not possible: " + parameter.why_not;
-  }
+std::optional<SetAside> reason_against(const SearchBase& base, const CandidateResult& c) {
+  if (c.kind == MechanismKind::description) return SetAside::description;
+  if (!(c.delta_aicc < 0.0)) return SetAside::gains_too_little;
+  if (c.p_value && *c.p_value > base.options.chance) return SetAside::chance;
+  if (!c.plausible) return SetAside::not_possible;
   if (c.remaining_p < tolerated_level && c.remaining_part > tolerated_part) {
-    return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
+    return SetAside::leaves_structure;
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace
@@ -40,12 +33,12 @@ void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, dou
     const std::vector<FoldPrediction> own =
         predict_folds(c.candidate, base.fitted.data, folds, c.refit.theta, base.options.threads);
     c.gain = held_out_gain(folds, base_folds, own, base.options.seed);
-    if (c.aside.empty() && c.gain->decisive && !(c.gain->log_score > 0.0)) {
-      c.aside = "it predicts sizes or targets that were held out no better than the base model";
+    if (c.explains() && c.gain->decisive && !(c.gain->log_score > 0.0)) {
+      c.set_aside = SetAside::predicts_no_better;
     }
   };
   for (CandidateResult& c : candidates) {
-    if (c.aside.empty()) c.aside = reason_aside(base, c);
+    if (c.explains()) c.set_aside = reason_against(base, c);
   }
   const std::size_t leads = std::min(shown_leads, candidates.size());
   parallel_over(leads, base.options.threads, [&](std::size_t k) {

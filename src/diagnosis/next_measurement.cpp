@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_rivals = 4;
 constexpr int velocities = 24;
-constexpr double standard_errors_apart = 3.0;
+constexpr double separation = 3.0;  // of the two predictions, in standard errors
 constexpr double most_events = 1e6;
 constexpr double smallest_sd = 1e-3;  // of one event's e, where a point states less
 
@@ -91,12 +91,12 @@ std::vector<NextMeasurement> next_measurements(const FitResult& base,
         best.event_sd = sd[i];
       }
       if (!(most > 0.0)) continue;
-      const double events = std::ceil(std::pow(standard_errors_apart / most, 2));
+      const double events = std::ceil(std::pow(separation / most, 2));
       if (events <= most_events) best.events = std::max(1, static_cast<int>(events));
       next.push_back(std::move(best));
     }
   }
-  // What takes the fewest events first; pairs that nothing in reach tells apart at the end.
+  // What takes the fewest events first; rivals that nothing in reach separates at the end.
   std::stable_sort(next.begin(), next.end(), [](const auto& a, const auto& b) {
     return a.events.value_or(INT_MAX) < b.events.value_or(INT_MAX);
   });

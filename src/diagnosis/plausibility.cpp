@@ -1,12 +1,8 @@
 #include "diagnosis/plausibility.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-
-#include "data/text.hpp"
 
 namespace recoil {
 namespace {
@@ -94,19 +90,19 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
       const auto [lower, upper, why] = entry.plausible;
       const double value = nearest_to_range(slot, parameter.value, errors[j], lower, upper);
       if (value < lower || value > upper) {
-        parameter.plausible = false;
-        parameter.nearly = is_near(slot, value, lower, upper);
-        parameter.why_not =
-            fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}", parameter.label,
-                        parameter.value, unit_suffix(entry.unit), lower, upper, why);
+        parameter.implausible = Implausible::outside_range;
+        parameter.near_plausible = is_near(slot, value, lower, upper);
+        parameter.lower = lower;
+        parameter.upper = upper;
+        parameter.range_why = why;
       }
       const double modulus = softest(candidate.model);
       const double limit = entry.modulus_limit.share * modulus;
       if (nearest_to_range(slot, parameter.value, errors[j], lower, limit) > limit) {
-        parameter.plausible = parameter.nearly = false;
-        parameter.why_not = fmt::format("{} = {:.3g}{} is {:.2g} times the reduced modulus: {}",
-                                        parameter.label, parameter.value, unit_suffix(entry.unit),
-                                        parameter.value / modulus, entry.modulus_limit.why);
+        parameter.implausible = Implausible::firmer_than_solids;
+        parameter.near_plausible = false;
+        parameter.over_modulus = parameter.value / modulus;
+        parameter.modulus_why = entry.modulus_limit.why;
       }
     }
     found.push_back(std::move(parameter));

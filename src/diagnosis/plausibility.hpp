@@ -1,9 +1,8 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/candidate_result.hpp"
 
 namespace recoil {
 

@@ -1,7 +1,5 @@
 #include "diagnosis/search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -24,8 +22,6 @@ constexpr std::size_t sets_at_once = 13;    // between two looks at how many gai
 constexpr std::ptrdiff_t often_enough = 5;  // to say that chance gives as much
 constexpr double worth_releasing = 2.0;     // gain of the criterion by a released parameter
 constexpr double carried_part = 0.1;  // what each of two has to take, for the two to be forgiven
-
-constexpr const char* one_would_do = "one of the two does as well alone";
 
 MechanismKind kind_of(const std::vector<std::string>& ids) {
   MechanismKind kind = MechanismKind::measurement;
@@ -70,9 +66,9 @@ CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit
       corrected_criterion(data, result.refit.chi2, result.candidate.free_count) - base.criterion;
   result.parameters = found_parameters(result.candidate, result.refit, base.noise_scale);
   result.plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
-                                 [](const FoundParameter& p) { return p.plausible; });
-  result.nearly = std::all_of(result.parameters.begin(), result.parameters.end(),
-                              [](const FoundParameter& p) { return p.nearly; });
+                                 [](const FoundParameter& p) { return p.plausible(); });
+  result.near_plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
+                                      [](const FoundParameter& p) { return p.near_plausible; });
   const std::vector<double> squares = predicted_squares(result.candidate, result.refit, data);
   result.remaining_p =
       quick_structure(data, result.refit, squares, quick_samples, base.options.seed).p_value;
@@ -168,18 +164,15 @@ CandidateResult try_both(const SearchBase& base, const CandidateResult& first,
   // Each has to carry its part.
   const double better = std::min(first.delta_aicc, second.delta_aicc);
   const bool possible = first.delta_aicc < second.delta_aicc ? first.plausible : second.plausible;
-  if (possible && !(result.delta_aicc < better - base.options.apart_in_pairs)) {
-    result.aside = one_would_do;
+  if (possible && !(result.delta_aicc < better - base.options.margin_in_pairs)) {
+    result.set_aside = SetAside::one_would_do;
   }
   const double better_part = std::min(first.remaining_part, second.remaining_part);
   if (result.remaining_p < tolerated_level && better_part - result.remaining_part < carried_part) {
-    result.aside = fmt::format(
-        "it leaves structure behind (p = {:.2g}), and one of the two takes no more of the misfit "
-        "than the law of the other may be wrong",
-        result.remaining_p);
+    result.set_aside = SetAside::one_hardly_takes_part;
   }
   if (rests_on_the_edge(result)) {
-    result.aside = "a parameter rests on the edge of what is possible";
+    result.set_aside = SetAside::at_the_edge;
   }
   return result;
 }

@@ -3,7 +3,9 @@
 #include <functional>
 #include <vector>
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/candidate_result.hpp"
+#include "diagnosis/diagnosis_options.hpp"
+#include "diagnosis/structure.hpp"
 
 namespace recoil {
 

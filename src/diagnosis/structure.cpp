@@ -50,19 +50,6 @@ double upper_share(const std::vector<double>& sorted, double value) {
 
 }  // namespace
 
-const std::vector<std::pair<std::string, std::string>>& StructureStatistics::titles() {
-  static const std::vector<std::pair<std::string, std::string>> all = {
-      {"scatter", "the residuals are larger than the stated deviations"},
-      {"size", "whole diameters lie above or below the model"},
-      {"trend", "residuals rise or fall with velocity"},
-      {"curvature", "residuals bend with velocity"},
-      {"capture", "the model bends wrongly near capture"},
-      {"runs", "neighbouring points miss on the same side"},
-      {"smooth", "a smooth function of velocity and size takes up the residuals"},
-  };
-  return all;
-}
-
 StructureStatistics::StructureStatistics(const Observations& data, const Refit& fitted,
                                          std::span<const double> predicted)
     : stated_(data.sd_stated), used_(data.points.size(), true) {
@@ -187,7 +174,8 @@ double StructureStatistics::square_along(const std::vector<Column>& columns,
   return sum;
 }
 
-std::vector<double> StructureStatistics::operator()(std::span<const double> residuals) const {
+PerValue<StructureQuestion, double> StructureStatistics::operator()(
+    std::span<const double> residuals) const {
   std::vector<double> r(residuals.begin(), residuals.end());
   for (std::size_t i = 0; i < r.size(); ++i) {
     if (!used_[i]) r[i] = 0.0;
@@ -211,13 +199,15 @@ std::vector<double> StructureStatistics::operator()(std::span<const double> resi
     smooth = std::max(smooth, (along - count) / std::sqrt(2.0 * count));
   }
   if (smooth_.empty()) smooth = 0.0;
-  return {stated_ ? square : 0.0,
-          square_along(size_, r),
-          square_along(trend_, r),
-          square_along(curvature_, r),
-          square_along(capture_, r),
-          runs,
-          smooth};
+  PerValue<StructureQuestion, double> answers;
+  answers[StructureQuestion::scatter] = stated_ ? square : 0.0;
+  answers[StructureQuestion::size] = square_along(size_, r);
+  answers[StructureQuestion::trend] = square_along(trend_, r);
+  answers[StructureQuestion::curvature] = square_along(curvature_, r);
+  answers[StructureQuestion::capture] = square_along(capture_, r);
+  answers[StructureQuestion::runs] = runs;
+  answers[StructureQuestion::smooth] = smooth;
+  return answers;
 }
 
 std::vector<double> StructureStatistics::residuals_of_noise(std::span<const double> noise) const {
@@ -253,25 +243,25 @@ std::vector<double> StructureStatistics::free_form(std::span<const double> resid
 }
 
 Structure judge_structure(const StructureStatistics& statistics, std::span<const double> observed,
-                          const std::vector<std::vector<double>>& simulated) {
+                          const std::vector<PerValue<StructureQuestion, double>>& simulated) {
   Structure judged;
   judged.simulated = static_cast<int>(simulated.size());
-  const std::vector<double> own = statistics(observed);
+  const PerValue<StructureQuestion, double> own = statistics(observed);
   std::vector<double> smallest(simulated.size(), 1.0);
   double smallest_own = 1.0;
-  for (std::size_t t = 0; t < own.size(); ++t) {
-    const auto& [id, title] = StructureStatistics::titles()[t];
-    if (id == "scatter" && !statistics.tests_scatter()) continue;
+  for (const StructureQuestion question : values_of<StructureQuestion>()) {
+    const bool scatter = question == StructureQuestion::scatter;
+    if (scatter && !statistics.tests_scatter()) continue;
     std::vector<double> sorted;
-    for (const std::vector<double>& sample : simulated) sorted.push_back(sample[t]);
+    for (const auto& sample : simulated) sorted.push_back(sample[question]);
     std::sort(sorted.begin(), sorted.end());
-    const double p = upper_share(sorted, own[t]);
-    judged.tests.push_back({id, title, own[t], p});
+    const double p = upper_share(sorted, own[question]);
+    judged.tests.push_back({question, own[question], p});
     smallest_own = std::min(smallest_own, p);
     for (std::size_t b = 0; b < simulated.size(); ++b) {
-      smallest[b] = std::min(smallest[b], upper_share(sorted, simulated[b][t]));
+      smallest[b] = std::min(smallest[b], upper_share(sorted, simulated[b][question]));
     }
-    if (id != "scatter" && p <= 0.01) judged.smooth = true;
+    if (!scatter && p <= 0.01) judged.smooth = true;
   }
   const auto as_small =
       std::count_if(smallest.begin(), smallest.end(), [&](double p) { return p <= smallest_own; });
@@ -283,7 +273,7 @@ Structure judge_structure(const StructureStatistics& statistics, std::span<const
 Structure quick_structure(const Observations& data, const Refit& fitted,
                           std::span<const double> predicted, int count, std::uint64_t seed) {
   const StructureStatistics statistics(data, fitted, predicted);
-  std::vector<std::vector<double>> simulated;
+  std::vector<PerValue<StructureQuestion, double>> simulated;
   std::vector<double> noise(data.points.size());
   for (int b = 0; b < count; ++b) {
     RandomStream random(seed, RandomPurpose::diagnosis, static_cast<std::uint64_t>(b));

@@ -2,18 +2,25 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "core/names.hpp"
 #include "diagnosis/candidate.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
 
-/// One question put to the residuals.
+/// A question put to the residuals, see `StructureStatistics`.
+enum class StructureQuestion { scatter, size, trend, curvature, capture, runs, smooth };
+template <>
+struct NamesOf<StructureQuestion> {
+  static constexpr std::array<std::string_view, 7> names = {"scatter", "size", "trend", "curvature",
+                                                            "capture", "runs", "smooth"};
+};
+
+/// What the residuals answer to one question.
 struct StructureTest {
-  std::string id;     ///< "scatter", "size", "trend", "curvature", "capture", "runs", "smooth"
-  std::string title;  ///< what it asks, in words
+  StructureQuestion question = StructureQuestion::scatter;
   double statistic = 0.0;
   double p_value = 1.0;  ///< part of the simulated data sets that show as much
 };
@@ -49,11 +56,7 @@ class StructureStatistics {
   StructureStatistics(const Observations& data, const Refit& fitted,
                       std::span<const double> predicted);
 
-  /// @returns one number per test, in the order of `titles`
-  std::vector<double> operator()(std::span<const double> residuals) const;
-
-  /// (id, title) of the tests.
-  static const std::vector<std::pair<std::string, std::string>>& titles();
+  PerValue<StructureQuestion, double> operator()(std::span<const double> residuals) const;
 
   /// The projection of white noise onto what the fit leaves: what residuals look like where the
   /// model is right, to first order.
@@ -80,10 +83,10 @@ class StructureStatistics {
   std::vector<Column> smooth_;
 };
 
-/// p-values by comparison with simulated statistics [data sets][tests]: of each test, and of the
+/// p-values by comparison with statistics of simulated data sets: of each test, and of the
 /// smallest of these p-values among the smallest ones of the simulated sets.
 Structure judge_structure(const StructureStatistics& statistics, std::span<const double> observed,
-                          const std::vector<std::vector<double>>& simulated);
+                          const std::vector<PerValue<StructureQuestion, double>>& simulated);
 
 inline constexpr int quick_samples = 999;  ///< as many as all callers of `quick_structure` take
 

@@ -115,7 +115,7 @@ std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
   if (!refit.usable) return std::nullopt;
   const int free = base.candidate.free_count;
   UnstatedErrors found;
-  found.id = "velocity_errors";
+  found.source = ErrorSource::velocity_errors;
   found.value = *relative_sd;
   found.delta_aicc =
       corrected_criterion(fitted.data, deviance_with_weights(fitted.data, refit.residuals),
@@ -132,7 +132,7 @@ std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
   const int free = base.candidate.free_count;
   const double n = dof + free;  // points that scatter
   UnstatedErrors found;
-  found.id = "larger_deviations";
+  found.source = ErrorSource::larger_deviations;
   found.value = std::sqrt(chi2 / dof);
   found.delta_aicc = corrected_criterion(base.fitted.data, n * std::log(chi2 / n) + n, free + 1) -
                      corrected_criterion(base.fitted.data, chi2, free);

@@ -1,7 +1,5 @@
 #include "predict/capture_comparison.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,11 +13,11 @@
 #include "predict/capture_jkr.hpp"
 #include "predict/capture_thornton_ning.hpp"
 #include "predict/capture_wall.hpp"
+#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t fewest_for_band = 39;
 constexpr double share_for_band = 0.9;  // of the replicates that have to answer at a diameter
 
 std::vector<double> spaced(double first, double last, int count) {
@@ -45,12 +43,11 @@ std::vector<double> fitted_velocities(const ImpactModel& model, std::span<const 
 CaptureCurve fitted_curve(const FitResult& fitted, std::size_t dataset,
                           const std::vector<double>& diameters, const BootstrapResult& bootstrap,
                           const CaptureComparisonOptions& options) {
-  CaptureCurve curve{"fit", "this fit", "with its parameters, f0 of other sizes by eq. 12",
-                     {},    {},         {}};
+  CaptureCurve curve;
   curve.velocity = fitted_velocities(fitted.model, fitted.theta, dataset, diameters);
   const std::size_t count =
       std::min(bootstrap.theta.size(), static_cast<std::size_t>(options.replicates));
-  if (count < fewest_for_band) return curve;
+  if (count < fewest_replicates) return curve;
   std::vector<std::vector<double>> values(count);
   parallel_over(count, options.threads, [&](std::size_t i) {
     values[i] = fitted_velocities(fitted.model, bootstrap.theta[i], dataset, diameters);
@@ -87,12 +84,7 @@ void keep_answered(CaptureComparison& comparison, CaptureCurve& fit) {
     kept.lower.push_back(fit.lower[k]);
     kept.upper.push_back(fit.upper[k]);
   }
-  if (diameters.size() < comparison.diameter.size()) {
-    comparison.notes.push_back(
-        fmt::format("at {} of {} diameters the fit, or more than a tenth of its replicates, has no "
-                    "capture velocity: no sphere of these sizes rebounds at any velocity",
-                    comparison.diameter.size() - diameters.size(), comparison.diameter.size()));
-  }
+  comparison.unanswered = comparison.diameter.size() - diameters.size();
   comparison.diameter = std::move(diameters);
   fit = std::move(kept);
 }
@@ -114,57 +106,43 @@ double largest_restitution(const FitResult& fitted, std::size_t dataset, double 
 }
 
 template <class Velocity>
-CaptureCurve model_curve(const char* id, std::string label, std::string rests_on,
-                         const ContactProperties& contact, const std::vector<double>& diameters,
-                         const Velocity& velocity) {
-  CaptureCurve curve{id, std::move(label), std::move(rests_on), {}, {}, {}};
-  for (const double diameter : diameters) {
+void add_curve(CaptureModel model, const ContactProperties& contact, const Velocity& velocity,
+               CaptureComparison& comparison) {
+  CaptureCurve curve;
+  curve.model = model;
+  for (const double diameter : comparison.diameter) {
     curve.velocity.push_back(velocity(capture_contact(contact, diameter)));
   }
-  return curve;
+  comparison.curves.push_back(std::move(curve));
 }
 
-void add_older_models(const Dataset& dataset, const ContactProperties& contact, double e,
-                      CaptureComparison& comparison) {
-  const std::vector<double>& diameters = comparison.diameter;
-  const std::string constants =
-      fmt::format("W_A = {:.3g} J/m2 and K = {:.4g} GPa", contact.adhesion_energy,
-                  contact.stiffness / units::GPa);
-  comparison.curves.push_back(model_curve(
-      "jkr", "JKR",
-      constants + ", nothing fitted; the elastic sphere of Thornton & Ning sticks alike", contact,
-      diameters, [](const CaptureContact& c) { return jkr_capture_velocity(c); }));
-  if (const auto yield = published_yield_pressure(dataset.system.particle)) {
-    comparison.curves.push_back(model_curve(
-        "thornton_ning", "Thornton & Ning, yield",
-        fmt::format("{}, yield pressure {:.3g} MPa ({}); a lower estimate, adhesion does not help "
-                    "the sphere to yield",
-                    constants, yield->pressure / 1e6, yield->source),
-        contact, diameters, [&](const CaptureContact& c) {
-          return thornton_ning_plastic_velocity(c, yield->pressure);
-        }));
-  } else {
-    comparison.notes.push_back(
-        fmt::format("Thornton & Ning with yield is not drawn: no published yield pressure of {} is "
-                    "known to this program",
-                    dataset.system.particle.name));
+void add_older_models(const ContactProperties& contact, CaptureComparison& comparison) {
+  add_curve(
+      CaptureModel::jkr, contact, [](const CaptureContact& c) { return jkr_capture_velocity(c); },
+      comparison);
+  if (comparison.yield) {
+    add_curve(
+        CaptureModel::thornton_ning, contact,
+        [p = comparison.yield->pressure](const CaptureContact& c) {
+          return thornton_ning_plastic_velocity(c, p);
+        },
+        comparison);
   }
-  if (!(e > 0.0)) {
-    comparison.notes.emplace_back(
-        "Dahneke and Wall are not drawn: the fitted curve has no rebound to take e from");
-    return;
-  }
-  const std::string with_e = fmt::format(
-      "{}, e = {:.3g} (the largest of the fitted curve), the bond that of JKR", constants, e);
-  comparison.curves.push_back(model_curve(
-      "dahneke", "Dahneke, eq. 1", with_e, contact, diameters, [&](const CaptureContact& c) {
+  const double e = comparison.restitution;
+  if (!(e > 0.0)) return;
+  add_curve(
+      CaptureModel::dahneke, contact,
+      [e](const CaptureContact& c) {
         const JkrEnergies bond = jkr_energies(c);
         return dahneke_capture_velocity(c.mass(), e, bond.incident, bond.rebound);
-      }));
-  comparison.curves.push_back(model_curve(
-      "wall", "Wall et al., eq. 4", with_e, contact, diameters, [&](const CaptureContact& c) {
+      },
+      comparison);
+  add_curve(
+      CaptureModel::wall, contact,
+      [e](const CaptureContact& c) {
         return wall_capture_velocity(c.mass(), e, -jkr_energies(c).lost());
-      }));
+      },
+      comparison);
 }
 
 }  // namespace
@@ -199,13 +177,11 @@ std::vector<CaptureComparison> compare_captures(const FitResult& fitted,
     CaptureCurve fit = fitted_curve(fitted, d, comparison.diameter, bootstrap, options);
     keep_answered(comparison, fit);
     comparison.curves.push_back(std::move(fit));
-    add_older_models(datasets[d], contact, largest_restitution(fitted, d, fastest), comparison);
-    if (comparison.published.empty()) {
-      comparison.notes.push_back(
-          fmt::format("no capture velocity of {} on {} is published as a number that is known to "
-                      "this program",
-                      datasets[d].system.particle.name, datasets[d].system.surface.name));
-    }
+    comparison.adhesion_energy = contact.adhesion_energy;
+    comparison.stiffness = contact.stiffness;
+    comparison.yield = published_yield_pressure(datasets[d].system.particle);
+    comparison.restitution = largest_restitution(fitted, d, fastest);
+    add_older_models(contact, comparison);
     all.push_back(std::move(comparison));
   }
   return all;

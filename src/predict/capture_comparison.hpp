@@ -1,19 +1,28 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <utility>
 #include <vector>
 
+#include "core/names.hpp"
+#include "data/dataset.hpp"
+#include "estimate/fit.hpp"
 #include "predict/published_captures.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "uncertainty/bootstrap_result.hpp"
 
 namespace recoil {
 
+/// What gives a capture velocity.
+enum class CaptureModel { fit, jkr, thornton_ning, dahneke, wall };
+template <>
+struct NamesOf<CaptureModel> {
+  static constexpr std::array<std::string_view, 5> names = {"fit", "jkr", "thornton_ning",
+                                                            "dahneke", "wall"};
+};
+
 /// Capture velocity against diameter by one model.
 struct CaptureCurve {
-  std::string id;                    ///< "fit", "jkr", "thornton_ning", "dahneke", "wall"
-  std::string label;                 ///< for the key of the picture
-  std::string rests_on;              ///< what went in, one sentence
+  CaptureModel model = CaptureModel::fit;
   std::vector<double> velocity;      ///< [m/s], one per diameter; 0: nothing is captured
   std::vector<double> lower, upper;  ///< band of the bootstrap [m/s]; empty where there is none
 };
@@ -24,7 +33,14 @@ struct CaptureComparison {
   std::vector<double> diameter;  ///< [m], ascending
   std::vector<CaptureCurve> curves;
   std::vector<PublishedCapture> published;
-  std::vector<std::string> notes;  ///< what could not be drawn, and why
+  // What the models rest on beside the fit.
+  double adhesion_energy = 0.0;         ///< W_A [J/m2]
+  double stiffness = 0.0;               ///< K [Pa]
+  std::optional<PublishedYield> yield;  ///< none: `thornton_ning` has no curve
+  double restitution = 0.0;             ///< the largest of the fitted curve [1]; 0 where nothing
+                                        ///< rebounds: `dahneke` and `wall` have no curve
+  std::size_t unanswered = 0;  ///< diameters, left out, at which no sphere rebounds under the fit,
+                               ///< or under more than a tenth of its replicates
 };
 
 struct CaptureComparisonOptions {

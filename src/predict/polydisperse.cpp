@@ -12,11 +12,11 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/point_conditions.hpp"
 #include "estimate/predictor.hpp"
+#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t fewest_for_band = 39;
 constexpr double share_for_band = 0.9;
 constexpr std::size_t conventions = all_conventions.size();
 
@@ -102,8 +102,8 @@ BandedValue banded(double value, std::vector<double> replicates, double level) {
   BandedValue out{finite(value), {}, {}};
   const std::size_t count = replicates.size();
   std::erase_if(replicates, [](double v) { return !std::isfinite(v); });
-  const bool enough = count >= fewest_for_band && static_cast<double>(replicates.size()) >=
-                                                      share_for_band * static_cast<double>(count);
+  const bool enough = count >= fewest_replicates && static_cast<double>(replicates.size()) >=
+                                                        share_for_band * static_cast<double>(count);
   if (!out.value || !enough) return out;
   std::sort(replicates.begin(), replicates.end());
   out.lower = sorted_quantile(replicates, (1.0 - level) / 2.0);
@@ -162,32 +162,9 @@ std::vector<double> velocity_grid(const std::vector<SizeCurve>& sizes, double sl
 
 }  // namespace
 
-std::string to_string(CaptureConvention convention) {
-  switch (convention) {
-    case CaptureConvention::captured_as_zero:
-      return "captured_as_zero";
-    case CaptureConvention::captured_left_out:
-      return "captured_left_out";
-    case CaptureConvention::unseen_left_out:
-      return "unseen_left_out";
-  }
-  return "unknown";
-}
-
-std::string words_of(CaptureConvention convention) {
-  switch (convention) {
-    case CaptureConvention::captured_as_zero:
-      return "captured spheres count as e = 0";
-    case CaptureConvention::captured_left_out:
-      return "captured spheres left out";
-    case CaptureConvention::unseen_left_out:
-      return "spheres left out also when too slow to be seen";
-  }
-  return "";
-}
-
-PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t dataset,
-                                       const BootstrapResult& bootstrap, const MeasuredSizes& sizes,
+PolydispersePrediction predict_mixture(const FitResult& fitted, const Observations& data,
+                                       std::size_t dataset, const BootstrapResult& bootstrap,
+                                       const MeasuredSizes& sizes,
                                        const PolydisperseOptions& options) {
   PolydispersePrediction out;
   out.dataset = dataset;
@@ -210,9 +187,9 @@ PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t data
   }
   const ImpactModel& model = fitted.model;
   const double d10 = sizes.mean_diameter();
-  out.size_curves = {{"smallest", sizes.smallest, 0.0, {}},
-                     {"d10", d10, 0.0, {}},
-                     {"largest", sizes.largest, 0.0, {}}};
+  out.size_curves = {{NamedSize::smallest, sizes.smallest, 0.0, {}},
+                     {NamedSize::d10, d10, 0.0, {}},
+                     {NamedSize::largest, sizes.largest, 0.0, {}}};
   for (SizeCurve& size : out.size_curves) {
     const CaptureVelocity found = capture_velocity(model, fitted.theta, dataset, size.diameter);
     if (found.found) size.capture_velocity = found.value;

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "core/names.hpp"
+#include "data/dataset.hpp"
+#include "estimate/fit.hpp"
 #include "predict/measured_sizes.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "uncertainty/bootstrap_result.hpp"
 
 namespace recoil {
 
@@ -17,15 +19,13 @@ enum class CaptureConvention {
   captured_left_out,  ///< the mean is that of the spheres that rebound
   unseen_left_out,    ///< and of those only that climb back to the measuring plane
 };
-inline constexpr std::array all_conventions = {CaptureConvention::captured_as_zero,
-                                               CaptureConvention::captured_left_out,
-                                               CaptureConvention::unseen_left_out};
-
-/// "captured_as_zero", ...: the name in CSV and JSON.
-std::string to_string(CaptureConvention convention);
-
-/// "captured spheres count as e = 0", ...: for people.
-std::string words_of(CaptureConvention convention);
+/// Their names in CSV and JSON.
+template <>
+struct NamesOf<CaptureConvention> {
+  static constexpr std::array<std::string_view, 3> names = {"captured_as_zero", "captured_left_out",
+                                                            "unseen_left_out"};
+};
+inline constexpr std::array all_conventions = values_of<CaptureConvention>();
 
 /// A predicted quantity at one velocity, with its pointwise band.
 struct BandedValue {
@@ -34,9 +34,16 @@ struct BandedValue {
                                        ///< ten replicates have a value
 };
 
+/// A size of a mixture that has a curve of its own; d10 is the mean.
+enum class NamedSize { smallest, d10, largest };
+template <>
+struct NamesOf<NamedSize> {
+  static constexpr std::array<std::string_view, 3> names = {"smallest", "d10", "largest"};
+};
+
 /// e(V) of one size, for the paper's Fig. 10.
 struct SizeCurve {
-  std::string name;                 ///< "smallest", "d10", "largest"
+  NamedSize size = NamedSize::d10;
   double diameter = 0.0;            ///< [m]
   double capture_velocity = 0.0;    ///< [m/s]; 0 where none was found
   std::vector<double> restitution;  ///< [1], at the velocities of the prediction

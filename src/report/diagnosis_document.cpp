@@ -11,7 +11,7 @@
 #include "document/terminal.hpp"
 #include "report/fit_document.hpp"
 #include "report/format.hpp"
-#include "uncertainty/identifiability.hpp"
+#include "report/words_diagnosis.hpp"
 
 namespace recoil {
 namespace {
@@ -60,7 +60,7 @@ Paragraph gain_summary(const Diagnosis& d) {
 
 List warnings_of(const Diagnosis& d) {
   List list;
-  for (const std::string& warning : d.warnings) {
+  for (const std::string& warning : diagnosis_warnings(d)) {
     list.entries.push_back(as_sentence(Sentence(warning)));
   }
   return list;
@@ -76,8 +76,8 @@ Table structure_table(const Diagnosis& d) {
           d.structure.simulated);
   table.columns = {{"question"}, {say("{p}")}, {"id", "", true}};
   for (const StructureTest& test : d.structure.tests) {
-    table.rows.push_back(
-        {Sentence(test.title), Number{test.p_value, probability()}, Sentence(test.id)});
+    table.rows.push_back({Sentence(words_of(test.question)), Number{test.p_value, probability()},
+                          Sentence(to_string(test.question))});
   }
   table.rows.push_back({"all of them together", Number{d.structure.p_value, probability()}, {}});
   return table;
@@ -133,7 +133,7 @@ Table found_parameters_table(const std::vector<CandidateResult>& candidates, std
       values.push_back(say("{} = {:.3g}", symbol(p.label), p.value) + unit_after_number(p.unit));
     }
     table.rows.push_back({Sentence(c.candidate.name()), join(values, ", "),
-                          Sentence(c.explains() ? "explains it" : c.aside)});
+                          Sentence(c.explains() ? "explains it" : set_aside_words(c))});
   }
   return table;
 }
@@ -150,12 +150,12 @@ Table held_out_table(const Diagnosis& d) {
                    {"ln likelihood"},
                    {"remark", "", true}};
   for (const HeldOutGain::PerFold& fold : d.gain->folds) {
-    table.rows.push_back({say("{} {}", fold.fold.kind, fold.fold.name),
-                          Number{static_cast<double>(fold.fold.points.size()), fixed(0)},
-                          Number{fold.rmse_base, significant(3)},
-                          Number{fold.rmse_extended, significant(3)},
-                          Number{fold.log_score, signed_fixed(1)},
-                          Sentence(fold.counted ? "" : "shown, not counted")});
+    table.rows.push_back(
+        {say("{} {}", to_string(fold.fold.kind), fold_words(fold.fold, d.datasets)),
+         Number{static_cast<double>(fold.fold.points.size()), fixed(0)},
+         Number{fold.rmse_base, significant(3)}, Number{fold.rmse_extended, significant(3)},
+         Number{fold.log_score, signed_fixed(1)},
+         Sentence(fold.counted ? "" : "shown, not counted")});
   }
   return table;
 }
@@ -211,14 +211,15 @@ Table next_measurement_table(const Diagnosis& d) {
 }
 
 std::vector<Block> diagnosis_answer(const Diagnosis& d) {
-  std::vector<Block> blocks = {Paragraph{strong(headline(d) + ".")}, Paragraph{d.text, true}};
+  std::vector<Block> blocks = {Paragraph{strong(headline(d) + ".")},
+                               Paragraph{answer_words(d), true}};
   for (const std::string& remark : d.remarks) blocks.emplace_back(Paragraph{remark});
   return blocks;
 }
 
 std::vector<Section> diagnosis_sections(const Diagnosis& d) {
   Section answer{"verdict", "Verdict"};
-  answer.blocks = {Paragraph{to_string(d.verdict)}, Paragraph{d.text}};
+  answer.blocks = {Paragraph{to_string(d.verdict)}, Paragraph{answer_words(d)}};
   append(answer.blocks, provenance_banners(d.datasets));
   for (const std::string& remark : d.remarks) answer.blocks.emplace_back(Paragraph{remark});
   return {std::move(answer),

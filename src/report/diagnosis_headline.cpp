@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "diagnosis/verdict_words.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/format.hpp"
 

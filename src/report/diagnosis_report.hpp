@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/diagnosis_result.hpp"
 #include "report/figures.hpp"
 
 namespace recoil {

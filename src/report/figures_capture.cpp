@@ -7,6 +7,8 @@
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/prediction.hpp"
+#include "report/svg_plot.hpp"
+#include "report/words_predict.hpp"
 
 namespace recoil {
 namespace {
@@ -82,7 +84,8 @@ Figure comparison_figure(const Analysis& analysis, const CaptureComparison& comp
     line.name = curve.label;
     shown.layers.push_back(std::move(line));
     const auto falls = slope(comparison.diameter, curve);
-    words.push_back(fmt::format("{}: {}{}", curve.label, curve.rests_on,
+    words.push_back(fmt::format("{}: {}{}", words_of(curve.model),
+                                rests_on_words(comparison, curve.model),
                                 falls ? fmt::format(", V* ~ d^{:.2f}", *falls) : std::string()));
   }
   for (const PublishedCapture& one : comparison.published) {

@@ -182,7 +182,7 @@ std::vector<Figure> corner_figures(const Analysis& analysis) {
       "The {} usable replicates of the {} bootstrap. On the diagonal their histogram and the "
       "profile likelihood, both relative to their peaks: where the two differ, so do the intervals "
       "that rest on them. The dashed line is the height at which the profile interval ends.",
-      replicates, analysis.uncertainty.bootstrap.scheme);
+      replicates, to_string(analysis.uncertainty.bootstrap.scheme));
   if (panels > 0) {
     caption +=
         " Below it each pair of parameters, with the lines within which half and 95 % of the "

@@ -10,6 +10,8 @@
 #include "estimate/residual.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/format.hpp"
+#include "report/svg_plot.hpp"
+#include "report/words_diagnosis.hpp"
 
 namespace recoil {
 namespace {
@@ -144,12 +146,7 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
 
 /// Is it the extended model, or one that cannot be told from it?
 bool is_answer(const Diagnosis& d, const CandidateResult& c) {
-  return d.extended && c.explains() && c.delta_aicc <= d.extended->delta_aicc + d.options.apart;
-}
-
-std::string short_aside(const CandidateResult& c) {
-  if (c.explains()) return "";
-  return c.aside.substr(0, c.aside.find(':'));
+  return d.extended && c.explains() && c.delta_aicc <= d.extended->delta_aicc + d.options.margin;
 }
 
 /// The base curve and the extended one of one diameter.

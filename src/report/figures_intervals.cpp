@@ -6,17 +6,13 @@
 #include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/parameter_axis.hpp"
+#include "report/svg_plot.hpp"
+#include "report/words_intervals.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr std::size_t most_figures = 16;
-
-struct Kind {
-  const char* id;
-  const char* name;
-  const Interval* interval;
-};
 
 /// A bound inside the picture: a thick line, and the forbidden side shaded.
 void add_bound(double bound, bool lower, plot::Range range, plot::Plot& shown) {

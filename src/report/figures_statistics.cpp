@@ -10,6 +10,8 @@
 #include "report/format.hpp"
 #include "report/panels.hpp"
 #include "report/parameter_axis.hpp"
+#include "report/svg_plot.hpp"
+#include "report/words_intervals.hpp"
 
 namespace recoil {
 namespace {

@@ -16,6 +16,8 @@
 #include "report/pair_words.hpp"
 #include "report/prediction.hpp"
 #include "report/words_dataset.hpp"
+#include "report/words_identifiability.hpp"
+#include "report/words_intervals.hpp"
 #include "report/words_two_point.hpp"
 
 namespace recoil {
@@ -168,7 +170,7 @@ Section two_point_section(const Analysis& a, bool with_pairs) {
           Paragraph{"For the diameters not seen, all points of the calibration diameter alone were "
                     "fitted."});
     }
-    add_paragraphs(section.blocks, {comparison.held_out_why});
+    add_paragraphs(section.blocks, {held_out_words(comparison)});
     for (const PairStudy& study : a.uncertainty.pairs) {
       if (!with_pairs || study.dataset != comparison.dataset) continue;
       for (const std::string& words : pair_words(a, study)) {
@@ -187,17 +189,18 @@ Section bootstrap_section(const Analysis& a) {
     return section;
   }
   section.blocks = {bootstrap_table(a)};
-  add_paragraphs(section.blocks,
-                 {bootstrap.scheme_why, chance_text(bootstrap), bootstrap.failures.text});
+  add_paragraphs(section.blocks, {scheme_words(bootstrap), chance_words(bootstrap),
+                                  failures_words(bootstrap, a.fitted.data)});
   return section;
 }
 
 Section identifiability_section(const Analysis& a) {
   const Identifiability& found = a.uncertainty.identifiability;
   Section section{"identifiability", "Identifiability"};
-  if (!found.verdict.empty()) {
-    section.blocks = {Paragraph{strong(plain_text(as_sentence(words_of(found.verdict)))) + " " +
-                                as_sentence(Sentence(found.text))}};
+  if (found.assessed()) {
+    section.blocks = {
+        Paragraph{strong(plain_text(as_sentence(words_of(to_string(found.verdict))))) + " " +
+                  as_sentence(Sentence(identifiability_words(a.fitted, a.uncertainty)))}};
   }
   return section;
 }

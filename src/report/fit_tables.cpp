@@ -7,6 +7,7 @@
 
 #include "core/units.hpp"
 #include "report/format.hpp"
+#include "report/words_intervals.hpp"
 #include "report/words_noise.hpp"
 
 namespace recoil {
@@ -104,7 +105,8 @@ Table parameters_table(const Analysis& a) {
         {symbol(slot.label()), Number{f.theta[s], significant(4), error},
          relative ? Cell(Number{100.0 * error / std::abs(f.theta[s]), significant(3)}) : Cell(),
          unit(slot.parameter->unit), interval_cell(interval),
-         interval.available() ? Cell(Sentence(set.recommended)) : Cell(), Number{slot.initial}});
+         interval.available() ? Cell(Sentence(words_of(set.recommended))) : Cell(),
+         Number{slot.initial}});
   }
   return table;
 }
@@ -126,39 +128,31 @@ List parameter_remarks(const Analysis& a) {
     }
     if (!interval.available()) {
       remarks.entries.push_back(
-          as_sentence(say("{} has no interval: {}", name, reason_without(set))));
+          as_sentence(say("{} has no interval: {}", name, missing_words(interval))));
     }
-    if (!interval.note.empty()) {
-      remarks.entries.push_back(as_sentence(say("{}: {}", name, interval.note)));
+    if (interval.note) {
+      remarks.entries.push_back(
+          as_sentence(say("{}: {}", name, note_words(interval, slot.label()))));
     }
   }
   return remarks;
 }
 
-namespace {
-
-/// The kinds of intervals in the order in which they are shown.
-std::vector<std::pair<const char*, const Interval*>> kinds_of(const IntervalSet& set) {
-  return {{"Wald", &set.wald},
-          {"profile", &set.profile},
-          {"percentile", &set.percentile},
-          {"BCa", &set.bca},
-          {"studentized", &set.studentized}};
-}
-
-}  // namespace
-
 Table intervals_table(const Analysis& a) {
   Table table;
   table.caption = say("Every {} interval; a dash where there is none", level_of(a));
   table.columns = {{"parameter"}};
-  for (const auto& kind : kinds_of({})) table.columns.push_back({kind.first});
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    table.columns.push_back({words_of(kind)});
+  }
   for (std::size_t s = 0; s < a.fitted.model.slots.size(); ++s) {
     const ParameterSlot& slot = a.fitted.model.slots[s];
     if (!slot.free) continue;
     std::vector<Cell> row = {labelled(slot)};
     const IntervalSet set = intervals_of(a, s);
-    for (const auto& kind : kinds_of(set)) row.push_back(interval_cell(*kind.second));
+    for (const IntervalKind kind : values_of<IntervalKind>()) {
+      row.push_back(interval_cell(set[kind]));
+    }
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -170,9 +164,10 @@ List missing_intervals(const Analysis& a) {
     const ParameterSlot& slot = a.fitted.model.slots[s];
     if (!slot.free) continue;
     const IntervalSet set = intervals_of(a, s);
-    for (const auto& [kind, interval] : kinds_of(set)) {
-      if (interval->available()) continue;
-      reasons.entries.push_back(say("{}, {}: {}", symbol(slot.label()), kind, interval->why));
+    for (const IntervalKind kind : values_of<IntervalKind>()) {
+      if (set[kind].available()) continue;
+      reasons.entries.push_back(
+          say("{}, {}: {}", symbol(slot.label()), words_of(kind), missing_words(set[kind])));
     }
   }
   return reasons;
@@ -221,9 +216,8 @@ Table capture_table(const Analysis& a) {
     table.rows.push_back(
         {id, diameter, capture.found ? Cell(Number{capture.value, padded(4)}) : Cell("none found"),
          interval_cell(capture.interval),
-         capture.interval.available() || capture.interval.why.empty()
-             ? Cell()
-             : Cell("no interval: " + capture.interval.why)});
+         capture.interval.available() ? Cell()
+                                      : Cell("no interval: " + missing_words(capture.interval))});
   }
   return table;
 }
@@ -266,7 +260,7 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
 Table bootstrap_table(const Analysis& a) {
   const BootstrapResult& bootstrap = a.uncertainty.bootstrap;
   if (bootstrap.replicates == 0) return {};
-  return items({{"scheme", Sentence(bootstrap.scheme)},
+  return items({{"scheme", Sentence(to_string(bootstrap.scheme))},
                 {"replicates", say("{}", bootstrap.replicates)},
                 {"failed refits", say("{}", bootstrap.failed)},
                 {"seed", Sentence(fmt::format("{}", bootstrap.seed))}});

@@ -8,6 +8,8 @@
 #include "core/units.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_fit.hpp"
+#include "report/words_identifiability.hpp"
+#include "report/words_intervals.hpp"
 #include "report/words_two_point.hpp"
 
 namespace recoil {
@@ -17,12 +19,6 @@ void add_new(std::vector<std::string>& list, const std::vector<std::string>& mor
   for (const std::string& item : more) {
     if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
   }
-}
-
-Interval no_interval(const std::string& why) {
-  Interval interval;
-  interval.why = why;
-  return interval;
 }
 
 }  // namespace
@@ -52,52 +48,34 @@ std::string as_sentence(std::string words) {
 
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot) {
   const auto& all = analysis.uncertainty.intervals;
-  IntervalSet set;
-  if (slot < all.size()) set = all[slot];
   const bool fixed = !analysis.fitted.model.slots[slot].free;
-  const std::string why = fixed               ? "the parameter is fixed"
-                          : slot < all.size() ? "not computed"
-                                              : "no uncertainty was assessed";
-  for (Interval* interval :
-       {&set.wald, &set.profile, &set.percentile, &set.bca, &set.studentized}) {
-    if (fixed || slot >= all.size()) *interval = no_interval(why);
-    if (!interval->available() && interval->why.empty()) interval->why = why;
+  if (!fixed && slot < all.size()) return all[slot];
+  IntervalSet set;
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    set[kind] = no_interval(fixed ? NoInterval::fixed : NoInterval::not_assessed);
   }
-  if (fixed) set.recommended.clear();
-  if (set.recommended.empty() && set.recommended_why.empty()) set.recommended_why = why;
   return set;
-}
-
-std::string reason_without(const IntervalSet& set) {
-  const std::string& why = recommended_interval(set).why;
-  return why.empty() ? set.recommended_why : why;
 }
 
 std::vector<std::string> recommendations(const Analysis& analysis) {
   std::vector<std::string> sentences;
   for (std::size_t slot = 0; slot < analysis.fitted.model.slots.size(); ++slot) {
     const IntervalSet set = intervals_of(analysis, slot);
-    if (set.recommended.empty() || !recommended_interval(set).available()) continue;
-    add_new(sentences, {fmt::format("The {} interval is recommended: {}.", set.recommended,
-                                    set.recommended_why)});
+    if (!recommended_interval(set).available()) continue;
+    add_new(sentences, {fmt::format("The {} interval is recommended: {}.",
+                                    words_of(set.recommended), recommended_words(set))});
   }
   return sentences;
 }
 
 std::vector<std::string> disagreements(const Analysis& analysis) {
   std::vector<std::string> sentences;
-  for (const IntervalSet& set : analysis.uncertainty.intervals) {
-    if (!set.disagreement.empty()) add_new(sentences, {as_sentence(set.disagreement)});
+  for (std::size_t slot = 0; slot < analysis.uncertainty.intervals.size(); ++slot) {
+    const IntervalSet& set = analysis.uncertainty.intervals[slot];
+    if (!set.disagreement) continue;
+    add_new(sentences, {as_sentence(disagreement_words(analysis.fitted, slot, set))});
   }
   return sentences;
-}
-
-std::string chance_text(const BootstrapResult& bootstrap) {
-  if (!bootstrap.relative_error) return "";
-  return fmt::format(
-      "with other random numbers an interval's end would move by at most {:.1f} % of its width "
-      "(one standard deviation)",
-      100.0 * *bootstrap.relative_error);
 }
 
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b) {
@@ -139,7 +117,8 @@ std::vector<std::string> all_warnings(const Analysis& analysis) {
             {fmt::format("two-point iteration on {}: {}", analysis.datasets[comparison.dataset].id,
                          two_point_words(analysis.fitted, comparison.dataset, comparison.result))});
   }
-  add_new(warnings, analysis.uncertainty.warnings);
+  add_new(warnings, uncertainty_warnings(analysis.uncertainty, analysis.fitted.data,
+                                         analysis.datasets));
   return warnings;
 }
 

@@ -8,7 +8,6 @@
 #include "document/number.hpp"
 #include "document/terminal.hpp"
 #include "report/report.hpp"
-#include "uncertainty/identifiability.hpp"  // recommended_interval
 
 /// What the text, JSON and HTML writers say in common: numbers, names, and lookups in an Analysis
 /// that never run out of range when a stage was skipped.
@@ -23,20 +22,14 @@ std::string diameter_text(double diameter);
 /// `words` with a capital at the start and a full stop at the end; empty stays empty.
 std::string as_sentence(std::string words);
 
-/// Every interval of one slot; with `why` filled in when the assessment has none for it.
+/// Every interval of one slot; with the reason filled in when the assessment has none for it.
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot);
-
-/// Why `set` has no recommended interval.
-std::string reason_without(const IntervalSet& set);
 
 /// Which interval is recommended and why, one sentence per kind.
 std::vector<std::string> recommendations(const Analysis& analysis);
 
 /// Why the intervals of a parameter differ, one sentence per parameter of which they do.
 std::vector<std::string> disagreements(const Analysis& analysis);
-
-/// How far chance alone moves the ends of the intervals; empty without any.
-std::string chance_text(const BootstrapResult& bootstrap);
 
 /// Correlation of two slots from the covariance; 0 when either has no variance.
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b);

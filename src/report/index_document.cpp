@@ -83,14 +83,6 @@ Json parsed(const std::string& page, const std::string& content, const std::stri
   return json;
 }
 
-std::optional<Verdict> verdict_named(const std::string& name) {
-  for (const Verdict verdict :
-       {Verdict::adequate, Verdict::cause_named, Verdict::not_separable, Verdict::unexplained}) {
-    if (to_string(verdict) == name) return verdict;
-  }
-  return std::nullopt;
-}
-
 /// A sign that says a verdict to those who cannot see its colour.
 const char* sign_of(Verdict verdict) {
   switch (verdict) {
@@ -236,7 +228,7 @@ FitSummary read_summary(const std::string& page, const std::string& fit_json,
   if (std::isfinite(p)) summary.p_value = p;
   if (diagnosis_json.empty()) return summary;
   const Json diagnosis = parsed(page, diagnosis_json, "diagnosis.json");
-  summary.verdict = verdict_named(text_at(diagnosis, "/verdict"));
+  summary.verdict = value_named<Verdict>(text_at(diagnosis, "/verdict"));
   summary.headline = text_at(diagnosis, "/headline");
   return summary;
 }

@@ -1,10 +1,9 @@
 #include <algorithm>
 
 #include "core/units.hpp"
-#include "diagnosis/verdict_words.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/json_values.hpp"
-#include "uncertainty/identifiability.hpp"
+#include "report/words_diagnosis.hpp"
 
 namespace recoil {
 namespace {
@@ -16,8 +15,8 @@ Json optional_number(const std::optional<double>& value) {
 Json structure_json(const Structure& structure) {
   Json tests = Json::array();
   for (const StructureTest& test : structure.tests) {
-    tests.push_back({{"id", test.id},
-                     {"asks", test.title},
+    tests.push_back({{"id", to_string(test.question)},
+                     {"asks", words_of(test.question)},
                      {"statistic", number_or_null(test.statistic)},
                      {"p_value", test.p_value}});
   }
@@ -44,7 +43,7 @@ Json parameters_json(const CandidateResult& candidate) {
     parameters[p.label] = {{"value", number_or_null(p.value)},
                            {"unit", p.unit},
                            {"null_value", p.null_value},
-                           {"plausible", p.plausible}};
+                           {"plausible", p.plausible()}};
   }
   return parameters;
 }
@@ -60,7 +59,7 @@ Json candidate_json(const CandidateResult& c) {
               {"held_out_gain", c.gain ? number_or_null(c.gain->relative) : Json(nullptr)},
               {"held_out_log_score", c.gain ? number_or_null(c.gain->log_score) : Json(nullptr)},
               {"plausible", c.plausible}};
-  out["aside"] = c.aside.empty() ? Json(nullptr) : Json(c.aside);
+  out["aside"] = c.explains() ? Json(nullptr) : Json(set_aside_words(c));
   return out;
 }
 
@@ -76,8 +75,8 @@ Json gain_json(const Diagnosis& d) {
   if (!d.gain) return nullptr;
   Json folds = Json::array();
   for (const HeldOutGain::PerFold& fold : d.gain->folds) {
-    folds.push_back({{"kind", fold.fold.kind},
-                     {"name", fold.fold.name},
+    folds.push_back({{"kind", to_string(fold.fold.kind)},
+                     {"name", fold_words(fold.fold, d.datasets)},
                      {"points", fold.fold.points.size()},
                      {"rmse_base", number_or_null(fold.rmse_base)},
                      {"rmse_extended", number_or_null(fold.rmse_extended)},
@@ -126,6 +125,24 @@ Json next_json(const Diagnosis& d) {
   return out;
 }
 
+/// Each with whether it would do in place of the answer, or beside it.
+Json unstated_json(const Diagnosis& d) {
+  const std::vector<UnstatedErrors> rivals = rival_errors(d);
+  Json out = Json::array();
+  for (const UnstatedErrors& errors : d.unstated) {
+    const bool rival = std::any_of(rivals.begin(), rivals.end(), [&](const UnstatedErrors& other) {
+      return other.source == errors.source;
+    });
+    out.push_back({{"id", to_string(errors.source)},
+                   {"value", errors.value},
+                   {"delta_aicc", errors.delta_aicc},
+                   {"remaining_p", errors.remaining_p},
+                   {"leave_nothing", errors.leave_nothing()},
+                   {"rival", rival}});
+  }
+  return out;
+}
+
 Json capture_json(const Diagnosis& d) {
   Json out = Json::array();
   for (const CaptureChange& change : d.capture) {
@@ -152,7 +169,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   out["datasets"] = datasets;
   out["verdict"] = to_string(d.verdict);
   out["headline"] = headline(d);
-  out["text"] = d.text;
+  out["text"] = answer_words(d);
   out["misfit"] = structure_json(d.structure);
   out["misfit"]["where"] = Json::array();
   for (const MisfitCell& cell : d.where) out["misfit"]["where"].push_back(cell_json(d, cell));
@@ -170,23 +187,12 @@ std::string diagnosis_json(const Diagnosis& d) {
       d.extended_fit ? fit_json(*d.extended_fit, d.extended_intervals) : Json(nullptr);
   out["capture_velocity"] = capture_json(d);
   out["next_measurement"] = next_json(d);
-  out["unstated_errors"] = Json::array();
-  const std::vector<UnstatedErrors> rivals = rival_errors(d);
-  for (const UnstatedErrors& errors : d.unstated) {
-    const bool rival = std::any_of(rivals.begin(), rivals.end(), [&](const UnstatedErrors& other) {
-      return other.id == errors.id;
-    });
-    out["unstated_errors"].push_back({{"id", errors.id},
-                                      {"value", errors.value},
-                                      {"delta_aicc", errors.delta_aicc},
-                                      {"remaining_p", errors.remaining_p},
-                                      {"leave_nothing", errors.leave_nothing()},
-                                      {"rival", rival}});
-  }
-  out["settings"] = {{"level", d.options.level},       {"chance", d.options.chance},
-                     {"apart", d.options.apart},       {"apart_in_pairs", d.options.apart_in_pairs},
-                     {"compared", d.options.compared}, {"seed", d.options.seed}};
-  out["warnings"] = d.warnings;
+  out["unstated_errors"] = unstated_json(d);
+  out["settings"] = {
+      {"level", d.options.level},       {"chance", d.options.chance},
+      {"apart", d.options.margin},      {"apart_in_pairs", d.options.margin_in_pairs},
+      {"compared", d.options.compared}, {"seed", d.options.seed}};
+  out["warnings"] = diagnosis_warnings(d);
   out["remarks"] = d.remarks;
   return out.dump(2) + "\n";
 }

@@ -7,6 +7,8 @@
 #include "report/format.hpp"
 #include "report/json_values.hpp"
 #include "report/words_dataset.hpp"
+#include "report/words_identifiability.hpp"
+#include "report/words_intervals.hpp"
 #include "report/words_noise.hpp"
 
 namespace recoil {
@@ -91,25 +93,22 @@ Json parameter_json(const Analysis& a, std::size_t s) {
   const IntervalSet set = intervals_of(a, s);
   Json intervals;
   Json reasons = Json::object();
-  const std::pair<const char*, const Interval*> kinds[] = {{"wald", &set.wald},
-                                                           {"profile", &set.profile},
-                                                           {"percentile", &set.percentile},
-                                                           {"bca", &set.bca},
-                                                           {"studentized", &set.studentized}};
-  for (const auto& [kind, interval] : kinds) {
-    intervals[kind] = interval_json(*interval);
-    if (intervals[kind].is_null()) reasons[kind] = why_none(*interval);
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    Json& interval = intervals[to_string(kind)];
+    interval = interval_json(set[kind]);
+    if (interval.is_null()) reasons[to_string(kind)] = why_none(set[kind]);
   }
   intervals["why"] = reasons;
   Json recommended;
-  const bool none = set.recommended.empty() || !recommended_interval(set).available();
-  recommended["interval"] = none ? Json(nullptr) : Json(set.recommended);
-  recommended["why"] = none ? Json(why_none(recommended_interval(set))) : Json(set.recommended_why);
+  const Interval& quoted = recommended_interval(set);
+  recommended["interval"] = quoted.available() ? Json(to_string(set.recommended)) : Json(nullptr);
+  recommended["why"] = quoted.available() ? recommended_words(set) : why_none(quoted);
   intervals["recommended"] = recommended;
   out["intervals"] = intervals;
   out["recommended"] = recommended;
-  out["profile_shape"] = set.profile.shape.empty() ? Json(nullptr) : Json(set.profile.shape);
-  put_resampling(out, set);
+  const std::optional<ProfileShape> shape = set[IntervalKind::profile].shape;
+  out["profile_shape"] = shape ? Json(to_string(*shape)) : Json(nullptr);
+  put_resampling(out, a, s);
   return out;
 }
 
@@ -187,10 +186,12 @@ Json capture_json(const Analysis& a) {
         "no velocity at which capture turns into rebound was found");
     entry["interval"] = interval_json(capture.interval);
     entry["interval_mc_error"] = mc_error_json(capture.interval);
-    entry["intervals"] = {{"delta", interval_json(capture.delta)},
-                          {"percentile", interval_json(capture.percentile)},
-                          {"studentized", interval_json(capture.studentized)}};
-    entry["recommended"] = {{"interval", capture.recommended}, {"why", capture.recommended_why}};
+    for (const CaptureIntervalKind kind : values_of<CaptureIntervalKind>()) {
+      entry["intervals"][to_string(kind)] = interval_json(capture[kind]);
+    }
+    entry["recommended"] = {
+        {"interval", capture.because ? Json(to_string(capture.recommended)) : Json(nullptr)},
+        {"why", recommended_words(capture)}};
     if (entry["interval"].is_null()) entry["why"] = why_none(capture.interval);
     list.push_back(entry);
   }
@@ -203,11 +204,11 @@ Json bootstrap_json(const Analysis& a) {
   for (std::size_t k = 0; k < a.datasets.size() && k < bootstrap.two_point_failed.size(); ++k) {
     two_point_failed[a.datasets[k].id] = bootstrap.two_point_failed[k];
   }
-  return {{"scheme", bootstrap.scheme},
-          {"scheme_why", bootstrap.scheme_why},
+  return {{"scheme", to_string(bootstrap.scheme)},
+          {"scheme_why", scheme_words(bootstrap)},
           {"replicates", bootstrap.replicates},
           {"failed", bootstrap.failed},
-          {"failures", failures_json(bootstrap.failures, a.fitted.data)},
+          {"failures", failures_json(bootstrap, a.fitted.data)},
           {"mc_error_of_width",
            bootstrap.relative_error ? number_or_null(*bootstrap.relative_error) : Json(nullptr)},
           {"seed", bootstrap.seed},
@@ -231,7 +232,7 @@ Json information_json(const Analysis& a) {
   for (const InformationDirection& direction : information.directions) {
     directions.push_back({{"exponents", by_parameter(direction.exponents)},
                           {"relative_sd", number_or_null(direction.relative_sd)},
-                          {"words", direction.words}});
+                          {"words", direction_words(a.fitted, direction)}});
   }
   Json plans = Json::array();
   constexpr std::size_t most_plans = 3;
@@ -254,10 +255,10 @@ Json identifiability_json(const Analysis& a) {
   Json parameters = Json::object();
   for (std::size_t s = 0; s < found.parameter.size() && s < a.fitted.model.slots.size(); ++s) {
     if (!a.fitted.model.slots[s].free) continue;
-    parameters[a.fitted.model.slots[s].label()] = static_cast<bool>(found.parameter[s]);
+    parameters[a.fitted.model.slots[s].label()] = found.parameter[s].identifiable;
   }
-  return {{"verdict", found.verdict},
-          {"text", found.text},
+  return {{"verdict", found.assessed() ? Json(to_string(found.verdict)) : Json(nullptr)},
+          {"text", identifiability_words(a.fitted, a.uncertainty)},
           {"parameters", parameters},
           {"information", information_json(a)}};
 }

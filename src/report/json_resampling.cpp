@@ -1,8 +1,8 @@
 // What the resampling says about itself in fit.json: chance, bounds, failures.
-#include <array>
-
 #include "core/units.hpp"
+#include "report/format.hpp"
 #include "report/json_values.hpp"
+#include "report/words_intervals.hpp"
 
 namespace recoil {
 namespace {
@@ -17,22 +17,19 @@ Json mc_error_json(const Interval& interval) {
       {number_or_null(*interval.lower_error), number_or_null(*interval.upper_error)});
 }
 
-void put_resampling(Json& parameter, const IntervalSet& set) {
-  const std::array<std::pair<const char*, const Interval*>, 5> kinds = {
-      {{"wald", &set.wald},
-       {"profile", &set.profile},
-       {"percentile", &set.percentile},
-       {"bca", &set.bca},
-       {"studentized", &set.studentized}}};
+void put_resampling(Json& parameter, const Analysis& analysis, std::size_t slot) {
+  const IntervalSet set = intervals_of(analysis, slot);
+  const std::string label = analysis.fitted.model.slots[slot].label();
   Json errors = Json::object();
   Json notes = Json::object();
-  for (const auto& [name, interval] : kinds) {
-    errors[name] = mc_error_json(*interval);
-    if (!interval->note.empty()) notes[name] = interval->note;
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    errors[to_string(kind)] = mc_error_json(set[kind]);
+    if (set[kind].note) notes[to_string(kind)] = note_words(set[kind], label);
   }
   parameter["intervals_mc_error"] = errors;
   parameter["intervals_note"] = notes;
-  parameter["intervals_differ"] = set.disagreement.empty() ? Json(nullptr) : Json(set.disagreement);
+  parameter["intervals_differ"] =
+      set.disagreement ? Json(disagreement_words(analysis.fitted, slot, set)) : Json(nullptr);
   parameter["bca_constants"] = nullptr;
   if (set.bca_constants) {
     parameter["bca_constants"] = {
@@ -42,7 +39,8 @@ void put_resampling(Json& parameter, const IntervalSet& set) {
   parameter["bound_share"] = set.bound_share ? number_or_null(*set.bound_share) : Json(nullptr);
 }
 
-Json failures_json(const FailedReplicates& failures, const Observations& data) {
+Json failures_json(const BootstrapResult& bootstrap, const Observations& data) {
+  const FailedReplicates& failures = bootstrap.failures;
   if (failures.index.empty()) return nullptr;
   Json index = Json::array();
   for (std::size_t k = 0; k < failures.index.size() && k < most_listed; ++k) {
@@ -57,9 +55,9 @@ Json failures_json(const FailedReplicates& failures, const Observations& data) {
                         {"disturbance_when_failed", number_or_null(suspect.failed)},
                         {"disturbance_otherwise", number_or_null(suspect.usual)}});
   }
-  return {{"text", failures.text},
+  return {{"text", failures_words(bootstrap, data)},
           {"replicates", index},
-          {"message", failures.message},
+          {"message", failure_message(failures)},
           {"suspects", suspects}};
 }
 

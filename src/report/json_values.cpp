@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "report/words_intervals.hpp"
 #include "report/words_two_point.hpp"
 
 namespace recoil {
@@ -28,8 +29,7 @@ Json interval_json(const Interval& interval) {
 }
 
 std::string why_none(const Interval& interval) {
-  if (!interval.why.empty()) return interval.why;
-  return interval.available() ? "a bound is not finite" : "not computed";
+  return interval.available() ? "a bound is not finite" : missing_words(interval);
 }
 
 Json numbers_json(const std::vector<double>& values) {
@@ -50,6 +50,11 @@ Json point_json(const Analysis& a, std::size_t index) {
 
 std::vector<std::size_t> damping_slots(const Analysis& a, std::size_t dataset) {
   return {a.fitted.model.slot_C_H[dataset], a.fitted.model.slot_C_A[dataset]};
+}
+
+std::string held_out_why(const TwoPointComparison& comparison) {
+  return comparison.nothing_held_out ? held_out_words(comparison)
+                                     : "no other diameter was predicted";
 }
 
 Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
@@ -74,9 +79,7 @@ Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
   }
   out["parameters"] = parameters;
   put(out, "rmse", answered ? comparison.rmse : NAN, words);
-  put(out, "held_out_rmse", comparison.held_out_rmse,
-      comparison.held_out_why.empty() ? "no other diameter was predicted"
-                                      : comparison.held_out_why);
+  put(out, "held_out_rmse", comparison.held_out_rmse, held_out_why(comparison));
   out["failed"] = comparison.failed;
   put_pairs(out, a, comparison.dataset);
   return out;
@@ -85,9 +88,7 @@ Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
 Json full_json(const Analysis& a, const TwoPointComparison& comparison) {
   Json out;
   put(out, "rmse", comparison.full_rmse, "no point rebounded");
-  put(out, "held_out_rmse", comparison.full_held_out_rmse,
-      comparison.held_out_why.empty() ? "no other diameter was predicted"
-                                      : comparison.held_out_why);
+  put(out, "held_out_rmse", comparison.full_held_out_rmse, held_out_why(comparison));
   Json spread = Json::object();
   for (const std::size_t s : damping_slots(a, comparison.dataset)) {
     spread[a.fitted.model.slots[s].label()] = s < comparison.full_spread.size()

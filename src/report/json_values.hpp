@@ -29,10 +29,10 @@ std::string why_none(const Interval& interval);
 Json mc_error_json(const Interval& interval);
 
 /// `intervals_mc_error`, `intervals_note`, `intervals_differ` and the numbers behind them.
-void put_resampling(Json& parameter, const IntervalSet& set);
+void put_resampling(Json& parameter, const Analysis& analysis, std::size_t slot);
 
 /// Which replicates failed, with which data, and the minimiser's words; null when none did.
-Json failures_json(const FailedReplicates& failures, const Observations& data);
+Json failures_json(const BootstrapResult& bootstrap, const Observations& data);
 
 Json numbers_json(const std::vector<double>& values);
 

@@ -8,6 +8,7 @@
 #include "report/format.hpp"
 #include "report/prediction.hpp"
 #include "report/words_dataset.hpp"
+#include "report/words_predict.hpp"
 
 namespace recoil {
 namespace {

@@ -7,6 +7,7 @@
 #include "report/json_values.hpp"
 #include "report/prediction.hpp"
 #include "report/words_dataset.hpp"
+#include "report/words_predict.hpp"
 
 namespace recoil {
 namespace {
@@ -91,7 +92,7 @@ std::string json_prediction(const Analysis& analysis, const PolydispersePredicti
   out["d10_alone"] = {{"miss", miss_json(mixture.miss_single)}};
   Json sizes = Json::array();
   for (const SizeCurve& size : mixture.size_curves) {
-    sizes.push_back({{"name", size.name},
+    sizes.push_back({{"name", to_string(size.size)},
                      {"diameter_um", size.diameter / units::um},
                      {"capture_velocity", number_or_null(size.capture_velocity)},
                      {"restitution", numbers_json(size.restitution)}});

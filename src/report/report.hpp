@@ -9,7 +9,7 @@
 #include "experiment/correction_study.hpp"
 #include "predict/capture_comparison.hpp"
 #include "predict/polydisperse.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "uncertainty/uncertainty_result.hpp"
 
 namespace recoil {
 

@@ -56,7 +56,7 @@ void diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.rivals = answer.at("rivals").get<std::vector<std::string>>();
   a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
   if (answer.at("shared_cause").is_string()) a.shared_cause = answer["shared_cause"];
-  for (const Json& errors : answer.at("unstated_errors")) {
+  for (const auto& errors : answer.at("unstated_errors")) {
     a.errors_told = a.errors_told || errors.at("rival").get<bool>();
   }
   a.contenders = contenders_of(answer.at("candidates"));

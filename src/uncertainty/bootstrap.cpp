@@ -15,6 +15,8 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/reweighting.hpp"
+#include "uncertainty/locate_failures.hpp"
+#include "uncertainty/refit.hpp"
 #include "uncertainty/replicate_errors.hpp"
 
 namespace recoil {
@@ -36,15 +38,6 @@ constexpr int most_two_point = 999;
 // A bootstrap quicker than this is not worth a file.
 constexpr auto worth_keeping = std::chrono::seconds(1);
 
-/// Weights of a replicate need no more digits than its own scatter has.
-ReweightingOptions reweighting_options() {
-  ReweightingOptions options;
-  options.minimiser = refit_options();
-  options.parameters = 0.02;
-  options.scale = 0.01;
-  return options;
-}
-
 /// What one thread needs to refit samples one after the other without building anything anew: the
 /// problem refers to the sample beside it, and outlives its data as long as the points stay where
 /// they are and only their restitution changes.
@@ -61,10 +54,10 @@ class Workspace {
   LeastSquaresResult refit(std::uint64_t seed, std::uint64_t index) {
     resample(plan_, seed, index, sample_);
     if (sample_.weights_depend_on_fit()) {
-      ReweightedFit found =
-          reweighted_fit(model_, sample_, plan_.fitted->theta, reweighting_options());
-      weighted_ = std::move(found.data);
-      return std::move(found.run);
+      ReweightedFit settled =
+          reweighted_fit(model_, sample_, plan_.fitted->theta, refit_reweighting_options());
+      weighted_ = std::move(settled.data);
+      return std::move(settled.run);
     }
     const bool same_design = plan_.scheme != Scheme::cases && plan_.scheme != Scheme::cluster;
     if (!problem_ || !same_design) problem_ = impact_problem(model_, sample_);
@@ -83,12 +76,25 @@ class Workspace {
   std::optional<LeastSquaresProblem> problem_;
 };
 
+/// The settings of the noise, which are settled anew in every replicate.
+std::string noise_key(const Observations& data) {
+  const NoiseSpec& spec = data.spec;
+  const NoiseModel& noise = data.noise;
+  return fmt::format("{} {} {} {} {:a} {} {:a} {} {:a} {} {:a} {:a}|", data.sd_stated,
+                     data.weights_depend_on_fit(),
+                     spec.variance ? to_string(*spec.variance) : "auto", spec.student,
+                     spec.student_dof, spec.velocity_errors, spec.velocity_relative_sd,
+                     spec.diameter_errors, spec.diameter_relative_sd, to_string(noise.variance),
+                     noise.scale, noise.event_spread);
+}
+
 /// Everything that decides a replicate's digits, hashed.
 std::string bootstrap_key(const FitResult& fitted, const ResamplingPlan& plan,
                           const UncertaintyOptions& options) {
   std::string text = fmt::format("{}|{}|{}|{}|{}|{:a}|", options.keep_key, options.seed,
                                  to_string(plan.scheme), static_cast<int>(fitted.model.phase),
                                  to_string(fitted.model.solver.kind), fitted.noise_scale);
+  text += noise_key(fitted.data);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     text += fmt::format("{} {:a} {:a} {:a} {} {}|", slot.label(), fitted.theta[j], slot.lower,
@@ -96,35 +102,17 @@ std::string bootstrap_key(const FitResult& fitted, const ResamplingPlan& plan,
   }
   for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
     const Observation& point = fitted.data.points[i];
-    text +=
-        fmt::format("{} {} {:a} {:a} {:a} {:a} {} {:a} {:a} {:a}|", point.dataset, point.series,
-                    point.diameter, point.velocity, point.restitution, point.weights.sd,
-                    point.censored, fitted.prediction[i], fitted.residuals[i], fitted.leverage[i]);
+    text += fmt::format("{} {} {:a} {:a} {:a} {:a} {} {:a} {:a} {:a}|", point.dataset, point.series,
+                        point.diameter, point.velocity, point.restitution, point.weights.sd, point.censored,
+                        fitted.prediction[i], fitted.residuals[i], fitted.leverage[i]);
+    text += fmt::format("{} {} {} {} {:a} {:a} {:a} {:a}|", point.events, point.captured,
+                        point.counted, point.rebound_measured, point.velocity_sd, point.diameter_sd,
+                        point.weights.input_sd, point.weights.scatter);
   }
   return sha256_hex(text);
 }
 
 }  // namespace
-
-LeastSquaresOptions refit_options() {
-  LeastSquaresOptions options;
-  options.function_tolerance = 1e-9;
-  options.gradient_tolerance = 1e-10;
-  options.parameter_tolerance = 1e-8;
-  options.max_iterations = 100;
-  return options;
-}
-
-LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
-                         std::span<const double> start) {
-  if (sample.weights_depend_on_fit())
-    return reweighted_fit(model, sample, start, reweighting_options()).run;
-  return minimise(impact_problem(model, sample), start, refit_options());
-}
-
-bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted) {
-  return refit.converged && (!refit.covariance.empty() || fitted.covariance.empty());
-}
 
 Bootstrap::Bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
                      const UncertaintyOptions& options)
@@ -219,8 +207,9 @@ BootstrapResult Bootstrap::result() const {
   BootstrapResult result;
   result.replicates = static_cast<int>(count_);
   result.seed = options_.seed;
-  result.scheme = to_string(plan_.scheme);
-  result.scheme_why = plan_.why;
+  result.scheme = plan_.scheme;
+  result.because = plan_.because;
+  result.series = plan_.clusters.size();
   result.reference_error = roots_of_diagonal(reference_covariance_, table_.slots);
   for (std::size_t k = 0; k < table_.derived; ++k) {
     const CaptureVelocity v = capture_velocity(fitted_.model, fitted_.theta, capture_[k].dataset,

@@ -1,23 +1,17 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "estimate/fit.hpp"
+#include "estimate/two_point.hpp"
+#include "uncertainty/bootstrap_result.hpp"
+#include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/replicate_table.hpp"
 #include "uncertainty/resample.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
-
-/// How replicates are refitted: they start at the estimate and need no more digits than their own
-/// scatter has.
-LeastSquaresOptions refit_options();
-
-/// The refit of a sample from `start`, together with the weights that depend on it
-/// (`reweighted_fit`).
-LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
-                         std::span<const double> start);
-
-/// Did a refit give an answer? It has to converge, and its data have to determine the parameters
-/// (J'J regular) where those of the fit do: where they do not, it merely stays where it started.
-bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted);
 
 /// One bootstrap of a fit, which can be extended. A replicate is a pure function of (seed, index):
 /// how many batches or threads make it, and whether the run was stopped in between, changes
@@ -70,10 +64,5 @@ BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEsti
 /// is left out [units][slots], for the acceleration of BCa. A set whose refit fails gives an empty
 /// entry.
 std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threads);
-
-/// Finds out which data made the replicates of `index` fail: the points whose mean disturbance in
-/// them is furthest, in its standard errors, from that in the other replicates below `replicates`.
-FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed, int replicates,
-                                 std::vector<std::uint64_t> index);
 
 }  // namespace recoil

@@ -9,19 +9,20 @@
 namespace recoil {
 namespace {
 
-/// The interval of V* by the delta method on its logarithm, averaged over the ways to see the
-/// noise.
+/// The interval of V* by the delta method on its logarithm, averaged over the variance
+/// functions of the noise.
 Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
                         const CaptureVelocity& capture, std::size_t dataset, double diameter,
                         double level) {
   Interval interval;
   const FitResult& fitted = alternatives.front().fitted;
-  interval.note = wide_spread_words("the capture velocity", fitted.data.noise.event_spread);
+  const double spread = fitted.data.noise.event_spread;
+  if (spread > widest_spread) interval.note = {Caution::wide_spread, spread};
   const double error = logarithmic_error(capture, fitted.covariance);
   if (!capture.found || !(capture.value > 0.0) || !(error > 0.0)) {
-    interval.why = !capture.found           ? "spheres of this size never rebound under the fit"
-                   : !(capture.value > 0.0) ? "nothing is captured under the fit"
-                                            : "the fit has no standard errors";
+    interval.missing = !capture.found           ? NoInterval::never_rebounds
+                       : !(capture.value > 0.0) ? NoInterval::never_captured
+                                                : NoInterval::no_covariance;
     return interval;
   }
   std::vector<WaldTerm> terms;
@@ -38,15 +39,13 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
   }
   const Interval logarithm = averaged_wald_interval(terms, level, -INFINITY, INFINITY);
   if (!logarithm.available()) {
-    interval.why = logarithm.why;
+    interval.missing = logarithm.missing;
     return interval;
   }
   interval.lower = capture.value * std::exp(*logarithm.lower);
   interval.upper = capture.value * std::exp(*logarithm.upper);
   const double factor = undecided_factor(terms);
-  if (interval.note.empty() && factor > undecided) {
-    interval.note = undecided_words("the capture velocity", factor);
-  }
+  if (!interval.note && factor > undecided) interval.note = {Caution::undecided_noise, factor};
   return interval;
 }
 
@@ -64,8 +63,8 @@ std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternativ
       estimate.diameter = diameter;
       estimate.value = v.value;
       estimate.found = v.found;
-      estimate.delta = delta_interval(alternatives, v, d, diameter, level);
-      if (!v.found) estimate.interval.why = "spheres of this size never rebound under the fit";
+      estimate[CaptureIntervalKind::delta] = delta_interval(alternatives, v, d, diameter, level);
+      if (!v.found) estimate.interval.missing = NoInterval::never_rebounds;
       estimates.push_back(std::move(estimate));
     }
   }
@@ -76,29 +75,27 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
   const bool at_bound =
       std::find(fitted.at_bound.begin(), fitted.at_bound.end(), true) != fitted.at_bound.end();
   const bool spread = fitted.data.noise.event_spread > 0.0;
-  const bool replicates = (sd_stated && !spread) || at_bound || !capture.delta.available();
-  if (capture.percentile.available() && replicates) {
-    capture.recommended = "percentile";
-    capture.recommended_why =
-        !capture.delta.available() ? capture.delta.why
-        : at_bound ? "a parameter rests on its bound, which the delta method does not know"
-                   : "the noise is stated, and the replicates follow the bend of V* in the "
-                     "parameters, which the delta method takes as straight";
-    capture.interval = capture.percentile;
-    capture.interval.note = capture.delta.note;
+  const Interval& delta = capture[CaptureIntervalKind::delta];
+  const Interval& percentile = capture[CaptureIntervalKind::percentile];
+  const bool replicates = (sd_stated && !spread) || at_bound || !delta.available();
+  const auto quote = [&](const Interval& interval) {
+    capture.interval = interval;
+    capture.interval.note = delta.note;
+  };
+  if (percentile.available() && replicates) {
+    capture.recommended = CaptureIntervalKind::percentile;
+    capture.because = !delta.available() ? CaptureBecause::no_delta
+                      : at_bound         ? CaptureBecause::at_bound
+                                         : CaptureBecause::bend;
+    quote(percentile);
     return;
   }
-  capture.recommended = "delta";
-  capture.recommended_why =
-      replicates ? "there are no percentiles: " + capture.percentile.why
-      : sd_stated
-          ? "its error knows that the spread of the impacts is estimated, too"
-          : "it knows how few points estimate the noise, and is averaged over the ways to see it";
-  capture.interval = capture.delta;
-  if (!capture.delta.available() && !capture.percentile.why.empty()) {
-    capture.interval = capture.percentile;
-    capture.interval.note = capture.delta.note;
-  }
+  capture.recommended = CaptureIntervalKind::delta;
+  capture.because = replicates  ? CaptureBecause::no_percentiles
+                    : sd_stated ? CaptureBecause::spread_estimated
+                                : CaptureBecause::noise_estimated;
+  // Where there is neither, the reason is that of the percentiles.
+  quote(!delta.available() && percentile.missing ? percentile : delta);
 }
 
 }  // namespace recoil

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/noise_alternatives.hpp"
-#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 

@@ -44,14 +44,14 @@ std::vector<double> evaluate(const ImpactModel& model, std::span<const double> t
   return e;
 }
 
-void add_band(const ImpactModel& model, const UncertaintyResult& so_far, RestitutionCurve& curve) {
-  const auto& replicates = so_far.bootstrap.theta;
+void add_band(const ImpactModel& model, const BandSource& band, RestitutionCurve& curve) {
+  const auto& replicates = band.theta;
   const std::size_t count = std::min(replicates.size(), most_band_replicates);
-  if (count < 39) return;
+  if (count < fewest_replicates) return;
   std::vector<std::vector<double>> values(count);
-  parallel_over(count, so_far.options.threads,
+  parallel_over(count, band.threads,
                 [&](std::size_t i) { values[i] = evaluate(model, replicates[i], curve); });
-  const double tail = (1.0 - so_far.options.level) / 2.0;
+  const double tail = (1.0 - band.level) / 2.0;
   for (std::size_t k = 0; k < curve.velocity.size(); ++k) {
     std::vector<double> column;
     for (const std::vector<double>& row : values) {
@@ -83,9 +83,11 @@ void drop_unanswered(RestitutionCurve& curve) {
 
 std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted,
                                                  const std::vector<Dataset>& datasets,
-                                                 const UncertaintyResult& so_far) {
+                                                 const std::vector<CaptureEstimate>& captures,
+                                                 const std::vector<TwoPointComparison>& two_points,
+                                                 const BandSource& band) {
   std::vector<RestitutionCurve> curves;
-  for (const CaptureEstimate& capture : so_far.capture) {
+  for (const CaptureEstimate& capture : captures) {
     RestitutionCurve curve;
     curve.dataset = capture.dataset;
     curve.diameter = capture.diameter;
@@ -103,10 +105,9 @@ std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted,
     curve.velocity = velocity_grid(slowest, fastest, capture.found ? capture.value : 0.0);
     curve.restitution = evaluate(fitted.model, fitted.theta, curve);
     drop_unanswered(curve);
-    add_band(fitted.model, so_far, curve);
-    const bool compared = !so_far.two_point.empty();
+    add_band(fitted.model, band, curve);
     const TwoPointResult two_point =
-        compared ? so_far.two_point[capture.dataset].result : TwoPointResult{};
+        two_points.empty() ? TwoPointResult{} : two_points[capture.dataset].result;
     if (two_point.status == TwoPointStatus::converged) {
       curve.two_point = evaluate(fitted.model, two_point.theta, curve);
       const bool sound = std::all_of(curve.two_point.begin(), curve.two_point.end(),

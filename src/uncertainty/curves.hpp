@@ -1,13 +1,40 @@
 #pragma once
 
-#include "uncertainty/uncertainty.hpp"
+#include <string>
+#include <vector>
+
+#include "estimate/fit.hpp"
+#include "uncertainty/capture_estimate.hpp"
+#include "uncertainty/two_point_comparison.hpp"
 
 namespace recoil {
 
+/// One curve e(V) of a diameter with its pointwise band.
+struct RestitutionCurve {
+  std::size_t dataset = 0;
+  std::string series;
+  double diameter = 0.0;             ///< [m]
+  std::vector<double> velocity;      ///< [m/s]
+  std::vector<double> restitution;   ///< full fit [1]
+  std::vector<double> lower, upper;  ///< band of the full fit [1]; empty without a bootstrap
+  std::vector<double> two_point;     ///< the two-point calibration [1]; empty when it failed
+  std::size_t series_number = PointConditions::no_series;  ///< of `series` in its dataset
+};
+
+/// The replicates that make a band.
+struct BandSource {
+  const std::vector<std::vector<double>>& theta;  ///< [count][slots]
+  double level = 0.95;
+  int threads = 0;  ///< 0: all cores. No digit depends on it.
+};
+
 /// e(V) of every series from below capture (or the slowest point) to above the fastest point, with
 /// the pointwise percentile band of the bootstrap and the two-point curve of its dataset.
+/// @param two_point one per dataset, or none
 std::vector<RestitutionCurve> restitution_curves(const FitResult& fitted,
                                                  const std::vector<Dataset>& datasets,
-                                                 const UncertaintyResult& so_far);
+                                                 const std::vector<CaptureEstimate>& capture,
+                                                 const std::vector<TwoPointComparison>& two_point,
+                                                 const BandSource& band);
 
 }  // namespace recoil

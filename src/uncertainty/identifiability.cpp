@@ -1,7 +1,5 @@
 #include "uncertainty/identifiability.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
@@ -10,7 +8,6 @@
 #include "core/units.hpp"
 #include "estimate/point_conditions.hpp"
 #include "estimate/predictor.hpp"
-
 namespace recoil {
 namespace {
 
@@ -54,57 +51,36 @@ double error_of(const FitResult& fitted, std::size_t j, const Interval& interval
 }
 
 /// @param error of the parameter, @param scale the size against which it counts
-std::string obstacle(const FitResult& fitted, std::size_t j, const Interval& interval, double error,
-                     double scale) {
+std::optional<Hindrance> hindrance_of(const FitResult& fitted, std::size_t j,
+                                      const Interval& interval, double error, double scale) {
   const ParameterSlot& slot = fitted.model.slots[j];
-  if (!interval.available()) return "has no interval: " + interval.why;
+  if (!interval.available()) return Hindrance::no_interval;
   const bool low = *interval.lower <= slot.lower;
-  if (*interval.upper >= slot.upper) return "reaches its upper bound";
-  if (low && slot.lower != 0.0) return "reaches its lower bound";
-  if (!(error > widest * scale)) return "";
-  if (fitted.at_bound[j]) return "rests on its bound";
-  return low ? "is consistent with zero"
-             : fmt::format("is known only to {:.0f} %", 100.0 * error / std::abs(fitted.theta[j]));
+  if (*interval.upper >= slot.upper) return Hindrance::reaches_upper_bound;
+  if (low && slot.lower != 0.0) return Hindrance::reaches_lower_bound;
+  if (!(error > widest * scale)) return std::nullopt;
+  if (fitted.at_bound[j]) return Hindrance::rests_on_bound;
+  return low ? Hindrance::consistent_with_zero : Hindrance::large_error;
 }
 
-/// "2.1 %", or "a factor of 3" where percents no longer make sense.
-std::string known_to(double relative_sd) {
-  constexpr double still_percent = 0.5;
-  if (!std::isfinite(relative_sd)) return "nothing at all";
-  if (relative_sd < still_percent) return fmt::format("{:.2g} %", 100.0 * relative_sd);
-  return fmt::format("a factor of {:.2g}", std::exp(relative_sd));
-}
-
-void describe_correlations(const FitResult& fitted, const Information& information,
-                           std::vector<std::string>& sentences) {
+std::vector<CorrelatedParameters> correlated_parameters(const FitResult& fitted) {
   const std::size_t p = fitted.theta.size();
-  if (fitted.covariance.empty()) return;
-  bool any = false;
+  std::vector<CorrelatedParameters> found;
+  if (fitted.covariance.empty()) return found;
   for (std::size_t a = 0; a < p; ++a) {
     for (std::size_t b = a + 1; b < p; ++b) {
       const double scale = fitted.std_error[a] * fitted.std_error[b];
       if (!(scale > 0.0)) continue;
       const double r = fitted.covariance[a * p + b] / scale;
-      if (std::abs(r) < strong_correlation) continue;
-      any = true;
-      sentences.push_back(
-          fmt::format("{} and {} can hardly be told apart (correlation {:.3f}): quote their "
-                      "intervals together",
-                      fitted.model.slots[a].label(), fitted.model.slots[b].label(), r));
+      if (!(std::abs(r) < strong_correlation)) found.push_back({a, b, r});
     }
   }
-  if (!any || information.directions.size() < 2) return;
-  const InformationDirection& stiff = information.directions.front();
-  const InformationDirection& sloppy = information.directions.back();
-  sentences.push_back(fmt::format(
-      "what the points do know is {}, to {}; what they hardly know is {}, to {}", stiff.words,
-      known_to(stiff.relative_sd), sloppy.words, known_to(sloppy.relative_sd)));
+  return found;
 }
 
-/// How far the points reach down to the capture velocity, and what more of them would do.
-void describe_reach(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
-                    const Information& information, bool wanting,
-                    std::vector<std::string>& sentences) {
+/// The slowest impacts over the capture velocity, where they do not reach down to it.
+std::optional<double> too_far_above_capture(const Observations& data,
+                                            const std::vector<CaptureEstimate>& capture) {
   double nearest = INFINITY;
   for (const CaptureEstimate& at : capture) {
     if (!at.found || !(at.value > 0.0)) continue;
@@ -115,31 +91,8 @@ void describe_reach(const FitResult& fitted, const std::vector<CaptureEstimate>&
     }
   }
   constexpr double close_enough = 1.5;  // inside it the rise of e separates adhesion from plateau
-  const bool far = std::isfinite(nearest) && nearest > close_enough;
-  if (far) {
-    sentences.push_back(fmt::format(
-        "the slowest impacts are at {:.2g} times the fitted capture velocity", nearest));
-  }
-  if (!(far || wanting) || information.plans.empty()) return;
-  const PlannedPoints& plan = information.plans.front();
-  std::vector<std::string> gains;
-  constexpr double worth_a_word = 0.8;  // of the present error
-  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
-    const double now = information.relative_sd[j];
-    const double then = plan.relative_sd[j];
-    if (!(now > 0.0) || !(then < worth_a_word * now)) continue;
-    gains.push_back(fmt::format("of {} from {} to {}", fitted.model.slots[j].label(), known_to(now),
-                                known_to(then)));
-  }
-  if (gains.empty()) return;
-  const auto at = std::find_if(capture.begin(), capture.end(), [&](const CaptureEstimate& c) {
-    return c.dataset == plan.dataset && c.diameter == plan.diameter;
-  });
-  sentences.push_back(fmt::format(
-      "{} more points at d = {:.3g} um, V = {:.3g} m/s ({:.3g} times the capture velocity) would "
-      "tell {}",
-      plan.points, plan.diameter / units::um, plan.velocity, plan.velocity / at->value,
-      fmt::join(gains, ", ")));
+  if (!std::isfinite(nearest) || nearest <= close_enough) return std::nullopt;
+  return nearest;
 }
 
 std::vector<CapturePlace> places_of(const std::vector<CaptureEstimate>& capture) {
@@ -152,65 +105,46 @@ std::vector<CapturePlace> places_of(const std::vector<CaptureEstimate>& capture)
 
 }  // namespace
 
-const Interval& recommended_interval(const IntervalSet& set) {
-  if (set.recommended == "profile") return set.profile;
-  if (set.recommended == "percentile") return set.percentile;
-  if (set.recommended == "bca") return set.bca;
-  if (set.recommended == "studentized") return set.studentized;
-  return set.wald;
-}
-
 Identifiability judge_identifiability(const FitResult& fitted,
                                       const std::vector<IntervalSet>& intervals,
                                       const std::vector<CaptureEstimate>& capture,
                                       const std::vector<NoiseAlternative>& alternatives) {
   Identifiability result;
-  std::vector<std::string> sentences, not_trusted;
+  result.event_spread = fitted.data.noise.event_spread;
   int free_count = 0;
   int good = 0;
   const std::vector<double> scales = loss_scales(fitted);
   const double widened = student_factor(fitted.data.sd_stated ? 0 : fitted.dof);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
-    result.parameter.push_back(false);
+    ParameterIdentifiability& found = result.parameter.emplace_back();
     if (!slot.free) continue;
     ++free_count;
     const Interval& interval = recommended_interval(intervals[j]);
-    const std::string problem =
-        obstacle(fitted, j, interval, widened * error_of(fitted, j, interval),
-                 std::max(std::abs(fitted.theta[j]), scales[j]));
-    const double factor =
-        alternatives.empty() ? 1.0 : undecided_factor(terms_of_slot(alternatives, j));
-    if (problem.empty() && fitted.data.noise.event_spread > widest_spread) {
-      not_trusted.push_back(slot.label());
-    } else if (problem.empty() && factor > undecided) {
-      sentences.push_back(undecided_words(slot.label(), factor));
-    } else if (problem.empty()) {
-      result.parameter.back() = true;
-      ++good;
-      if (*interval.lower <= slot.lower) {
-        sentences.push_back(fmt::format(
-            "{} is consistent with zero, and small: read its interval as an upper limit",
-            slot.label()));
-      }
-    } else {
-      sentences.push_back(fmt::format("{} {}", slot.label(), problem));
+    const double error = widened * error_of(fitted, j, interval);
+    found.relative_error = error / std::abs(fitted.theta[j]);
+    if (!alternatives.empty()) {
+      found.noise_factor = undecided_factor(terms_of_slot(alternatives, j));
     }
+    found.hindrance =
+        hindrance_of(fitted, j, interval, error, std::max(std::abs(fitted.theta[j]), scales[j]));
+    if (!found.hindrance && result.event_spread > widest_spread) {
+      found.hindrance = Hindrance::wide_spread;
+    } else if (!found.hindrance && found.noise_factor > undecided) {
+      found.hindrance = Hindrance::undecided_noise;
+    }
+    if (found.hindrance) continue;
+    found.identifiable = true;
+    found.upper_limit = *interval.lower <= slot.lower;
+    ++good;
   }
-  if (!not_trusted.empty()) {
-    sentences.push_back(wide_spread_words(fmt::format("{}", fmt::join(not_trusted, " and of ")),
-                                          fitted.data.noise.event_spread));
-  }
-  result.verdict = good == free_count ? "identifiable" : good > 0 ? "partly" : "not_identifiable";
-  if (free_count == 0) result.verdict = "identifiable";
-  if (sentences.empty()) {
-    sentences.push_back(free_count == 0 ? "nothing was free"
-                                        : "every free parameter is determined");
-  }
+  result.verdict = good == free_count ? IdentifiabilityVerdict::identifiable
+                   : good > 0         ? IdentifiabilityVerdict::partly
+                                      : IdentifiabilityVerdict::not_identifiable;
   result.information = information_at(fitted, places_of(capture));
-  describe_correlations(fitted, result.information, sentences);
-  describe_reach(fitted, capture, result.information, good < free_count, sentences);
-  result.text = fmt::format("{}.", fmt::join(sentences, "; "));
+  result.correlated = correlated_parameters(fitted);
+  result.slowest = too_far_above_capture(data, capture);
+  result.more_points = result.slowest || good < free_count;
   return result;
 }
 

@@ -1,7 +1,5 @@
 #include "uncertainty/information.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -13,10 +11,8 @@ namespace recoil {
 namespace {
 
 constexpr int planned_points = 5;
-// A combination is called by its physical name when it points this closely along it.
+// A direction has the meaning of a combination when it points this closely along it.
 constexpr double close_direction = 0.97;
-// Exponents below this are left out of the words.
-constexpr double negligible = 0.05;
 
 /// The slots that were estimated inside their bounds.
 std::vector<std::size_t> inner_slots(const FitResult& fitted) {
@@ -63,14 +59,14 @@ std::vector<double> relative_deviations(const Eigen::MatrixXd& fisher, std::size
   return sd;
 }
 
-/// A combination of parameters that has a meaning, as the gradient of its logarithm in ln theta.
-struct Physical {
-  std::string name;
+/// A combination as the gradient of its logarithm in ln theta.
+struct Meaning {
+  Combination combination;
   std::vector<double> gradient;  // [slots]
 };
 
-std::vector<Physical> physical_combinations(const FitResult& fitted) {
-  std::vector<Physical> list;
+std::vector<Meaning> combinations_of(const FitResult& fitted) {
+  std::vector<Meaning> list;
   const ImpactModel& model = fitted.model;
   for (std::size_t d = 0; d < model.contacts.size(); ++d) {
     const std::size_t H = model.slot_C_H[d];
@@ -83,40 +79,33 @@ std::vector<Physical> physical_combinations(const FitResult& fitted) {
     near[f] = 3.75;
     near[A] += fitted.theta[A] / total;
     near[H] += 2.0 * fitted.theta[H] / total;
-    list.push_back({"the capture velocity: V*^2 ~ V_a^3 (C_A + 2 C_H)", near});
+    list.push_back({Combination::capture_velocity, near});
     std::vector<double> far(fitted.theta.size(), 0.0);
     far[f] = 1.0;
     far[A] = 1.0;
-    list.push_back({"the loss to adhesion far above capture, C_A f0", far});
+    list.push_back({Combination::adhesion_loss, far});
     std::vector<double> plateau(fitted.theta.size(), 0.0);
     plateau[H] = 1.0;
-    list.push_back({"the loss of the fastest impacts, C_H", plateau});
+    list.push_back({Combination::plateau_loss, plateau});
   }
   return list;
 }
 
-std::string in_words(const std::vector<double>& exponents, const FitResult& fitted) {
-  std::string product;
-  for (std::size_t j = 0; j < exponents.size(); ++j) {
-    if (std::abs(exponents[j]) < negligible) continue;
-    if (!product.empty()) product += " ";
-    product += std::abs(exponents[j] - 1.0) < 0.005
-                   ? fitted.model.slots[j].label()
-                   : fmt::format("{}^{:.2f}", fitted.model.slots[j].label(), exponents[j]);
-  }
-  for (Physical& physical : physical_combinations(fitted)) {
+std::optional<Combination> meaning_of(const std::vector<double>& exponents,
+                                      const FitResult& fitted) {
+  for (const Meaning& meaning : combinations_of(fitted)) {
     double dot = 0.0;
     double length = 0.0;
     for (std::size_t j = 0; j < exponents.size(); ++j) {
       if (!fitted.model.slots[j].free || fitted.at_bound[j]) continue;
-      dot += exponents[j] * physical.gradient[j];
-      length += physical.gradient[j] * physical.gradient[j];
+      dot += exponents[j] * meaning.gradient[j];
+      length += meaning.gradient[j] * meaning.gradient[j];
     }
     if (length > 0.0 && std::abs(dot) > close_direction * std::sqrt(length)) {
-      return product + " (" + physical.name + ")";
+      return meaning.combination;
     }
   }
-  return product;
+  return std::nullopt;
 }
 
 std::vector<InformationDirection> directions_of(
@@ -134,7 +123,7 @@ std::vector<InformationDirection> directions_of(
     }
     const double value = eigen.eigenvalues()(k);
     direction.relative_sd = value > 0.0 ? 1.0 / std::sqrt(value) : INFINITY;
-    direction.words = in_words(direction.exponents, fitted);
+    direction.meaning = meaning_of(direction.exponents, fitted);
     directions.push_back(std::move(direction));
   }
   return directions;
@@ -183,7 +172,7 @@ std::vector<PlannedPoints> plans_for(const FitResult& fitted,
               .restitution();
       const Eigen::MatrixXd row = logarithmic_jacobian(fitted, more, inner);
       const Eigen::MatrixXd then = fisher + planned_points * row.transpose() * row;
-      plans.push_back({place.dataset, place.diameter, velocity, planned_points,
+      plans.push_back({place.dataset, place.diameter, velocity, place.velocity, planned_points,
                        relative_deviations(then, fitted.theta.size(), inner)});
     }
   }
@@ -192,7 +181,20 @@ std::vector<PlannedPoints> plans_for(const FitResult& fitted,
 
 }  // namespace
 
-Information information_at(const FitResult& fitted, const std::vector<CapturePlace>& capture) {
+std::vector<ErrorGain> worthwhile_gains(const Information& information) {
+  constexpr double worth_a_word = 0.8;  // of the present error
+  std::vector<ErrorGain> gains;
+  if (information.plans.empty()) return gains;
+  const std::vector<double>& then = information.plans.front().relative_sd;
+  for (std::size_t j = 0; j < information.relative_sd.size(); ++j) {
+    const double now = information.relative_sd[j];
+    if (now > 0.0 && then[j] < worth_a_word * now) gains.push_back({j, now, then[j]});
+  }
+  return gains;
+}
+
+Information information_at(const FitResult& fitted,
+                           const std::vector<CapturePlace>& capture) {
   Information information;
   const std::vector<std::size_t> inner = inner_slots(fitted);
   information.relative_sd.assign(fitted.theta.size(), 0.0);

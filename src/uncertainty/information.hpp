@@ -1,25 +1,39 @@
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "core/names.hpp"
 #include "estimate/fit.hpp"
 
 namespace recoil {
 
+/// A combination of parameters that has a meaning.
+enum class Combination {
+  capture_velocity,  ///< V*^2 ~ V_a^3 (C_A + 2 C_H)
+  adhesion_loss,     ///< C_A f0, far above capture
+  plateau_loss,      ///< C_H, of the fastest impacts
+};
+template <>
+struct NamesOf<Combination> {
+  static constexpr std::array<std::string_view, 3> names = {"capture_velocity", "adhesion_loss",
+                                                            "plateau_loss"};
+};
+
 /// One direction of the expected information: the product of powers of the free parameters that is
 /// known best, next best, ...
 struct InformationDirection {
-  std::vector<double> exponents;  ///< [slots] of unit length; 0 for what is not free
-  double relative_sd = 0.0;       ///< standard deviation of the logarithm of that product [1]
-  std::string words;              ///< "f0^0.97 C_A^0.25", and what that is physically
+  std::vector<double> exponents;       ///< [slots] of unit length; 0 for what is not free
+  double relative_sd = 0.0;            ///< standard deviation of the logarithm of that product [1]
+  std::optional<Combination> meaning;  ///< along which it points within acos(0.97)
 };
 
 /// What more points at one place would do.
 struct PlannedPoints {
   std::size_t dataset = 0;
-  double diameter = 0.0;  ///< [m]
-  double velocity = 0.0;  ///< [m/s]
+  double diameter = 0.0;          ///< [m]
+  double velocity = 0.0;          ///< [m/s]
+  double capture_velocity = 0.0;  ///< of this diameter [m/s]
   int points = 0;
   std::vector<double> relative_sd;  ///< [slots] then, 0 for what is not free
 };
@@ -34,12 +48,24 @@ struct Information {
   std::vector<PlannedPoints> plans;  ///< the most useful place first, for the worst known parameter
 };
 
-/// @param capture the capture velocity [m/s] of every (dataset, diameter) of the data; 0: none
+/// The error of a parameter now, and with the points of a plan.
+struct ErrorGain {
+  std::size_t slot = 0;
+  double now = 0.0, then = 0.0;  ///< relative [1]
+};
+
+/// The parameters of which the most useful plan takes at least a fifth of the error.
+std::vector<ErrorGain> worthwhile_gains(const Information& information);
+
+/// A diameter of the data with its capture velocity.
 struct CapturePlace {
   std::size_t dataset = 0;
-  double diameter = 0.0;
-  double velocity = 0.0;
+  double diameter = 0.0;  ///< [m]
+  double velocity = 0.0;  ///< [m/s]; 0: none
 };
-Information information_at(const FitResult& fitted, const std::vector<CapturePlace>& capture);
+
+/// @param capture every (dataset, diameter) of the data
+Information information_at(const FitResult& fitted,
+                           const std::vector<CapturePlace>& capture);
 
 }  // namespace recoil

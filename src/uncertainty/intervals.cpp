@@ -12,14 +12,7 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t fewest_replicates = 39;  // (B + 1) 0.025 >= 1
 constexpr double most_leverage = 0.99;
-
-Interval missing(std::string why) {
-  Interval interval;
-  interval.why = std::move(why);
-  return interval;
-}
 
 /// Normal (dof 0) or Student.
 double distribution(double x, int dof) {
@@ -32,7 +25,7 @@ double distribution_inverse(double p, int dof) {
 }  // namespace
 
 Interval percentile_interval(std::vector<double> replicates, double level) {
-  if (replicates.size() < fewest_replicates) return missing("fewer than 39 usable replicates");
+  if (replicates.size() < fewest_replicates) return no_interval(NoInterval::few_replicates);
   std::sort(replicates.begin(), replicates.end());
   const double tail = (1.0 - level) / 2.0;
   Interval interval;
@@ -92,17 +85,15 @@ double bca_rank_sd(const BcaConstants& constants, double p, double q, double cou
 
 Interval bca_interval(std::vector<double> replicates, double estimate,
                       std::span<const double> delete_one, double level) {
-  if (replicates.size() < fewest_replicates) return missing("fewer than 39 usable replicates");
-  if (delete_one.size() < 3) return missing("fewer than three delete-one refits succeeded");
+  if (replicates.size() < fewest_replicates) return no_interval(NoInterval::few_replicates);
+  if (delete_one.size() < 3) return no_interval(NoInterval::few_delete_one_refits);
   const auto constants = bca_constants(replicates, estimate, delete_one);
-  if (!constants) return missing("all replicates lie on one side of the estimate, as at a bound");
+  if (!constants) return no_interval(NoInterval::one_sided_replicates);
   const double tail = (1.0 - level) / 2.0;
   const auto low = bca_level(*constants, tail);
   const auto high = bca_level(*constants, 1.0 - tail);
   if (!low || !high) {
-    return missing(
-        "the acceleration is too large for this level: the delete-one fits differ too "
-        "much");
+    return no_interval(NoInterval::large_acceleration);
   }
   std::sort(replicates.begin(), replicates.end());
   const double count = static_cast<double>(replicates.size());
@@ -119,7 +110,7 @@ Interval bca_interval(std::vector<double> replicates, double estimate,
 Interval studentized_interval(std::span<const double> replicates,
                               std::span<const double> replicate_errors, double estimate,
                               double std_error, double level, double lower, double upper) {
-  if (!(std_error > 0.0)) return missing("no standard error (at a bound, or not determined)");
+  if (!(std_error > 0.0)) return no_interval(NoInterval::no_standard_error);
   std::vector<double> pivots;
   for (std::size_t i = 0; i < replicates.size(); ++i) {
     if (replicate_errors[i] > 0.0) {
@@ -129,9 +120,9 @@ Interval studentized_interval(std::span<const double> replicates,
   constexpr double most_without_error = 0.1;
   const double left_out = static_cast<double>(replicates.size() - pivots.size());
   if (left_out > most_without_error * static_cast<double>(replicates.size())) {
-    return missing("more than a tenth of the replicates rest on a bound and have no error");
+    return no_interval(NoInterval::replicates_without_error);
   }
-  if (pivots.size() < fewest_replicates) return missing("fewer than 39 usable replicates");
+  if (pivots.size() < fewest_replicates) return no_interval(NoInterval::few_replicates);
   std::sort(pivots.begin(), pivots.end());
   const double tail = (1.0 - level) / 2.0;
   Interval interval;
@@ -144,7 +135,7 @@ Interval studentized_interval(std::span<const double> replicates,
 
 Interval wald_interval(double estimate, double std_error, double level, int dof, double lower,
                        double upper) {
-  if (!(std_error > 0.0)) return missing("no standard error (at a bound, or not determined)");
+  if (!(std_error > 0.0)) return no_interval(NoInterval::no_standard_error);
   const double tail = 0.5 + level / 2.0;
   const double quantile = distribution_inverse(tail, dof);
   Interval interval;

@@ -2,33 +2,32 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
+
+#include "uncertainty/interval.hpp"
 
 namespace recoil {
 
-/// [lower, upper] in the parameter's unit, or the reason why there is none.
-struct Interval {
-  std::optional<double> lower;
-  std::optional<double> upper;
-  std::string why;    ///< set when there is no interval
-  std::string shape;  ///< of a profile: "bounded", "one-sided", "flat"
-  std::string note;   ///< what a reader has to know beside the numbers, such as an end at a bound
-  /// Monte-Carlo error of each end: its standard deviation over repetitions of the resampling with
-  /// other seeds. None where nothing is random.
-  std::optional<double> lower_error, upper_error;
+/// The p-quantile of an ascending sample by the (B + 1) p rule with linear interpolation (Davison &
+/// Hinkley 1997, section 5.2.1), clamped to the sample.
+double sorted_quantile(std::span<const double> ascending, double p);
 
-  bool available() const { return lower.has_value() && upper.has_value(); }
+/// 95 % limits of a share, by the score of Wilson (1927), J. Am. Stat. Assoc. 22, 209-212.
+/// @pre whole > 0
+struct ShareLimits {
+  double lower = 0.0;
+  double upper = 1.0;
 };
+ShareLimits share_limits(int part, int whole);
+
+/// Monte-Carlo error of `sorted_quantile(ascending, p)`: half the distance between the order
+/// statistics one standard deviation of rank on either side (Woodruff 1952, J. Am. Stat. Assoc. 47,
+/// 635-646), the rank being binomial, sd = sqrt(B p (1 - p)).
+/// @param rank_sd overrides the binomial standard deviation when it is not negative [ranks]
+double quantile_error(std::span<const double> ascending, double p, double rank_sd = -1.0);
 
 /// Percentile interval of bootstrap replicates (Efron 1979).
 Interval percentile_interval(std::vector<double> replicates, double level);
-
-/// Constants of the BCa interval (Efron 1987, JASA 82, 171-185).
-struct BcaConstants {
-  double bias = 0.0;          ///< z0 = Phi^-1( fraction of replicates below the estimate )
-  double acceleration = 0.0;  ///< a = sum d^3 / (6 (sum d^2)^(3/2)), d = mean - delete-one value
-};
 
 /// Ties with the estimate count one half each. Nothing when all replicates lie on one side.
 std::optional<BcaConstants> bca_constants(std::span<const double> replicates, double estimate,

@@ -1,7 +1,5 @@
 #include "uncertainty/noise_alternatives.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -68,31 +66,6 @@ double undecided_factor(const std::vector<WaldTerm>& terms) {
     most = std::max(most, term.std_error);
   }
   return most > 0.0 ? most / least : 1.0;
-}
-
-std::string undecided_words(const std::string& what, double factor) {
-  return fmt::format(
-      "the error of {} differs by a factor of {:.1f} between ways in which the scatter may grow "
-      "towards capture, and the points cannot tell which is right, so that its interval may be too "
-      "narrow or too wide: state standard deviations, or measure more points",
-      what, factor);
-}
-
-static std::string_view mechanism_of_sizes() {
-  for (const Mechanism& mechanism : mechanism_catalogue()) {
-    if (mechanism.info.mixes_sizes) return mechanism.info.id;
-  }
-  return "";
-}
-
-std::string wide_spread_words(const std::string& what, double event_spread) {
-  if (event_spread <= widest_spread) return "";
-  return fmt::format(
-      "the interval of {} is not to be trusted: from impact to impact the capture velocity "
-      "scatters by {:.0f} %, and what is assumed of the survivors holds up to {:.0f} %; if spheres "
-      "of several sizes stand in one point, put them into classes of size (recoil pair "
-      "--size-edges), or fit their spread (mechanisms = [\"{}\"])",
-      what, 100.0 * event_spread, 100.0 * widest_spread, mechanism_of_sizes());
 }
 
 Interval wald_over_noise(const std::vector<NoiseAlternative>& alternatives, std::size_t j,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "estimate/fit.hpp"
@@ -28,21 +27,17 @@ std::vector<WaldTerm> terms_of_slot(const std::vector<NoiseAlternative>& alterna
 /// smallest of those that weigh at least a twentieth. 1 without a choice.
 double undecided_factor(const std::vector<WaldTerm>& terms);
 
-/// Beyond this factor an error depends on how the noise is seen, and the verdict says so.
+/// Beyond this factor an error depends on the variance function that is assumed, and the verdict
+/// says so.
 constexpr double undecided = 1.5;
-
-/// What it says of "C_A" or "the capture velocity".
-std::string undecided_words(const std::string& what, double factor);
 
 /// Where the capture velocity scatters from impact to impact by more than this, the intervals are
 /// not to be trusted: e^2 of the impacts at one velocity is taken as normal (see `reweighted_fit`), while
 /// in truth it is about 1 - (V* exp(-omega z) / V)^3 and has a long tail below. With omega = 0.1
-/// intervals hold what they promise; in simulations of 14 points with omega = 0.27 to 0.5 those of
-/// C_H and of the capture velocity held the truth in 8 to 67 % of the data sets.
+/// intervals contain the truth as often as they promise; in simulations of 14 points with omega =
+/// 0.27 to 0.5 those of C_H and of the capture velocity contained the truth in 8 to 67 % of the
+/// data sets.
 constexpr double widest_spread = 0.2;
-
-/// What it says of "C_A" or "the capture velocity"; empty up to `widest_spread`.
-std::string wide_spread_words(const std::string& what, double event_spread);
 
 /// The Wald interval of slot j, averaged over the alternatives (`averaged_wald_interval`), cut at
 /// the slot's bounds; the plain one where there is a single alternative.

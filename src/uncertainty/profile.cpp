@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "estimate/impact_problem.hpp"
+#include "estimate/reweigh.hpp"
 #include "estimate/weights.hpp"
+#include "uncertainty/intervals.hpp"
 
 namespace recoil {
 namespace {
@@ -170,7 +172,6 @@ std::optional<End> find_end(Profile& profile, const FitResult& fitted, std::size
 }  // namespace
 
 Interval profile_interval(const FitResult& fitted, std::size_t slot, double level) {
-  Interval interval;
   const double error = free_standard_error(fitted, slot);
   const Allowance allowed = allowance(fitted, slot, level, error);
   Profile profile(fitted, slot);
@@ -182,15 +183,13 @@ Interval profile_interval(const FitResult& fitted, std::size_t slot, double leve
   }
   const auto low = find_end(profile, fitted, slot, -1.0, allowed, stride);
   const auto high = find_end(profile, fitted, slot, +1.0, allowed, stride);
-  if (!low || !high) {
-    interval.why = "a constrained refit along the profile failed";
-    return interval;
-  }
+  if (!low || !high) return no_interval(NoInterval::refit_failed);
+  Interval interval;
   interval.lower = low->value;
   interval.upper = high->value;
-  interval.shape = low->at_bound && high->at_bound   ? "flat"
-                   : low->at_bound || high->at_bound ? "one-sided"
-                                                     : "bounded";
+  interval.shape = low->at_bound && high->at_bound   ? ProfileShape::flat
+                   : low->at_bound || high->at_bound ? ProfileShape::one_sided
+                                                     : ProfileShape::bounded;
   return interval;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
-#include "uncertainty/uncertainty.hpp"
+#include <vector>
+
+#include "estimate/fit.hpp"
+#include "uncertainty/interval_set.hpp"
 
 namespace recoil {
 
@@ -13,8 +16,8 @@ namespace recoil {
 /// as if they were away from their bounds. The spread of the impacts (event_spread), where points
 /// have both rebounds and captures, is one of the others; other estimated weights stay as they are.
 ///
-/// An end that reaches the parameter's bound stays there: shape "one-sided" for one such end,
-/// "flat" for both, "bounded" for none. @pre the slot is free
+/// An end that reaches the parameter's bound stays there: shape `one_sided` for one such end,
+/// `flat` for both, `bounded` for none. @pre the slot is free
 Interval profile_interval(const FitResult& fitted, std::size_t slot, double level);
 
 /// The profile of one slot from below `interval` to above it, or to the parameter's bounds: 29

@@ -1,6 +1,11 @@
 #pragma once
 
-#include "uncertainty/uncertainty.hpp"
+#include <optional>
+#include <vector>
+
+#include "estimate/fit.hpp"
+#include "uncertainty/bootstrap_result.hpp"
+#include "uncertainty/interval_set.hpp"
 
 namespace recoil {
 
@@ -8,32 +13,32 @@ namespace recoil {
 /// coverage study (reports/coverage-grid-n{10,20,60}-{stated,estimated}.md).
 ///
 /// The profile, which follows the likelihood where that is not a parabola, stops at the bounds and
-/// takes the spread of the impacts along; where the noise is estimated, under the variance function
-/// that the points choose and with Student's factor. The studentized interval of the wild bootstrap
-/// assumes nothing about where the points scatter more, but a parameter that hangs on two or three
-/// points near capture has only their own residuals for its noise, and it held the truth less
-/// often. Without a profile percentile, else Wald.
+/// refits the spread of the impacts with the parameters; where the noise is estimated, under the
+/// variance function that the points choose and with Student's factor. The studentized interval of
+/// the wild bootstrap assumes nothing about where the points scatter more, but a parameter that
+/// hangs on two or three points near capture has only their own residuals for its noise, and it
+/// contained the truth less often. Without a profile percentile, else Wald.
 void recommend(IntervalSet& set, bool sd_stated);
 
-/// Why the intervals of one free parameter differ, in a sentence: which of them differ by how much
-/// from the recommended one, and which of these the numbers show:
+/// Why the intervals of one free parameter differ: which of them differ by how much from the
+/// recommended one, and which of these the numbers show:
 ///   - bound: the estimate, or more than a twentieth of the replicates, rest on a bound, of this
 ///     parameter or of one that it is correlated with beyond 0.5;
 ///   - ridge: a correlation beyond 0.97 with another free parameter;
 ///   - skew: |acceleration| > 0.05, |z0| > 0.15, or arms of the profile that differ by a quarter;
 ///   - few points: Student's quantile is a tenth larger than the normal one.
-/// Empty when no end differs by more than 15 % of the recommended width beyond its Monte-Carlo
+/// None when no end differs by more than 15 % of the recommended width beyond its Monte-Carlo
 /// error.
-/// @param sets of all slots, complete but for this sentence
-std::string explain_disagreement(const FitResult& fitted, std::size_t slot,
-                                 const std::vector<IntervalSet>& sets, bool sd_stated,
-                                 double level);
+/// @param sets of all slots, complete but for this
+std::optional<Disagreement> explain_disagreement(const FitResult& fitted, std::size_t slot,
+                                                 const std::vector<IntervalSet>& sets,
+                                                 bool sd_stated, double level);
 
 /// The share of the usable replicates in which `slot` rests on one of its bounds.
 std::optional<double> bound_share(const BootstrapResult& boot, const ParameterSlot& slot,
                                   std::size_t index);
 
-/// Says so in `interval.note` when an end is the parameter's bound.
+/// Notes it when an end is the parameter's bound.
 void note_bounds(Interval& interval, const ParameterSlot& slot);
 
 }  // namespace recoil

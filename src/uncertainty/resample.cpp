@@ -1,7 +1,5 @@
 #include "uncertainty/resample.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -75,67 +73,39 @@ void disturb(const ResamplingPlan& plan, std::size_t i, double noise, RandomStre
   point.restitution = std::max(0.0, expected + point.weights.sd * noise);
 }
 
-std::string reason(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::parametric:
-      return "new noise of the fit's size is drawn about the fitted curve";
-    case Scheme::residual:
-      return "the fit's own residuals, scaled for leverage and centred, are exchanged among the "
-             "points";
-    case Scheme::wild:
-      return "each point keeps its own residual, scaled for leverage (HC3), with a random sign";
-    case Scheme::cases:
-      return "whole points are drawn with replacement, captured ones with the others";
-    case Scheme::cluster:
-      return "whole series are drawn with replacement, with all their points";
-    case Scheme::automatic:
-      break;
-  }
-  return "";
-}
-
 }  // namespace
 
 std::size_t ResamplingPlan::units() const {
   return scheme == Scheme::cluster ? clusters.size() : fitted->data.points.size();
 }
 
-std::string scheme_obstacle(Scheme scheme, const Observations& data) {
+std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations& data) {
   const bool all_captured = std::all_of(data.points.begin(), data.points.end(),
                                         [](const Observation& point) { return point.censored; });
   if ((scheme == Scheme::residual || scheme == Scheme::wild) && all_captured) {
-    return "no point rebounded: there are no residuals to draw from";
+    return SchemeObstacle::no_residuals;
   }
   if (scheme == Scheme::cluster && series_of(data).size() < 2) {
-    return "all points belong to one series: there is nothing to exchange";
+    return SchemeObstacle::single_series;
   }
-  return "";
+  return std::nullopt;
 }
 
 ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
+  const Observations& data = fitted.data;
   ResamplingPlan plan;
   plan.fitted = &fitted;
   plan.scheme = asked;
-  std::string chosen = "asked for";
   if (asked == Scheme::automatic) {
-    const bool residuals = scheme_obstacle(Scheme::wild, fitted.data).empty();
-    plan.scheme = fitted.data.sd_stated || !residuals ? Scheme::parametric : Scheme::wild;
-    chosen = fitted.data.sd_stated ? "every point states its standard deviation"
-             : residuals
-                 ? "no standard deviations are stated, so the scatter need not be equal everywhere"
-                 : "no point rebounded, so there are no residuals";
+    const bool residuals = !scheme_obstacle(Scheme::wild, data);
+    plan.scheme = data.sd_stated || !residuals ? Scheme::parametric : Scheme::wild;
+    plan.because = data.sd_stated ? SchemeBecause::sd_stated
+                   : residuals    ? SchemeBecause::sd_not_stated
+                                  : SchemeBecause::no_residuals;
   }
-  plan.why = fmt::format("{}: {}", chosen, reason(plan.scheme));
   if (plan.scheme == Scheme::residual) plan.residuals = residual_pool(fitted);
   if (plan.scheme == Scheme::wild) plan.residuals = scaled_residuals(fitted, 1.0);
-  if (plan.scheme == Scheme::cluster) {
-    plan.clusters = series_of(fitted.data);
-    constexpr std::size_t few_clusters = 10;
-    if (plan.clusters.size() < few_clusters) {
-      plan.why += fmt::format("; {} series are few for that: intervals come out too narrow",
-                              plan.clusters.size());
-    }
-  }
+  if (plan.scheme == Scheme::cluster) plan.clusters = series_of(data);
   return plan;
 }
 

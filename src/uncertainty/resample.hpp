@@ -1,19 +1,44 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "core/names.hpp"
 #include "core/random.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "estimate/fit.hpp"
+#include "estimate/scheme.hpp"
 
 namespace recoil {
 
-/// What a scheme draws from, prepared once for all replicates. Refers to the fit, which
-/// has to outlive it.
+/// By which rule of `plan_resampling` a scheme is used.
+enum class SchemeBecause {
+  asked_for,
+  sd_stated,      ///< parametric: every point states its standard deviation
+  sd_not_stated,  ///< wild: the scatter need not be equal everywhere
+  no_residuals,   ///< parametric: no point rebounded
+};
+template <>
+struct NamesOf<SchemeBecause> {
+  static constexpr std::array<std::string_view, 4> names = {"asked_for", "sd_stated",
+                                                            "sd_not_stated", "no_residuals"};
+};
+
+/// Why a scheme cannot be used.
+enum class SchemeObstacle {
+  no_residuals,   ///< no point rebounded
+  single_series,  ///< there is nothing to exchange
+};
+template <>
+struct NamesOf<SchemeObstacle> {
+  static constexpr std::array<std::string_view, 2> names = {"no_residuals", "single_series"};
+};
+
+/// What a scheme draws from, prepared once for all replicates. Refers to the fit, which has to
+/// outlive it.
 struct ResamplingPlan {
   Scheme scheme = Scheme::parametric;  ///< never automatic
-  std::string why;                     ///< in a sentence, with what was asked for or the rule
+  SchemeBecause because = SchemeBecause::asked_for;
   const FitResult* fitted = nullptr;
   std::vector<double> residuals;  ///< residual: the pool; wild: one for each point [weighted]
   std::vector<std::vector<std::size_t>> clusters;  ///< the points of each series that has any
@@ -22,13 +47,13 @@ struct ResamplingPlan {
   std::size_t units() const;
 };
 
-/// Why `scheme` cannot be used on `data`; empty when it can.
-std::string scheme_obstacle(Scheme scheme, const Observations& data);
+/// Why `scheme` cannot be used on `data`; none when it can.
+std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations& data);
 
 /// Prepares `asked`. `automatic` becomes parametric where every point states its standard
 /// deviation, and wild otherwise: without stated deviations nobody has said that the scatter is the
 /// same everywhere, and wild is the scheme that does not need it.
-/// @pre scheme_obstacle(asked, data) is empty
+/// @pre !scheme_obstacle(asked, data)
 ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked);
 
 // The schemes. Each fills `sample.points` from the plan and one stream of random numbers; whatever

@@ -10,6 +10,9 @@
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "uncertainty/bootstrap.hpp"
+#include "uncertainty/intervals.hpp"
+#include "uncertainty/refit.hpp"
+#include "uncertainty/resample.hpp"
 
 namespace recoil {
 namespace {

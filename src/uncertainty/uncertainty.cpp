@@ -1,12 +1,9 @@
 #include "uncertainty/uncertainty.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "core/units.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/curves.hpp"
@@ -19,8 +16,6 @@
 namespace recoil {
 namespace {
 
-constexpr double failures_to_warn = 0.01;
-constexpr double failures_to_withhold = 0.10;
 // `replicates = "auto"` begins with the first and ends with the last.
 constexpr int fewest_automatic = 999;
 constexpr int most_automatic = 19999;
@@ -43,11 +38,6 @@ double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-void withhold(Interval& interval, const std::string& why) {
-  interval = Interval{};
-  interval.why = why;
-}
-
 /// The intervals that need no replicates: profile and Wald.
 std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative>& alternatives,
                                               const UncertaintyOptions& options) {
@@ -57,20 +47,20 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative
     const ParameterSlot& slot = fitted.model.slots[j];
     IntervalSet& set = sets[j];
     if (!slot.free) {
-      for (Interval* interval :
-           {&set.wald, &set.profile, &set.percentile, &set.bca, &set.studentized}) {
-        withhold(*interval, "fixed in this fit");
+      for (const IntervalKind kind : values_of<IntervalKind>()) {
+        set[kind] = no_interval(NoInterval::fixed);
       }
       return;
     }
-    set.wald = wald_over_noise(alternatives, j, options.level);
+    set[IntervalKind::wald] = wald_over_noise(alternatives, j, options.level);
     if (options.profile) {
-      set.profile = profile_interval(fitted, j, options.level);
+      Interval& profile = set[IntervalKind::profile];
+      profile = profile_interval(fitted, j, options.level);
       if (options.curves) {
-        set.profile_curve = profile_curve(fitted, j, options.level, set.profile);
+        set.profile_curve = profile_curve(fitted, j, options.level, profile);
       }
     } else {
-      set.profile.why = "not asked for";
+      set[IntervalKind::profile] = no_interval(NoInterval::not_asked_for);
     }
   });
   return sets;
@@ -80,26 +70,24 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative
 void add_resampled(const FitResult& fitted, const BootstrapResult& boot, std::size_t j,
                    const std::vector<std::vector<double>>& delete_one, double level,
                    IntervalSet& set) {
-  if (boot.failed > failures_to_withhold * boot.replicates) {
-    const std::string why = fmt::format(
-        "withheld: {} of {} refits failed, more than a tenth, and those that did not "
-        "are no fair sample",
-        boot.failed, boot.replicates);
-    withhold(set.percentile, why);
-    withhold(set.bca, why);
-    withhold(set.studentized, why);
+  if (boot.withheld()) {
+    for (const IntervalKind kind :
+         {IntervalKind::percentile, IntervalKind::bca, IntervalKind::studentized}) {
+      set[kind] = no_interval(NoInterval::refits_failed);
+    }
     return;
   }
   const ParameterSlot& slot = fitted.model.slots[j];
   const std::vector<double> replicates = column(boot.theta, j);
   const std::vector<double> without_one = column(delete_one, j);
-  set.percentile = percentile_interval(replicates, level);
-  set.bca = bca_interval(replicates, fitted.theta[j], without_one, level);
+  set[IntervalKind::percentile] = percentile_interval(replicates, level);
+  set[IntervalKind::bca] = bca_interval(replicates, fitted.theta[j], without_one, level);
   if (!replicates.empty() && !without_one.empty()) {
     set.bca_constants = bca_constants(replicates, fitted.theta[j], without_one);
   }
-  set.studentized = studentized_interval(replicates, column(boot.std_error, j), fitted.theta[j],
-                                         boot.reference_error[j], level, slot.lower, slot.upper);
+  set[IntervalKind::studentized] =
+      studentized_interval(replicates, column(boot.std_error, j), fitted.theta[j],
+                           boot.reference_error[j], level, slot.lower, slot.upper);
   set.bound_share = bound_share(boot, slot, j);
 }
 
@@ -144,14 +132,11 @@ void read_off(const FitResult& fitted, const std::vector<std::vector<double>>& d
     const ParameterSlot& slot = fitted.model.slots[j];
     IntervalSet& set = result.intervals[j];
     if (slot.free) add_resampled(fitted, boot, j, delete_one, options.level, set);
-    for (Interval* interval :
-         {&set.wald, &set.profile, &set.percentile, &set.bca, &set.studentized}) {
-      note_bounds(*interval, slot);
-    }
+    for (const IntervalKind kind : values_of<IntervalKind>()) note_bounds(set[kind], slot);
     recommend(set, fitted.data.sd_stated);
     if (!slot.free) continue;
-    worst = std::max(
-        {worst, relative_error(set.percentile), relative_error(recommended_interval(set))});
+    worst = std::max({worst, relative_error(set[IntervalKind::percentile]),
+                      relative_error(recommended_interval(set))});
   }
   const auto& slots = fitted.model.slots;
   for (std::size_t j = 0; j < slots.size(); ++j) {
@@ -164,19 +149,20 @@ void read_off(const FitResult& fitted, const std::vector<std::vector<double>>& d
   for (std::size_t k = 0; k < result.capture.size(); ++k) {
     CaptureEstimate& capture = result.capture[k];
     if (!capture.found) continue;
+    Interval& percentile = capture[CaptureIntervalKind::percentile];
+    Interval& studentized = capture[CaptureIntervalKind::studentized];
     if (nothing_free) {
-      capture.percentile.why = "nothing was free in this fit";
+      percentile = no_interval(NoInterval::nothing_free);
     } else if (!options.capture) {
-      capture.percentile.why = "not asked for";
-    } else if (boot.failed > failures_to_withhold * boot.replicates) {
-      withhold(capture.percentile,
-               fmt::format("withheld: {} of {} refits failed", boot.failed, boot.replicates));
+      percentile = no_interval(NoInterval::not_asked_for);
+    } else if (boot.withheld()) {
+      percentile = no_interval(NoInterval::refits_failed);
     } else {
-      capture.percentile = percentile_interval(column(boot.capture_velocity, k), options.level);
-      capture.studentized = studentized_capture(boot, k, capture.value, options.level);
+      percentile = percentile_interval(column(boot.capture_velocity, k), options.level);
+      studentized = studentized_capture(boot, k, capture.value, options.level);
     }
-    if (!capture.studentized.available() && capture.studentized.why.empty()) {
-      capture.studentized.why = capture.percentile.why;
+    if (!studentized.available() && !studentized.missing) {
+      studentized.missing = percentile.missing;
     }
     recommend_capture(fitted, fitted.data.sd_stated, capture);
     worst = std::max(worst, relative_error(capture.interval));
@@ -193,60 +179,6 @@ int more_replicates(int so_far, double error, double wanted) {
       std::clamp(rounded, static_cast<double>(so_far) + 1000.0, 1.0 * most_automatic));
 }
 
-/// Points of `data` that belong to `dataset`, split by whether their diameter is `diameter`.
-struct Split {
-  std::vector<std::size_t> all, seen, unseen;
-};
-Split split_by_diameter(const Observations& data, std::size_t dataset, double diameter) {
-  Split split;
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    if (data.points[i].dataset != dataset) continue;
-    split.all.push_back(i);
-    (data.points[i].diameter == diameter ? split.seen : split.unseen).push_back(i);
-  }
-  return split;
-}
-
-TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset) {
-  TwoPointComparison comparison;
-  comparison.dataset = dataset;
-  const double diameter = fitted.model.contacts[dataset].reference_diameter;
-  comparison.result = two_point(fitted.model, fitted.data, dataset, diameter);
-  const Split split = split_by_diameter(fitted.data, dataset, comparison.result.diameter);
-  comparison.full_rmse = root_mean_square(fitted.model, fitted.theta, fitted.data, split.all);
-  const bool answered = comparison.result.status != TwoPointStatus::too_few_points;
-  if (answered) {
-    comparison.rmse =
-        root_mean_square(fitted.model, comparison.result.theta, fitted.data, split.all);
-  }
-  if (split.unseen.empty()) {
-    comparison.held_out_why = "the dataset has a single diameter: nothing is held out";
-    return comparison;
-  }
-  if (answered) {
-    comparison.held_out_rmse =
-        root_mean_square(fitted.model, comparison.result.theta, fitted.data, split.unseen);
-  }
-  Observations seen = fitted.data;
-  seen.points.clear();
-  for (const std::size_t i : split.seen) seen.points.push_back(fitted.data.points[i]);
-  // Parameters of other datasets stay out of this: only what this diameter can tell is refitted.
-  ImpactModel alone = fitted.model;
-  for (std::size_t j = 0; j < alone.slots.size(); ++j) {
-    const bool used =
-        j == alone.slot_C_H[dataset] || j == alone.slot_C_A[dataset] || j == alone.slot_f0[dataset];
-    alone.slots[j].free = alone.slots[j].free && used;
-  }
-  const FitResult on_one = fit(alone, seen);
-  if (on_one.usable) {
-    comparison.full_held_out_rmse =
-        root_mean_square(fitted.model, on_one.theta, fitted.data, split.unseen);
-  } else {
-    comparison.held_out_why = "the full fit of that diameter alone failed: " + on_one.failure;
-  }
-  return comparison;
-}
-
 void add_spread(UncertaintyResult& result, std::size_t slots) {
   for (TwoPointComparison& comparison : result.two_point) {
     const auto& replicates = result.bootstrap.two_point_theta[comparison.dataset];
@@ -255,33 +187,6 @@ void add_spread(UncertaintyResult& result, std::size_t slots) {
       comparison.spread.push_back(standard_deviation(column(replicates, j)));
       comparison.full_spread.push_back(standard_deviation(column(result.bootstrap.theta, j)));
     }
-  }
-}
-
-void add_warnings(UncertaintyResult& result) {
-  const BootstrapResult& boot = result.bootstrap;
-  if (boot.failed > failures_to_warn * boot.replicates) {
-    result.warnings.push_back(
-        boot.failures.text +
-        (boot.failed > failures_to_withhold * boot.replicates
-             ? "; more than a tenth: the intervals from replicates are withheld"
-             : ""));
-  }
-  if (result.options.replicates_auto &&
-      boot.relative_error.value_or(0.0) > result.options.wanted_error) {
-    result.warnings.push_back(fmt::format(
-        "after {} replicates an interval's end is still uncertain by {:.1f} % of its width, more "
-        "than the {:.1f} % wanted",
-        boot.replicates, 100.0 * *boot.relative_error, 100.0 * result.options.wanted_error));
-  }
-  for (const CaptureEstimate& capture : result.capture) {
-    if (capture.found && !capture.interval.note.empty()) {
-      result.warnings.push_back(
-          fmt::format("d = {:.4g} um: {}", capture.diameter / units::um, capture.interval.note));
-    }
-    if (capture.found) continue;
-    result.warnings.push_back(fmt::format("no capture velocity at d = {:.4g} um: {}",
-                                          capture.diameter / units::um, capture.interval.why));
   }
 }
 
@@ -321,8 +226,10 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
                              options.seed, options.threads});
   result.identifiability =
       judge_identifiability(fitted, result.intervals, result.capture, alternatives);
-  if (options.curves) result.curves = restitution_curves(fitted, datasets, result);
-  add_warnings(result);
+  if (options.curves) {
+    result.curves = restitution_curves(fitted, datasets, result.capture, result.two_point,
+                                       {result.bootstrap.theta, options.level, options.threads});
+  }
   return result;
 }
 

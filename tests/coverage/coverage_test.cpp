@@ -58,7 +58,8 @@ TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
     const CaptureEstimate at =
         capture_estimates(noise_alternatives(fitted), 0.95, datasets).front();
     const double off = std::log(at.value / truth.capture[0].velocity);
-    const double error = std::log(*at.delta.upper / *at.delta.lower) / (2.0 * 1.959964);
+    const Interval& delta = at[CaptureIntervalKind::delta];
+    const double error = std::log(*delta.upper / *delta.lower) / (2.0 * 1.959964);
     square += std::pow(off / error, 2) / sets;
     std::vector<double> less = fitted.covariance;
     for (std::size_t k = 0; k < fitted.spread_covariance.size(); ++k) {
@@ -70,8 +71,8 @@ TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
     fixed.data.noise.event_spread = 0.0;  // the weights stay, and nothing renews them
     for (const bool settled : {true, false}) {
       const Interval profile = profile_interval(settled ? fitted : fixed, 1, 0.95);
-      ASSERT_TRUE(profile.available()) << profile.why;
-      const bool holds = *profile.lower <= truth.theta[1] && truth.theta[1] <= *profile.upper;
+      ASSERT_TRUE(profile.available());
+      const bool holds = profile.contains(truth.theta[1]);
       (settled ? held : held_fixed) += holds ? 1 : 0;
     }
   }

@@ -11,12 +11,13 @@ namespace {
 
 TEST(HeldOut, HoldsOutEverySizeAndThirdsOfTheVelocity) {
   const std::vector<Dataset> data = {synthetic::dataset({})};
-  const std::vector<Fold> folds = held_out_folds(gather(data), data, 3);
+  const std::vector<Fold> folds = held_out_folds(gather(data), data.size(), 3);
   ASSERT_EQ(folds.size(), 5U);
-  EXPECT_EQ(folds[0].kind, "size");
-  EXPECT_EQ(folds[0].name, "2.58 um");
+  EXPECT_EQ(folds[0].kind, FoldKind::size);
+  EXPECT_EQ(folds[0].lower, 2.58e-6);
+  EXPECT_EQ(folds[0].upper, 2.58e-6);
   EXPECT_EQ(folds[0].points.size(), 7U);
-  EXPECT_EQ(folds[2].kind, "velocity");
+  EXPECT_EQ(folds[2].kind, FoldKind::velocity);
   std::size_t points = 0;
   for (std::size_t f = 2; f < 5; ++f) points += folds[f].points.size();
   EXPECT_EQ(points, 14U);
@@ -26,19 +27,19 @@ TEST(HeldOut, LeavesNoFoldThatTakesTooMuch) {
   synthetic::Design design;
   design.diameters = {4.9e-6};
   const std::vector<Dataset> data = {synthetic::dataset(design)};
-  for (const Fold& fold : held_out_folds(gather(data), data, 3)) {
-    EXPECT_EQ(fold.kind, "velocity");
+  for (const Fold& fold : held_out_folds(gather(data), data.size(), 3)) {
+    EXPECT_EQ(fold.kind, FoldKind::velocity);
     EXPECT_GE(7U - fold.points.size(), 5U);
   }
 }
 
-Fold fold(const std::string& kind) { return {kind, kind, {0, 1}}; }
+Fold fold(FoldKind kind) { return {kind, 0.0, 0.0, 0, {0, 1}}; }
 
 TEST(HeldOut, GainIsWorkedByHand) {
   // rms 0.05 against 0.025: half; ln likelihood (40 - 10) / 2.
   const std::vector<FoldPrediction> base = {{true, 0.0, 40.0, {0.05, -0.05}}};
   const std::vector<FoldPrediction> extended = {{true, 0.0, 10.0, {0.025, -0.025}}};
-  const HeldOutGain gain = held_out_gain({fold("size")}, base, extended, 1);
+  const HeldOutGain gain = held_out_gain({fold(FoldKind::size)}, base, extended, 1);
   EXPECT_NEAR(gain.rmse_base, 0.05, 1e-15);
   EXPECT_NEAR(gain.rmse_extended, 0.025, 1e-15);
   EXPECT_NEAR(gain.relative, 0.5, 1e-12);
@@ -51,11 +52,13 @@ TEST(HeldOut, VelocitiesDecideOnlyWhereThereAreNoSizes) {
   const std::vector<FoldPrediction> base = {{true, 0.0, 40.0, {0.1}}, {true, 0.0, 4.0, {0.01}}};
   const std::vector<FoldPrediction> extended = {{true, 0.0, 10.0, {0.05}},
                                                 {true, 0.0, 400.0, {0.1}}};
-  const HeldOutGain both = held_out_gain({fold("size"), fold("velocity")}, base, extended, 1);
+  const HeldOutGain both =
+      held_out_gain({fold(FoldKind::size), fold(FoldKind::velocity)}, base, extended, 1);
   EXPECT_TRUE(both.decisive);
   EXPECT_NEAR(both.log_score, 15.0, 1e-12);
   EXPECT_FALSE(both.folds[1].counted);
-  const HeldOutGain one = held_out_gain({fold("velocity"), fold("velocity")}, base, extended, 1);
+  const HeldOutGain one =
+      held_out_gain({fold(FoldKind::velocity), fold(FoldKind::velocity)}, base, extended, 1);
   EXPECT_FALSE(one.decisive);
   EXPECT_NEAR(one.log_score, 15.0 - 198.0, 1e-12);
 }
@@ -65,7 +68,8 @@ TEST(HeldOut, WhatTheOtherPointsDoNotShowIsPredictedByTheBase) {
   const std::vector<FoldPrediction> base = {{true, 9.0, 40.0, {0.1}}, {true, 3.0, 4.0, {0.01}}};
   const std::vector<FoldPrediction> extended = {{true, 2.0, 10.0, {0.05}},
                                                 {true, 5.0, 400.0, {0.1}}};
-  const HeldOutGain gain = held_out_gain({fold("size"), fold("size")}, base, extended, 1);
+  const HeldOutGain gain =
+      held_out_gain({fold(FoldKind::size), fold(FoldKind::size)}, base, extended, 1);
   EXPECT_NEAR(gain.log_score, 15.0, 1e-12);
   EXPECT_EQ(gain.folds[1].rmse_extended, gain.folds[1].rmse_base);
 }
@@ -73,7 +77,9 @@ TEST(HeldOut, WhatTheOtherPointsDoNotShowIsPredictedByTheBase) {
 TEST(HeldOut, FoldsWithoutAnAnswerAreLeftOut) {
   const std::vector<FoldPrediction> base = {{true, 0.0, 40.0, {0.1}}, {false, 0.0, 0.0, {}}};
   const std::vector<FoldPrediction> extended = {{true, 0.0, 10.0, {0.05}}, {true, 0.0, 1.0, {0.1}}};
-  EXPECT_EQ(held_out_gain({fold("size"), fold("size")}, base, extended, 1).folds.size(), 1U);
+  EXPECT_EQ(
+      held_out_gain({fold(FoldKind::size), fold(FoldKind::size)}, base, extended, 1).folds.size(),
+      1U);
 }
 
 TEST(HeldOut, AFoldIsPredictedByTheOtherPoints) {
@@ -81,7 +87,7 @@ TEST(HeldOut, AFoldIsPredictedByTheOtherPoints) {
   const std::vector<Dataset> data = {synthetic::dataset({})};
   const Candidate base = make_candidate(synthetic::spec(), data, {});
   const Observations points = gather(data);
-  const std::vector<Fold> folds = held_out_folds(points, data, 2);
+  const std::vector<Fold> folds = held_out_folds(points, data.size(), 2);
   for (const FoldPrediction& fold :
        predict_folds(base, points, folds, std::vector<double>{4e-3, 0.04, 8.9}, 1)) {
     ASSERT_TRUE(fold.usable);

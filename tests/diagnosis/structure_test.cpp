@@ -48,11 +48,11 @@ std::vector<double> noise(std::mt19937& random) {
   return z;
 }
 
-double p_of(const Structure& structure, const std::string& id) {
+double p_of(const Structure& structure, StructureQuestion question) {
   for (const StructureTest& test : structure.tests) {
-    if (test.id == id) return test.p_value;
+    if (test.question == question) return test.p_value;
   }
-  ADD_FAILURE() << id;
+  ADD_FAILURE() << name_of(question);
   return -1.0;
 }
 
@@ -95,9 +95,9 @@ TEST(Structure, SeesADiameterThatIsOff) {
   std::vector<double> shape(sizes * velocities, 0.0);
   std::fill_n(shape.begin() + velocities, velocities, 1.5);
   const Structure found = structure_with(shape, 5);
-  EXPECT_LE(p_of(found, "size"), 0.01);
+  EXPECT_LE(p_of(found, StructureQuestion::size), 0.01);
   EXPECT_LE(found.p_value, 0.05);
-  EXPECT_GT(p_of(found, "trend"), 0.01);
+  EXPECT_GT(p_of(found, StructureQuestion::trend), 0.01);
 }
 
 TEST(Structure, SeesAWaveInTheLogarithmOfTheVelocity) {
@@ -107,7 +107,7 @@ TEST(Structure, SeesAWaveInTheLogarithmOfTheVelocity) {
     shape.push_back(1.8 * std::sin(2.0 * std::numbers::pi * 2.0 * u));
   }
   const Structure found = structure_with(shape, 6);
-  EXPECT_LE(p_of(found, "smooth"), 0.01);
+  EXPECT_LE(p_of(found, StructureQuestion::smooth), 0.01);
   EXPECT_LE(found.p_value, 0.02);
   EXPECT_TRUE(found.smooth);
 }
@@ -124,12 +124,15 @@ TEST(Structure, TellsLargeScatterFromShape) {
     made.data.sd_stated = false;  // nobody said how large it should be
     const Structure found =
         quick_structure(made.data, made.fitted, made.predicted, 199, static_cast<std::uint64_t>(k));
-    for (const StructureTest& test : found.tests) ASSERT_NE(test.id, "scatter");
+    for (const StructureTest& test : found.tests)
+      ASSERT_NE(test.question, StructureQuestion::scatter);
     accused += found.p_value <= 0.05 ? 1 : 0;
   }
   EXPECT_LE(accused, 12);  // binomial with 5 %: more has a chance of 1 in 500
   made.data.sd_stated = true;
-  EXPECT_LE(p_of(quick_structure(made.data, made.fitted, made.predicted, 199, 1), "scatter"), 0.01);
+  EXPECT_LE(p_of(quick_structure(made.data, made.fitted, made.predicted, 199, 1),
+                 StructureQuestion::scatter),
+            0.01);
 }
 
 TEST(Structure, FreeFormFollowsAWaveAndLeavesNoiseAlone) {

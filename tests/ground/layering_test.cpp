@@ -128,6 +128,57 @@ TEST(Layering, FilesStaySmall) {
   EXPECT_LT(tree::lines_of(tree::text_of(tree::root() / "CMakeLists.txt")).size(), 100U);
 }
 
+/// A source and the header of its name are one unit; the units that each unit of src includes.
+std::map<std::string, std::set<std::string>> included_units() {
+  const auto unit_of = [](const std::string& path) { return path.substr(0, path.rfind('.')); };
+  std::map<std::string, std::set<std::string>> graph;
+  for (const Include& include : quoted_includes()) {
+    const std::string from =
+        unit_of(fs::relative(include.file, tree::root() / "src").generic_string());
+    const std::string to = unit_of(include.target);
+    if (from != to) graph[from].insert(to);
+  }
+  return graph;
+}
+
+/// Takes away what includes nothing that is left until nothing can be taken: the rest is in, or
+/// leads into, a circle.
+std::set<std::string> circular(std::map<std::string, std::set<std::string>> graph) {
+  for (bool smaller = true; smaller;) {
+    smaller = false;
+    for (auto unit = graph.begin(); unit != graph.end();) {
+      std::erase_if(unit->second, [&](const std::string& to) { return graph.count(to) == 0; });
+      smaller = smaller || unit->second.empty();
+      unit = unit->second.empty() ? graph.erase(unit) : std::next(unit);
+    }
+  }
+  std::set<std::string> left;
+  for (const auto& [unit, targets] : graph) left.insert(unit);
+  return left;
+}
+
+TEST(Layering, CirclesAreSeen) {
+  EXPECT_TRUE(circular({{"a", {"b", "c"}}, {"b", {"c"}}}).empty());
+  EXPECT_EQ(circular({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}}).count("b"), 1U);
+}
+
+/// Results are plain types of their own: what orchestrates a folder includes its parts, and no part
+/// includes what orchestrates it.
+TEST(Layering, NoPartIncludesItsOrchestrator) {
+  auto graph = included_units();
+  // Circles among the parts of one folder; those of folders upstream are theirs.
+  for (const std::string folder : {"uncertainty", "predict", "diagnosis"}) {
+    std::map<std::string, std::set<std::string>> own;
+    for (const auto& [unit, targets] : graph) {
+      if (unit.rfind(folder + "/", 0) == 0) own[unit] = targets;
+    }
+    EXPECT_GT(own.size(), 5U) << folder;
+    for (const std::string& unit : circular(own)) {
+      ADD_FAILURE() << "src/" << unit << " is part of a circle of includes, or leads into one";
+    }
+  }
+}
+
 TEST(Layering, HeadersAreGuarded) {
   for (const fs::path& file : tree::cpp_files(tree::root() / "src")) {
     if (file.extension() != ".hpp") continue;

@@ -54,19 +54,19 @@ Interval between(double lower, double upper) {
   Interval interval;
   interval.lower = lower;
   interval.upper = upper;
-  interval.shape = "bounded";
+  interval.shape = ProfileShape::bounded;
   return interval;
 }
 
 IntervalSet interval_set(double estimate, double error) {
   IntervalSet set;
-  set.wald = between(estimate - 1.96 * error, estimate + 1.96 * error);
-  set.profile = between(estimate - 1.85 * error, estimate + 2.10 * error);
-  set.percentile = between(estimate - 1.80 * error, estimate + 2.05 * error);
-  set.bca = between(estimate - 1.83 * error, estimate + 2.08 * error);
-  set.studentized.why = "not computed by this version";
-  set.recommended = "profile";
-  set.recommended_why = "it respects the bounds and kept its promise in the coverage study";
+  set[IntervalKind::wald] = between(estimate - 1.96 * error, estimate + 1.96 * error);
+  set[IntervalKind::profile] = between(estimate - 1.85 * error, estimate + 2.10 * error);
+  set[IntervalKind::percentile] = between(estimate - 1.80 * error, estimate + 2.05 * error);
+  set[IntervalKind::bca] = between(estimate - 1.83 * error, estimate + 2.08 * error);
+  set[IntervalKind::studentized] = no_interval(NoInterval::no_standard_error);
+  set.recommended = IntervalKind::profile;
+  set.because = RecommendedBecause::noise_stated;
   return set;
 }
 
@@ -223,8 +223,8 @@ void add_statistics(Analysis& a, const std::vector<double>& errors) {
 
   UncertaintyResult& u = a.uncertainty;
   u.options.replicates = 1999;
-  u.bootstrap.scheme = "parametric";
-  u.bootstrap.scheme_why = "every point states its standard deviation";
+  u.bootstrap.scheme = Scheme::parametric;
+  u.bootstrap.because = SchemeBecause::sd_stated;
   u.bootstrap.replicates = 1999;
   u.bootstrap.failed = 3;
   u.bootstrap.seed = 20260101;
@@ -252,9 +252,10 @@ void add_statistics(Analysis& a, const std::vector<double>& errors) {
       u.intervals.back().profile_curve = parabola(f.theta[s], errors[s]);
     }
   }
-  u.identifiability.verdict = "identifiable";
-  u.identifiability.text = "C_H and C_A are each known to better than a quarter of their value.";
-  u.identifiability.parameter.assign(slots, true);
+  u.identifiability.verdict = IdentifiabilityVerdict::identifiable;
+  for (std::size_t s = 0; s < slots; ++s) {
+    u.identifiability.parameter.emplace_back().identifiable = f.model.slots[s].free;
+  }
 }
 
 }  // namespace

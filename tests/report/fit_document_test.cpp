@@ -244,7 +244,8 @@ TEST(FitDocument, StaysNarrowWhateverTheWordsAre) {
   analysis.uncertainty.warnings = {std::string(250, 'w') + " and the reason why " +
                                    std::string(40, 'z')};
   analysis.fitted.model.slots[0].dataset = analysis.datasets[0].id;
-  analysis.uncertainty.identifiability.text = std::string(500, 'i');
+  analysis.uncertainty.bootstrap.failures.index = {3};
+  analysis.uncertainty.bootstrap.failures.message = std::string(500, 'i');
   EXPECT_LE(longest_line(text_report(analysis)), terminal_columns) << text_report(analysis);
 }
 
@@ -347,7 +348,7 @@ TEST(FitFigures, CompareTheIntervalsAndMarkTheRecommendedOne) {
   EXPECT_THAT(svg, HasSubstr("font-weight=\"bold\"")) << "profile";
   EXPECT_THAT(svg, Not(HasSubstr(">bound<"))) << "zero is far away";
   Analysis near = example::four_diameters();
-  near.uncertainty.intervals[0].wald.lower = 0.0;
+  near.uncertainty.intervals[0][IntervalKind::wald].lower = 0.0;
   EXPECT_THAT(picture(near), HasSubstr(">bound<"));
 }
 

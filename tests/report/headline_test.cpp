@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/verdict_words.hpp"
+#include "diagnosis/diagnosis_result.hpp"
 #include "report/diagnosis_report.hpp"
 
 namespace recoil {
@@ -50,15 +50,15 @@ TEST(Headline, StaysShortWithManyRivals) {
 TEST(Headline, DoubtsTheStatedErrorsWhereTheyMayBeTheReason) {
   Diagnosis d = answered(Verdict::unexplained);
   EXPECT_EQ(headline(d), "Something is missed that nothing in the catalogue explains");
-  d.unstated.push_back({"velocity_errors", 0.03, -40.0, 0.001});
+  d.unstated.push_back({ErrorSource::velocity_errors, 0.03, -40.0, 0.001});
   EXPECT_EQ(headline(d), "Something is missed that nothing in the catalogue explains");
-  d.unstated.push_back({"larger_deviations", 1.4, -20.0, 0.4});
+  d.unstated.push_back({ErrorSource::larger_deviations, 1.4, -20.0, 0.4});
   EXPECT_THAT(headline(d), HasSubstr("Either the errors are larger than stated, or"));
 }
 
 TEST(RivalErrors, CountBesideACauseOnlyWhereTheyFitAsWell) {
   Diagnosis d = answered(Verdict::cause_named);
-  d.unstated.push_back({"velocity_errors", 0.03, -40.0, 0.4});
+  d.unstated.push_back({ErrorSource::velocity_errors, 0.03, -40.0, 0.4});
   d.extended.emplace();
   d.extended->candidate.added = {"gas_film"};
   d.extended->delta_aicc = -50.0;

@@ -140,7 +140,7 @@ TEST(JsonReport, NeverPrintsWhatIsNotANumber) {
   analysis.fitted.residuals[3] = nan;
   analysis.fitted.starts[0].chi2 = infinity;
   analysis.fitted.model.slots[0].lower = -infinity;
-  analysis.uncertainty.intervals[0].wald.lower = nan;
+  analysis.uncertainty.intervals[0][IntervalKind::wald].lower = nan;
   analysis.uncertainty.capture[0].value = nan;
   analysis.uncertainty.capture[1].found = false;
   analysis.uncertainty.capture[1].interval = Interval{};

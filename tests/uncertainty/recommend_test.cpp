@@ -1,4 +1,4 @@
-// The rule and the sentence on disagreement, decided from numbers.
+// The rule and the reasons of a disagreement, decided from numbers.
 #include "uncertainty/recommend.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ Interval between(double lower, double upper) {
   Interval interval;
   interval.lower = lower;
   interval.upper = upper;
-  interval.shape = "bounded";
+  interval.shape = ProfileShape::bounded;
   return interval;
 }
 
@@ -35,8 +35,9 @@ Example agreeing() {
   made.fitted.dof = 30;
   for (const double at : made.fitted.theta) {
     IntervalSet set;
-    set.wald = set.profile = set.percentile = set.bca = set.studentized =
-        between(at - 0.2, at + 0.2);
+    for (const IntervalKind kind : values_of<IntervalKind>()) {
+      set[kind] = between(at - 0.2, at + 0.2);
+    }
     set.bca_constants = BcaConstants{};
     set.bound_share = 0.0;
     recommend(set, true);
@@ -45,90 +46,103 @@ Example agreeing() {
   return made;
 }
 
-std::string sentence(const Example& example) {
+std::optional<Disagreement> disagreement(const Example& example) {
   return explain_disagreement(example.fitted, 0, example.sets, true, 0.95);
-}
-
-bool says(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 TEST(Recommend, ProfileThenPercentileThenWald) {
   IntervalSet set = agreeing().sets[0];
-  EXPECT_EQ(set.recommended, "profile");
-  set.profile = Interval{};
-  set.profile.why = "a refit failed";
+  EXPECT_EQ(set.recommended, IntervalKind::profile);
+  EXPECT_EQ(set.because, RecommendedBecause::noise_stated);
+  recommend(set, false);
+  EXPECT_EQ(set.because, RecommendedBecause::noise_estimated);
+  set[IntervalKind::profile] = no_interval(NoInterval::refit_failed);
   recommend(set, true);
-  EXPECT_EQ(set.recommended, "percentile");
-  EXPECT_TRUE(says(set.recommended_why, "a refit failed"));
-  set.percentile = Interval{};
+  EXPECT_EQ(set.recommended, IntervalKind::percentile);
+  EXPECT_EQ(set.because, RecommendedBecause::no_profile);
+  set[IntervalKind::percentile] = Interval{};
   recommend(set, true);
-  EXPECT_EQ(set.recommended, "wald");
+  EXPECT_EQ(set.recommended, IntervalKind::wald);
 }
 
-TEST(Disagreement, AgreementIsSilent) { EXPECT_EQ(sentence(agreeing()), ""); }
+TEST(Disagreement, AgreementIsSilent) { EXPECT_FALSE(disagreement(agreeing())); }
 
 TEST(Disagreement, ChanceIsNoDisagreement) {
   Example e = agreeing();
-  e.sets[0].percentile = between(0.88, 1.2);  // 0.08 of 0.4: 20 %
-  EXPECT_TRUE(says(sentence(e), "percentile by 20 %")) << sentence(e);
-  e.sets[0].percentile.lower_error = 0.03;
-  EXPECT_EQ(sentence(e), "");
+  e.sets[0][IntervalKind::percentile] = between(0.88, 1.2);  // 0.08 of 0.4: 20 %
+  const auto found = disagreement(e);
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->differing.size(), 1U);
+  EXPECT_EQ(found->differing[0].kind, IntervalKind::percentile);
+  EXPECT_NEAR(found->differing[0].by, 0.2, 1e-12);
+  e.sets[0][IntervalKind::percentile].lower_error = 0.03;
+  EXPECT_FALSE(disagreement(e));
 }
 
 TEST(Disagreement, NamesTheCauseThatTheNumbersShow) {
   Example e = agreeing();
-  e.sets[0].bca = between(0.9, 1.3);
-  EXPECT_TRUE(says(sentence(e), "BCa by 25 %")) << sentence(e);
-  EXPECT_TRUE(says(sentence(e), "no bound, ridge, skew or lack of points")) << sentence(e);
+  e.sets[0][IntervalKind::bca] = between(0.9, 1.3);
+  ASSERT_TRUE(disagreement(e));
+  EXPECT_EQ(disagreement(e)->differing[0].kind, IntervalKind::bca);
+  EXPECT_NEAR(disagreement(e)->differing[0].by, 0.25, 1e-12);
+  EXPECT_FALSE(disagreement(e)->explained());
 
   Example skew = e;
   skew.sets[0].bca_constants = BcaConstants{0.0, 0.12};
-  EXPECT_TRUE(says(sentence(skew), "skewed (acceleration +0.12)")) << sentence(skew);
+  EXPECT_EQ(disagreement(skew)->acceleration, 0.12);
+  EXPECT_FALSE(disagreement(skew)->bias);
+  EXPECT_TRUE(disagreement(skew)->explained());
   skew = e;
-  skew.sets[0].profile = between(0.9, 1.3);
-  EXPECT_TRUE(says(sentence(skew), "profile reaches 3 times as far up as down")) << sentence(skew);
+  skew.sets[0][IntervalKind::profile] = between(0.9, 1.3);
+  ASSERT_TRUE(disagreement(skew)->arms);
+  EXPECT_NEAR(*disagreement(skew)->arms, 3.0, 1e-12);
 
   Example bound = e;
   bound.sets[0].bound_share = 0.31;
-  EXPECT_TRUE(says(sentence(bound), "31 % of the replicates rest on a bound")) << sentence(bound);
+  ASSERT_TRUE(disagreement(bound)->on_bound);
+  EXPECT_EQ(disagreement(bound)->on_bound->slot, 0U);
+  EXPECT_EQ(disagreement(bound)->on_bound->share, 0.31);
   bound = e;
   bound.fitted.at_bound[0] = true;
-  EXPECT_TRUE(says(sentence(bound), "the estimate rests on its bound")) << sentence(bound);
+  EXPECT_TRUE(disagreement(bound)->estimate_at_bound);
 
   Example partner = e;
   partner.sets[1].bound_share = 0.2;
-  EXPECT_FALSE(says(sentence(partner), "bound,  with")) << sentence(partner);
+  EXPECT_FALSE(disagreement(partner)->on_bound) << "it is not correlated";
   partner.fitted.covariance = {0.01, -0.008, -0.008, 0.01};
-  EXPECT_TRUE(says(sentence(partner), "20 % of the replicates have C_A on its bound"))
-      << sentence(partner);
+  ASSERT_TRUE(disagreement(partner)->on_bound);
+  EXPECT_EQ(disagreement(partner)->on_bound->slot, 1U);
+  EXPECT_EQ(disagreement(partner)->on_bound->share, 0.2);
+  EXPECT_NEAR(disagreement(partner)->on_bound->correlation, -0.8, 1e-12);
 
   Example ridge = e;
   ridge.fitted.covariance = {0.01, 0.0099, 0.0099, 0.01};
-  EXPECT_TRUE(says(sentence(ridge), "ridge against C_A (correlation 0.990)")) << sentence(ridge);
+  ASSERT_TRUE(disagreement(ridge)->ridge);
+  EXPECT_EQ(disagreement(ridge)->ridge->partner, 1U);
+  EXPECT_NEAR(disagreement(ridge)->ridge->correlation, 0.99, 1e-12);
 
   Example few = e;
-  few.fitted.dof = 8;  // Student 2.306 over 1.960: 1.18
-  const std::string words = explain_disagreement(few.fitted, 0, few.sets, false, 0.95);
-  EXPECT_TRUE(says(words, "8 degrees of freedom")) << words;
-  EXPECT_TRUE(says(words, "factor of 1.18")) << words;
+  few.fitted.dof = 8;
+  EXPECT_FALSE(disagreement(few)->few_points) << "the deviations are stated";
+  const auto found = explain_disagreement(few.fitted, 0, few.sets, false, 0.95);
+  ASSERT_TRUE(found->few_points);
+  EXPECT_EQ(found->few_points->dof, 8);
+  EXPECT_NEAR(found->few_points->factor, 2.306 / 1.960, 1e-3);
 }
 
 TEST(Bounds, AreNoted) {
   ParameterSlot slot;
   slot.upper = 1.0;
-  Interval low = between(0.0, 0.5);
-  note_bounds(low, slot);
-  EXPECT_TRUE(says(low.note, "upper limit"));
-  Interval high = between(0.2, 1.0);
-  note_bounds(high, slot);
-  EXPECT_TRUE(says(high.note, "lower limit"));
-  Interval both = between(0.0, 1.0);
-  note_bounds(both, slot);
-  EXPECT_TRUE(says(both.note, "do not limit"));
-  Interval inside = between(0.1, 0.2);
-  note_bounds(inside, slot);
-  EXPECT_TRUE(inside.note.empty());
+  const auto noted = [&](double lower, double upper) {
+    Interval interval = between(lower, upper);
+    note_bounds(interval, slot);
+    return interval.note;
+  };
+  EXPECT_EQ(noted(0.0, 0.5)->caution, Caution::begins_at_bound);
+  EXPECT_EQ(noted(0.2, 1.0)->caution, Caution::ends_at_bound);
+  EXPECT_EQ(noted(0.2, 1.0)->value, 1.0);
+  EXPECT_EQ(noted(0.0, 1.0)->caution, Caution::spans_both_bounds);
+  EXPECT_FALSE(noted(0.1, 0.2));
 }
 
 TEST(Bounds, ShareOfTheReplicates) {

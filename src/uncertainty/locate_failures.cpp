@@ -1,11 +1,9 @@
-#include <fmt/format.h>
+#include "uncertainty/locate_failures.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/units.hpp"
-#include "estimate/impact_problem.hpp"
-#include "uncertainty/bootstrap.hpp"
+#include "uncertainty/refit.hpp"
 
 namespace recoil {
 namespace {
@@ -29,18 +27,6 @@ struct Moments {
                        : 0.0;
   }
 };
-
-std::string describe(const ResamplingPlan& plan, const FailedReplicates::Suspect& suspect) {
-  const Observation& point = plan.fitted->data.points[suspect.point];
-  const bool counted = plan.scheme == Scheme::cases || plan.scheme == Scheme::cluster;
-  const std::string place =
-      fmt::format("point {} (d = {:.4g} um, V = {:.4g} m/s)", suspect.point + 1,
-                  point.diameter / units::um, point.velocity);
-  return counted ? fmt::format("{} is drawn {:.2g} times instead of {:.2g}", place,
-                               suspect.failed + 1.0, suspect.usual + 1.0)
-                 : fmt::format("{} is moved by {:+.2g} standard deviations instead of {:+.2g}",
-                               place, suspect.failed, suspect.usual);
-}
 
 }  // namespace
 
@@ -69,26 +55,20 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
     if (!(sd > 0.0)) continue;
     const double distance =
         std::abs(failed[i].mean() - usual[i].mean()) * std::sqrt(failed[i].count) / sd;
-    ranked.push_back({distance, {i, failed[i].mean(), usual[i].mean()}});
+    ranked.push_back(
+        {distance, {i, failed[i].mean(), usual[i].mean(), distance >= clearly_unlike}});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string most_unlike;
   for (std::size_t k = 0; k < std::min(ranked.size(), most_suspects); ++k) {
     result.suspects.push_back(ranked[k].second);
-    if (ranked[k].first < clearly_unlike && k > 0) continue;
-    most_unlike += (most_unlike.empty() ? "" : "; ") + describe(plan, ranked[k].second);
   }
   // The first failure once more, for what the minimiser has to say.
   Observations sample = plan.fitted->data;
   resample(plan, seed, result.index.front(), sample);
   const LeastSquaresResult again = refit(plan.fitted->model, sample, plan.fitted->theta);
-  result.message =
-      again.converged ? "its points do not determine all free parameters" : again.message;
-  result.text = fmt::format(
-      "{} of {} refits failed; in them {}. The first is replicate {} (seed {}): {}",
-      result.index.size(), replicates, most_unlike.empty() ? "no point stands out" : most_unlike,
-      result.index.front(), seed, result.message);
+  result.undetermined = again.converged;
+  if (!again.converged) result.message = again.message;
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "diagnosis/verdict_words.hpp"
+#include "report/words_diagnosis.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,6 +31,38 @@ std::string title_of(const std::string& id) {
   return mechanism == nullptr ? id : fmt::format("{} ({})", id, mechanism->info.title);
 }
 
+/// Why a candidate that is set aside is.
+std::string because_words(const CandidateResult& c) {
+  switch (c.set_aside.value_or(SetAside::not_possible)) {
+    case SetAside::description:
+      return "a description explains nothing";
+    case SetAside::gains_too_little:
+      return "it gains less than its parameters cost";
+    case SetAside::chance:
+      return fmt::format("chance gives the best of all candidates as much in {:.0f} % of data sets",
+                         100.0 * c.p_value.value_or(1.0));
+    case SetAside::not_possible:
+      break;
+    case SetAside::leaves_structure:
+      return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
+    case SetAside::predicts_no_better:
+      return "it predicts sizes or targets that were held out no better than the base model";
+    case SetAside::one_would_do:
+      return "one of the two does as well alone";
+    case SetAside::one_hardly_takes_part:
+      return fmt::format(
+          "it leaves structure behind (p = {:.2g}), and one of the two takes no more of the misfit "
+          "than the law of the other may be wrong",
+          c.remaining_p);
+    case SetAside::at_the_edge:
+      return "a parameter rests on the edge of what is possible";
+  }
+  for (const FoundParameter& parameter : c.parameters) {
+    if (!parameter.plausible()) return implausible_words(parameter);
+  }
+  return "";
+}
+
 std::string titles_of(const std::vector<std::string>& ids, const char* between = ", ") {
   std::vector<std::string> titles;
   for (const std::string& id : ids) titles.push_back(title_of(id));
@@ -59,7 +91,7 @@ std::string gain_words(const Diagnosis& d) {
       " Points that were held out are predicted with an error of {:.3g} in e instead of {:.3g}",
       d.gain->rmse_extended, d.gain->rmse_base);
   if (d.gain->relative < 0.0) {
-    text += fmt::format(" ({:.0f} % more: what was seen elsewhere does not hold there)",
+    text += fmt::format(" ({:.0f} % more: what was seen elsewhere is not true there)",
                         -100.0 * d.gain->relative);
   } else if (d.gain->lower && d.gain->upper) {
     text += fmt::format(" ({:.0f} % less, 95 % interval {:.0f} to {:.0f} %)",
@@ -78,16 +110,17 @@ std::string rest_words(const Diagnosis& d) {
 }
 
 /// Those that would have gained as much as the answer, but are not possible.
-std::string aside_words(const Diagnosis& d) {
+std::string impossible_words(const Diagnosis& d) {
   std::vector<std::string> words;
-  const double answer = d.extended ? d.extended->delta_aicc + d.options.apart : 0.0;
+  const double answer = d.extended ? d.extended->delta_aicc + d.options.margin : 0.0;
   for (const CandidateResult& c : d.candidates) {
     if (!c.plausible && c.delta_aicc < answer && words.size() < 2) {
       const bool listed =
           std::find(d.rivals.begin(), d.rivals.end(), c.candidate.name()) != d.rivals.end();
-      words.push_back(listed ? fmt::format("{} is listed though hardly plausible ({})",
-                                           c.candidate.name(), c.aside)
-                             : fmt::format("{} is set aside, {}", c.candidate.name(), c.aside));
+      words.push_back(
+          listed ? fmt::format("{} is listed though hardly plausible ({})", c.candidate.name(),
+                               set_aside_words(c))
+                 : fmt::format("{} is set aside because {}", c.candidate.name(), because_words(c)));
     }
   }
   return words.empty() ? "" : fmt::format(" {}.", fmt::join(words, "; "));
@@ -121,60 +154,40 @@ std::string next_words(const Diagnosis& d) {
 }
 
 std::string one_size_words(const Diagnosis& d) {
-  double low = INFINITY, high = 0.0;
-  for (const Observation& point : d.base.data.points) {
-    low = std::min(low, point.diameter);
-    high = std::max(high, point.diameter);
-  }
-  return high < 1.2 * low ? " One diameter cannot show how the effect depends on size, which is "
-                            "what tells causes apart: none is named."
-                          : "";
+  return has_one_size(d.base.data)
+             ? " One diameter cannot show how the effect depends on size, which is what tells one "
+               "cause from another: none is named."
+             : "";
 }
 
 /// An adequate model that nothing could have shown wrong.
 std::string evidence_words(const Diagnosis& d) {
-  constexpr int few = 3;
-  const auto& points = d.base.data.points;
-  const auto rebounds =
-      std::count_if(points.begin(), points.end(), [](const Observation& p) { return !p.censored; });
-  const auto free = std::count_if(d.base.model.slots.begin(), d.base.model.slots.end(),
-                                  [](const ParameterSlot& slot) { return slot.free; });
-  if (rebounds - free >= few) return "";
+  const Evidence evidence = evidence_for(d);
+  if (!evidence.hardly_any()) return "";
   return fmt::format(
       " With {} points that rebounded and {} free parameters hardly anything else could have been "
       "seen: that is no evidence for the model.",
-      rebounds, free);
+      evidence.rebounds, evidence.free);
 }
 
-/// The point that makes most of the misfit, if one does.
-std::string single_point_words(const Diagnosis& d) {
-  constexpr double most = 0.5;
-  const auto& residuals = d.base.residuals;
-  const auto worst = std::max_element(residuals.begin(), residuals.end(),
-                                      [](double a, double b) { return std::abs(a) < std::abs(b); });
-  if (worst == residuals.end() || *worst * *worst < most * d.base.chi2) return "";
-  const Observation& point =
-      d.base.data.points[static_cast<std::size_t>(worst - residuals.begin())];
+std::string dominant_point_words(const Diagnosis& d) {
+  const std::optional<std::size_t> worst = dominant_point(d);
+  if (!worst) return "";
+  const Observation& point = d.base.data.points[*worst];
   return fmt::format(
       " Most of it is one point, of {} at {:.3g} m/s (e = {:.3g}): look at that first.",
       diameter_words(point.diameter), point.velocity, point.restitution);
 }
 
-/// What takes nearly all of the misfit and is not named, because structure is left.
-std::string lead_words(const Diagnosis& d) {
-  constexpr double nearly_all = 0.2;
-  const auto lead =
-      std::find_if(d.candidates.begin(), d.candidates.end(), [](const CandidateResult& c) {
-        return c.plausible && c.kind != MechanismKind::description && c.delta_aicc < 0.0 &&
-               c.remaining_part < nearly_all && c.remaining_p < tolerated_level;
-      });
-  if (lead == d.candidates.end()) return "";
+std::string closest_words(const Diagnosis& d) {
+  const CandidateResult* const closest = closest_cause(d);
+  if (closest == nullptr) return "";
   return fmt::format(
       " Closest comes {}, which takes {:.0f} % of the misfit: it may be the cause with a law other "
       "than the catalogue's, or one of two; what it leaves is more than noise ({}), and it is not "
       "named.",
-      title_of(lead->candidate.name()), 100.0 * (1.0 - lead->remaining_part),
-      p_words(lead->remaining_p, quick_samples));
+      title_of(closest->candidate.name()), 100.0 * (1.0 - closest->remaining_part),
+      p_words(closest->remaining_p, quick_samples));
 }
 
 std::string found_words(const Diagnosis& d) {
@@ -185,27 +198,13 @@ std::string found_words(const Diagnosis& d) {
       found.emplace_back("and more");
       break;
     }
-    found.push_back(test.title);
+    found.push_back(words_of(test.question));
   }
   return found.empty() ? "" : fmt::format(": {}", fmt::join(found, ", "));
 }
 
-}  // namespace
-
-std::vector<UnstatedErrors> rival_errors(const Diagnosis& d) {
-  std::vector<UnstatedErrors> rivals;
-  for (const UnstatedErrors& errors : d.unstated) {
-    const bool close = !d.extended || errors.delta_aicc < d.extended->delta_aicc + d.options.apart;
-    const bool two_for_one = d.extended && d.extended->candidate.added.size() > 1;
-    if (errors.leave_nothing() && (close || two_for_one)) rivals.push_back(errors);
-  }
-  return rivals;
-}
-
-namespace {
-
 std::string errors_words(const UnstatedErrors& errors) {
-  return errors.id == "velocity_errors"
+  return errors.source == ErrorSource::velocity_errors
              ? fmt::format(
                    "velocities uncertain by {:.2g} % each (velocity_relative_sd = {:.2g} "
                    "under [noise]) leave nothing systematic (p = {:.2g})",
@@ -223,11 +222,11 @@ std::string rival_errors_words(const Diagnosis& d) {
   for (const UnstatedErrors& errors : rivals) words.push_back(errors_words(errors));
   const double behind = d.extended ? rivals.front().delta_aicc - d.extended->delta_aicc : 0.0;
   return fmt::format(" Errors that were not stated would do {}: {}.",
-                     !d.extended                ? "without any cause"
-                     : behind > d.options.apart ? fmt::format("too, if less well (AICc larger by "
-                                                              "{:.0f} than with two causes)",
-                                                              behind)
-                                                : "as well",
+                     !d.extended                 ? "without any cause"
+                     : behind > d.options.margin ? fmt::format("too, if less well (AICc larger by "
+                                                               "{:.0f} than with two causes)",
+                                                               behind)
+                                                 : "as well",
                      fmt::join(words, "; "));
 }
 
@@ -248,12 +247,82 @@ std::string unexplained_words(const Diagnosis& d) {
 
 }  // namespace
 
-std::string where_text(const Diagnosis& d) {
-  const auto worst = std::max_element(d.where.begin(), d.where.end(),
-                                      [](const MisfitCell& a, const MisfitCell& b) {
-                                        return std::abs(a.standardised) < std::abs(b.standardised);
-                                      });
-  if (worst == d.where.end() || std::abs(worst->standardised) < 2.0) return "";
+std::string words_of(StructureQuestion question) {
+  switch (question) {
+    case StructureQuestion::scatter:
+      return "the residuals are larger than the stated deviations";
+    case StructureQuestion::size:
+      return "whole diameters lie above or below the model";
+    case StructureQuestion::trend:
+      return "residuals rise or fall with velocity";
+    case StructureQuestion::curvature:
+      return "residuals bend with velocity";
+    case StructureQuestion::capture:
+      return "the model bends wrongly near capture";
+    case StructureQuestion::runs:
+      return "neighbouring points miss on the same side";
+    case StructureQuestion::smooth:
+      return "a smooth function of velocity and size takes up the residuals";
+  }
+  return "";
+}
+
+std::string fold_words(const Fold& fold, const std::vector<Dataset>& datasets) {
+  switch (fold.kind) {
+    case FoldKind::size: {
+      const double lower = fold.lower / units::um, upper = fold.upper / units::um;
+      return fold.lower < fold.upper ? fmt::format("{:.3g} to {:.3g} um", lower, upper)
+                                     : fmt::format("{:.3g} um", lower);
+    }
+    case FoldKind::velocity:
+      return fmt::format("{:.3g} to {:.3g} m/s", fold.lower, fold.upper);
+    case FoldKind::target:
+      return datasets[fold.dataset].id;
+  }
+  return "";
+}
+
+std::string implausible_words(const FoundParameter& parameter) {
+  if (!parameter.implausible) return "";
+  switch (*parameter.implausible) {
+    case Implausible::outside_range:
+      return fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}", parameter.label,
+                         parameter.value, unit_suffix(parameter.unit), parameter.lower,
+                         parameter.upper, parameter.range_why);
+    case Implausible::firmer_than_solids:
+      return fmt::format(
+          "a yield pressure of {:.3g} Pa is {:.2g} times the reduced modulus: no solid resists "
+          "more than about 0.3 of it",
+          parameter.value, parameter.over_modulus);
+  }
+  return "";
+}
+
+std::string set_aside_words(const CandidateResult& c) {
+  if (c.set_aside == SetAside::not_possible) return "not possible: " + because_words(c);
+  return c.explains() ? "" : because_words(c);
+}
+
+std::string short_set_aside_words(const CandidateResult& c) {
+  return c.set_aside == SetAside::not_possible ? "not possible" : set_aside_words(c);
+}
+
+std::vector<std::string> diagnosis_warnings(const Diagnosis& d) {
+  std::vector<std::string> warnings;
+  if (simulations_failed(d.structure)) {
+    warnings.push_back(fmt::format(
+        "{} of {} simulated data sets could not be fitted: the p-values rest on the others",
+        d.structure.failed, d.structure.failed + d.structure.simulated));
+  }
+  if (!d.extended_failure.empty()) {
+    warnings.push_back("the extended model has no usable fit of its own: " + d.extended_failure);
+  }
+  return warnings;
+}
+
+std::string where_words(const Diagnosis& d) {
+  const MisfitCell* const worst = worst_cell(d);
+  if (worst == nullptr) return "";
   return fmt::format(
       "It is furthest off for {} at {:.3g} to {:.3g} m/s, where it is too {} by {:.2g} in e "
       "({:.2g} standard errors) and by {:.2g} J in the energy of the rebound",
@@ -262,7 +331,7 @@ std::string where_text(const Diagnosis& d) {
       std::abs(worst->standardised), std::abs(worst->energy));
 }
 
-std::string verdict_text(const Diagnosis& d) {
+std::string answer_words(const Diagnosis& d) {
   const std::string p = p_words(d.structure.p_value, d.structure.simulated);
   if (d.verdict == Verdict::adequate) {
     return fmt::format(
@@ -273,7 +342,7 @@ std::string verdict_text(const Diagnosis& d) {
   }
   std::string text =
       fmt::format("The fitted model leaves structure in its residuals ({}){}. ", p, found_words(d));
-  const std::string where = where_text(d);
+  const std::string where = where_words(d);
   if (!where.empty()) text += where + ". ";
   switch (d.verdict) {
     case Verdict::cause_named:
@@ -304,12 +373,12 @@ std::string verdict_text(const Diagnosis& d) {
                                       "{} would explain it, but so would errors that were not "
                                       "stated, and with less: no cause is told.",
                                       d.outdone);
-      text += single_point_words(d) + lead_words(d) + unexplained_words(d);
+      text += dominant_point_words(d) + closest_words(d) + unexplained_words(d);
       break;
     case Verdict::adequate:
       break;
   }
-  return text + rival_errors_words(d) + aside_words(d);
+  return text + rival_errors_words(d) + impossible_words(d);
 }
 
 }  // namespace recoil

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/names.hpp"
+#include "diagnosis/candidate.hpp"
+#include "diagnosis/held_out.hpp"
+
+namespace recoil {
+
+/// Why a parameter cannot have its value.
+enum class Implausible {
+  outside_range,      ///< of what the catalogue gives for it
+  firmer_than_solids  ///< a yield pressure that no solid has
+};
+template <>
+struct NamesOf<Implausible> {
+  static constexpr std::array<std::string_view, 2> names = {"outside_range", "firmer_than_solids"};
+};
+
+/// A parameter of an added mechanism as it was fitted.
+struct FoundParameter {
+  std::string label;
+  std::string unit;
+  double value = 0.0;
+  double null_value = 0.0;
+  std::optional<Implausible> implausible;  ///< none where its value is possible
+  /// Plausible, or no further outside than half the range, or a factor of two: limits of what is
+  /// plausible are not sharp.
+  bool near_plausible = true;
+  double lower = 0.0, upper = 0.0;  ///< the range that it lies outside of
+  std::string_view range_why = {};  ///< why that is the range
+  double over_modulus = 0.0;        ///< a yield pressure over the reduced modulus [1]
+
+  bool plausible() const { return !implausible; }
+};
+
+inline constexpr double tolerated_level = 0.01;  ///< structure below this p-value is left behind
+
+/// Why a candidate is not taken for a cause.
+enum class SetAside {
+  description,            ///< it explains nothing
+  gains_too_little,       ///< less than its parameters cost
+  chance,                 ///< gives the best of all candidates as much, too often
+  not_possible,           ///< a parameter is implausible
+  leaves_structure,       ///< behind
+  predicts_no_better,     ///< sizes or targets that were held out
+  one_would_do,           ///< of the two of a pair
+  one_hardly_takes_part,  ///< of the two of a pair, and structure is left behind
+  at_the_edge,            ///< a parameter rests on the edge of what is possible
+};
+template <>
+struct NamesOf<SetAside> {
+  static constexpr std::array<std::string_view, 9> names = {
+      "description",  "gains_too_little",      "chance",
+      "not_possible", "leaves_structure",      "predicts_no_better",
+      "one_would_do", "one_hardly_takes_part", "at_the_edge"};
+};
+
+/// One mechanism, or several at once, tried as an explanation.
+struct CandidateResult {
+  Candidate candidate;
+  Refit refit;
+  MechanismKind kind = MechanismKind::physics;
+  std::vector<FoundParameter> parameters;
+  double delta_aicc = 0.0;        ///< criterion less that of the base model: negative is better
+  std::optional<double> p_value;  ///< see `diagnose`; none for several at once
+  double remaining_p = 0.0;       ///< of the structure that it leaves, `quick_structure`
+  /// Of the base model's misfit beyond the noise, what is left [1]; 1 where no errors are stated.
+  double remaining_part = 1.0;
+  std::optional<HeldOutGain> gain;  ///< where worth computing
+  bool plausible = true;            ///< all of its parameters are
+  bool near_plausible = true;       ///< see `FoundParameter`
+  std::optional<SetAside> set_aside;
+
+  bool explains() const { return !set_aside; }
+};
+
+}  // namespace recoil

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+namespace recoil {
+
+struct DiagnosisOptions {
+  int simulated = 999;  ///< data sets of the base model that calibrate the tests of the residuals
+  int compared = 39;    ///< of these, how many are fitted with every candidate
+  /// A correct model is accused in this part of all data, if the stated deviations are right. 5 %
+  /// are promised: the rest is room for what they do not cover, such as velocities that a table
+  /// rounds to three digits where e is steep, close to capture.
+  double level = 0.02;
+  double chance = 0.05;  ///< what a cause gains, chance gives in no more than this part
+  /// Two causes whose criteria differ by less than this margin cannot be told from each other. For
+  /// a false rival R and the truth T, with delta^2 the misfit that R would leave, the difference of
+  /// their deviances is about normal with mean delta^2 and standard deviation 2 delta, so that R
+  /// leads by c with a probability of at most Phi(-sqrt(c)), attained at delta^2 = c: 2.3 % at 4,
+  /// for rivals of as many parameters. From a difference of 4 on, a model has "considerably less
+  /// support" (Burnham & Anderson 2002, Model Selection and Multimodel Inference, section 2.6).
+  double margin = 4.0;
+  double margin_in_pairs = 6.0;  ///< the same for two at once, where more rivals crowd: 0.7 % each
+  std::uint64_t seed = 20260101;
+  int threads = 0;  ///< 0: all cores. No digit depends on it.
+};
+
+}  // namespace recoil

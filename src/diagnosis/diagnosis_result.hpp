@@ -1,0 +1,94 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/names.hpp"
+#include "diagnosis/candidate_result.hpp"
+#include "diagnosis/diagnosis_options.hpp"
+#include "diagnosis/misfit_map.hpp"
+#include "diagnosis/next_measurement.hpp"
+#include "diagnosis/structure.hpp"
+#include "diagnosis/unstated_errors.hpp"
+#include "uncertainty/interval_set.hpp"
+
+namespace recoil {
+
+enum class Verdict { adequate, cause_named, not_separable, unexplained };
+template <>
+struct NamesOf<Verdict> {
+  static constexpr std::array<std::string_view, 4> names = {"adequate", "cause_named",
+                                                            "not_separable", "unexplained"};
+};
+
+/// The capture velocity of one diameter under both models.
+struct CaptureChange {
+  std::size_t dataset = 0;
+  double diameter = 0.0;                 ///< [m]
+  std::optional<double> base, extended;  ///< [m/s]; none where nothing is captured
+};
+
+/// What `diagnose` finds.
+struct Diagnosis {
+  DiagnosisOptions options;
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+  FitResult base;
+  Verdict verdict = Verdict::adequate;
+  Structure structure;                      ///< of the base model's residuals
+  std::vector<MisfitCell> where;            ///< the map
+  std::vector<double> free_form;            ///< discrepancy as residuals [points]; empty: none
+  double free_form_p = 1.0;                 ///< of the scatter that it leaves
+  std::vector<CandidateResult> candidates;  ///< single mechanisms, the best first
+  std::vector<CandidateResult> pairs;       ///< the best pairs of causes, when one did not suffice
+  std::vector<std::string> named;
+  std::vector<std::string> rivals;
+  std::vector<std::string> common;          ///< of the rivals, those that every explanation has
+  std::string shared_cause;                 ///< of which all rivals are laws; empty: none
+  std::optional<CandidateResult> extended;  ///< the model of `extended.toml`
+  std::optional<FitResult> extended_fit;
+  std::string extended_failure;  ///< why the extended model has no usable fit of its own
+  /// Intervals of the parameters [slots] of the base fit and of the extended one: the profile
+  /// where standard deviations are stated, otherwise with 199 replicates.
+  std::vector<IntervalSet> base_intervals, extended_intervals;
+  std::optional<HeldOutGain> gain;
+  std::vector<CaptureChange> capture;
+  std::vector<NextMeasurement> next;
+  std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate
+  std::string outdone;  ///< the best explanation, where unstated errors do better; else empty
+  /// What a reader has to know about the points: for reconstructions, what their recipe put there.
+  std::vector<std::string> remarks;
+};
+
+/// Have all points about the same diameter, so that none shows how an effect depends on it?
+bool has_one_size(const Observations& data);
+
+/// Have so many simulated data sets no fit that a reader has to know (more than one in a hundred)?
+bool simulations_failed(const Structure& structure);
+
+/// The diameter and band of velocities at which the base model misses most; null where it misses
+/// nowhere by two standard errors.
+const MisfitCell* worst_cell(const Diagnosis& diagnosis);
+
+/// The point that makes more than half of the misfit, if one does: index into the observations.
+std::optional<std::size_t> dominant_point(const Diagnosis& diagnosis);
+
+/// How many more points rebounded than parameters are free: with fewer than three hardly anything
+/// but the model could have been seen.
+struct Evidence {
+  int rebounds = 0;
+  int free = 0;
+  bool hardly_any() const { return rebounds - free < 3; }
+};
+Evidence evidence_for(const Diagnosis& diagnosis);
+
+/// The cause that takes more than four fifths of the misfit and is not named, because structure is
+/// left; null where there is none.
+const CandidateResult* closest_cause(const Diagnosis& diagnosis);
+
+/// Errors that nobody stated and that would do as well as the answer, or without one; beside two
+/// causes at once also those that fit less well, as they need one number.
+std::vector<UnstatedErrors> rival_errors(const Diagnosis& diagnosis);
+
+}  // namespace recoil

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/names.hpp"
+
+namespace recoil {
+
+/// Ways to an interval of a parameter, in the order in which they are shown.
+enum class IntervalKind {
+  wald,         ///< estimate and standard error
+  profile,      ///< of the likelihood
+  percentile,   ///< of the bootstrap
+  bca,          ///< of the bootstrap, corrected for bias and acceleration
+  studentized,  ///< bootstrap-t
+};
+template <>
+struct NamesOf<IntervalKind> {
+  static constexpr std::array<std::string_view, 5> names = {"wald", "profile", "percentile", "bca",
+                                                            "studentized"};
+};
+
+/// How many ends of a profile interval the likelihood has set, and not a bound of the parameter.
+enum class ProfileShape { bounded, one_sided, flat };
+template <>
+struct NamesOf<ProfileShape> {
+  static constexpr std::array<std::string_view, 3> names = {"bounded", "one-sided", "flat"};
+};
+
+/// Why there is no interval.
+enum class NoInterval {
+  not_assessed,              ///< nothing was asked about uncertainty
+  fixed,                     ///< the parameter was not fitted
+  not_asked_for,             ///< of this run
+  nothing_free,              ///< nothing was fitted
+  no_standard_error,         ///< it rests on a bound, or the points do not determine it
+  refit_failed,              ///< one along the profile, with the parameter held
+  few_replicates,            ///< fewer than `fewest_replicates`
+  few_delete_one_refits,     ///< fewer than three
+  one_sided_replicates,      ///< all on one side of the estimate, as at a bound
+  large_acceleration,        ///< too large for the level
+  replicates_without_error,  ///< more than a tenth of them rest on a bound
+  refits_failed,             ///< more than a tenth of them
+  never_rebounds,            ///< a capture velocity: spheres of this size stay at any velocity
+  never_captured,            ///< a capture velocity of spheres that always rebound
+  no_covariance,             ///< the fit has no standard errors
+};
+template <>
+struct NamesOf<NoInterval> {
+  static constexpr std::array<std::string_view, 15> names = {"not_assessed",
+                                                             "fixed",
+                                                             "not_asked_for",
+                                                             "nothing_free",
+                                                             "no_standard_error",
+                                                             "refit_failed",
+                                                             "few_replicates",
+                                                             "few_delete_one_refits",
+                                                             "one_sided_replicates",
+                                                             "large_acceleration",
+                                                             "replicates_without_error",
+                                                             "refits_failed",
+                                                             "never_rebounds",
+                                                             "never_captured",
+                                                             "no_covariance"};
+};
+
+/// The least number of replicates that have an interval: (B + 1) 0.025 >= 1.
+inline constexpr std::size_t fewest_replicates = 39;
+
+/// What has to be known beside the numbers of an interval.
+enum class Caution {
+  spans_both_bounds,  ///< the data do not limit this parameter
+  begins_at_bound,    ///< an upper limit
+  ends_at_bound,      ///< a lower limit
+  undecided_noise,    ///< see `undecided`
+  wide_spread,        ///< see `widest_spread`
+};
+template <>
+struct NamesOf<Caution> {
+  static constexpr std::array<std::string_view, 5> names = {
+      "spans_both_bounds", "begins_at_bound", "ends_at_bound", "undecided_noise", "wide_spread"};
+};
+
+struct IntervalNote {
+  Caution caution = Caution::begins_at_bound;
+  double value = 0.0;  ///< the bound, the factor between the errors, or the spread of the impacts
+};
+
+/// [lower, upper] in the parameter's unit, or the reason why there is none.
+struct Interval {
+  std::optional<double> lower;
+  std::optional<double> upper;
+  std::optional<NoInterval> missing;  ///< why there is none
+  std::optional<ProfileShape> shape;  ///< of a profile
+  std::optional<IntervalNote> note;
+  /// Monte-Carlo error of each end: its standard deviation over repetitions of the resampling with
+  /// other seeds. None where nothing is random.
+  std::optional<double> lower_error, upper_error;
+
+  bool available() const { return lower.has_value() && upper.has_value(); }
+  bool contains(double value) const { return available() && *lower <= value && value <= *upper; }
+};
+
+inline Interval no_interval(NoInterval why) {
+  Interval interval;
+  interval.missing = why;
+  return interval;
+}
+
+/// Constants of the BCa interval (Efron 1987, JASA 82, 171-185).
+struct BcaConstants {
+  double bias = 0.0;          ///< z0 = Phi^-1( fraction of replicates below the estimate )
+  double acceleration = 0.0;  ///< a = sum d^3 / (6 (sum d^2)^(3/2)), d = mean - delete-one value
+};
+
+}  // namespace recoil

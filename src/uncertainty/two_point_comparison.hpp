@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/names.hpp"
+#include "estimate/fit.hpp"
+#include "estimate/two_point.hpp"
+
+namespace recoil {
+
+/// Why nothing is held out in a comparison, or not by both.
+enum class NothingHeldOut {
+  single_diameter,  ///< the dataset has no other
+  refit_failed,     ///< the full fit of the calibrated diameter alone
+};
+template <>
+struct NamesOf<NothingHeldOut> {
+  static constexpr std::array<std::string_view, 2> names = {"single_diameter", "refit_failed"};
+};
+
+/// Two points against all: both calibrated on one diameter, both judged on the others.
+struct TwoPointComparison {
+  std::size_t dataset = 0;
+  TwoPointResult result;
+  double rmse = 0.0;                         ///< of the two-point calibration, all points [1]
+  std::optional<double> held_out_rmse;       ///< on the diameters that it did not see [1]
+  double full_rmse = 0.0;                    ///< of the full fit, all points of the dataset [1]
+  std::optional<double> full_held_out_rmse;  ///< full fit of that diameter alone, on the others
+  std::optional<NothingHeldOut> nothing_held_out;
+  std::string refit_failure;        ///< of the full fit of that diameter alone
+  std::vector<double> spread;       ///< sd of each slot under resampling, two-point
+  std::vector<double> full_spread;  ///< the same of the full fit
+  int failed = 0;                   ///< replicates without a two-point answer
+};
+
+/// Both calibrations at the reference diameter of `dataset`. What resampling tells of them is left
+/// open.
+TwoPointComparison compare_two_point(const FitResult& fitted,
+                                     std::size_t dataset);
+
+}  // namespace recoil

@@ -1,0 +1,94 @@
+// Every fact has words, and no two facts of a kind have the same.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "example_analysis.hpp"
+#include "report/words_diagnosis.hpp"
+#include "report/words_identifiability.hpp"
+#include "report/words_intervals.hpp"
+#include "report/words_predict.hpp"
+
+namespace recoil {
+namespace {
+
+/// `words` of every value of an enum: none empty, all different.
+template <class Enum, class Words>
+void expect_words_for_all(const Words& words) {
+  std::set<std::string> all;
+  for (const Enum value : values_of<Enum>()) {
+    const std::string said = words(value);
+    EXPECT_FALSE(said.empty()) << name_of(value);
+    EXPECT_TRUE(all.insert(said).second) << name_of(value) << ": " << said;
+  }
+}
+
+TEST(Words, EveryFactHasItsOwn) {
+  expect_words_for_all<IntervalKind>([](IntervalKind kind) { return words_of(kind); });
+  expect_words_for_all<NoInterval>([](NoInterval why) { return missing_words(no_interval(why)); });
+  expect_words_for_all<Caution>([](Caution caution) {
+    Interval interval;
+    interval.note = IntervalNote{caution, 1.0};
+    return note_words(interval, "C_A");
+  });
+  expect_words_for_all<RecommendedBecause>([](RecommendedBecause because) {
+    IntervalSet set;
+    set.because = because;
+    return recommended_words(set);
+  });
+  expect_words_for_all<CaptureBecause>([](CaptureBecause because) {
+    CaptureEstimate capture;
+    capture.because = because;
+    return recommended_words(capture);
+  });
+  expect_words_for_all<SchemeBecause>([](SchemeBecause because) {
+    BootstrapResult bootstrap;
+    bootstrap.because = because;
+    return scheme_words(bootstrap);
+  });
+  expect_words_for_all<SchemeObstacle>(
+      [](SchemeObstacle obstacle) { return obstacle_words(obstacle); });
+  expect_words_for_all<NothingHeldOut>([](NothingHeldOut why) {
+    TwoPointComparison comparison;
+    comparison.nothing_held_out = why;
+    return held_out_words(comparison);
+  });
+  expect_words_for_all<StructureQuestion>(
+      [](StructureQuestion question) { return words_of(question); });
+  expect_words_for_all<SetAside>([](SetAside why) {
+    CandidateResult candidate;
+    candidate.set_aside = why;
+    return set_aside_words(candidate);
+  });
+  expect_words_for_all<CaptureModel>([](CaptureModel model) { return words_of(model); });
+  expect_words_for_all<CaptureConvention>([](CaptureConvention c) { return words_of(c); });
+}
+
+TEST(Words, EveryHindranceIsTold) {
+  Analysis analysis = example::four_diameters();
+  expect_words_for_all<Hindrance>([&](Hindrance hindrance) {
+    analysis.uncertainty.identifiability.parameter[0] = {false, hindrance, 0.4, 2.0, false};
+    return identifiability_words(analysis.fitted, analysis.uncertainty);
+  });
+  analysis.uncertainty.identifiability.parameter.clear();
+  EXPECT_EQ(identifiability_words(analysis.fitted, analysis.uncertainty), "");
+}
+
+TEST(Words, WarnWhereRefitsFailed) {
+  Analysis analysis = example::four_diameters();
+  UncertaintyResult& uncertainty = analysis.uncertainty;
+  const auto warnings = [&] {
+    return uncertainty_warnings(uncertainty, analysis.data, analysis.datasets).size();
+  };
+  const std::size_t before = warnings();
+  uncertainty.bootstrap.failures.index = {3, 5};
+  uncertainty.bootstrap.failed = 2;
+  EXPECT_EQ(warnings(), before) << "two of 1999";
+  uncertainty.bootstrap.failed = 21;
+  EXPECT_TRUE(uncertainty.bootstrap.failed_often());
+  EXPECT_FALSE(uncertainty.bootstrap.withheld());
+  EXPECT_EQ(warnings(), before + 1);
+}
+
+}  // namespace
+}  // namespace recoil

@@ -1,0 +1,90 @@
+// What the points know of every parameter, and what more of them would tell.
+#include "uncertainty/information.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "noisy_case.hpp"
+
+namespace recoil {
+namespace {
+
+/// A fit to points without noise: more of them do not move the estimate.
+synthetic::Case exact_case() {
+  synthetic::Case made;
+  made.datasets = {synthetic::dataset({})};
+  made.data = gather(made.datasets);
+  made.fitted = fit(make_model(synthetic::spec(), made.datasets), made.data);
+  return made;
+}
+
+std::vector<CapturePlace> places(const synthetic::Case& c) {
+  std::vector<CapturePlace> found;
+  for (const double diameter : distinct_diameters(c.datasets[0])) {
+    found.push_back(
+        {0, diameter, capture_velocity(c.fitted.model, c.fitted.theta, 0, diameter).value});
+  }
+  return found;
+}
+
+TEST(Information, KnowsEveryFreeParameterAsTheFitDoes) {
+  const synthetic::Case c = exact_case();
+  const Information known = information_at(c.fitted, c.data, places(c));
+  for (std::size_t j = 0; j < c.fitted.theta.size(); ++j) {
+    EXPECT_NEAR(known.relative_sd[j], c.fitted.std_error[j] / c.fitted.theta[j],
+                1e-6 * known.relative_sd[j])
+        << j;
+    EXPECT_EQ(known.relative_sd[j] > 0.0, c.fitted.model.slots[j].free) << j;
+  }
+  ASSERT_EQ(known.directions.size(), 2U);
+  EXPECT_GT(known.condition, 1.0);
+  EXPECT_NEAR(std::hypot(known.directions[0].exponents[0], known.directions[0].exponents[1]), 1.0,
+              1e-12);
+}
+
+TEST(Information, AFitWithThePlannedPointsHasThePlannedErrors) {
+  const synthetic::Case c = exact_case();
+  const Information known = information_at(c.fitted, c.data, places(c));
+  ASSERT_FALSE(known.plans.empty());
+  for (const PlannedPoints& plan : {known.plans.front(), known.plans.back()}) {
+    Observations more = c.data;
+    const auto like =
+        std::min_element(more.points.begin(), more.points.end(), [&](const auto& a, const auto& b) {
+          const auto distance = [&](const Observation& o) {
+            return std::abs(std::log(o.velocity / plan.velocity)) +
+                   (o.diameter == plan.diameter ? 0.0 : 100.0);
+          };
+          return distance(a) < distance(b);
+        });
+    Observation point = *like;
+    point.velocity = plan.velocity;
+    point.restitution =
+        predict(c.fitted.model, c.fitted.theta, 0, plan.diameter, plan.velocity, false)
+            .restitution();
+    more.points.insert(more.points.end(), static_cast<std::size_t>(plan.points), point);
+    const FitResult then = fit(c.fitted.model, more);
+    for (std::size_t j = 0; j < 2; ++j) {
+      EXPECT_NEAR(plan.relative_sd[j], then.std_error[j] / then.theta[j],
+                  1e-3 * plan.relative_sd[j])
+          << j;
+      EXPECT_LT(plan.relative_sd[j], known.relative_sd[j]) << j;
+    }
+  }
+}
+
+TEST(Information, NamesEveryParameterThatMorePointsWouldTell) {
+  Information known;
+  known.relative_sd = {0.10, 0.10, 0.0, 0.10};
+  known.plans = {{0, 4.9e-6, 3.0, 2.0, 5, {0.05, 0.09, 0.0, 0.02}}};
+  const std::vector<ErrorGain> gains = worthwhile_gains(known);
+  ASSERT_EQ(gains.size(), 2U);
+  EXPECT_EQ(gains[0].slot, 0U);
+  EXPECT_EQ(gains[0].now, 0.10);
+  EXPECT_EQ(gains[0].then, 0.05);
+  EXPECT_EQ(gains[1].slot, 3U);
+  EXPECT_TRUE(worthwhile_gains(Information{}).empty());
+}
+
+}  // namespace
+}  // namespace recoil
