@@ -242,7 +242,9 @@ plot::Picture coverage_picture(const CoverageStudy& study) {
       percent(study.level), study.grid_of, study.datasets, study.replicates);
   const CoverageStudy::Source& source = study.sources.front();
   return coverage_picture(study.rows, study.level, title,
-                          fmt::format("{}: {}", source.id, provenance_sentence(source.provenance)));
+                          source.provenance == Provenance::reconstruction
+                              ? source.id + ": a reconstruction, no point of it was measured"
+                              : source.id + ": " + to_string(source.provenance));
 }
 
 plot::Picture coverage_picture(const std::vector<ParameterCoverage>& rows, double level,

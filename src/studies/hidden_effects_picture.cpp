@@ -72,7 +72,7 @@ plot::Plot power_panel(const StudyTally& tally) {
 
 plot::Plot heat_panel(const Confusion& c) {
   plot::Plot panel;
-  panel.frame = plot::Frame{0.50 * width, 0.93 * width, 0.30 * height, 0.92 * height};
+  panel.frame = plot::Frame{0.50 * width, 0.91 * width, 0.30 * height, 0.92 * height};
   panel.heading = "Hidden (rows) and answered (columns), snr 10 and more";
   panel.x.set_range({-0.5, static_cast<double>(c.columns.size()) - 0.5});
   panel.y.set_range({static_cast<double>(c.rows.size()) - 0.5, -0.5});
