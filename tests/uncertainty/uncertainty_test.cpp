@@ -217,6 +217,9 @@ TEST(Profile, IsCalibratedNearABoundWithAllOtherParametersMoving) {
   Design design;
   design.C_A = 0.0;
   c.datasets = {synthetic::dataset(design)};
+  for (ImpactPoint& point : c.datasets[0].points) {  // adhesion that adds energy would fit better
+    if (point.incident_velocity < 7.0) point.restitution += 0.01;
+  }
   c.data = gather(c.datasets);
   c.fitted = fit(make_model(synthetic::spec(), c.datasets), c.data);
   ASSERT_TRUE(c.fitted.at_bound[1]);
