@@ -31,9 +31,10 @@ struct FoundParameter {
   /// Plausible, or no further outside than half the range, or a factor of two: limits of what is
   /// plausible are not sharp.
   bool near_plausible = true;
-  double lower = 0.0, upper = 0.0;  ///< the range that it lies outside of
-  std::string_view range_why = {};  ///< why that is the range
-  double over_modulus = 0.0;        ///< a yield pressure over the reduced modulus [1]
+  double lower = 0.0, upper = 0.0;    ///< the range that it lies outside of
+  std::string_view range_why = {};    ///< why that is the range
+  double over_modulus = 0.0;          ///< a yield pressure over the reduced modulus [1]
+  std::string_view modulus_why = {};  ///< why no solid goes beyond the limit
 
   bool plausible() const { return !implausible; }
 };

@@ -15,7 +15,6 @@
 #include "diagnosis/next_measurement.hpp"
 #include "diagnosis/search.hpp"
 #include "diagnosis/unstated_errors.hpp"
-#include "diagnosis/verdict_words.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "uncertainty/uncertainty.hpp"
 

@@ -162,9 +162,8 @@ std::vector<double> velocity_grid(const std::vector<SizeCurve>& sizes, double sl
 
 }  // namespace
 
-PolydispersePrediction predict_mixture(const FitResult& fitted, const Observations& data,
-                                       std::size_t dataset, const BootstrapResult& bootstrap,
-                                       const MeasuredSizes& sizes,
+PolydispersePrediction predict_mixture(const FitResult& fitted, std::size_t dataset,
+                                       const BootstrapResult& bootstrap, const MeasuredSizes& sizes,
                                        const PolydisperseOptions& options) {
   PolydispersePrediction out;
   out.dataset = dataset;

@@ -290,10 +290,9 @@ std::string implausible_words(const FoundParameter& parameter) {
                          parameter.value, unit_suffix(parameter.unit), parameter.lower,
                          parameter.upper, parameter.range_why);
     case Implausible::firmer_than_solids:
-      return fmt::format(
-          "a yield pressure of {:.3g} Pa is {:.2g} times the reduced modulus: no solid resists "
-          "more than about 0.3 of it",
-          parameter.value, parameter.over_modulus);
+      return fmt::format("{} = {:.3g}{} is {:.2g} times the reduced modulus: {}", parameter.label,
+                         parameter.value, unit_suffix(parameter.unit), parameter.over_modulus,
+                         parameter.modulus_why);
   }
   return "";
 }

@@ -102,9 +102,10 @@ std::string bootstrap_key(const FitResult& fitted, const ResamplingPlan& plan,
   }
   for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
     const Observation& point = fitted.data.points[i];
-    text += fmt::format("{} {} {:a} {:a} {:a} {:a} {} {:a} {:a} {:a}|", point.dataset, point.series,
-                        point.diameter, point.velocity, point.restitution, point.weights.sd, point.censored,
-                        fitted.prediction[i], fitted.residuals[i], fitted.leverage[i]);
+    text +=
+        fmt::format("{} {} {:a} {:a} {:a} {:a} {} {:a} {:a} {:a}|", point.dataset, point.series,
+                    point.diameter, point.velocity, point.restitution, point.weights.sd,
+                    point.censored, fitted.prediction[i], fitted.residuals[i], fitted.leverage[i]);
     text += fmt::format("{} {} {} {} {:a} {:a} {:a} {:a}|", point.events, point.captured,
                         point.counted, point.rebound_measured, point.velocity_sd, point.diameter_sd,
                         point.weights.input_sd, point.weights.scatter);

@@ -79,7 +79,7 @@ std::vector<CorrelatedParameters> correlated_parameters(const FitResult& fitted)
 }
 
 /// The slowest impacts over the capture velocity, where they do not reach down to it.
-std::optional<double> too_far_above_capture(const Observations& data,
+std::optional<double> too_far_above_capture(const FitResult& fitted,
                                             const std::vector<CaptureEstimate>& capture) {
   double nearest = INFINITY;
   for (const CaptureEstimate& at : capture) {
@@ -143,7 +143,7 @@ Identifiability judge_identifiability(const FitResult& fitted,
                                       : IdentifiabilityVerdict::not_identifiable;
   result.information = information_at(fitted, places_of(capture));
   result.correlated = correlated_parameters(fitted);
-  result.slowest = too_far_above_capture(data, capture);
+  result.slowest = too_far_above_capture(fitted, capture);
   result.more_points = result.slowest || good < free_count;
   return result;
 }

@@ -193,8 +193,7 @@ std::vector<ErrorGain> worthwhile_gains(const Information& information) {
   return gains;
 }
 
-Information information_at(const FitResult& fitted,
-                           const std::vector<CapturePlace>& capture) {
+Information information_at(const FitResult& fitted, const std::vector<CapturePlace>& capture) {
   Information information;
   const std::vector<std::size_t> inner = inner_slots(fitted);
   information.relative_sd.assign(fitted.theta.size(), 0.0);

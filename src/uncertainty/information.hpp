@@ -65,7 +65,6 @@ struct CapturePlace {
 };
 
 /// @param capture every (dataset, diameter) of the data
-Information information_at(const FitResult& fitted,
-                           const std::vector<CapturePlace>& capture);
+Information information_at(const FitResult& fitted, const std::vector<CapturePlace>& capture);
 
 }  // namespace recoil

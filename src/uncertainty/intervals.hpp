@@ -4,27 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "core/statistics.hpp"
 #include "uncertainty/interval.hpp"
 
 namespace recoil {
-
-/// The p-quantile of an ascending sample by the (B + 1) p rule with linear interpolation (Davison &
-/// Hinkley 1997, section 5.2.1), clamped to the sample.
-double sorted_quantile(std::span<const double> ascending, double p);
-
-/// 95 % limits of a share, by the score of Wilson (1927), J. Am. Stat. Assoc. 22, 209-212.
-/// @pre whole > 0
-struct ShareLimits {
-  double lower = 0.0;
-  double upper = 1.0;
-};
-ShareLimits share_limits(int part, int whole);
-
-/// Monte-Carlo error of `sorted_quantile(ascending, p)`: half the distance between the order
-/// statistics one standard deviation of rank on either side (Woodruff 1952, J. Am. Stat. Assoc. 47,
-/// 635-646), the rank being binomial, sd = sqrt(B p (1 - p)).
-/// @param rank_sd overrides the binomial standard deviation when it is not negative [ranks]
-double quantile_error(std::span<const double> ascending, double p, double rank_sd = -1.0);
 
 /// Percentile interval of bootstrap replicates (Efron 1979).
 Interval percentile_interval(std::vector<double> replicates, double level);

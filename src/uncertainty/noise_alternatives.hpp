@@ -15,8 +15,8 @@ struct NoiseAlternative {
 
 /// The fit itself and, where its variance function was chosen among several, the fits with the
 /// others, weighted by exp(-(c - c_min) / 2), c being the restricted criterion with its penalty
-/// (see `reweighted_fit`). Functions that weigh less than a thousandth are left out; a fit with stated or
-/// prescribed noise stands alone.
+/// (see `reweighted_fit`). Functions that weigh less than a thousandth are left out; a fit with
+/// stated or prescribed noise stands alone.
 std::vector<NoiseAlternative> noise_alternatives(const FitResult& fitted);
 
 /// One quantity under every alternative: slot j.
@@ -32,10 +32,10 @@ double undecided_factor(const std::vector<WaldTerm>& terms);
 constexpr double undecided = 1.5;
 
 /// Where the capture velocity scatters from impact to impact by more than this, the intervals are
-/// not to be trusted: e^2 of the impacts at one velocity is taken as normal (see `reweighted_fit`), while
-/// in truth it is about 1 - (V* exp(-omega z) / V)^3 and has a long tail below. With omega = 0.1
-/// intervals contain the truth as often as they promise; in simulations of 14 points with omega =
-/// 0.27 to 0.5 those of C_H and of the capture velocity contained the truth in 8 to 67 % of the
+/// not to be trusted: e^2 of the impacts at one velocity is taken as normal (see `reweighted_fit`),
+/// while in truth it is about 1 - (V* exp(-omega z) / V)^3 and has a long tail below. With omega =
+/// 0.1 intervals contain the truth as often as they promise; in simulations of 14 points with omega
+/// = 0.27 to 0.5 those of C_H and of the capture velocity contained the truth in 8 to 67 % of the
 /// data sets.
 constexpr double widest_spread = 0.2;
 

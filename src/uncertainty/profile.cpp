@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "estimate/impact_problem.hpp"
-#include "estimate/reweigh.hpp"
 #include "estimate/weights.hpp"
 #include "uncertainty/intervals.hpp"
 

@@ -14,7 +14,8 @@ LeastSquaresOptions refit_options();
 /// The same for the weights that depend on a replicate.
 ReweightingOptions refit_reweighting_options();
 
-/// The refit of a sample from `start`, together with the weights that depend on it (`reweighted_fit`).
+/// The refit of a sample from `start`, together with the weights that depend on it
+/// (`reweighted_fit`).
 LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
                          std::span<const double> start);
 

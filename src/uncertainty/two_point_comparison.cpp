@@ -19,8 +19,7 @@ Split split_by_diameter(const Observations& data, std::size_t dataset, double di
 
 }  // namespace
 
-TwoPointComparison compare_two_point(const FitResult& fitted,
-                                     std::size_t dataset) {
+TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset) {
   const Observations& data = fitted.data;
   TwoPointComparison comparison;
   comparison.dataset = dataset;

@@ -37,7 +37,6 @@ struct TwoPointComparison {
 
 /// Both calibrations at the reference diameter of `dataset`. What resampling tells of them is left
 /// open.
-TwoPointComparison compare_two_point(const FitResult& fitted,
-                                     std::size_t dataset);
+TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset);
 
 }  // namespace recoil

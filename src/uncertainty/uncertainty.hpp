@@ -1,5 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "estimate/fit.hpp"
 #include "estimate/point_conditions.hpp"
 #include "estimate/scheme.hpp"
@@ -8,11 +14,6 @@
 #include "uncertainty/intervals.hpp"
 #include "uncertainty/two_point_pairs.hpp"
 #include "uncertainty/uncertainty_result.hpp"
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace recoil {
 
