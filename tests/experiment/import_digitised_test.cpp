@@ -110,13 +110,14 @@ TEST(Digitised, MarksOnTheAxisAreCapturesWhenAskedFor) {
 
 TEST(Digitised, SemicolonsAndMistakes) {
   const Place place;
-  EXPECT_EQ(complaint(place.request("s;\nX;Y\n2;0.5\n", kFormat)), "no complaint");
+  EXPECT_EQ(complaint(place.request("s;\nX;Y\n2;0.5\n", kFormat)), "no error");
   const Place other;
   EXPECT_THAT(complaint(other.request("s,\nX,Y\n2,abc\n", kFormat)),
               HasSubstr("input.csv:3:3: 'abc' is not a number"));
   EXPECT_THAT(complaint(other.request("V,e\n2,0.5\n", kFormat)),
               HasSubstr("this is not WebPlotDigitizer's CSV"));
-  EXPECT_THAT(complaint(other.request("s,\nX,Y\n2,\n", kFormat)), HasSubstr("a point of 's' lacks x or y"));
+  EXPECT_THAT(complaint(other.request("s,\nX,Y\n2,\n", kFormat)),
+              HasSubstr("a point of 's' lacks x or y"));
   auto request = other.request("2,0.5\n", kFormat);
   request.reading_error = "0.5%";
   EXPECT_THAT(complaint(request), HasSubstr("--reading-error without --axis x"));

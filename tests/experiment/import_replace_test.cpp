@@ -100,7 +100,7 @@ TEST(Replace, PointsOfTheRecipeDoNotBecomeDigitised) {
   EXPECT_THAT(complaint(request), HasSubstr("60 of 60 points are those of the reconstruction"));
   EXPECT_TRUE(place.has("datasets/wall1990-mica/recipe.toml"));
   request.provenance = recoil::Provenance::synthetic;
-  EXPECT_EQ(complaint(request), "no complaint");
+  EXPECT_EQ(complaint(request), "no error");
 }
 
 TEST(Replace, TheCommandLine) {
