@@ -12,7 +12,7 @@ CorrectionStudy corrections(std::size_t size_classes) {
   study.C_H = 0.005;
   study.C_A = 0.025;
   study.capture_velocity = 0.278;
-  for (const Correction left_out : all_ways) {
+  for (const Correction left_out : values_of<Correction>()) {
     const auto k = static_cast<double>(left_out);
     CorrectionRow row;
     row.left_out = left_out;

@@ -132,7 +132,7 @@ TEST(FitDocument, EscapesWhatAFileSays) {
   analysis.datasets[0].sources = {hostile};
   analysis.datasets[0].system.particle.name = hostile;
   analysis.spec.id = hostile;
-  analysis.uncertainty.warnings = {hostile};
+  analysis.fitted.model.contacts[0].contradictions = {hostile};
   const std::string html = html_report(analysis);
   expect_self_contained(html);
   EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(1)"));
@@ -241,8 +241,8 @@ TEST(FitDocument, StaysNarrowWhateverTheWordsAre) {
   analysis.datasets[0].id =
       "a-dataset-with-a-name-that-is-far-too-long-to-stand-in-one-line-of-text";
   analysis.spec.file = "/a/path/" + std::string(150, 'p') + "/fit.toml";
-  analysis.uncertainty.warnings = {std::string(250, 'w') + " and the reason why " +
-                                   std::string(40, 'z')};
+  analysis.fitted.model.contacts[0].contradictions = {
+      std::string(250, 'w') + " and the reason why " + std::string(40, 'z')};
   analysis.fitted.model.slots[0].dataset = analysis.datasets[0].id;
   analysis.uncertainty.bootstrap.failures.index = {3};
   analysis.uncertainty.bootstrap.failures.message = std::string(500, 'i');
