@@ -78,7 +78,7 @@ TEST(Words, WarnWhereRefitsFailed) {
   Analysis analysis = example::four_diameters();
   UncertaintyResult& uncertainty = analysis.uncertainty;
   const auto warnings = [&] {
-    return uncertainty_warnings(uncertainty, analysis.fitted.data, analysis.datasets).size();
+    return uncertainty_warnings(uncertainty, analysis.fitted.data).size();
   };
   const std::size_t before = warnings();
   uncertainty.bootstrap.failures.index = {3, 5};
