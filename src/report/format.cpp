@@ -117,8 +117,7 @@ std::vector<std::string> all_warnings(const Analysis& analysis) {
             {fmt::format("two-point iteration on {}: {}", analysis.datasets[comparison.dataset].id,
                          two_point_words(analysis.fitted, comparison.dataset, comparison.result))});
   }
-  add_new(warnings, uncertainty_warnings(analysis.uncertainty, analysis.fitted.data,
-                                         analysis.datasets));
+  add_new(warnings, uncertainty_warnings(analysis.uncertainty, analysis.fitted.data));
   return warnings;
 }
 

@@ -155,8 +155,7 @@ std::string identifiability_words(const FitResult& fitted, const UncertaintyResu
 }
 
 std::vector<std::string> uncertainty_warnings(const UncertaintyResult& uncertainty,
-                                              const Observations& data,
-                                              const std::vector<Dataset>& datasets) {
+                                              const Observations& data) {
   Sentences warnings;
   const BootstrapResult& boot = uncertainty.bootstrap;
   if (boot.failed_often()) {

@@ -16,7 +16,6 @@ std::string identifiability_words(const FitResult& fitted, const UncertaintyResu
 
 /// What has to be known of the whole assessment, one sentence each.
 std::vector<std::string> uncertainty_warnings(const UncertaintyResult& uncertainty,
-                                              const Observations& data,
-                                              const std::vector<Dataset>& datasets);
+                                              const Observations& data);
 
 }  // namespace recoil
