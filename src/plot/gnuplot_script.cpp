@@ -442,7 +442,7 @@ class ScriptWriter {
                        : !plot.remark.empty()            ? 3.4
                        : plot.heading.empty()            ? 1.5
                                                          : 2.2;
-    const double foot = plot.key.place == KeyPlace::below ? -1.0 : 3.6;
+    const double foot = plot.key.place == KeyPlace::below ? -1.0 : 3.2;
     return fmt::format("set lmargin {:.1f}\nset rmargin {}\nset bmargin {}\nset tmargin {}\n", left,
                        plot.colours ? -1 : 2, foot, top);
   }

@@ -7,7 +7,6 @@
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/prediction.hpp"
-#include "report/svg_plot.hpp"
 #include "report/words_predict.hpp"
 
 namespace recoil {
@@ -81,7 +80,7 @@ Figure comparison_figure(const Analysis& analysis, const CaptureComparison& comp
           plot::Band{diameters, curve.lower, curve.upper, {std::string(stroke.colour), 0.2}});
     }
     plot::Line line{diameters, curve.velocity, stroke};
-    line.name = curve.label;
+    line.name = words_of(curve.model);
     shown.layers.push_back(std::move(line));
     const auto falls = slope(comparison.diameter, curve);
     words.push_back(fmt::format("{}: {}{}", words_of(curve.model),
@@ -94,7 +93,7 @@ Figure comparison_figure(const Analysis& analysis, const CaptureComparison& comp
   }
   add_published(comparison, true, shown);
   add_published(comparison, false, shown);
-  for (const std::string& note : comparison.notes) words.push_back(note);
+  for (const std::string& note : capture_notes(comparison, dataset)) words.push_back(note);
 
   plot::Picture picture;
   picture.name = fmt::format("capture-models-{}", comparison.dataset + 1);

@@ -42,7 +42,7 @@ CornerAxis parameter_of(const Analysis& analysis, std::size_t slot) {
   parameter.estimate = analysis.fitted.theta[slot] * factor;
   const plot::Range bulk = plot::quantile_range(parameter.values, 0.003, 0.997);
   std::vector<double> shown = {bulk.lower, bulk.upper, parameter.estimate};
-  const Interval interval = intervals_of(analysis, slot).profile;
+  const Interval interval = intervals_of(analysis, slot)[IntervalKind::profile];
   if (interval.available()) {
     shown.push_back(*interval.lower * factor);
     shown.push_back(*interval.upper * factor);

@@ -10,7 +10,6 @@
 #include "estimate/residual.hpp"
 #include "report/diagnosis_report.hpp"
 #include "report/format.hpp"
-#include "report/svg_plot.hpp"
 #include "report/words_diagnosis.hpp"
 
 namespace recoil {
@@ -260,6 +259,37 @@ std::vector<Figure> before_after_figures(const Diagnosis& d) {
   return figures;
 }
 
+namespace {
+
+constexpr std::size_t longest_line = 34;  // of a reason [letters]
+constexpr double letter_width = 5.2;      // of its type [px]
+constexpr double room_for_bars = 430.0;   // of the whole picture [px]
+
+/// A long reason on two lines: broken at the blank nearest to its middle.
+std::string in_two_lines(std::string text) {
+  if (text.size() <= longest_line) return text;
+  const std::size_t before = text.rfind(' ', text.size() / 2);
+  const std::size_t after = text.find(' ', text.size() / 2);
+  const bool later =
+      before == std::string::npos || (after != std::string::npos && after + before < text.size());
+  const std::size_t blank = later ? after : before;
+  if (blank != std::string::npos) text[blank] = '\n';
+  return text;
+}
+
+/// The end of an axis on which a bar of `value` leaves room for the words behind it.
+double end_with_words(double value, const std::string& words) {
+  const std::size_t line =
+      std::max(words.find('\n') == std::string::npos
+                   ? words.size()
+                   : std::max(words.find('\n'), words.size() - words.find('\n')),
+               std::size_t{1});
+  const double taken = (12.0 + letter_width * static_cast<double>(line)) / room_for_bars;
+  return value / (1.0 - std::min(taken, 0.7));
+}
+
+}  // namespace
+
 std::vector<Figure> ranking_figures(const Diagnosis& d) {
   std::vector<const CandidateResult*> shown;
   for (const CandidateResult& c : d.candidates) {
@@ -278,19 +308,22 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
   aside.fill = {"#BBBBBB", 0.85};
   plot::Plot ranking;
   std::vector<plot::Layer> reasons;
+  double end = -1.1 * shown.front()->delta_aicc;
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const CandidateResult& c = *shown[k];
     const double row = static_cast<double>(k);
     (is_answer(d, c) ? taken : aside).add(0.0, -c.delta_aicc, row - 0.32, row + 0.32);
     ranking.y.ticks.push_back({row, c.candidate.name()});
-    plot::Words reason{short_aside(c), plot::on_axis(-c.delta_aicc), plot::on_axis(row)};
+    plot::Words reason{in_two_lines(short_set_aside_words(c)), plot::on_axis(-c.delta_aicc),
+                       plot::on_axis(row)};
     reason.size = 9.0;
     reason.colour = plot::grey;
     reason.shift_x = 0.6;
+    end = std::max(end, end_with_words(-c.delta_aicc, reason.text));
     if (!reason.text.empty()) reasons.push_back(std::move(reason));
   }
   ranking.x = {"gain of the corrected criterion (AICc)"};
-  ranking.x.set_range({0.0, 1.75 * -shown.front()->delta_aicc});
+  ranking.x.set_range({0.0, end});
   ranking.y.set_range({static_cast<double>(shown.size()) - 0.4, -0.6});
   ranking.layers = {std::move(taken), std::move(aside)};
   for (plot::Layer& reason : reasons) ranking.layers.push_back(std::move(reason));
@@ -307,7 +340,7 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
           "parameters paid for. Blue: the answer. Grey: further behind, or set aside "
           "for the reason beside it. Bars within {:.0f} of each other ({:.0f} where two act at "
           "once) cannot be told apart.",
-          d.options.apart, d.options.apart_in_pairs),
+          d.options.margin, d.options.margin_in_pairs),
       true)};
 }
 

@@ -6,7 +6,6 @@
 #include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/parameter_axis.hpp"
-#include "report/svg_plot.hpp"
 #include "report/words_intervals.hpp"
 
 namespace recoil {
@@ -34,16 +33,11 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
   const IntervalSet set = intervals_of(analysis, slot);
   const double estimate = analysis.fitted.theta[slot];
   const auto [factor, axis] = parameter_axis(parameter, estimate);
-  const Kind kinds[] = {{"wald", "Wald", &set.wald},
-                        {"profile", "profile", &set.profile},
-                        {"percentile", "percentile", &set.percentile},
-                        {"bca", "BCa", &set.bca},
-                        {"studentized", "studentized", &set.studentized}};
   std::vector<double> ends = {estimate * factor};
-  for (const Kind& kind : kinds) {
-    if (!kind.interval->available()) continue;
-    ends.push_back(*kind.interval->lower * factor);
-    ends.push_back(*kind.interval->upper * factor);
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    if (!set[kind].available()) continue;
+    ends.push_back(*set[kind].lower * factor);
+    ends.push_back(*set[kind].upper * factor);
   }
   plot::Range range = plot::range_of(ends, 0.08);
   const double lower = parameter.lower * factor;
@@ -70,14 +64,14 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
   chosen.stroke = {plot::green, 5.0};
   chosen.name = "recommended";
   double row = 0.0;
-  for (const Kind& kind : kinds) {
-    const bool is_recommended = set.recommended == kind.id;
-    shown.y.ticks.push_back({row, kind.name, is_recommended});
-    if (kind.interval->available()) {
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    const bool is_recommended = set.recommended == kind;
+    shown.y.ticks.push_back({row, words_of(kind), is_recommended});
+    if (set[kind].available()) {
       plot::Spans& spans = is_recommended ? chosen : usual;
       spans.y.push_back(row);
-      spans.lower.push_back(*kind.interval->lower * factor);
-      spans.upper.push_back(*kind.interval->upper * factor);
+      spans.lower.push_back(*set[kind].lower * factor);
+      spans.upper.push_back(*set[kind].upper * factor);
     } else {
       plot::Words none{"none", plot::share_of_plot(0.02), plot::on_axis(row)};
       none.size = 11.0;
@@ -99,9 +93,11 @@ Figure interval_figure(const Analysis& analysis, std::size_t slot) {
                          symbol(parameter.label()));
   const Interval recommended = recommended_interval(set);
   caption += recommended.available()
-                 ? fmt::format("; the {} one is recommended.", set.recommended)
-                 : fmt::format(". None is recommended: {}.", reason_without(set));
-  if (!set.disagreement.empty()) caption += " " + as_sentence(set.disagreement);
+                 ? fmt::format("; the {} one is recommended.", words_of(set.recommended))
+                 : fmt::format(". None is recommended: {}.", missing_words(recommended));
+  if (set.disagreement) {
+    caption += " " + as_sentence(disagreement_words(analysis.fitted, slot, set));
+  }
   return figure_of(std::move(picture), caption);
 }
 

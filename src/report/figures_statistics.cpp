@@ -10,7 +10,6 @@
 #include "report/format.hpp"
 #include "report/panels.hpp"
 #include "report/parameter_axis.hpp"
-#include "report/svg_plot.hpp"
 #include "report/words_intervals.hpp"
 
 namespace recoil {
@@ -196,7 +195,7 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
   if (interval.available()) {
     plot::Region inside{*interval.lower * factor, *interval.upper * factor};
     inside.name = fmt::format("{} interval ({})", percent(analysis.uncertainty.options.level),
-                              set.recommended);
+                              words_of(set.recommended));
     shown.layers.push_back(std::move(inside));
   }
   plot::Picture picture;
@@ -205,17 +204,17 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
   picture.height = 300;
   picture.plots = {std::move(shown)};
 
-  std::string caption =
-      fmt::format("{} usable replicates of {} ({} bootstrap).", values.size(),
-                  analysis.uncertainty.bootstrap.replicates, analysis.uncertainty.bootstrap.scheme);
+  std::string caption = fmt::format("{} usable replicates of {} ({} bootstrap).", values.size(),
+                                    analysis.uncertainty.bootstrap.replicates,
+                                    to_string(analysis.uncertainty.bootstrap.scheme));
   if (bars.outside > 0) {
     caption += fmt::format(" {} of them lie outside this picture.", bars.outside);
   }
   if (interval.available()) {
     caption += fmt::format(" Recommended interval {} {}.", interval_text(interval),
                            parameter.parameter->unit);
-  } else if (!interval.why.empty()) {
-    caption += fmt::format(" No recommended interval: {}.", interval.why);
+  } else {
+    caption += fmt::format(" No recommended interval: {}.", missing_words(interval));
   }
   return figure_of(std::move(picture), caption);
 }
