@@ -93,7 +93,7 @@ std::string commands_block(const CLI::App& program) {
     if (!out.empty()) out += "\n";
     out += fmt::format("## recoil {}{}\n\n{}.\n", command->get_name(), positionals,
                        capitalised(command->get_description()));
-    if (!rows.empty()) out += "\n| option | takes | |\n|---|---|---|\n" + rows;
+    if (!rows.empty()) out += "\n| option | takes | meaning |\n|---|---|---|\n" + rows;
   }
   return out;
 }

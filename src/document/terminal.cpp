@@ -13,6 +13,7 @@ constexpr std::size_t gap = 2;           // between columns
 constexpr std::size_t widest_name = 36;  // of a list of names and values
 constexpr std::size_t narrowest_name = 19;
 constexpr std::size_t narrowest_words = 24;  // of a column of words
+constexpr std::size_t longest_uncut = 50;    // a word that a narrow column still leaves whole
 constexpr std::size_t widest_heading = 30;   // of a row, where columns have to be shared out
 
 bool starts_code_point(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
@@ -96,22 +97,26 @@ Layout layout_of(const Table& table) {
 /// Breaks headings, then columns of words, until the table is no wider than `room`.
 void narrow(Layout& layout, std::size_t room) {
   if (layout.total() <= room) return;
+  std::vector<std::size_t> least(layout.width.size(), narrowest_words);
   for (std::size_t c = 0; c < layout.width.size(); ++c) {
     std::size_t cells = longest_word(layout.headings[c]);
-    for (const auto& row : layout.rows) cells = std::max(cells, code_points(row[c]));
+    for (const auto& row : layout.rows) {
+      cells = std::max(cells, code_points(row[c]));
+      least[c] = std::max(least[c], std::min(longest_word(row[c]), longest_uncut));
+    }
     layout.width[c] = cells;
   }
   while (layout.total() > room) {
     std::size_t widest = layout.width.size();
     for (std::size_t c = 0; c < layout.width.size(); ++c) {
-      const bool shrinks = layout.left[c] && layout.width[c] > narrowest_words;
+      const bool shrinks = layout.left[c] && layout.width[c] > least[c];
       if (shrinks && (widest == layout.width.size() || layout.width[c] > layout.width[widest])) {
         widest = c;
       }
     }
     if (widest == layout.width.size()) return;
     const std::size_t excess = layout.total() - room;
-    layout.width[widest] -= std::min(excess, layout.width[widest] - narrowest_words);
+    layout.width[widest] -= std::min(excess, layout.width[widest] - least[widest]);
   }
 }
 

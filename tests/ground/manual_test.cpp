@@ -152,7 +152,7 @@ void collect(const nlohmann::json& value, const std::string& path, std::set<std:
   paths.insert(path);
 }
 
-/// "a.{b,c}[].d" as its paths; NAME, DATASET, STATUS alike.
+/// "a.{b, c}[].d" as its paths; NAME, DATASET, STATUS alike.
 std::vector<std::string> expanded(const std::string& text) {
   const std::size_t open = text.find('{');
   if (open == std::string::npos) {
@@ -167,7 +167,7 @@ std::vector<std::string> expanded(const std::string& text) {
                                             text.substr(close + 1))) {
       paths.push_back(path);
     }
-    begin = end + 1;
+    begin = text.find_first_not_of(' ', end + 1);
   }
   return paths;
 }
