@@ -96,7 +96,7 @@ TEST(Readme, CoverageIsThatOfTheStudy) {
 
 TEST(Readme, TheGridOfCoverageIsThatOfTheStudy) {
   static const std::regex grid(
-      R"re(coverage-grid-n(\d+)-(\w+)\.md\): (\d+) data sets per design; of 42 rows (\d+) \w+, in (\d+) more the verdict warns, (\d+) are too narrow and (\d+) too wide)re");
+      R"re(coverage-grid-n(\d+)-(\w+)\.md\): (\d+) data sets per design; of 42 rows (\d+) [a-z ]+, in (\d+) more the verdict warns, (\d+) are too narrow and (\d+) too wide)re");
   const auto rows = page::table_of(tree::root() / "docs/coverage.md", "| noise | points");
   const std::string study = tree::text_of(tree::root() / "reports/coverage.md");
   std::size_t compared = 0;
