@@ -19,6 +19,10 @@ namespace {
 
 constexpr std::size_t indent = 2;  // of tables
 
+void print_line(const std::string& words) {
+  fmt::print("{}\n", wrap(words, terminal_columns, indent));
+}
+
 struct SimulateOptions {
   std::string fit_file;
   double velocity = 0.0;  // [m/s]
@@ -166,14 +170,13 @@ void print_impact(const ImpactGroups& groups, const ImpactScales& scales, const 
   fmt::print("model: K = {:.6g} GPa, f0 = {:.6g} N/m at this diameter, adhesion damping: {}\n",
              c.stiffness / units::GPa, c.adhesion_force, to_string(phase));
   if (captured) {
-    fmt::print(
+    print_line(
         "note: adhesion did work on the sphere on its way in, so the shares can exceed 100 %; what "
-        "is "
-        "bound is negative\n");
+        "is bound is negative");
   }
-  for (const std::string& line : contact.contradictions) fmt::print("note: {}\n", line);
-  fmt::print("dataset: {} ({}): {}\n", dataset.id, to_string(dataset.provenance),
-             provenance_sentence(dataset.provenance));
+  for (const std::string& line : contact.contradictions) print_line("note: " + line);
+  print_line(fmt::format("dataset: {} ({}): {}", dataset.id, to_string(dataset.provenance),
+                         provenance_sentence(dataset.provenance)));
 }
 
 /// Percent of e for one percent of every quantity.
@@ -246,11 +249,12 @@ void simulate(const SimulateOptions& options) {
   if (!extended) {
     fmt::print("{}", terminal_text(sensitivities(conditions, impact, datasets[d]), indent));
   }
-  fmt::print("parameters: C_H = {:.6g} s/m, C_A = {:.6g} s/m ({})\n", conditions.hertz_damping,
-             conditions.adhesion_damping,
-             options.parameters.empty()
-                 ? "initial values of the fit file; --parameters fit.json takes fitted ones"
-                 : "from " + options.parameters);
+  print_line(
+      fmt::format("parameters: C_H = {:.6g} s/m, C_A = {:.6g} s/m ({})", conditions.hertz_damping,
+                  conditions.adhesion_damping,
+                  options.parameters.empty()
+                      ? "initial values of the fit file; --parameters fit.json takes fitted ones"
+                      : "from " + options.parameters));
 }
 
 }  // namespace
