@@ -8,7 +8,6 @@
 #include <string>
 
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/verdict_words.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "quick_diagnosis.hpp"
 #include "support/synthetic.hpp"

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "noisy_case.hpp"
+#include "estimate/capture_velocity.hpp"
+#include "estimate/predictor.hpp"
+#include "support/noisy_case.hpp"
 
 namespace recoil {
 namespace {
@@ -31,7 +33,7 @@ std::vector<CapturePlace> places(const synthetic::Case& c) {
 
 TEST(Information, KnowsEveryFreeParameterAsTheFitDoes) {
   const synthetic::Case c = exact_case();
-  const Information known = information_at(c.fitted, c.data, places(c));
+  const Information known = information_at(c.fitted, places(c));
   for (std::size_t j = 0; j < c.fitted.theta.size(); ++j) {
     EXPECT_NEAR(known.relative_sd[j], c.fitted.std_error[j] / c.fitted.theta[j],
                 1e-6 * known.relative_sd[j])
@@ -46,7 +48,7 @@ TEST(Information, KnowsEveryFreeParameterAsTheFitDoes) {
 
 TEST(Information, AFitWithThePlannedPointsHasThePlannedErrors) {
   const synthetic::Case c = exact_case();
-  const Information known = information_at(c.fitted, c.data, places(c));
+  const Information known = information_at(c.fitted, places(c));
   ASSERT_FALSE(known.plans.empty());
   for (const PlannedPoints& plan : {known.plans.front(), known.plans.back()}) {
     Observations more = c.data;

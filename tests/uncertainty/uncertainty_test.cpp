@@ -105,8 +105,7 @@ TEST(Identifiability, AKnownUpperLimitIsKnowledge) {
   UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
   c.fitted.std_error[0] = 1e-6;
   result.intervals[0][IntervalKind::profile].lower = 0.0;
-  const Identifiability verdict =
-      judge_identifiability(c.fitted, result.intervals, result.capture);
+  const Identifiability verdict = judge_identifiability(c.fitted, result.intervals, result.capture);
   EXPECT_TRUE(verdict.parameter[0].identifiable);
   EXPECT_TRUE(verdict.parameter[0].upper_limit);
   EXPECT_FALSE(verdict.parameter[1].upper_limit);
@@ -250,7 +249,7 @@ TEST(Profile, ExcludesTheBoundAsAOneSidedTestWould) {
   // Two-sided everywhere else, a truth on the bound can only be missed from above: the limit is
   // 1.645 errors, not 1.960 (see profile_quantile).
   const Case clear = above_the_bound(1.75);
-  const Interval excluded = profile_interval(clear.fitted, clear.data, 0, 0.95);
+  const Interval excluded = profile_interval(clear.fitted, 0, 0.95);
   ASSERT_TRUE(excluded.available());
   EXPECT_GT(*excluded.lower, 0.0);
   EXPECT_EQ(excluded.shape, ProfileShape::bounded);
