@@ -6,17 +6,23 @@
 #include <cmath>
 
 namespace recoil {
+namespace {
+
+/// 3e-05 has a zero that says nothing.
+std::string without_empty_exponent(std::string text) {
+  const auto e = text.find('e');
+  if (e != std::string::npos && text.size() == e + 4 && text[e + 2] == '0') text.erase(e + 2, 1);
+  return text;
+}
+
+}  // namespace
 
 std::string number(double value, int count) {
   if (!std::isfinite(value)) return "n/a";
   if (value == 0.0) return "0";
   const double size = std::abs(value);
   if (size >= std::pow(10.0, count) && size < 1e6) return fmt::format("{:.0f}", value);
-  std::string text = fmt::format("{:.{}g}", value, count);
-  // 3e-05 has a zero that says nothing.
-  const auto e = text.find('e');
-  if (e != std::string::npos && text.size() == e + 4 && text[e + 2] == '0') text.erase(e + 2, 1);
-  return text;
+  return without_empty_exponent(fmt::format("{:.{}g}", value, count));
 }
 
 std::string digits(double value, int count) {
@@ -34,7 +40,7 @@ std::pair<std::string, std::string> number_with_error(double value, double error
   if (largest < 1e-4 || largest >= 1e6) {
     const int count =
         std::clamp(2 + static_cast<int>(std::floor(std::log10(largest / error))), 2, 12);
-    return {number(value, count), number(error, 2)};
+    return {number(value, count), without_empty_exponent(fmt::format("{:.2g}", error))};
   }
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
   return {fmt::format("{:.{}f}", value, decimals), fmt::format("{:.{}f}", error, decimals)};

@@ -13,6 +13,7 @@ TEST(Number, AnErrorDecidesTheDigitsOfItsValue) {
   EXPECT_EQ(number_with_error(8.9161, 0.4321).first, "8.92");
   EXPECT_EQ(number_with_error(1234.5, 30.0).first, "1234");
   EXPECT_EQ(number_with_error(1.2341e-7, 1.1e-9).first, "1.234e-7");
+  EXPECT_EQ(number_with_error(4.507e7, 371549.0).second, "3.7e+5");
   EXPECT_EQ(number_with_error(2.0, 0.0).first, "2");
 }
 
