@@ -425,6 +425,20 @@ class ScriptWriter {
     return out;
   }
 
+  /// What the labels of the ticks and the title of a vertical axis take [letters].
+  static double room_for_ticks(const Axis& axis) {
+    std::size_t longest = 0;
+    for (const Tick& tick : axis.ticks) longest = std::max(longest, tick.label.size());
+    if (!axis.ticks.empty()) return 3.0 + 0.85 * static_cast<double>(longest);
+    if (!axis.from || !axis.to || axis.logarithmic || axis.about == 0) return 0.0;
+    const double step = round_step({*axis.from, *axis.to}, axis.about);
+    if (!(step > 0.0)) return 0.0;
+    for (double k = std::ceil(*axis.from / step); k * step <= *axis.to; k += 1.0) {
+      longest = std::max(longest, fmt::format("{:.6g}", k * step).size());
+    }
+    return 3.6 + 1.1 * static_cast<double>(longest);
+  }
+
   static std::string margins(const Plot& plot, const Picture& picture) {
     if (plot.frame) {
       const double w = picture.width;
@@ -434,9 +448,7 @@ class ScriptWriter {
           "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n",
           plot.frame->left / w, plot.frame->right / w, plot.frame->bottom / h, plot.frame->top / h);
     }
-    std::size_t longest = 0;
-    for (const Tick& tick : plot.y.ticks) longest = std::max(longest, tick.label.size());
-    const double left = std::max(8.0, 3.0 + 0.85 * static_cast<double>(longest));
+    const double left = std::max(8.0, room_for_ticks(plot.y));
     // -1 leaves the room to gnuplot, which knows how large the key is.
     const double top = plot.key.place == KeyPlace::above ? -1.0
                        : !plot.remark.empty()            ? 3.4

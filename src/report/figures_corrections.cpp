@@ -35,6 +35,7 @@ Figure error_figure(const CorrectionStudy& study, std::size_t index) {
   shown.y = {"e - truth"};
   shown.key = {plot::KeyPlace::below, 2};
   shown.layers.push_back(plot::Rule{plot::Direction::horizontal, 0.0, {plot::ink, 1.0}});
+  std::vector<double> errors = {0.0};
   for (std::size_t k = 0; k < study.rows.size(); ++k) {
     // The mean of the rebounds is the same whether the captured are counted or not.
     if (study.rows[k].left_out == Correction::survivors) continue;
@@ -44,9 +45,12 @@ Figure error_figure(const CorrectionStudy& study, std::size_t index) {
       if (!study.rows[k].error[i]) continue;
       line.x.push_back(study.velocities[i]);
       line.y.push_back(*study.rows[k].error[i]);
+      errors.push_back(*study.rows[k].error[i]);
     }
     shown.layers.push_back(std::move(line));
   }
+  shown.y.set_range(plot::range_of(errors, 0.08));
+  shown.y.about = 5;
   const std::string caption = fmt::format(
       "{}. Mean over the rebounds of each velocity of e less the recipe's truth at the point's own "
       "diameter and velocity; zero is right. All lines rest on the same events, so that "
