@@ -115,8 +115,7 @@ void narrow(Layout& layout, std::size_t room) {
       }
     }
     if (widest == layout.width.size()) return;
-    const std::size_t excess = layout.total() - room;
-    layout.width[widest] -= std::min(excess, layout.width[widest] - least[widest]);
+    --layout.width[widest];  // one by one, so that columns of words end up about as wide
   }
 }
 
