@@ -56,6 +56,7 @@ std::string one_line(const CLI::ParseError& error, const CLI::App& program, int 
   if (const std::string option = unknown_option(program, argc, argv); !option.empty()) {
     return option;
   }
+  if (argc == 1) return "a command is missing; recoil --help lists them";
   const std::string command = argc > 1 && argv[1][0] != '-' ? fmt::format(" {}", argv[1]) : "";
   return fmt::format("{}; see recoil{} --help", message, command);
 }

@@ -104,7 +104,8 @@ std::string gain_words(const Diagnosis& d) {
 std::string rest_words(const Diagnosis& d) {
   if (d.extended->remaining_p >= tolerated_level) return "";
   return fmt::format(
-      " {:.1f} % of the misfit stay, more than noise ({}): the laws are good to some per cent, or "
+      " {:.1f} % of the misfit remains, more than noise ({}): the laws are good to some per cent, "
+      "or "
       "something smaller acts beside them.",
       100.0 * d.extended->remaining_part, p_words(d.extended->remaining_p, quick_samples));
 }
