@@ -114,7 +114,7 @@ TEST(Replace, TheCommandLine) {
        into, "--replace", "--axis", "x=log,1,100", "--axis", "y=linear,0,1", "--reading-error",
        "0.5%", "--source", "Wall et al. (1990), figure 7", "--title", "Wall et al. on molybdenum"});
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("provenance  digitised"));
+  EXPECT_THAT(run.out, HasSubstr("= digitised"));
   EXPECT_THAT(run.out, HasSubstr("Wall et al. (1990), figure 7"));
   EXPECT_EQ(at.run({"check", into}).status, 0);
   const support::Outcome wrong = at.run({"import", "x.csv", "--format", "pictures", "--into", "d"});

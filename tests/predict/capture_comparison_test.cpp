@@ -23,6 +23,7 @@ struct Exact {
   Exact() {
     fitted.model = recoil::make_model(recoil::synthetic::spec(), datasets);
     fitted.theta = {design.C_H, design.C_A, design.f0};
+    fitted.data = data;
   }
 };
 
