@@ -17,7 +17,7 @@ struct Candidate {
   ImpactModel model;
   int free_count = 0;
 
-  /// "plastic_yield", "plastic_yield + probe_plane".
+  /// The ids of what is added: one, or "one + another".
   std::string name() const;
   /// Does `slot` belong to one of the further mechanisms?
   bool adds(const ParameterSlot& slot) const;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/units.hpp"
+#include "mechanism/mechanism.hpp"
 #include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {
@@ -218,13 +219,21 @@ std::string undecided_words(const std::string& what, double factor) {
       what, factor);
 }
 
+/// The mechanism that describes several sizes in one point.
+static std::string_view mechanism_of_sizes() {
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    if (mechanism.info.mixes_sizes) return mechanism.info.id;
+  }
+  return "";
+}
+
 std::string wide_spread_words(const std::string& what, double event_spread) {
   return fmt::format(
       "the interval of {} is not to be trusted: from impact to impact the capture velocity "
       "scatters by {:.0f} %, and what is assumed of the survivors is good up to {:.0f} %; if "
       "spheres of several sizes stand in one point, put them into classes of size (recoil pair "
-      "--size-edges), or fit their spread (mechanisms = [\"polydispersity\"])",
-      what, 100.0 * event_spread, 100.0 * widest_spread);
+      "--size-edges), or fit their spread (mechanisms = [\"{}\"])",
+      what, 100.0 * event_spread, 100.0 * widest_spread, mechanism_of_sizes());
 }
 
 std::string scheme_words(const BootstrapResult& bootstrap) {
