@@ -78,8 +78,8 @@ TEST(Provenance, EachHasItsOneSentence) {
     Dataset dataset = dataset_of(example::package);
     dataset.provenance = provenance;
     EXPECT_EQ(value_of(dataset_table(dataset), "provenance"), to_string(provenance));
-    const auto* words =
-        std::get_if<Paragraph>(&dataset_sections(dataset)[0].blocks.at(1).content());
+    const auto sections = dataset_sections(dataset);
+    const auto* words = std::get_if<Paragraph>(&sections[0].blocks.at(1).content());
     ASSERT_NE(words, nullptr);
     EXPECT_EQ(plain_text(words->text), sentence);
   }

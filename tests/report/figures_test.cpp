@@ -81,7 +81,7 @@ TEST(RestitutionFigures, ErrorBarsAreOneStandardDeviation) {
 TEST(RestitutionFigures, TheCurveAndItsBandAreThoseOfTheFit) {
   const Analysis analysis = example::four_diameters();
   const RestitutionCurve& curve = analysis.uncertainty.curves.front();
-  const plot::Plot& plot = plot_of(restitution_figures(analysis).front());
+  const plot::Plot plot = plot_of(restitution_figures(analysis).front());
   const auto line = layer_named<plot::Line>(plot, "fit to all points");
   const auto band = layers_of<plot::Band>(plot).at(0);
   ASSERT_FALSE(line.x.empty());
@@ -101,7 +101,7 @@ TEST(RestitutionFigures, TheCaptureVelocityStandsInItsInterval) {
   const Analysis analysis = example::four_diameters();
   const CaptureEstimate& capture = analysis.uncertainty.capture.front();
   ASSERT_TRUE(capture.found);
-  const plot::Plot& plot = plot_of(restitution_figures(analysis).front());
+  const plot::Plot plot = plot_of(restitution_figures(analysis).front());
   const auto rules = layers_of<plot::Rule>(plot);
   const auto regions = layers_of<plot::Region>(plot);
   ASSERT_EQ(rules.size(), 1U);
