@@ -79,7 +79,6 @@ TEST(Provenance, EachHasItsOneSentence) {
     dataset.provenance = provenance;
     EXPECT_EQ(value_of(dataset_table(dataset), "provenance"), to_string(provenance));
     const auto sections = dataset_sections(dataset);
-    const std::vector<Section> sections = dataset_sections(dataset);
     const auto* words = std::get_if<Paragraph>(&sections[0].blocks.at(1).content());
     ASSERT_NE(words, nullptr);
     EXPECT_EQ(plain_text(words->text), sentence);
