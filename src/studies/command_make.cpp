@@ -31,7 +31,7 @@ void list() {
   fmt::print(
       "Stale studies were made from other sources, fits or data than those that are here.\n");
   for (const Study& study : all_studies()) {
-    fmt::print("  {:8}{:32}{}\n", words_of(state_of(".", study)), study.name, study.result);
+    fmt::print("  {:8}{:38}{}\n", words_of(state_of(".", study)), study.name, study.result);
   }
 }
 
