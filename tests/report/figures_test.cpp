@@ -75,7 +75,7 @@ TEST(RestitutionFigures, ErrorBarsAreOneStandardDeviation) {
   const Observation& first = analysis.fitted.data.points.front();
   EXPECT_DOUBLE_EQ(points[0].x[0], first.velocity);
   EXPECT_DOUBLE_EQ(points[0].y[0], first.restitution);
-  EXPECT_DOUBLE_EQ(points[0].upper[0] - points[0].lower[0], 2.0 * first.weights.sd);
+  EXPECT_NEAR(points[0].upper[0] - points[0].lower[0], 2.0 * first.weights.sd, 1e-12);
 }
 
 TEST(RestitutionFigures, TheCurveAndItsBandAreThoseOfTheFit) {
