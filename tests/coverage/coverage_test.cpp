@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "estimate/capture_velocity.hpp"
 #include "coverage/coverage_truth.hpp"
+#include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
 #include "studies/coverage_grid.hpp"
 #include "uncertainty/capture_interval.hpp"

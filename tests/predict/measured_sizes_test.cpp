@@ -83,7 +83,8 @@ TEST_F(Sizes, MistakesSayWhereTheyAre) {
   EXPECT_THAT(complaint("diameter,count\n40,-3\n"), HasSubstr("sizes.csv:2:4: -3 particles"));
   EXPECT_THAT(complaint("d,count\n40,3\n"), HasSubstr("sizes.csv:1:1: unknown column 'd'"));
   EXPECT_THAT(complaint("count\n3\n"), HasSubstr("neither 'diameter' nor 'lower'"));
-  EXPECT_THAT(complaint("lower,upper\n3,2\n"), HasSubstr("sizes.csv:2:3: upper = 2 lies below lower"));
+  EXPECT_THAT(complaint("lower,upper\n3,2\n"),
+              HasSubstr("sizes.csv:2:3: upper = 2 lies below lower"));
   EXPECT_THAT(complaint("diameter,count\n"), HasSubstr("no particles"));
   EXPECT_THAT(complaint("diameter\n40\n", "inch"), HasSubstr("unknown unit 'inch'"));
   EXPECT_THAT(complaint("diameter\n-1\n"), HasSubstr("a diameter of -1"));
