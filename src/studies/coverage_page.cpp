@@ -49,8 +49,9 @@ Table table_of(const std::vector<ParameterCoverage>& rows) {
       const IntervalCoverage* at = row.find(kind);
       cells.push_back(at == nullptr ? Cell(Sentence()) : percent_cell(at->share()));
     }
-    cells.push_back(row.relative_width ? Cell(Number{*row.relative_width, significant(3)})
-                                       : Cell());
+    Cell width;
+    if (row.relative_width) width = Number{*row.relative_width, significant(3)};
+    cells.push_back(std::move(width));
     cells.push_back(Sentence(to_string(verdict_of(row))));
     table.rows.push_back(std::move(cells));
   }
