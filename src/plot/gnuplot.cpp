@@ -84,7 +84,7 @@ std::string complaint(const std::string& errors) {
     line += blank ? ' ' : c;
   }
   constexpr std::size_t longest = 400;
-  if (line.size() > longest) line = "... " + line.substr(line.size() - longest);
+  if (line.size() > longest) line.replace(0, line.size() - longest, "... ");
   return line;
 }
 
