@@ -70,12 +70,26 @@ double robust_sd(std::vector<double> values) {
 }
 
 double poisson_at_least(std::size_t count, double mean) {
-  // The number of arrivals reaches `count` by the time `mean` when the waiting time for that many,
-  // which has the gamma distribution, is no longer than it. (gsl_cdf_poisson_Q takes only counts
-  // that fit into 32 bits and goes the same way.)
   if (count == 0) return 1.0;
   if (!(mean > 0.0)) return 0.0;
-  return gsl_cdf_gamma_P(mean, static_cast<double>(count), 1.0);
+  // The terms p_j = mean^j exp(-mean) / j! on the side of `count` away from the mean, where they
+  // fall; their logarithm does not underflow. (gsl_cdf_poisson_Q gives up at some means of 10^5.)
+  const bool above = static_cast<double>(count) > mean;
+  double j = static_cast<double>(above ? count : count - 1);
+  double term = std::exp(j * std::log(mean) - mean - std::lgamma(j + 1.0));
+  double sum = 0.0;
+  while (term > 1e-17 * sum) {
+    sum += term;
+    if (above) {
+      j += 1.0;
+      term *= mean / j;
+    } else {
+      if (j == 0.0) break;
+      term *= j / mean;
+      j -= 1.0;
+    }
+  }
+  return above ? sum : 1.0 - sum;
 }
 
 ShareLimits share_limits(int part, int whole) {

@@ -26,6 +26,7 @@ struct Exact {
     fitted.model = recoil::make_model(recoil::synthetic::spec(), datasets);
     fitted.theta = {design.C_H, design.C_A, design.f0};
     fitted.usable = true;
+    fitted.data = data;
   }
 
   /// e of the other simulator [1].
@@ -126,7 +127,7 @@ TEST(Mixture, PointsOfOneSizeLieOnItsCurve) {
   Exact exact;
   exact.design.diameters = {4.9e-6};
   exact.datasets = {recoil::synthetic::dataset(exact.design)};
-  exact.data = recoil::gather(exact.datasets);
+  exact.fitted.data = recoil::gather(exact.datasets);
   recoil::MeasuredSizes one;
   one.bins = {{4.9e-6, 7.0, 0.0}};
   one.smallest = one.largest = 4.9e-6;
