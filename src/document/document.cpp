@@ -12,6 +12,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 bool says_nothing(const Cell& cell) {
   const auto* words = std::get_if<Sentence>(&cell);
@@ -107,6 +109,15 @@ void draw(Document& document) {
   for (Section& section : document.sections) each_block(section.blocks, collect);
   draw(all);
 }
+
+Blocks::Blocks() = default;
+Blocks::Blocks(std::vector<Block> blocks) : std::vector<Block>(std::move(blocks)) {}
+Blocks::Blocks(std::initializer_list<Block> blocks) : std::vector<Block>(blocks) {}
+Blocks::Blocks(const Blocks&) = default;
+Blocks::Blocks(Blocks&&) noexcept = default;
+Blocks& Blocks::operator=(const Blocks&) = default;
+Blocks& Blocks::operator=(Blocks&&) noexcept = default;
+Blocks::~Blocks() = default;
 
 bool empty(const Block& block) {
   return std::visit(Overloaded{[](const Paragraph& paragraph) { return paragraph.text.empty(); },

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <variant>
 #include <vector>
@@ -103,11 +104,24 @@ struct Details {
   std::vector<Block> blocks;
 };
 
+/// A vector of blocks that a section can begin without: what makes and destroys it stands where a
+/// block is complete.
+struct Blocks : std::vector<Block> {
+  Blocks();
+  Blocks(std::vector<Block> blocks);
+  Blocks(std::initializer_list<Block> blocks);
+  Blocks(const Blocks&);
+  Blocks(Blocks&&) noexcept;
+  Blocks& operator=(const Blocks&);
+  Blocks& operator=(Blocks&&) noexcept;
+  ~Blocks();
+};
+
 struct Section {
   std::string id;
   Sentence title;
   Sentence remark{};  ///< behind the title
-  std::vector<Block> blocks{};
+  Blocks blocks{};
   std::string address{};  ///< where the title leads to
 };
 

@@ -164,7 +164,7 @@ const std::vector<FileMistake>& file_mistakes() {
        false},
       {"fit_unknown_phase",
        change(kFit, "\"rebound\"", "\"rebounds\""),
-       {"fit.toml:3", "rebound", "both"},
+       {"fit.toml:3", "phase", "rebound"},
        false},
       {"fit_bounds_reversed", change(kFit, "[0, 10]", "[10, 0]"), {"fit.toml:6", "C_A"}, false},
       {"fit_bounds_negative", change(kFit, "[0, 10]", "[-1, 10]"), {"fit.toml:6"}, false},
