@@ -77,11 +77,11 @@ Table without_empty_columns(Table table) {
   return table;
 }
 
-Table items(std::vector<std::pair<Sentence, Cell>> entries) {
+Table items(const std::vector<std::pair<Sentence, Cell>>& entries) {
   Table table;
   table.columns = {{}, {{}, "", true}};
-  for (auto& [name, value] : entries) {
-    if (!says_nothing(value)) table.rows.push_back({std::move(name), std::move(value)});
+  for (const auto& [name, value] : entries) {
+    if (!says_nothing(value)) table.rows.push_back({name, value});
   }
   return table;
 }

@@ -46,7 +46,7 @@ struct Table {
 Table without_empty_columns(Table table);
 
 /// Names and values, two by two.
-Table items(std::vector<std::pair<Sentence, Cell>> entries);
+Table items(const std::vector<std::pair<Sentence, Cell>>& entries);
 
 struct Paragraph {
   Sentence text;

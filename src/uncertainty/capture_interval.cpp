@@ -65,7 +65,7 @@ std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternativ
       estimate.found = v.found;
       estimate[CaptureIntervalKind::delta] = delta_interval(alternatives, v, d, diameter, level);
       if (!v.found) estimate.interval.missing = NoInterval::never_rebounds;
-      estimates.push_back(std::move(estimate));
+      estimates.push_back(estimate);
     }
   }
   return estimates;
