@@ -22,7 +22,7 @@ struct Example {
 /// Two free parameters at 1 and 2 with errors 0.1, and intervals that agree.
 Example agreeing() {
   Example made;
-  for (const std::size_t k : {0, 1}) {
+  for (const std::size_t k : {0U, 1U}) {
     ParameterSlot slot;
     slot.parameter = &base_parameters()[k];
     slot.upper = 10.0;
