@@ -31,7 +31,7 @@ Count count(const Answers& among, const Test& test) {
   return {static_cast<int>(passing), static_cast<int>(among.size())};
 }
 
-Test marked(std::vector<Mark> marks) {
+Test marked(const std::vector<Mark>& marks) {
   return [marks](const Answered& a) {
     return std::find(marks.begin(), marks.end(), mark_of(a)) != marks.end();
   };
