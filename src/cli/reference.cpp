@@ -227,13 +227,13 @@ std::string topics_block(const CLI::App&) {
   return out;
 }
 
-struct Block {
+struct GeneratedPart {
   const char* name;
   std::function<std::string(const CLI::App&)> text;
 };
 
-const std::vector<Block>& blocks() {
-  static const std::vector<Block> all = {
+const std::vector<GeneratedPart>& blocks() {
+  static const std::vector<GeneratedPart> all = {
       {"topics", topics_block},
       {"commands", commands_block},
       {"base parameters", base_parameters_block},
@@ -258,7 +258,7 @@ const std::vector<Block>& blocks() {
 
 std::vector<std::string> reference_block_names() {
   std::vector<std::string> names;
-  for (const Block& block : blocks()) names.emplace_back(block.name);
+  for (const GeneratedPart& block : blocks()) names.emplace_back(block.name);
   return names;
 }
 
@@ -282,7 +282,7 @@ std::string with_reference_blocks(const std::string& page, const std::string& fi
     const std::string name = page.substr(name_at, name_end - name_at);
     out += page.substr(at, name_end + begin_end.size() - at);
     bool made = false;
-    for (const Block& block : blocks()) {
+    for (const GeneratedPart& block : blocks()) {
       if (name != block.name) continue;
       out += block.text(program);
       made = true;

@@ -9,14 +9,14 @@ namespace recoil {
 namespace {
 
 /// What a physical constant may be, and what a value outside of it usually means.
-struct Range {
+struct Allowed {
   double lower;
   double upper;
   std::string unit;
   std::string hint;
 };
 
-double bounded(const JsonNode& node, const Range& range) {
+double bounded(const JsonNode& node, const Allowed& range) {
   const double value = node.number();
   if (value >= range.lower && value <= range.upper) return value;
   node.fail(
@@ -26,20 +26,20 @@ double bounded(const JsonNode& node, const Range& range) {
 }
 
 std::optional<double> bounded_if_any(const JsonNode& parent, const std::string& key,
-                                     const Range& range) {
+                                     const Allowed& range) {
   if (const auto node = parent.find(key)) return bounded(*node, range);
   return std::nullopt;
 }
 
-const Range& density_range() {
-  static const Range range{limits::lowest_density, limits::highest_density, "kg/m3",
-                           "give it in kg/m3: 1 g/cm3 is 1000 kg/m3"};
+const Allowed& density_range() {
+  static const Allowed range{limits::lowest_density, limits::highest_density, "kg/m3",
+                             "give it in kg/m3: 1 g/cm3 is 1000 kg/m3"};
   return range;
 }
 
-const Range& surface_energy_range() {
-  static const Range range{0.0, limits::highest_surface_energy, "J/m2",
-                           "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2"};
+const Allowed& surface_energy_range() {
+  static const Allowed range{0.0, limits::highest_surface_energy, "J/m2",
+                             "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2"};
   return range;
 }
 
@@ -62,8 +62,8 @@ Material read_material(const JsonNode& recoil, const std::string& role, bool nee
   } else if (needs_density) {
     node.require("density", "the mass of the particle follows from it", "give it in kg/m3");
   }
-  const Range modulus{limits::lowest_modulus, limits::highest_modulus, "Pa",
-                      "give it in Pa: 1 GPa is 1e9 Pa"};
+  const Allowed modulus{limits::lowest_modulus, limits::highest_modulus, "Pa",
+                        "give it in Pa: 1 GPa is 1e9 Pa"};
   material.youngs_modulus = bounded(
       node.require("youngs_modulus", "the contact's stiffness follows from it", "give it in Pa"),
       modulus);

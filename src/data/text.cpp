@@ -70,6 +70,13 @@ void require_text(std::string_view text, const std::string& file) {
   }
 }
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string shortened(std::string_view text, std::size_t longest) {
   std::size_t characters = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -18,6 +18,9 @@ Location locate(std::string_view text, std::size_t offset, const std::string& fi
 /// @throws InputError at the first byte that is NUL or not valid UTF-8 (RFC 3629).
 void require_text(std::string_view text, const std::string& file);
 
+/// `text` without the blanks, tabs and carriage returns around it.
+std::string_view trimmed(std::string_view text);
+
 /// The first `longest` characters of `text`, with dots when there are more.
 std::string shortened(std::string_view text, std::size_t longest);
 

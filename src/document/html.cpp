@@ -139,7 +139,7 @@ std::string titled(const Section& section) {
              : fmt::format("<a href=\"{}\">{}</a>", escape_html(section.address), title);
 }
 
-struct BlockWriter {
+struct HtmlBlock {
   std::string operator()(const Paragraph& paragraph) const {
     return fmt::format("<p{}>{}</p>\n", paragraph.lead ? " class=\"summary\"" : "",
                        html_of(paragraph.text));
@@ -248,7 +248,7 @@ std::string html_of(const Sentence& sentence) {
 std::string html_of(const std::vector<Block>& blocks) {
   std::string out;
   for (const Block& block : blocks) {
-    if (!empty(block)) out += std::visit(BlockWriter{}, block.content());
+    if (!empty(block)) out += std::visit(HtmlBlock{}, block.content());
   }
   return out;
 }

@@ -63,7 +63,7 @@ std::string table_markdown(const Table& full) {
   return out + '\n';
 }
 
-struct BlockWriter {
+struct MarkdownBlock {
   std::string operator()(const Paragraph& paragraph) const {
     return markdown_of(paragraph.text) + "\n\n";
   }
@@ -115,7 +115,7 @@ std::string markdown_of(const Sentence& sentence) {
 std::string markdown_of(const std::vector<Block>& blocks) {
   std::string out;
   for (const Block& block : blocks) {
-    if (!empty(block)) out += std::visit(BlockWriter{}, block.content());
+    if (!empty(block)) out += std::visit(MarkdownBlock{}, block.content());
   }
   return out;
 }

@@ -185,7 +185,7 @@ std::string paragraph_text(const Sentence& words, std::size_t indent) {
 
 std::string blocks_text(const std::vector<Block>& blocks);
 
-struct BlockWriter {
+struct TerminalBlock {
   std::string operator()(const Paragraph& paragraph) const {
     return paragraph_text(paragraph.text, margin);
   }
@@ -229,7 +229,7 @@ struct BlockWriter {
 std::string blocks_text(const std::vector<Block>& blocks) {
   std::string out;
   for (const Block& block : blocks) {
-    if (!empty(block)) out += std::visit(BlockWriter{}, block.content());
+    if (!empty(block)) out += std::visit(TerminalBlock{}, block.content());
   }
   return out;
 }

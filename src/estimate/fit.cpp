@@ -97,18 +97,8 @@ void record_predictions(FitResult& result) {
 
 void record_leverage(FitResult& result, const std::vector<double>& jacobian,
                      const std::vector<double>& unscaled_covariance) {
-  const std::size_t n = result.residuals.size();
-  const std::size_t p = result.theta.size();
-  result.leverage.assign(n, 0.0);
-  if (unscaled_covariance.empty()) return;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t a = 0; a < p; ++a) {
-      for (std::size_t b = 0; b < p; ++b) {
-        result.leverage[i] +=
-            jacobian[i * p + a] * unscaled_covariance[a * p + b] * jacobian[i * p + b];
-      }
-    }
-  }
+  result.leverage = unscaled_covariance.empty() ? std::vector<double>(result.residuals.size(), 0.0)
+                                                : leverages(jacobian, unscaled_covariance);
 }
 
 /// Decides what the standard deviations are worth.

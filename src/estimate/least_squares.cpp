@@ -264,4 +264,18 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const 
   return result;
 }
 
+std::vector<double> leverages(std::span<const double> jacobian,
+                              std::span<const double> covariance) {
+  const std::size_t p = static_cast<std::size_t>(std::lround(std::sqrt(covariance.size())));
+  const std::size_t n = p == 0 ? 0 : jacobian.size() / p;
+  std::vector<double> leverage(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::span<const double> row = jacobian.subspan(i * p, p);
+    for (std::size_t a = 0; a < p; ++a) {
+      for (std::size_t b = 0; b < p; ++b) leverage[i] += row[a] * covariance[a * p + b] * row[b];
+    }
+  }
+  return leverage;
+}
+
 }  // namespace recoil

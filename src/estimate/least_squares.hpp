@@ -51,4 +51,13 @@ struct LeastSquaresResult {
 LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
                             const LeastSquaresOptions& options = {});
 
+/// The leverage of each point: the diagonal of J C J' with C = (J'J)^-1.
+/// @param jacobian J [n x p, row major]
+/// @param covariance C [p x p]
+std::vector<double> leverages(std::span<const double> jacobian, std::span<const double> covariance);
+
+/// What a leverage counts as at most: a point that the fit passes through says nothing of its own
+/// noise.
+inline constexpr double most_leverage = 0.99;
+
 }  // namespace recoil

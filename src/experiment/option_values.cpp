@@ -11,19 +11,12 @@
 namespace recoil {
 namespace {
 
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
-}
-
 /// The number at the start of a word and what follows it.
 std::optional<std::pair<double, std::string>> number_and_rest(const std::string& word) {
-  const std::string text = trimmed(word);
+  const std::string_view text = trimmed(word);
   for (std::size_t length = text.size(); length > 0; --length) {
     if (const auto value = parse_number(std::string_view(text).substr(0, length))) {
-      return std::pair{*value, trimmed(std::string_view(text).substr(length))};
+      return std::pair{*value, std::string(trimmed(text.substr(length)))};
     }
   }
   return std::nullopt;
@@ -67,13 +60,13 @@ std::vector<std::string> split_list(std::string_view text) {
     if (c == '"') {
       quoted = !quoted;
     } else if (c == ',' && !quoted) {
-      parts.push_back(trimmed(part));
+      parts.emplace_back(trimmed(part));
       part.clear();
     } else {
       part += c;
     }
   }
-  parts.push_back(trimmed(part));
+  parts.emplace_back(trimmed(part));
   std::erase(parts, "");
   return parts;
 }
@@ -81,8 +74,8 @@ std::vector<std::string> split_list(std::string_view text) {
 std::optional<std::pair<std::string, std::string>> split_pair(const std::string& word) {
   const std::size_t at = word.find('=');
   if (at == std::string::npos) return std::nullopt;
-  return std::pair{trimmed(std::string_view(word).substr(0, at)),
-                   trimmed(std::string_view(word).substr(at + 1))};
+  return std::pair{std::string(trimmed(std::string_view(word).substr(0, at))),
+                   std::string(trimmed(std::string_view(word).substr(at + 1)))};
 }
 
 }  // namespace recoil

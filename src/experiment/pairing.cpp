@@ -10,7 +10,7 @@
 namespace recoil {
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
+constexpr std::uint32_t nobody = UINT32_MAX;
 
 struct Pairs {
   std::vector<Link> links;
@@ -75,7 +75,7 @@ DecoyCount try_decoys(const std::vector<Passage>& passages, const PairingOptions
 /// The number of every passage down: 1 from the dispenser, else one more than what it follows.
 class Chains {
  public:
-  explicit Chains(std::size_t passages) : previous_(passages, none), number_(passages, 0) {}
+  explicit Chains(std::size_t passages) : previous_(passages, nobody), number_(passages, 0) {}
 
   void follow(std::uint32_t later, std::uint32_t earlier) { previous_[later] = earlier; }
 
@@ -83,7 +83,7 @@ class Chains {
   int number(std::uint32_t down) {
     std::vector<std::uint32_t> chain;
     std::uint32_t at = down;
-    while (number_[at] == 0 && previous_[at] != none) {
+    while (number_[at] == 0 && previous_[at] != nobody) {
       chain.push_back(at);
       at = previous_[at];
     }
@@ -146,7 +146,7 @@ PairingResult pair_passages(const std::vector<Passage>& passages, const PairingO
 
   const Pairs found = pairs_of(passages, candidates, model);
   const std::vector<Link>& pairs = found.links;
-  std::vector<std::uint32_t> down_of(passages.size(), none);  // passage up -> its passage down
+  std::vector<std::uint32_t> down_of(passages.size(), nobody);  // passage up -> its passage down
   std::vector<bool> open_down(passages.size(), false);
   std::vector<bool> open_next(passages.size(), false);
   for (std::size_t i = 0; i < passages.size(); ++i) {
@@ -176,7 +176,7 @@ PairingResult pair_passages(const std::vector<Passage>& passages, const PairingO
   if (returns.usable) {
     for (const Link& link : returns.links) {
       const std::uint32_t earlier = down_of[link.from];
-      chains.follow(link.to, earlier != none ? earlier : link.from);
+      chains.follow(link.to, earlier != nobody ? earlier : link.from);
       open_next[link.to] = false;
     }
     const Followers unseen =

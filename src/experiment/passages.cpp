@@ -21,11 +21,8 @@ namespace {
 constexpr std::uintmax_t largest_file = 2ULL << 30;  ///< some 5 10^7 passages [bytes]
 constexpr std::size_t most_columns = 200;
 
-std::string_view trimmed(std::string_view cell) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = cell.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  cell = cell.substr(first, cell.find_last_not_of(blanks) - first + 1);
+std::string_view unquoted(std::string_view cell) {
+  cell = trimmed(cell);
   if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
     cell = cell.substr(1, cell.size() - 2);
   }
@@ -37,7 +34,7 @@ void split(std::string_view line, char delimiter, std::vector<std::string_view>&
   cells.clear();
   while (cells.size() <= most_columns) {
     const std::size_t end = line.find(delimiter);
-    cells.push_back(trimmed(line.substr(0, end)));
+    cells.push_back(unquoted(line.substr(0, end)));
     if (end == std::string_view::npos) return;
     line.remove_prefix(end + 1);
   }

@@ -9,16 +9,14 @@
 namespace recoil {
 namespace {
 
-using std::numbers::pi;
-
 /// Integral of f over [0, pi/2] by the midpoint rule: f is periodic and smooth in the angles used
 /// here, so that it converges faster than any power.
 template <class F>
 double over_quarter_turn(F f) {
   constexpr int count = 400;
   double sum = 0.0;
-  for (int i = 0; i < count; ++i) sum += f((i + 0.5) * pi / (2.0 * count));
-  return sum * pi / (2.0 * count);
+  for (int i = 0; i < count; ++i) sum += f((i + 0.5) * std::numbers::pi / (2.0 * count));
+  return sum * std::numbers::pi / (2.0 * count);
 }
 
 }  // namespace
@@ -56,13 +54,14 @@ double half_space_radiation(double poisson_ratio) {
   // dR / d(k^2); dR/dk is 2 k times that.
   const double slope =
       4.0 * (2.0 * k2 - 1.0) - 4.0 * root - 2.0 * k2 * (2.0 * k2 - 1.0 - g2) / root;
-  const double surface = pi * std::sqrt(k2 - g2) / (2.0 * std::abs(slope));
+  const double surface = std::numbers::pi * std::sqrt(k2 - g2) / (2.0 * std::abs(slope));
   return both + transverse + surface;
 }
 
 double half_space_mobility(double youngs_modulus, double poisson_ratio, double density) {
   const double mu = youngs_modulus / (2.0 * (1.0 + poisson_ratio));
-  return half_space_radiation(poisson_ratio) / (2.0 * pi * mu * std::sqrt(mu / density));
+  return half_space_radiation(poisson_ratio) /
+         (2.0 * std::numbers::pi * mu * std::sqrt(mu / density));
 }
 
 Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties& contact) {

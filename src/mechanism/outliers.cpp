@@ -4,14 +4,14 @@ namespace recoil {
 namespace {
 
 /// e of the border between seen and not seen.
-constexpr double border = 0.1;
+constexpr double least_restitution = 0.1;
 
 struct Outliers {
   /// ((1 - q) e + q / 2)^2 for what is seen.
   template <class T>
   static void observe(Observed<T>& s, std::span<const T> own) {
     const T right = 1.0 - own[0];
-    s.square = shifted_if_seen(right * right * s.square, 0.5 * own[0], T(border));
+    s.square = shifted_if_seen(right * right * s.square, 0.5 * own[0], T(least_restitution));
   }
 };
 

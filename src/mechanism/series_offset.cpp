@@ -4,12 +4,12 @@ namespace recoil {
 namespace {
 
 /// e of the border between seen and not seen.
-constexpr double border = 0.1;
+constexpr double lowest_seen = 0.1;
 
 struct SeriesOffset {
   template <class T>
   static void observe(Observed<T>& s, std::span<const T> own) {
-    s.square = shifted_if_seen(s.square, own[0], T(border));
+    s.square = shifted_if_seen(s.square, own[0], T(lowest_seen));
   }
 };
 

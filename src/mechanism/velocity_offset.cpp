@@ -4,7 +4,7 @@ namespace recoil {
 namespace {
 
 /// Rebounds slower than this part of V are the border between seen and not seen.
-constexpr double border = 0.1;
+constexpr double slowest_seen = 0.1;
 
 struct VelocityOffset {
   template <class T>
@@ -13,7 +13,7 @@ struct VelocityOffset {
   }
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    e.square = shifted_if_seen(e.square, own[0] * own[1], border * e.measured_velocity);
+    e.square = shifted_if_seen(e.square, own[0] * own[1], slowest_seen * e.measured_velocity);
   }
 };
 

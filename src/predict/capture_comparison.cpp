@@ -18,8 +18,6 @@
 namespace recoil {
 namespace {
 
-constexpr double share_for_band = 0.9;  // of the replicates that have to answer at a diameter
-
 std::vector<double> spaced(double first, double last, int count) {
   std::vector<double> values;
   for (int i = 0; i < count; ++i) {

@@ -17,7 +17,6 @@
 namespace recoil {
 namespace {
 
-constexpr double share_for_band = 0.9;
 constexpr std::size_t conventions = all_conventions.size();
 
 /// Everything about one velocity under one set of parameters; not a number: no value.

@@ -17,7 +17,7 @@ constexpr double g = standard_gravity;
 constexpr std::uint64_t spheres_of_a_height = 1'000'000;
 constexpr std::uint64_t first_stream = 1000;
 
-struct Passage {
+struct Crossing {
   double time = 0.0;
   double velocity = 0.0;
   double tangential = 0.0;
@@ -29,7 +29,7 @@ struct Passage {
 class FallingSphere {
  public:
   FallingSphere(const Recipe& recipe, const PlannedPoint& point, RandomStream random,
-                std::vector<Passage>& passages)
+                std::vector<Crossing>& passages)
       : recipe_(recipe),
         design_(*recipe.passages),
         height_(recipe.sizes->probe_height),
@@ -79,7 +79,7 @@ class FallingSphere {
   double height_;
   const PlannedPoint& point_;
   RandomStream random_;
-  std::vector<Passage>& passages_;
+  std::vector<Crossing>& passages_;
   std::size_t size_ = 0;
   double diameter_ = 0.0;
 };
@@ -93,7 +93,7 @@ std::string draw_passages(const Recipe& recipe, std::uint64_t seed, int times) {
                      "add it, and [sizes]");
   }
   const PassageDesign& design = *recipe.passages;
-  std::vector<Passage> passages;
+  std::vector<Crossing> passages;
   double now = 1.0;
   for (std::size_t k = 0; k < recipe.plan.size(); ++k) {
     const PlannedPoint& point = recipe.plan[k];
@@ -108,9 +108,9 @@ std::string draw_passages(const Recipe& recipe, std::uint64_t seed, int times) {
     now += 10.0;  // the dispenser is moved; nothing is in the air any more
   }
   std::stable_sort(passages.begin(), passages.end(),
-                   [](const Passage& a, const Passage& b) { return a.time < b.time; });
+                   [](const Crossing& a, const Crossing& b) { return a.time < b.time; });
   std::string text = "series,time,velocity,tangential_velocity,diameter\n";
-  for (const Passage& passage : passages) {
+  for (const Crossing& passage : passages) {
     text += fmt::format("{},{:.6f},{:.5f},{:.5f},{:.2f}\n", recipe.series[passage.series].name,
                         passage.time, passage.velocity, passage.tangential,
                         passage.diameter / units::um);

@@ -93,7 +93,7 @@ Sentence column_words(const Dataset& dataset) {
   return join(names, ", ");
 }
 
-List as_list(const std::vector<std::string>& entries) {
+List list_of(const std::vector<std::string>& entries) {
   List list;
   for (const std::string& entry : entries) list.entries.emplace_back(entry);
   return list;
@@ -114,7 +114,7 @@ Table dataset_table(const Dataset& dataset) {
   entry("columns", column_words(dataset));
   entry("points", say("{} in {} series", dataset.points.size(), dataset.series.size()));
   entry("sha256", dataset.sha256);
-  return items(std::move(entries));
+  return items(entries);
 }
 
 Table series_table(const Dataset& dataset) {
@@ -141,8 +141,8 @@ std::vector<Section> dataset_sections(const Dataset& dataset) {
            {},
            {dataset_table(dataset), Paragraph{provenance_sentence(dataset.provenance)}}},
           {"series", "Series", {}, {series_table(dataset)}},
-          {"sources", "Sources", {}, {as_list(dataset.sources)}},
-          {"warnings", "Warnings", {}, {as_list(warnings)}}};
+          {"sources", "Sources", {}, {list_of(dataset.sources)}},
+          {"warnings", "Warnings", {}, {list_of(warnings)}}};
 }
 
 std::string dataset_text(const Dataset& dataset) {

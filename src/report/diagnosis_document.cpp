@@ -19,11 +19,6 @@ namespace {
 constexpr std::size_t most_on_terminal = 12;  // of the causes tried
 constexpr std::size_t most_pairs = 8;
 
-Cell interval_cell(const Interval& interval) {
-  if (!interval.available()) return {};
-  return NumberRange{*interval.lower, *interval.upper, padded(3)};
-}
-
 /// One parameter under one of the models: estimate, interval, and what is special about it.
 struct UnderModel {
   Cell estimate, interval;
@@ -38,7 +33,8 @@ UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& 
     const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
     UnderModel found{Number{fitted.theta[j], significant(4), error}, {}, ""};
     if (fitted.at_bound[j]) found.remark = "at its bound";
-    if (j < intervals.size()) found.interval = interval_cell(recommended_interval(intervals[j]));
+    if (j < intervals.size())
+      found.interval = interval_cell(recommended_interval(intervals[j]), padded(3));
     return found;
   }
   return {};

@@ -13,7 +13,7 @@ constexpr std::array<plot::Marker, 5> looks = {{{plot::blue, plot::Mark::dot},
                                                 {plot::green, plot::Mark::triangle},
                                                 {plot::purple, plot::Mark::diamond},
                                                 {plot::grey, plot::Mark::circle}}};
-constexpr std::array<const char*, 5> names = {
+constexpr std::array<const char*, 5> correction_names = {
     "all corrections", "at the plane", "second impacts in", "captures not counted", "none of them"};
 
 plot::Picture picture_of(const char* name, std::size_t index, plot::Plot shown) {
@@ -40,7 +40,7 @@ Figure error_figure(const CorrectionStudy& study, std::size_t index) {
     // The mean of the rebounds is the same whether the captured are counted or not.
     if (study.rows[k].left_out == Correction::survivors) continue;
     plot::Line line{{}, {}, {looks[k].colour, 1.5}, looks[k].mark, 0.5};
-    line.name = names[k];
+    line.name = correction_names[k];
     for (std::size_t i = 0; i < study.velocities.size(); ++i) {
       if (!study.rows[k].error[i]) continue;
       line.x.push_back(study.velocities[i]);
@@ -73,7 +73,7 @@ Figure damping_figure(const CorrectionStudy& study, std::size_t index) {
   shown.layers.push_back(plot::Rule{plot::Direction::vertical, study.C_A, {plot::ink, 1.4}});
   for (std::size_t k = 0; k < study.rows.size(); ++k) {
     const double place = static_cast<double>(k);
-    shown.y.ticks.push_back({place, names[k]});
+    shown.y.ticks.push_back({place, correction_names[k]});
     const CorrectionRow& row = study.rows[k];
     if (!row.usable) continue;
     shown.layers.push_back(plot::Line{

@@ -12,9 +12,9 @@ namespace recoil {
 namespace {
 
 /// One look per convention, and per size, told apart by colour and dashes.
-constexpr std::array<plot::Stroke, 3> strokes = {{{plot::blue, 2.0},
-                                                  {plot::green, 2.0, plot::Dash::long_dashes},
-                                                  {plot::vermillion, 2.0, plot::Dash::dots}}};
+constexpr std::array<plot::Stroke, 3> class_strokes = {{{plot::blue, 2.0},
+                                                        {plot::green, 2.0, plot::Dash::long_dashes},
+                                                        {plot::vermillion, 2.0, plot::Dash::dots}}};
 constexpr std::array<const char*, 3> average_names = {"captured as e = 0", "captured left out",
                                                       "unseen left out"};
 
@@ -74,7 +74,7 @@ Figure sizes_figure(const Analysis& analysis, const PolydispersePrediction& mixt
   std::vector<std::string> captures;
   for (std::size_t i = 0; i < mixture.size_curves.size(); ++i) {
     const SizeCurve& size = mixture.size_curves[i];
-    plot::Line line{mixture.velocity, size.restitution, strokes[i]};
+    plot::Line line{mixture.velocity, size.restitution, class_strokes[i]};
     line.name = diameter_text(size.diameter) + " µm";
     shown.layers.push_back(std::move(line));
     captures.push_back(size.capture_velocity > 0.0
@@ -93,11 +93,11 @@ Figure sizes_figure(const Analysis& analysis, const PolydispersePrediction& mixt
 Figure averages_figure(const Analysis& analysis, const PolydispersePrediction& mixture) {
   plot::Plot shown = plot_of(analysis, mixture, "Weighted averages over the sizes", 3);
   for (std::size_t k = 0; k < all_conventions.size(); ++k) {
-    shown.layers.push_back(band_of(mixture.velocity, mixture.average[k], strokes[k].colour));
+    shown.layers.push_back(band_of(mixture.velocity, mixture.average[k], class_strokes[k].colour));
   }
   for (std::size_t k = 0; k < all_conventions.size(); ++k) {
     shown.layers.push_back(
-        line_of(mixture.velocity, mixture.average[k], strokes[k], average_names[k]));
+        line_of(mixture.velocity, mixture.average[k], class_strokes[k], average_names[k]));
   }
   const SizeCurve& mean = mixture.size_curves[1];
   plot::Line single{mixture.velocity, mean.restitution, {plot::grey, 1.4}};

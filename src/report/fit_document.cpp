@@ -89,7 +89,7 @@ Sentence calibration_words(const Analysis& a) {
   return words + ".";
 }
 
-List as_list(const std::vector<std::string>& sentences) {
+List list_of_sentences(const std::vector<std::string>& sentences) {
   List list;
   for (const std::string& sentence : sentences) list.entries.push_back(as_sentence(sentence));
   return list;
@@ -358,7 +358,7 @@ std::vector<Section> fit_sections(const Analysis& a) {
     sections.push_back({"failure", "Failure", {}, {Paragraph{a.fitted.failure}}});
   }
   sections.push_back({"starts", "Starts", {}, {starts_table(a)}});
-  sections.push_back({"warnings", "Warnings", {}, {as_list(all_warnings(a))}});
+  sections.push_back({"warnings", "Warnings", {}, {list_of_sentences(all_warnings(a))}});
   return sections;
 }
 
@@ -374,7 +374,7 @@ Document fit_document(const Analysis& a, std::vector<Block> diagnosis) {
   page.foot = "recoil " + version();
   page.foreword = provenance_banners(a.datasets);
   page.foreword.emplace_back(Paragraph{fit_summary(a), true});
-  page.sections = {{"warnings", "Warnings", {}, {as_list(all_warnings(a))}}};
+  page.sections = {{"warnings", "Warnings", {}, {list_of_sentences(all_warnings(a))}}};
   for (Section& section : figure_sections(a, std::move(diagnosis))) {
     page.sections.push_back(std::move(section));
   }
@@ -395,7 +395,7 @@ Document fit_document(const Analysis& a, std::vector<Block> diagnosis) {
   page.sections.push_back({"contradictions",
                            "Inputs that contradict each other",
                            {},
-                           {as_list(all_contradictions(a))}});
+                           {list_of_sentences(all_contradictions(a))}});
   page.sections.push_back({"starts", "Starts", {}, {starts_table(a)}});
   page.sections.push_back({"points", "Every point", {}, {points_table(a)}});
   page.sections.push_back({"glossary", "Glossary", {}, {glossary(a)}});

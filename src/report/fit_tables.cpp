@@ -14,7 +14,7 @@ namespace recoil {
 namespace {
 
 constexpr double least_correlation = 0.1;
-constexpr std::size_t most_points = 1000;  // in the table, so that the page stays under 1 MB
+constexpr std::size_t most_residuals = 1000;  // in the table, so that the page stays under 1 MB
 
 bool rests_on_bound(const FitResult& fitted, std::size_t s) {
   return s < fitted.at_bound.size() && fitted.at_bound[s];
@@ -22,11 +22,6 @@ bool rests_on_bound(const FitResult& fitted, std::size_t s) {
 
 Cell number_at(const std::vector<double>& values, std::size_t i, const Notation& notation) {
   return i < values.size() ? Cell(Number{values[i], notation}) : Cell();
-}
-
-Cell interval_cell(const Interval& interval) {
-  if (!interval.available()) return {};
-  return NumberRange{*interval.lower, *interval.upper};
 }
 
 Cell optional_cell(const std::optional<double>& value, const Notation& notation = {}) {
@@ -378,7 +373,7 @@ Table points_table(const Analysis& a) {
                                                             {"leverage"}}) {
     table.columns.push_back(column);
   }
-  const std::size_t count = std::min(f.data.points.size(), most_points);
+  const std::size_t count = std::min(f.data.points.size(), most_residuals);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& point = f.data.points[i];
     const Dataset& dataset = a.datasets[point.dataset];

@@ -30,6 +30,11 @@ std::string interval_text(const Interval& interval, int count) {
   return fmt::format("[{}, {}]", digits(*interval.lower, count), digits(*interval.upper, count));
 }
 
+Cell interval_cell(const Interval& interval, const Notation& notation) {
+  if (!interval.available()) return {};
+  return NumberRange{*interval.lower, *interval.upper, notation};
+}
+
 std::string diameter_text(double diameter) {
   const double um = diameter / units::um;
   if (!std::isfinite(um) || um <= 0.0) return "n/a";

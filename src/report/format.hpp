@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "document/document.hpp"
 #include "document/number.hpp"
 #include "document/terminal.hpp"
 #include "report/report.hpp"
@@ -15,6 +16,9 @@ namespace recoil {
 
 /// "[0.0027, 0.0035]", or "none".
 std::string interval_text(const Interval& interval, int count = 4);
+
+/// The same in a table; an empty cell where there is none.
+Cell interval_cell(const Interval& interval, const Notation& notation = padded(4));
 
 /// A diameter in micrometres, three or more digits: "4.90".
 std::string diameter_text(double diameter);

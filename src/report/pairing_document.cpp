@@ -14,7 +14,7 @@ namespace recoil {
 namespace {
 
 constexpr double degree = M_PI / 180.0;
-constexpr std::size_t most_points = 40;
+constexpr std::size_t most_rows = 40;
 
 double as_number(std::size_t n) { return static_cast<double>(n); }
 double percent_of(double part, double whole) { return whole > 0.0 ? 100.0 * part / whole : 0.0; }
@@ -199,9 +199,9 @@ Section points_section(const Averages& averages) {
             averages.in_small_bins));
   }
   append(section.blocks, {std::move(left_out), averages_table(averages)});
-  if (averages.points.size() > most_points) {
+  if (averages.points.size() > most_rows) {
     section.blocks.emplace_back(
-        Paragraph{say("... and {} more", averages.points.size() - most_points)});
+        Paragraph{say("... and {} more", averages.points.size() - most_rows)});
   }
   return section;
 }
@@ -236,7 +236,7 @@ Table averages_table(const Averages& averages) {
   Table table;
   table.columns = {{"series"},       {say("{d}"), "um"}, {say("{V}"), "m/s"}, {say("{e}")},
                    {say("sd({e})")}, {"rebounds"},       {"missing"},         {"captured"}};
-  for (std::size_t i = 0; i < std::min(averages.points.size(), most_points); ++i) {
+  for (std::size_t i = 0; i < std::min(averages.points.size(), most_rows); ++i) {
     const PointMean& point = averages.points[i];
     const auto count = [](auto value) { return Number{static_cast<double>(value), fixed(0)}; };
     table.rows.push_back(

@@ -12,7 +12,7 @@
 namespace recoil {
 namespace {
 
-struct Options {
+struct CoverageRun {
   std::vector<std::string> fit_files;
   int datasets = 100;
   int replicates = 39;
@@ -26,7 +26,7 @@ std::vector<Dataset> load_datasets(const FitSpec& spec) {
   return datasets;
 }
 
-CoverageOptions coverage_options(const Options& options, const FitSpec& spec) {
+CoverageOptions coverage_options(const CoverageRun& options, const FitSpec& spec) {
   CoverageOptions coverage;
   coverage.datasets = options.datasets;
   coverage.uncertainty.replicates = options.replicates;
@@ -37,7 +37,7 @@ CoverageOptions coverage_options(const Options& options, const FitSpec& spec) {
   return coverage;
 }
 
-void study_grid(const Options& options) {
+void study_grid(const CoverageRun& options) {
   const std::vector<GridDesign> designs = designs_named(options.designs);
   const FitSpec spec = load_fit(options.fit_files.front());
   CoverageStudy study = measure_grid(spec, load_datasets(spec).front(), designs,
@@ -47,7 +47,7 @@ void study_grid(const Options& options) {
 }
 
 /// All files are read before the first design is measured.
-void study_designs(const Options& options) {
+void study_designs(const CoverageRun& options) {
   std::vector<FitSpec> specs;
   std::vector<std::vector<Dataset>> datasets;
   for (const std::string& file : options.fit_files) {
@@ -63,7 +63,7 @@ void study_designs(const Options& options) {
 }
 
 CLI::App* add_command(CLI::App& program, const char* name, const char* what,
-                      const std::shared_ptr<Options>& options) {
+                      const std::shared_ptr<CoverageRun>& options) {
   CLI::App* command = program.add_subcommand(name, what);
   command->add_option("--datasets", options->datasets, "simulated data sets per design")
       ->capture_default_str()
@@ -78,7 +78,7 @@ CLI::App* add_command(CLI::App& program, const char* name, const char* what,
 }  // namespace
 
 void add_coverage_grid(CLI::App& program, const std::string& words) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CoverageRun>();
   options->run.command = words;
   CLI::App* command = add_command(
       program, "coverage-grid",
@@ -96,7 +96,7 @@ void add_coverage_grid(CLI::App& program, const std::string& words) {
 }
 
 void add_coverage_designs(CLI::App& program, const std::string& words) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CoverageRun>();
   options->run.command = words;
   CLI::App* command =
       add_command(program, "coverage-designs",

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct HiddenEffectsRun {
   hidden::StudySize size;
   std::string only;
   double minutes = std::numeric_limits<double>::infinity();
@@ -29,7 +29,7 @@ struct Options {
 };
 
 std::vector<hidden::Answered> answers_to(const std::vector<hidden::CaseOrder>& orders,
-                                         const Options& options) {
+                                         const HiddenEffectsRun& options) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const auto late = [&] {
@@ -60,7 +60,7 @@ std::vector<hidden::Answered> answers_to(const std::vector<hidden::CaseOrder>& o
   return answers;
 }
 
-void study(const Options& options) {
+void study(const HiddenEffectsRun& options) {
   std::vector<hidden::CaseOrder> orders;
   for (const hidden::CaseOrder& order : hidden::plan_study(options.size)) {
     if (order.key().find(options.only) != std::string::npos) orders.push_back(order);
@@ -77,7 +77,7 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
   CLI::App* command = program.add_subcommand(
       "hidden-effects",
       "hides effects in simulated data, has recoil diagnose look for them, and counts its answers");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<HiddenEffectsRun>();
   options->run.command = words;
   // The command that was built together with this program.
   options->binary = (fs::read_symlink("/proc/self/exe").parent_path() / "recoil").string();

@@ -14,7 +14,6 @@ namespace {
 constexpr double widest = 0.1;       // standard error relative to the scale of a parameter
 constexpr double least_loss = 0.01;  // 1 - e^2 below which a point tells no scale
 // Two parameters this correlated trade against each other over the whole of their errors.
-constexpr double strong_correlation = 0.97;
 
 /// For every slot the change that alone would make up the whole loss 1 - e^2 at the point that it
 /// moves most: 1 / max_i |d ln(1 - e_i^2) / d theta_j| [slots]; 0 where nothing is moved.

@@ -68,6 +68,12 @@ struct NamesOf<NoInterval> {
 /// The least number of replicates that have an interval: (B + 1) 0.025 >= 1.
 inline constexpr std::size_t fewest_replicates = 39;
 
+/// The share of the replicates that have to answer where a band is drawn.
+inline constexpr double share_for_band = 0.9;
+
+/// The correlation beyond which two parameters are known together only.
+inline constexpr double strong_correlation = 0.97;
+
 /// What has to be known beside the numbers of an interval.
 enum class Caution {
   spans_both_bounds,  ///< the data do not limit this parameter

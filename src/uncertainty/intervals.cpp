@@ -8,11 +8,10 @@
 
 #include "core/roots.hpp"
 #include "core/statistics.hpp"
+#include "estimate/least_squares.hpp"
 
 namespace recoil {
 namespace {
-
-constexpr double most_leverage = 0.99;
 
 /// Normal (dof 0) or Student.
 double distribution(double x, int dof) {
@@ -194,21 +193,6 @@ double profile_quantile(double level, int dof, double distance) {
   return find_root(excess, on_bound, far);
 }
 
-std::vector<double> leverages(std::span<const double> jacobian,
-                              std::span<const double> covariance) {
-  const std::size_t p = static_cast<std::size_t>(std::lround(std::sqrt(covariance.size())));
-  const std::size_t n = p == 0 ? 0 : jacobian.size() / p;
-  std::vector<double> h(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::span<const double> row = jacobian.subspan(i * p, p);
-    for (std::size_t a = 0; a < p; ++a) {
-      for (std::size_t b = 0; b < p; ++b) h[i] += row[a] * covariance[a * p + b] * row[b];
-    }
-    h[i] = std::min(h[i], most_leverage);
-  }
-  return h;
-}
-
 std::vector<double> sandwich_covariance(std::span<const double> residuals,
                                         std::span<const double> jacobian,
                                         std::span<const double> covariance) {
@@ -218,7 +202,7 @@ std::vector<double> sandwich_covariance(std::span<const double> residuals,
   std::vector<double> sandwich(p * p, 0.0);
   std::vector<double> step(p);  // how far point i moves every parameter
   for (std::size_t i = 0; i < h.size(); ++i) {
-    const double scaled = residuals[i] / (1.0 - h[i]);
+    const double scaled = residuals[i] / (1.0 - std::min(h[i], most_leverage));
     for (std::size_t a = 0; a < p; ++a) {
       step[a] = 0.0;
       for (std::size_t b = 0; b < p; ++b) step[a] += covariance[a * p + b] * jacobian[i * p + b];

@@ -85,8 +85,4 @@ std::vector<double> sandwich_errors(std::span<const double> residuals,
                                     std::span<const double> jacobian,
                                     std::span<const double> covariance);
 
-/// The leverage of each point: the diagonal of J (J'J)^-1 J', at most 0.99 (a point that the fit
-/// passes through says nothing of its own noise).
-std::vector<double> leverages(std::span<const double> jacobian, std::span<const double> covariance);
-
 }  // namespace recoil

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "uncertainty/interval.hpp"
+
 namespace recoil {
 namespace {
 
 constexpr double clear_difference = 0.15;  // of the recommended width
 constexpr double many_at_bound = 0.05;
-constexpr double strong_correlation = 0.97;
 constexpr double coupled = 0.5;  // correlation at which another parameter's bound is felt
 constexpr double clear_acceleration = 0.05;
 constexpr double clear_bias = 0.15;

@@ -11,8 +11,6 @@
 namespace recoil {
 namespace {
 
-constexpr double most_leverage = 0.99;  // a point that the fit passes through says nothing
-
 /// r_i / (1 - h_i)^power of every point; captured ones get 0. Where impacts differ the residual of
 /// the fit is that of the count, too, which is drawn anew: the survivors' mean has its own.
 std::vector<double> scaled_residuals(const FitResult& fitted, double power) {

@@ -19,7 +19,7 @@ TEST_P(PackageMistake, IsOneClearLine) {
   folder.expect(mistake);
 }
 
-const Mistake mistakes[] = {
+const Mistake package_mistakes[] = {
     // JSON itself.
     {"syntax", "\"title\":", "\"title\"", "datapackage.json:3:11: ", "syntax error",
      "just before it"},
@@ -128,7 +128,8 @@ const Mistake mistakes[] = {
      "datapackage.json:22:27: ", "reference_diameter = 4.9 m", "1 um is 1e-6 m"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, PackageMistake, testing::ValuesIn(mistakes), support::name_of);
+INSTANTIATE_TEST_SUITE_P(Each, PackageMistake, testing::ValuesIn(package_mistakes),
+                         support::name_of);
 
 TEST(PackageFile, EmptyOrNoObject) {
   DatasetFolder(" \n").expect(

@@ -18,7 +18,7 @@ TEST_P(PointsMistake, IsOneClearLine) {
   folder.expect(mistake);
 }
 
-const Mistake mistakes[] = {
+const Mistake points_mistakes[] = {
     // The header.
     {"header_unknown_column", "incident_velocity", "incident_velocty",
      "points.csv:1:17: ", "'incident_velocty'", "did you mean 'incident_velocity'?"},
@@ -119,7 +119,7 @@ const Mistake mistakes[] = {
      "small,1.27,1.25,,,,20,20\rsmall,x,1,1,,,,\n", "points.csv:4:7: ", "'x'", "such as"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, PointsMistake, testing::ValuesIn(mistakes), support::name_of);
+INSTANTIATE_TEST_SUITE_P(Each, PointsMistake, testing::ValuesIn(points_mistakes), support::name_of);
 
 TEST(PointsFile, EmptyOrWithoutPoints) {
   const std::string header = points.substr(0, points.find('\n') + 1);

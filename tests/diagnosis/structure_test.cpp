@@ -11,7 +11,7 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t sizes = 3;
-constexpr std::size_t velocities = 12;
+constexpr std::size_t speeds = 12;
 
 /// Three diameters at twelve velocities, and a model of one parameter that moves all points alike.
 struct Case {
@@ -21,7 +21,7 @@ struct Case {
 
   Case() {
     for (std::size_t s = 0; s < sizes; ++s) {
-      for (std::size_t v = 0; v < velocities; ++v) {
+      for (std::size_t v = 0; v < speeds; ++v) {
         Observation point;
         point.series = s;
         point.diameter = 1e-6 * std::pow(2.0, static_cast<double>(s));
@@ -43,7 +43,7 @@ struct Case {
 
 std::vector<double> noise(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  std::vector<double> z(sizes * velocities);
+  std::vector<double> z(sizes * speeds);
   for (double& value : z) value = normal(random);
   return z;
 }
@@ -92,8 +92,8 @@ TEST(Structure, AccusesPureNoiseInFivePerCentOfCases) {
 }
 
 TEST(Structure, SeesADiameterThatIsOff) {
-  std::vector<double> shape(sizes * velocities, 0.0);
-  std::fill_n(shape.begin() + velocities, velocities, 1.5);
+  std::vector<double> shape(sizes * speeds, 0.0);
+  std::fill_n(shape.begin() + speeds, speeds, 1.5);
   const Structure found = structure_with(shape, 5);
   EXPECT_LE(p_of(found, StructureQuestion::size), 0.01);
   EXPECT_LE(found.p_value, 0.05);
@@ -102,8 +102,8 @@ TEST(Structure, SeesADiameterThatIsOff) {
 
 TEST(Structure, SeesAWaveInTheLogarithmOfTheVelocity) {
   std::vector<double> shape;
-  for (std::size_t i = 0; i < sizes * velocities; ++i) {
-    const double u = static_cast<double>(i % velocities) / (velocities - 1.0);
+  for (std::size_t i = 0; i < sizes * speeds; ++i) {
+    const double u = static_cast<double>(i % speeds) / (speeds - 1.0);
     shape.push_back(1.8 * std::sin(2.0 * std::numbers::pi * 2.0 * u));
   }
   const Structure found = structure_with(shape, 6);
@@ -138,8 +138,8 @@ TEST(Structure, TellsLargeScatterFromShape) {
 TEST(Structure, FreeFormFollowsAWaveAndLeavesNoiseAlone) {
   const Case made;
   std::vector<double> wave;
-  for (std::size_t i = 0; i < sizes * velocities; ++i) {
-    const double u = static_cast<double>(i % velocities) / (velocities - 1.0);
+  for (std::size_t i = 0; i < sizes * speeds; ++i) {
+    const double u = static_cast<double>(i % speeds) / (speeds - 1.0);
     wave.push_back(3.0 * std::sin(2.0 * std::numbers::pi * u));
   }
   const std::vector<double> r = made.statistics().residuals_of_noise(wave);

@@ -6,21 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "estimate/least_squares.hpp"
+#include "small_problem.hpp"
 
 namespace recoil {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-LeastSquaresProblem unbounded(std::size_t residuals, std::size_t parameters) {
-  LeastSquaresProblem problem;
-  problem.residual_count = residuals;
-  problem.lower.assign(parameters, -infinity);
-  problem.upper.assign(parameters, infinity);
-  problem.log_scale.assign(parameters, false);
-  return problem;
-}
 
 /// y = a exp(-k x) without noise.
 LeastSquaresProblem decay(double a, double k) {

@@ -5,21 +5,11 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "small_problem.hpp"
 
 namespace recoil {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-LeastSquaresProblem unbounded(std::size_t residuals, std::size_t parameters) {
-  LeastSquaresProblem problem;
-  problem.residual_count = residuals;
-  problem.lower.assign(parameters, -infinity);
-  problem.upper.assign(parameters, infinity);
-  problem.log_scale.assign(parameters, false);
-  return problem;
-}
 
 /// y = a + b x on five points; the normal equations are solved by hand below.
 LeastSquaresProblem straight_line() {

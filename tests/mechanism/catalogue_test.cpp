@@ -16,10 +16,9 @@ namespace {
 using one_point::Answer;
 using one_point::ask;
 using one_point::Base;
-
-const Surroundings kSoft = one_point::around(one_point::fluorescein());
-const Base kBase{3e-3, 0.05, 8.9};
-constexpr double kDiameter = 4.9e-6;
+using one_point::kBase;
+using one_point::kDiameter;
+using one_point::kSoft;
 
 std::vector<double> values_of(const Mechanism& m, double Parameter::*which) {
   std::vector<double> values;

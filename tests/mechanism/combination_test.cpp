@@ -12,9 +12,9 @@
 namespace recoil {
 namespace {
 
+using one_point::hunt_crossley;
+using one_point::kSoft;
 using std::numbers::pi;
-
-const Surroundings kSoft = one_point::around(one_point::fluorescein());
 
 /// Everything on which the test case depends, in the order of Answer::slopes: V, D, C_H, (C_A, f0),
 /// then the mechanisms' parameters in the order of the chain.
@@ -30,16 +30,6 @@ struct Case {
   double yield = 6e7, rate = 0.1;
   double outliers = 0.02;
 };
-
-double hunt_crossley(double x) {
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 200; ++i) {
-    const double e = 0.5 * (low + high);
-    (x * (1.0 + e) < std::log1p(x) - std::log1p(-e * x) ? high : low) = e;
-  }
-  return 0.5 * (low + high);
-}
 
 double by_hand(const Case& c) {
   const double density = 1350.0;

@@ -13,12 +13,12 @@
 namespace recoil {
 namespace {
 
+using one_point::kDiameter;
+using one_point::kSoft;
 using one_point::square;
 using std::numbers::pi;
 
-const Surroundings kSoft = one_point::around(one_point::fluorescein());
 const Surroundings kSteel = one_point::around(one_point::steel());
-constexpr double kDiameter = 4.9e-6;
 
 double mass(const Surroundings& at, double d) { return at.density * pi / 6.0 * d * d * d; }
 

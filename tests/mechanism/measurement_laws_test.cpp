@@ -9,11 +9,10 @@
 namespace recoil {
 namespace {
 
+using one_point::kBase;
+using one_point::kDiameter;
+using one_point::kSoft;
 using one_point::square;
-
-const Surroundings kSoft = one_point::around(one_point::fluorescein());
-constexpr double kDiameter = 4.9e-6;
-const one_point::Base kBase{3e-3, 0.05, 8.9};
 
 TEST(SizeCalibration, IsTheModelAtTheTrueDiameter) {
   EXPECT_NEAR(square(kSoft, {"size_calibration"}, {0.1}, kDiameter, 3.0, kBase),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -32,10 +33,14 @@ inline Surroundings around(const ImpactSystem& system) {
   return surroundings_of(system, derive_contact(system, *system.reference_diameter));
 }
 
+inline const Surroundings kSoft = around(fluorescein());
+constexpr double kDiameter = 4.9e-6;
+
 /// C_H, C_A and f0 of the base model.
 struct Base {
   double C_H = 0.0, C_A = 0.0, f0 = 0.0;
 };
+constexpr Base kBase{3e-3, 0.05, 8.9};
 
 /// e^2 and its derivatives in V, D, C_H, C_A, f0 and the mechanisms' parameters.
 struct Answer {
@@ -66,6 +71,17 @@ inline double square(const Surroundings& at, const std::vector<std::string>& ids
                      const std::vector<double>& own, double diameter, double velocity,
                      const Base& base = {}) {
   return ask(at, ids, own, diameter, velocity, base, false).square;
+}
+
+/// e of the Hunt-Crossley contact at x = C_H V, by bisection.
+inline double hunt_crossley(double x) {
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 200; ++i) {
+    const double e = 0.5 * (low + high);
+    (x * (1.0 + e) < std::log1p(x) - std::log1p(-e * x) ? high : low) = e;
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace recoil::one_point

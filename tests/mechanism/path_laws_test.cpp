@@ -10,23 +10,13 @@
 namespace recoil {
 namespace {
 
+using one_point::hunt_crossley;
+using one_point::kDiameter;
+using one_point::kSoft;
 using one_point::square;
 
-const Surroundings kSoft = one_point::around(one_point::fluorescein());
-constexpr double kDiameter = 4.9e-6;
 constexpr double kDamping = 0.05;
 const one_point::Base kDamped{kDamping, 0.0, 0.0};
-
-/// e of the Hunt-Crossley contact by bisection.
-double hunt_crossley(double x) {
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 100; ++i) {
-    const double e = 0.5 * (low + high);
-    (x * (1.0 + e) < std::log((1.0 + x) / (1.0 - e * x)) ? high : low) = e;
-  }
-  return 0.5 * (low + high);
-}
 
 TEST(HuntCrossley, TheBaseItself) {
   EXPECT_NEAR(hunt_crossley(0.5), 0.7484349316, 1e-9);

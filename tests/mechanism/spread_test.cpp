@@ -10,11 +10,10 @@
 namespace recoil {
 namespace {
 
+using one_point::kBase;
+using one_point::kDiameter;
+using one_point::kSoft;
 using one_point::square;
-
-const Surroundings kSoft = one_point::around(one_point::fluorescein());
-constexpr double kDiameter = 4.9e-6;
-const one_point::Base kBase{3e-3, 0.05, 8.9};
 
 /// Mean e of those that come back, cut off at 2.5 standard deviations; -1 when none does.
 template <class Square>

@@ -6,26 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/synthetic.hpp"
+#include "exact_fit.hpp"
 
 namespace {
 
 using recoil::CaptureComparison;
 using recoil::CaptureCurve;
 using recoil::CaptureModel;
-
-struct Exact {
-  recoil::synthetic::Design design;
-  std::vector<recoil::Dataset> datasets{recoil::synthetic::dataset(design)};
-  recoil::Observations data = recoil::gather(datasets);
-  recoil::FitResult fitted;
-
-  Exact() {
-    fitted.model = recoil::make_model(recoil::synthetic::spec(), datasets);
-    fitted.theta = {design.C_H, design.C_A, design.f0};
-    fitted.data = data;
-  }
-};
 
 const CaptureCurve& curve(const CaptureComparison& of, CaptureModel model) {
   const auto found = std::find_if(of.curves.begin(), of.curves.end(),
@@ -35,7 +22,7 @@ const CaptureCurve& curve(const CaptureComparison& of, CaptureModel model) {
 }
 
 TEST(CaptureComparison, OursIsTheCaptureOfTheOtherSimulator) {
-  const Exact exact;
+  const recoil::ExactFit exact;
   const auto all = recoil::compare_captures(exact.fitted, exact.datasets, {});
   ASSERT_EQ(all.size(), 1U);
   recoil::RingAdhesionTruth ring;
@@ -60,7 +47,7 @@ TEST(CaptureComparison, OursIsTheCaptureOfTheOtherSimulator) {
 }
 
 TEST(CaptureComparison, OlderModelsLoseMoreThanJkr) {
-  const Exact exact;
+  const recoil::ExactFit exact;
   const auto all = recoil::compare_captures(exact.fitted, exact.datasets, {});
   for (std::size_t k = 0; k < all[0].diameter.size(); ++k) {
     const double jkr = curve(all[0], CaptureModel::jkr).velocity[k];
@@ -74,7 +61,7 @@ TEST(CaptureComparison, OlderModelsLoseMoreThanJkr) {
 }
 
 TEST(CaptureComparison, TheBandHoldsTheReplicates) {
-  const Exact exact;
+  const recoil::ExactFit exact;
   recoil::BootstrapResult bootstrap;
   for (int i = 0; i < 100; ++i) {
     std::vector<double> theta = exact.fitted.theta;
@@ -92,7 +79,7 @@ TEST(CaptureComparison, TheBandHoldsTheReplicates) {
 }
 
 TEST(CaptureComparison, WithoutAdhesionThereIsNone) {
-  Exact exact;
+  recoil::ExactFit exact;
   exact.datasets[0].system.adhesion_energy = 0.0;
   exact.datasets[0].system.adhesion_force_f0.reset();
   exact.fitted.model = recoil::make_model(recoil::synthetic::spec(), exact.datasets);

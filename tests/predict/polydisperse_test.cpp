@@ -5,42 +5,12 @@
 
 #include <cmath>
 
-#include "estimate/observations.hpp"
-#include "estimate/predictor.hpp"
-#include "support/synthetic.hpp"
+#include "exact_fit.hpp"
 
 namespace {
 
 using recoil::BandedValue;
 using recoil::PolydispersePrediction;
-
-/// A fit that is exact: the synthetic truth with its own parameters.
-struct Exact {
-  recoil::synthetic::Design design;
-  std::vector<recoil::Dataset> datasets{recoil::synthetic::dataset(design)};
-  recoil::Observations data = recoil::gather(datasets);
-  recoil::FitResult fitted;
-  recoil::BootstrapResult bootstrap;
-
-  Exact() {
-    fitted.model = recoil::make_model(recoil::synthetic::spec(), datasets);
-    fitted.theta = {design.C_H, design.C_A, design.f0};
-    fitted.usable = true;
-    fitted.data = data;
-  }
-
-  /// e of the other simulator [1].
-  double truth(double diameter, double velocity) const {
-    recoil::RingAdhesionTruth ring;
-    ring.density = 1350.0;
-    ring.stiffness = 1.789e9;
-    ring.adhesion_force = design.f0;
-    ring.reference_diameter = 4.9e-6;
-    ring.C_H = design.C_H;
-    ring.C_A = design.C_A;
-    return recoil::true_restitution(ring, diameter, velocity);
-  }
-};
 
 recoil::MeasuredSizes three_sizes() {
   recoil::MeasuredSizes sizes;
@@ -50,7 +20,7 @@ recoil::MeasuredSizes three_sizes() {
   return sizes;
 }
 
-PolydispersePrediction predicted(const Exact& exact, double height, int threads = 1) {
+PolydispersePrediction predicted(const recoil::ExactFit& exact, double height, int threads = 1) {
   recoil::PolydisperseOptions options;
   options.probe_height = height;
   options.threads = threads;
@@ -59,7 +29,7 @@ PolydispersePrediction predicted(const Exact& exact, double height, int threads 
 }
 
 TEST(Mixture, IsTheSumOverItsSizes) {
-  const Exact exact;
+  const recoil::ExactFit exact;
   const double height = 0.02;  // rebounds below 0.626 m/s are not seen
   const PolydispersePrediction mixture = predicted(exact, height);
   const double slowest = std::sqrt(2.0 * 9.80665 * height);
@@ -94,7 +64,7 @@ TEST(Mixture, IsTheSumOverItsSizes) {
 }
 
 TEST(Mixture, ConventionsAreOrdered) {
-  const Exact exact;
+  const recoil::ExactFit exact;
   const PolydispersePrediction mixture = predicted(exact, 0.01);
   for (std::size_t k = 0; k < mixture.velocity.size(); ++k) {
     const auto& zero = mixture.average[0][k].value;
@@ -111,7 +81,7 @@ TEST(Mixture, ConventionsAreOrdered) {
 }
 
 TEST(Mixture, SizeCurvesAndTheirCaptureVelocities) {
-  const Exact exact;
+  const recoil::ExactFit exact;
   const PolydispersePrediction mixture = predicted(exact, 0.001);
   ASSERT_EQ(mixture.size_curves.size(), 3U);
   EXPECT_DOUBLE_EQ(mixture.size_curves[1].diameter, 4.5e-6);  // (2 + 8 + 8) / 4
@@ -124,7 +94,7 @@ TEST(Mixture, SizeCurvesAndTheirCaptureVelocities) {
 
 TEST(Mixture, PointsOfOneSizeLieOnItsCurve) {
   // A mixture of one size only, with points of that size: nothing is missed.
-  Exact exact;
+  recoil::ExactFit exact;
   exact.design.diameters = {4.9e-6};
   exact.datasets = {recoil::synthetic::dataset(exact.design)};
   exact.fitted.data = recoil::gather(exact.datasets);
@@ -139,7 +109,7 @@ TEST(Mixture, PointsOfOneSizeLieOnItsCurve) {
 }
 
 TEST(Mixture, BandsHoldThePercentilesOfTheReplicates) {
-  Exact exact;
+  recoil::ExactFit exact;
   for (int i = 0; i <= 200; ++i) {  // C_H spread evenly by 10 % to either side
     std::vector<double> theta = exact.fitted.theta;
     theta[0] *= 0.9 + 0.001 * i;
@@ -152,12 +122,12 @@ TEST(Mixture, BandsHoldThePercentilesOfTheReplicates) {
   ASSERT_TRUE(at.lower && at.upper);
   // The average falls with C_H; the 2.5 % quantile of 201 values by the (B + 1) p rule lies at
   // C_H x (0.9 + 0.001 x (200 - 4.05)).
-  Exact high = exact;
+  recoil::ExactFit high = exact;
   high.bootstrap.theta.clear();
   high.fitted.theta[0] *= 0.9 + 0.001 * (200.0 - 4.05);
-  Exact low = high;
+  recoil::ExactFit low = high;
   low.fitted.theta[0] = exact.fitted.theta[0] * (0.9 + 0.001 * 4.05);
-  const auto value_at = [&](const Exact& of) {
+  const auto value_at = [&](const recoil::ExactFit& of) {
     double sum = 0.0;
     for (const recoil::SizeBin& bin : three_sizes().bins) {
       sum += bin.weight * recoil::predict(of.fitted.model, of.fitted.theta, 0, bin.diameter,

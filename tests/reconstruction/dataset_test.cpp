@@ -13,9 +13,9 @@
 namespace recoil {
 namespace {
 
+using recipes::CopiedDatasets;
+using recipes::dataset_folder;
 using support::text_of;
-using testing::CopiedDatasets;
-using testing::dataset_folder;
 
 /// The points as the recipe says that they are made: from events where it has a table [pairing].
 PairedPoints made_by(const Recipe& recipe) {
@@ -24,7 +24,7 @@ PairedPoints made_by(const Recipe& recipe) {
 }
 
 class Committed : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Datasets, Committed, ::testing::ValuesIn(testing::reconstruction_ids()),
+INSTANTIATE_TEST_SUITE_P(Datasets, Committed, ::testing::ValuesIn(recipes::reconstruction_ids()),
                          [](const auto& instance) {
                            std::string name = instance.param;
                            std::replace(name.begin(), name.end(), '-', '_');

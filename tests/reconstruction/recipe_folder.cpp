@@ -1,6 +1,6 @@
 #include "recipe_folder.hpp"
 
-namespace recoil::testing {
+namespace recoil::recipes {
 
 namespace fs = std::filesystem;
 
@@ -21,4 +21,4 @@ CopiedDatasets::CopiedDatasets() {
   }
 }
 
-}  // namespace recoil::testing
+}  // namespace recoil::recipes

@@ -6,7 +6,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace recoil::testing {
+namespace recoil::recipes {
 
 /// The committed reconstructions.
 const std::vector<std::string>& reconstruction_ids();
@@ -22,4 +22,4 @@ class CopiedDatasets : public support::TemporaryFolder {
   std::filesystem::path folder(const std::string& id) const { return path() / id; }
 };
 
-}  // namespace recoil::testing
+}  // namespace recoil::recipes

@@ -12,7 +12,7 @@
 namespace recoil {
 namespace {
 
-using testing::CopiedDatasets;
+using recipes::CopiedDatasets;
 
 struct Mistake {
   std::string name, id, from, to, says;

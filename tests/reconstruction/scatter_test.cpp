@@ -10,7 +10,7 @@
 namespace recoil {
 namespace {
 
-using testing::dataset_folder;
+using recipes::dataset_folder;
 
 class Scatter : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Datasets, Scatter,

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 class Browser : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    page_ = html_report(example::four_diameters());
-    const Analysis analysis = example::four_diameters();
+    page_ = html_report(sample::four_diameters());
+    const Analysis analysis = sample::four_diameters();
     index_ = html_index({{"page.html", summary_of(analysis), thumbnail(analysis)}});
   }
 
@@ -51,8 +51,8 @@ class Browser : public testing::Test {
 TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 15), 0); }
 
 TEST_F(Browser, ShowsWhatCorrectionsDo) {
-  Analysis analysis = example::four_diameters();
-  analysis.corrections = {example::corrections(1), example::corrections(4)};
+  Analysis analysis = sample::four_diameters();
+  analysis.corrections = {sample::corrections(1), sample::corrections(4)};
   EXPECT_EQ(open(html_report(analysis), 19), 0);  // two pictures of each
 }
 
@@ -84,7 +84,7 @@ TEST_F(Browser, ShowsThePicturesOfAnExperiment) {
   EXPECT_EQ(open(html_page(page), 4), 0);
 }
 
-TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(html_report(example::two_datasets()), 28), 0); }
+TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(html_report(sample::two_datasets()), 28), 0); }
 
 TEST_F(Browser, ShowsTheIndex) { EXPECT_EQ(open(index_, 1), 0); }
 

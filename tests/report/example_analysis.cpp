@@ -6,7 +6,7 @@
 #include "core/random.hpp"
 #include "core/units.hpp"
 
-namespace recoil::example {
+namespace recoil::sample {
 namespace {
 
 constexpr std::array<double, 4> diameters = {2.58e-6, 3.42e-6, 4.90e-6, 6.89e-6};  // [m]
@@ -320,4 +320,4 @@ Analysis two_datasets() {
   return a;
 }
 
-}  // namespace recoil::example
+}  // namespace recoil::sample

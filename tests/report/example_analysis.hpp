@@ -2,7 +2,7 @@
 
 #include "report/report.hpp"
 
-namespace recoil::example {
+namespace recoil::sample {
 
 /// A filled analysis of four diameters, 32 points, made without fitting anything: what the writers
 /// need, with numbers of a plausible size.
@@ -14,4 +14,4 @@ Analysis two_datasets();
 /// What each correction of a pairing does, in numbers of a plausible size; one row without a fit.
 CorrectionStudy corrections(std::size_t size_classes);
 
-}  // namespace recoil::example
+}  // namespace recoil::sample

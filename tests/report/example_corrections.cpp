@@ -1,6 +1,6 @@
 #include "example_analysis.hpp"
 
-namespace recoil::example {
+namespace recoil::sample {
 
 CorrectionStudy corrections(std::size_t size_classes) {
   CorrectionStudy study;
@@ -34,4 +34,4 @@ CorrectionStudy corrections(std::size_t size_classes) {
   return study;
 }
 
-}  // namespace recoil::example
+}  // namespace recoil::sample

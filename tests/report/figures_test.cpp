@@ -47,7 +47,7 @@ bool inside(double value, const plot::Axis& axis) {
 }
 
 TEST(RestitutionFigures, ShowEveryPointOnce) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   const std::vector<Figure> figures = restitution_figures(analysis);
   ASSERT_EQ(figures.size(), 4U);
   std::size_t shown = 0;
@@ -68,7 +68,7 @@ TEST(RestitutionFigures, ShowEveryPointOnce) {
 }
 
 TEST(RestitutionFigures, ErrorBarsAreOneStandardDeviation) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   ASSERT_TRUE(analysis.fitted.data.sd_stated);
   const auto points = layers_of<plot::Points>(plot_of(restitution_figures(analysis).front()));
   ASSERT_FALSE(points.empty());
@@ -79,7 +79,7 @@ TEST(RestitutionFigures, ErrorBarsAreOneStandardDeviation) {
 }
 
 TEST(RestitutionFigures, TheCurveAndItsBandAreThoseOfTheFit) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   const RestitutionCurve& curve = analysis.uncertainty.curves.front();
   const plot::Plot plot = plot_of(restitution_figures(analysis).front());
   const auto line = layer_named<plot::Line>(plot, "fit to all points");
@@ -98,7 +98,7 @@ TEST(RestitutionFigures, TheCurveAndItsBandAreThoseOfTheFit) {
 }
 
 TEST(RestitutionFigures, TheCaptureVelocityStandsInItsInterval) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   const CaptureEstimate& capture = analysis.uncertainty.capture.front();
   ASSERT_TRUE(capture.found);
   const plot::Plot plot = plot_of(restitution_figures(analysis).front());
@@ -112,8 +112,8 @@ TEST(RestitutionFigures, TheCaptureVelocityStandsInItsInterval) {
 }
 
 TEST(ResidualFigures, LieAboutZeroWithLinesAtTwo) {
-  for (const auto& figures : {residual_velocity_figures(example::four_diameters()),
-                              residual_diameter_figures(example::four_diameters())}) {
+  for (const auto& figures : {residual_velocity_figures(sample::four_diameters()),
+                              residual_diameter_figures(sample::four_diameters())}) {
     ASSERT_EQ(figures.size(), 1U);
     const plot::Plot& plot = plot_of(figures[0]);
     EXPECT_EQ(*plot.y.from, -*plot.y.to);
@@ -124,7 +124,7 @@ TEST(ResidualFigures, LieAboutZeroWithLinesAtTwo) {
 }
 
 TEST(ResidualFigures, TheMeanOfADiameterIsThatOfItsResiduals) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   const auto means = layer_named<plot::Points>(plot_of(residual_diameter_figures(analysis).front()),
                                                "mean ± 1 sd");
   ASSERT_EQ(means.x.size(), 4U);
@@ -140,7 +140,7 @@ TEST(ResidualFigures, TheMeanOfADiameterIsThatOfItsResiduals) {
 }
 
 TEST(BootstrapFigures, BarsCountEveryReplicateInThePicture) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   const Figure figure = bootstrap_figures(analysis).front();
   const plot::Boxes bars = layers_of<plot::Boxes>(plot_of(figure)).at(0);
   double counted = 0.0;
@@ -153,7 +153,7 @@ TEST(BootstrapFigures, BarsCountEveryReplicateInThePicture) {
 }
 
 TEST(IntervalFigures, EveryIntervalHasItsRow) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   for (const Figure& figure : interval_figures(analysis)) {
     const plot::Plot& plot = plot_of(figure);
     EXPECT_EQ(plot.y.ticks.size(), 5U);
@@ -168,7 +168,7 @@ TEST(IntervalFigures, EveryIntervalHasItsRow) {
 }
 
 TEST(CornerFigures, HaveAPanelForEveryPairAndEveryParameter) {
-  const std::vector<Figure> figures = corner_figures(example::two_datasets());
+  const std::vector<Figure> figures = corner_figures(sample::two_datasets());
   ASSERT_EQ(figures.size(), 1U);
   std::size_t diagonal = 0;
   for (const plot::Plot& plot : figures[0].picture.plots) {
@@ -179,13 +179,13 @@ TEST(CornerFigures, HaveAPanelForEveryPairAndEveryParameter) {
     diagonal += layers_of<plot::Boxes>(plot).size();
   }
   EXPECT_EQ(figures[0].picture.plots.size(), diagonal * (diagonal + 1) / 2);
-  Analysis without = example::two_datasets();
+  Analysis without = sample::two_datasets();
   without.uncertainty.bootstrap.theta.clear();
   EXPECT_THAT(corner_figures(without), IsEmpty());
 }
 
 TEST(CornerFigures, PanelsDoNotOverlap) {
-  const Figure figure = corner_figures(example::two_datasets()).at(0);
+  const Figure figure = corner_figures(sample::two_datasets()).at(0);
   const auto& plots = figure.picture.plots;
   for (std::size_t a = 0; a < plots.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
@@ -199,7 +199,7 @@ TEST(CornerFigures, PanelsDoNotOverlap) {
 }
 
 TEST(AdhesionForceFigures, FollowTheCubeRoot) {
-  const Figure figure = adhesion_force_figures(example::four_diameters()).at(0);
+  const Figure figure = adhesion_force_figures(sample::four_diameters()).at(0);
   const plot::Line line = layers_of<plot::Line>(plot_of(figure)).at(0);
   const double scale = line.y.back() / std::cbrt(line.x.back());
   for (std::size_t i = 0; i < line.x.size(); ++i) {
@@ -208,7 +208,7 @@ TEST(AdhesionForceFigures, FollowTheCubeRoot) {
 }
 
 TEST(ForceHistoryFigures, TheSumIsThatOfTheFourForces) {
-  const Figure figure = force_history_figures(example::four_diameters()).at(0);
+  const Figure figure = force_history_figures(sample::four_diameters()).at(0);
   const auto lines = layers_of<plot::Line>(plot_of(figure));
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_EQ(lines[4].name, "sum");
@@ -220,7 +220,7 @@ TEST(ForceHistoryFigures, TheSumIsThatOfTheFourForces) {
 }
 
 TEST(CorrectionFigures, LeaveOutTheRowThatCannotDiffer) {
-  const CorrectionStudy study = example::corrections(1);
+  const CorrectionStudy study = sample::corrections(1);
   const std::vector<Figure> figures = correction_figures(study, 1);
   ASSERT_EQ(figures.size(), 2U);
   EXPECT_EQ(layers_of<plot::Line>(plot_of(figures[0])).size(), study.rows.size() - 1);
@@ -251,7 +251,7 @@ TEST(ExperimentPictures, BarsAndOutlineHoldTheSameShare) {
 
 TEST(Figures, HoldTheirDataAsColumnsWithUnits) {
   const std::vector<plot::DataTable> tables =
-      plot::data_of(restitution_figures(example::four_diameters()).front().picture);
+      plot::data_of(restitution_figures(sample::four_diameters()).front().picture);
   ASSERT_FALSE(tables.empty());
   for (const plot::DataTable& table : tables) {
     ASSERT_GE(table.columns.size(), 2U);

@@ -83,7 +83,7 @@ std::size_t longest_line(const std::string& text) {
 }
 
 TEST(FitDocument, HoldsEveryFigureOfOneDataset) {
-  const Document page = fit_document(example::four_diameters());
+  const Document page = fit_document(sample::four_diameters());
   EXPECT_THAT(figure_ids(page),
               ElementsAre("restitution-1", "restitution-2", "restitution-3", "restitution-4",
                           "residual-velocity-1", "residual-diameter-1", "intervals-1",
@@ -95,7 +95,7 @@ TEST(FitDocument, HoldsEveryFigureOfOneDataset) {
 }
 
 TEST(FitDocument, HoldsEveryFigureOfAJointFit) {
-  const Document page = fit_document(example::two_datasets());
+  const Document page = fit_document(sample::two_datasets());
   expect_self_contained(html_page(page));
   const std::vector<std::string> ids = figure_ids(page);
   EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
@@ -119,12 +119,12 @@ TEST(FitDocument, SaysWhereThePointsComeFromBeforeAnythingElse) {
     }
     return found;
   };
-  EXPECT_THAT(labels(example::four_diameters()), ElementsAre("reconstruction", "words"));
-  EXPECT_THAT(labels(example::two_datasets()), ElementsAre("reconstruction", "measured", "words"));
+  EXPECT_THAT(labels(sample::four_diameters()), ElementsAre("reconstruction", "words"));
+  EXPECT_THAT(labels(sample::two_datasets()), ElementsAre("reconstruction", "measured", "words"));
 }
 
 TEST(FitDocument, EscapesWhatAFileSays) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   const std::string hostile = "<script>alert(1)</script>\"'&`touch x`";
   analysis.datasets[0].title = hostile;
   analysis.datasets[0].id = hostile;
@@ -139,7 +139,7 @@ TEST(FitDocument, EscapesWhatAFileSays) {
 }
 
 TEST(FitDocument, HasWarningsContradictionsInputsAndGlossary) {
-  const Document page = fit_document(example::two_datasets());
+  const Document page = fit_document(sample::two_datasets());
   const std::vector<std::string> ids = section_ids(page);
   for (const char* id : {"warnings", "contradictions", "inputs", "glossary", "parameters",
                          "goodness", "starts", "points", "bootstrap"}) {
@@ -150,14 +150,14 @@ TEST(FitDocument, HasWarningsContradictionsInputsAndGlossary) {
 }
 
 TEST(FitDocument, TakesTheDiagnosisIn) {
-  const Document page = fit_document(example::four_diameters(), {Paragraph{"Nothing."}});
+  const Document page = fit_document(sample::four_diameters(), {Paragraph{"Nothing."}});
   const Section* section = section_of(page, "diagnosis");
   ASSERT_NE(section, nullptr);
   EXPECT_EQ(section->blocks.size(), 1U);
 }
 
 TEST(FitDocument, WithoutABootstrapStillDrawsThePoints) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   analysis.uncertainty = UncertaintyResult{};
   const Document page = fit_document(analysis);
   expect_self_contained(html_page(page));
@@ -168,9 +168,9 @@ TEST(FitDocument, WithoutABootstrapStillDrawsThePoints) {
 }
 
 TEST(FitDocument, StaysSmallWithManyPoints) {
-  Analysis analysis = example::two_datasets();
+  Analysis analysis = sample::two_datasets();
   for (int copy = 0; copy < 5; ++copy) {
-    const Analysis more = example::two_datasets();
+    const Analysis more = sample::two_datasets();
     auto& points = analysis.fitted.data.points;
     points.insert(points.end(), more.fitted.data.points.begin(), more.fitted.data.points.end());
     for (const auto member : {&FitResult::residuals, &FitResult::prediction,
@@ -200,9 +200,9 @@ TEST(FitDocument, StaysSmallWithManyPoints) {
 }
 
 TEST(FitDocument, AnUnusableFitHasNoPageButItsFailureIsPrinted) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   analysis.fitted = FitResult{};
-  analysis.fitted.model = example::four_diameters().fitted.model;
+  analysis.fitted.model = sample::four_diameters().fitted.model;
   analysis.fitted.failure = "no start rebounds at point 3";
   analysis.uncertainty = UncertaintyResult{};
   EXPECT_THROW(html_report(analysis), ComputationError);
@@ -215,11 +215,11 @@ TEST(FitDocument, AnUnusableFitHasNoPageButItsFailureIsPrinted) {
 }
 
 TEST(FitDocument, IsTheSameTwice) {
-  EXPECT_EQ(html_report(example::four_diameters()), html_report(example::four_diameters()));
+  EXPECT_EQ(html_report(sample::four_diameters()), html_report(sample::four_diameters()));
 }
 
 TEST(FitDocument, PrintsTheBlocksThatReadersOfLmfitExpectWithin100Columns) {
-  for (const Analysis& analysis : {example::four_diameters(), example::two_datasets()}) {
+  for (const Analysis& analysis : {sample::four_diameters(), sample::two_datasets()}) {
     std::vector<std::string> titles;
     for (const Section& section : fit_sections(analysis)) {
       if (!empty(section)) titles.push_back(plain_text(section.title));
@@ -236,7 +236,7 @@ TEST(FitDocument, PrintsTheBlocksThatReadersOfLmfitExpectWithin100Columns) {
 }
 
 TEST(FitDocument, StaysNarrowWhateverTheWordsAre) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   analysis.datasets[0].title = std::string(300, 'x') + " µµµ " + std::string(300, 'y');
   analysis.datasets[0].id =
       "a-dataset-with-a-name-that-is-far-too-long-to-stand-in-one-line-of-text";
@@ -250,7 +250,7 @@ TEST(FitDocument, StaysNarrowWhateverTheWordsAre) {
 }
 
 TEST(FitTables, GiveEstimateErrorIntervalAndStartOfAParameter) {
-  const Table table = parameters_table(example::four_diameters());
+  const Table table = parameters_table(sample::four_diameters());
   ASSERT_EQ(table.rows.size(), 3U);
   const auto& C_H = row_of(table, "C_H");
   EXPECT_EQ(number_in(C_H[1]).value, 0.00312);
@@ -269,7 +269,7 @@ TEST(FitTables, GiveEstimateErrorIntervalAndStartOfAParameter) {
 }
 
 TEST(FitTables, SayWhatIsMissing) {
-  Analysis analysis = example::two_datasets();
+  Analysis analysis = sample::two_datasets();
   EXPECT_THAT(parameter_remarks(analysis).entries, IsEmpty());
   analysis.fitted.at_bound[0] = true;
   analysis.fitted.std_error[0] = 0.0;
@@ -281,7 +281,7 @@ TEST(FitTables, SayWhatIsMissing) {
 }
 
 TEST(FitTables, GiveTheStatisticsOfTheFit) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   const Table table = statistics_table(analysis);
   EXPECT_EQ(number_in(row_of(table, "data points")[1]).value, 32.0);
   EXPECT_EQ(number_in(row_of(table, "variables")[1]).value, 2.0);
@@ -292,7 +292,7 @@ TEST(FitTables, GiveTheStatisticsOfTheFit) {
 }
 
 TEST(FitTables, GiveCorrelationsTheLargestFirst) {
-  const Table table = correlations_table(example::four_diameters());
+  const Table table = correlations_table(sample::four_diameters());
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(words(table.rows[0][0]), "C_H");
   EXPECT_EQ(words(table.rows[0][1]), "C_A");
@@ -300,7 +300,7 @@ TEST(FitTables, GiveCorrelationsTheLargestFirst) {
 }
 
 TEST(FitTables, SetTwoPointsBesideAll) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   const Table table = two_point_table(analysis, analysis.uncertainty.two_point.front());
   const auto& C_H = row_of(table, "C_H [s/m]");
   EXPECT_EQ(number_in(C_H[1]).value, 0.0046);
@@ -310,7 +310,7 @@ TEST(FitTables, SetTwoPointsBesideAll) {
 }
 
 TEST(FitTables, ShowEveryPointWithItsResidual) {
-  const Analysis analysis = example::two_datasets();
+  const Analysis analysis = sample::two_datasets();
   const Table table = points_table(analysis);
   ASSERT_EQ(table.rows.size(), analysis.fitted.data.points.size());
   EXPECT_EQ(words(table.rows[0][0]), "example-molybdenum");
@@ -319,7 +319,7 @@ TEST(FitTables, ShowEveryPointWithItsResidual) {
 }
 
 TEST(FitTables, WithoutAdhesionThereIsNoCaptureVelocity) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   ASSERT_FALSE(analysis.uncertainty.capture.empty());
   EXPECT_GT(number_in(capture_table(analysis).rows[0][2]).value, 0.0);
   analysis.fitted.model.contacts[0].adhesion_force = 0.0;
@@ -342,34 +342,34 @@ TEST(FitFigures, CompareTheIntervalsAndMarkTheRecommendedOne) {
     draw(drawn);
     return drawn.front().svg;
   };
-  const std::string svg = picture(example::four_diameters());
+  const std::string svg = picture(sample::four_diameters());
   EXPECT_THAT(svg, HasSubstr("BCa"));
   EXPECT_THAT(svg, HasSubstr("none")) << "the studentized one is missing";
   EXPECT_THAT(svg, HasSubstr("font-weight=\"bold\"")) << "profile";
   EXPECT_THAT(svg, Not(HasSubstr(">bound<"))) << "zero is far away";
-  Analysis near = example::four_diameters();
+  Analysis near = sample::four_diameters();
   near.uncertainty.intervals[0][IntervalKind::wald].lower = 0.0;
   EXPECT_THAT(picture(near), HasSubstr(">bound<"));
 }
 
 TEST(FitFigures, ShowReplicatesOfPairsOnlyWhereThereAreAny) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   analysis.uncertainty.bootstrap.theta.clear();
   EXPECT_EQ(figure_named(fit_document(analysis), "corner-1"), nullptr);
-  analysis = example::four_diameters();
+  analysis = sample::four_diameters();
   for (auto& replicate : analysis.uncertainty.bootstrap.theta) replicate[0] = 0.0;  // at a bound
   EXPECT_NE(figure_named(fit_document(analysis), "corner-1"), nullptr);
 }
 
 TEST(FitFigures, LeavePairsOutWhereTheyWereNotStudied) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   analysis.uncertainty.pairs.clear();
   EXPECT_EQ(figure_named(fit_document(analysis), "pairs-1"), nullptr);
 }
 
 TEST(FitDocument, SaysWhatEachCorrectionDoes) {
-  Analysis analysis = example::four_diameters();
-  analysis.corrections = {example::corrections(1), example::corrections(4)};
+  Analysis analysis = sample::four_diameters();
+  analysis.corrections = {sample::corrections(1), sample::corrections(4)};
   const Document page = fit_document(analysis);
   expect_self_contained(html_page(page));
   const Section* section = section_of(page, "corrections");

@@ -21,7 +21,7 @@ IndexEntry entry_of(const Analysis& analysis) {
 TEST(Index, HasACardPerFit) {
   std::vector<IndexEntry> entries;
   for (int copy = 0; copy < 7; ++copy) {
-    Analysis analysis = copy % 2 == 0 ? example::four_diameters() : example::two_datasets();
+    Analysis analysis = copy % 2 == 0 ? sample::four_diameters() : sample::two_datasets();
     analysis.spec.id += "-" + std::to_string(copy);
     entries.push_back(entry_of(analysis));
   }
@@ -40,20 +40,20 @@ TEST(Index, HasACardPerFit) {
 }
 
 TEST(Index, ShowsEstimateIntervalAndTwoPoints) {
-  const Table table = summary_table(summary_of(example::four_diameters()));
+  const Table table = summary_table(summary_of(sample::four_diameters()));
   const auto& C_H = table.rows.at(0);
   EXPECT_EQ(std::get<Number>(C_H[1]).value, 0.00312);
   EXPECT_NEAR(std::get<NumberRange>(C_H[2]).lower, 0.0027315, 1e-9);
   EXPECT_EQ(std::get<Number>(C_H[3]).value, 0.0046);
   // The second of two datasets has another pair of points.
-  const FitSummary joint = summary_of(example::two_datasets());
+  const FitSummary joint = summary_of(sample::two_datasets());
   ASSERT_TRUE(joint.parameters.at(0).two_point.has_value());
   EXPECT_EQ(joint.parameters[0].two_point->lower, 0.0041);
   EXPECT_EQ(joint.parameters[0].two_point->upper, 0.0046);
 }
 
 TEST(Index, ReadsFromItsFilesWhatItWouldHaveBeenHanded) {
-  for (const Analysis& analysis : {example::four_diameters(), example::two_datasets()}) {
+  for (const Analysis& analysis : {sample::four_diameters(), sample::two_datasets()}) {
     const FitSummary made = summary_of(analysis);
     const FitSummary read = read_summary("a.html", json_report(analysis));
     EXPECT_EQ(read.id, made.id);

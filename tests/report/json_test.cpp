@@ -82,14 +82,14 @@ const char* const promised[] = {"/dataset/id",
                                 "/residuals/0/weighted_residual"};
 
 TEST(JsonReport, HoldsEveryPromisedKey) {
-  const std::string text = json_report(example::four_diameters());
+  const std::string text = json_report(sample::four_diameters());
   EXPECT_EQ(text.back(), '\n');
   const Json fit = Json::parse(text);
   for (const char* key : promised) EXPECT_TRUE(fit.contains(Json::json_pointer(key))) << key;
 }
 
 TEST(JsonReport, RepeatsTheNumbersExactly) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   const Json fit = Json::parse(json_report(analysis));
   EXPECT_EQ(fit["parameters"]["C_H"]["value"], 0.00312);
   EXPECT_EQ(fit["parameters"]["C_H"]["intervals"]["bca"][1], 0.00312 + 2.08 * 0.00021);
@@ -108,7 +108,7 @@ TEST(JsonReport, RepeatsTheNumbersExactly) {
 }
 
 TEST(JsonReport, GivesAReasonForEveryMissingInterval) {
-  const Json fit = Json::parse(json_report(example::four_diameters()));
+  const Json fit = Json::parse(json_report(sample::four_diameters()));
   for (const auto& [name, parameter] : fit["parameters"].items()) {
     const Json& intervals = parameter["intervals"];
     for (const char* kind : {"wald", "profile", "percentile", "bca", "studentized"}) {
@@ -129,7 +129,7 @@ void collect_nulls(const Json& value, const std::string& where, std::vector<std:
 }
 
 TEST(JsonReport, NeverPrintsWhatIsNotANumber) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   const double infinity = std::numeric_limits<double>::infinity();
   analysis.fitted.theta[0] = nan;
   analysis.fitted.std_error[0] = infinity;
@@ -158,13 +158,13 @@ TEST(JsonReport, NeverPrintsWhatIsNotANumber) {
 }
 
 TEST(JsonReport, APValueWithoutStatedDeviationsIsNullAndSaysWhy) {
-  const Json fit = Json::parse(json_report(example::two_datasets()));
+  const Json fit = Json::parse(json_report(sample::two_datasets()));
   EXPECT_TRUE(fit["goodness"]["p_value"].is_null());
   EXPECT_THAT(fit["goodness"]["p_value_why"].get<std::string>(), HasSubstr("estimated"));
 }
 
 TEST(JsonReport, DescribesAJointFitAsOneAndLists) {
-  const Json fit = Json::parse(json_report(example::two_datasets()));
+  const Json fit = Json::parse(json_report(sample::two_datasets()));
   EXPECT_EQ(fit["dataset"]["id"], "example-molybdenum+example-silicon");
   EXPECT_EQ(fit["dataset"]["provenance"], "reconstruction") << "the weaker of the two";
   EXPECT_EQ(fit["dataset"]["points"], 64);
@@ -178,7 +178,7 @@ TEST(JsonReport, DescribesAJointFitAsOneAndLists) {
 }
 
 TEST(JsonReport, WithoutABootstrapStaysWhole) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   analysis.uncertainty = UncertaintyResult{};
   const Json fit = Json::parse(json_report(analysis));
   EXPECT_TRUE(fit["two_point"].is_null());
@@ -191,11 +191,11 @@ TEST(JsonReport, WithoutABootstrapStaysWhole) {
 }
 
 TEST(JsonReport, IsTheSameTwice) {
-  EXPECT_EQ(json_report(example::four_diameters()), json_report(example::four_diameters()));
+  EXPECT_EQ(json_report(sample::four_diameters()), json_report(sample::four_diameters()));
 }
 
 TEST(JsonReport, SurvivesWordsThatAreNotUtf8) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   analysis.datasets[0].title = "broken \xff\xfe title \"quoted\"\n";
   EXPECT_TRUE(Json::accept(json_report(analysis)));
 }

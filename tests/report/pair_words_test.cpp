@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(PairWords, SayWhatThePapersPairCosts) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   PairStudy study = analysis.uncertainty.pairs[0];
   PairQuality& paper = study.pairs[study.paper];
   paper.C_H = {1.25 * study.truth_C_H, 3e-4};  // the full fit's spread is 2e-4
@@ -35,7 +35,7 @@ TEST(PairWords, SayWhatThePapersPairCosts) {
 }
 
 TEST(PairWords, CountThePairsAndNameTheBest) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   const PairStudy& study = analysis.uncertainty.pairs[0];
   // Without an answer: int(16 w) of 199 with w = 1, 1.5, 2, ...: only w = 1 stays below a tenth.
   const std::string words = pair_words(analysis, study)[1];
@@ -49,7 +49,7 @@ TEST(PairWords, CountThePairsAndNameTheBest) {
 }
 
 TEST(PairWords, SurviveAPairWithoutAnyAnswerAndAFitAtItsBound) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   PairStudy study = analysis.uncertainty.pairs[0];
   study.truth_C_H = 0.0;
   study.C_H.spread = 0.0;
@@ -70,7 +70,7 @@ TEST(PairWords, SurviveAPairWithoutAnyAnswerAndAFitAtItsBound) {
 }
 
 TEST(PairKeys, StandBesideTheTwoPointComparison) {
-  const Analysis analysis = example::two_datasets();
+  const Analysis analysis = sample::two_datasets();
   const auto fit = nlohmann::json::parse(json_report(analysis));
   for (const char* id : {"example-molybdenum", "example-silicon"}) {
     const auto& two = fit["two_point_by_dataset"][id];
@@ -94,7 +94,7 @@ TEST(PairKeys, StandBesideTheTwoPointComparison) {
 }
 
 TEST(PairKeys, AreEmptyWithAReasonWhenThereWasNoStudy) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   analysis.uncertainty.pairs.clear();
   const auto fit = nlohmann::json::parse(json_report(analysis));
   EXPECT_TRUE(fit["two_point"]["pairs"].empty());

@@ -15,7 +15,7 @@ namespace {
 
 /// A usable fit of which there is nothing to say.
 FitResult sound() {
-  FitResult fitted = example::four_diameters().fitted;
+  FitResult fitted = sample::four_diameters().fitted;
   fitted.usable = true;
   fitted.noise_verdict = NoiseVerdict::explained;
   fitted.at_bound.assign(fitted.theta.size(), false);
@@ -83,7 +83,7 @@ TEST(NoiseWords, ThereIsSomethingToSayOfEveryVerdict) {
 }
 
 TEST(TwoPointWords, EveryEndHasItsOwn) {
-  const Analysis analysis = example::four_diameters();
+  const Analysis analysis = sample::four_diameters();
   TwoPointResult result = analysis.uncertainty.two_point.front().result;
   std::set<std::string> words;
   for (const TwoPointStatus status : values_of<TwoPointStatus>()) {

@@ -65,7 +65,7 @@ TEST(Words, EveryFactHasItsOwn) {
 }
 
 TEST(Words, EveryHindranceIsTold) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   expect_words_for_all<Hindrance>([&](Hindrance hindrance) {
     analysis.uncertainty.identifiability.parameter[0] = {false, hindrance, 0.4, 2.0, false};
     return identifiability_words(analysis.fitted, analysis.uncertainty);
@@ -75,7 +75,7 @@ TEST(Words, EveryHindranceIsTold) {
 }
 
 TEST(Words, WarnWhereRefitsFailed) {
-  Analysis analysis = example::four_diameters();
+  Analysis analysis = sample::four_diameters();
   UncertaintyResult& uncertainty = analysis.uncertainty;
   const auto warnings = [&] {
     return uncertainty_warnings(uncertainty, analysis.fitted.data).size();

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argv[1];
   std::vector<recoil::IndexEntry> entries;
   for (const recoil::Analysis& analysis :
-       {recoil::example::four_diameters(), recoil::example::two_datasets()}) {
+       {recoil::sample::four_diameters(), recoil::sample::two_datasets()}) {
     const std::string id = analysis.spec.id;
     recoil::write_whole_file(folder / (id + ".html"), recoil::html_report(analysis));
     recoil::write_whole_file(folder / (id + ".json"), recoil::json_report(analysis));

@@ -140,7 +140,11 @@ TEST(Leverage, OfAStraightLine) {
   const std::vector<double> h = leverages(jacobian, covariance);
   EXPECT_NEAR(h[0], 5.0 / 6.0, 1e-12);
   EXPECT_NEAR(h[1], 1.0 / 3.0, 1e-12);
-  EXPECT_NEAR(leverages(std::vector<double>{1}, std::vector<double>{1})[0], 0.99, 1e-12);
+}
+
+TEST(SandwichErrors, APointThatTheFitPassesThroughCountsALittle) {
+  const std::vector<double> one = {1};
+  EXPECT_NEAR(sandwich_errors(one, one, one)[0], 100.0, 1e-9);  // 1 / (1 - 0.99)
 }
 
 }  // namespace
