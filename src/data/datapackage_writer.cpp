@@ -16,22 +16,21 @@ std::string csv_cell(const std::string& text) {
   return quoted + "\"";
 }
 
-PackageJson package_field(const std::string& name, const std::string& type, const std::string& unit,
-                          const std::string& description) {
-  PackageJson field = {{"name", name}, {"type", type}};
+Json package_field(const std::string& name, const std::string& type, const std::string& unit,
+                   const std::string& description) {
+  Json field = {{"name", name}, {"type", type}};
   if (!unit.empty()) field["unit"] = unit;
   if (!description.empty()) field["description"] = description;
   return field;
 }
 
-PackageJson csv_resource(const std::string& name, const std::string& path,
-                         const PackageJson& fields) {
+Json csv_resource(const std::string& name, const std::string& path, const Json& fields) {
   return {{"name", name},        {"path", path},
           {"format", "csv"},     {"mediatype", "text/csv"},
           {"encoding", "utf-8"}, {"schema", {{"fields", fields}}}};
 }
 
-PackageJson stated_system(const std::filesystem::path& folder) {
+Json stated_system(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / package_file_name;
   const std::string text = read_text_file(file);
   const JsonDocument document(text, file.string());
@@ -39,13 +38,13 @@ PackageJson stated_system(const std::filesystem::path& folder) {
       .require("recoil", "it holds the materials",
                "name the folder of a dataset with the same materials")
       .members();
-  PackageJson system = PackageJson::parse(text)["recoil"];
+  Json system = Json::parse(text)["recoil"];
   system.erase("provenance");
   return system;
 }
 
-std::string package_text(const PackageJson& package) {
-  return package.dump(2, ' ', false, PackageJson::error_handler_t::replace) + "\n";
+std::string package_text(const Json& package) {
+  return package.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace recoil

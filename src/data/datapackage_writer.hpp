@@ -1,30 +1,27 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
-namespace recoil {
+#include "core/json.hpp"
 
-/// The parts of a data package that recoil writes; keys in the order in which a person reads them.
-using PackageJson = nlohmann::ordered_json;
+namespace recoil {
 
 /// A cell of a CSV file, quoted where it has to be (RFC 4180).
 std::string csv_cell(const std::string& text);
 
 /// A field of a schema. @param unit, description are left out when they are empty.
-PackageJson package_field(const std::string& name, const std::string& type, const std::string& unit,
-                          const std::string& description = "");
+Json package_field(const std::string& name, const std::string& type, const std::string& unit,
+                   const std::string& description = "");
 
 /// A resource: a CSV file in the folder with a list of fields.
-PackageJson csv_resource(const std::string& name, const std::string& path,
-                         const PackageJson& fields);
+Json csv_resource(const std::string& name, const std::string& path, const Json& fields);
 
 /// The system that the dataset in `folder` states under `recoil`, for another one with the same
 /// materials. @throws InputError when it is no data package with that key.
-PackageJson stated_system(const std::filesystem::path& folder);
+Json stated_system(const std::filesystem::path& folder);
 
 /// The text of datapackage.json.
-std::string package_text(const PackageJson& package);
+std::string package_text(const Json& package);
 
 }  // namespace recoil

@@ -17,8 +17,6 @@
 namespace recoil {
 namespace {
 
-using Json = PackageJson;
-
 // How the titles and sources of the shipped reconstructions say what they are.
 constexpr const char* title_claim = ": a reconstruction";
 constexpr const char* source_claim = "; its points were not available";

@@ -81,9 +81,9 @@ std::string impacts_csv(const PassageTable& table, const PairingResult& pairs) {
 std::string package_json(const std::filesystem::path& like, const std::string& id,
                          Provenance provenance, const std::string& events_file,
                          const std::string& description, double sizes_height) {
-  PackageJson recoil = {{"provenance", to_string(provenance)}};
+  Json recoil = {{"provenance", to_string(provenance)}};
   recoil.update(stated_system(like));
-  const auto fields = PackageJson::array({
+  const auto fields = Json::array({
       package_field("series", "string", "", "the run, and the size class where there are several"),
       package_field("diameter", "number", "um", "mean over the impacts"),
       package_field("incident_velocity", "number", "m/s", "mean normal velocity at the surface"),
@@ -95,15 +95,15 @@ std::string package_json(const std::filesystem::path& like, const std::string& i
       package_field("captured", "integer", "1",
                     "passages without a rebound, less those lost or too slow"),
   });
-  const PackageJson source = {{"title", fmt::format("{}, paired by recoil pair", events_file)}};
-  PackageJson resources = PackageJson::array({csv_resource("points", "points.csv", fields)});
+  const Json source = {{"title", fmt::format("{}, paired by recoil pair", events_file)}};
+  Json resources = Json::array({csv_resource("points", "points.csv", fields)});
   if (sizes_height > 0.0) {
-    const auto bins = PackageJson::array({
+    const auto bins = Json::array({
         package_field("lower", "number", "um", "lower end of the bin"),
         package_field("upper", "number", "um", "its upper end"),
         package_field("count", "integer", "1", "spheres in it"),
     });
-    PackageJson sizes = csv_resource("sizes", "sizes.csv", bins);
+    Json sizes = csv_resource("sizes", "sizes.csv", bins);
     sizes["title"] = "Size distribution of the incoming spheres";
     sizes["description"] =
         fmt::format("first passages towards the surface in {}, rebounded or not", events_file);
@@ -111,11 +111,11 @@ std::string package_json(const std::filesystem::path& like, const std::string& i
     sizes["probe_height"] = sizes_height;
     resources.push_back(sizes);
   }
-  const PackageJson package = {
+  const Json package = {
       {"name", id},
       {"title", fmt::format("Impacts paired from {}", events_file)},
       {"description", description},
-      {"sources", PackageJson::array({source})},
+      {"sources", Json::array({source})},
       {"resources", resources},
       {"recoil", recoil},
   };

@@ -6,17 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "document/html.hpp"
 #include "mechanism/parameter.hpp"
 #include "report/format.hpp"
 
 namespace recoil {
 namespace {
-
-using Json = nlohmann::ordered_json;  // parameters in the order of the fit
 
 void widen(std::optional<TwoPointRange>& range, double value) {
   if (!std::isfinite(value)) return;

@@ -1,17 +1,14 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/json.hpp"
 #include "report/report.hpp"
 
 /// The parts of fit.json that are shared by its writers.
 namespace recoil {
-
-/// Keys keep the order in which they are written, so that two files compare line by line.
-using Json = nlohmann::ordered_json;
 
 /// A number, or null: JSON has no NaN and no infinity.
 Json number_or_null(double value);

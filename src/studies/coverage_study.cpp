@@ -7,12 +7,11 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/json.hpp"
 #include "coverage/coverage_truth.hpp"
 
 namespace recoil {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 template <class T>
 Json json_of(const std::optional<T>& value) {

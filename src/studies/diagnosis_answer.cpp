@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/files.hpp"
+#include "core/json.hpp"
 #include "studies/hidden_effects_study.hpp"
 #include "studies/program_run.hpp"
 
 namespace hidden {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using recoil::Json;
+
 namespace fs = std::filesystem;
 
 fs::path kept_file(const CaseOrder& order, const fs::path& keep) {

@@ -7,14 +7,13 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/json.hpp"
 #include "reconstruction/paired_points.hpp"
 #include "report/corrections.hpp"
 #include "studies/corrections.hpp"
 
 namespace recoil {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Reconstruction {
   Reconstruction(const std::filesystem::path& root, const std::string& id)

@@ -7,11 +7,13 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/json.hpp"
 
 namespace hidden {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using recoil::Json;
+
 using recoil::name_of;
 using Answers = std::vector<const Answered*>;
 using Test = std::function<bool(const Answered&)>;

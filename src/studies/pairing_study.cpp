@@ -7,14 +7,13 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/json.hpp"
 #include "core/units.hpp"
 #include "studies/pairing_score.hpp"
 #include "studies/synthetic/event_stream.hpp"
 
 namespace recoil {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 stream::Design usual_design() {
   stream::Design design;

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/json.hpp"
 
 namespace recoil {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::size_t most_replicates = 1000000;
 

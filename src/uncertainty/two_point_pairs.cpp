@@ -315,9 +315,10 @@ std::vector<PairStudy> study_two_point_pairs(const FitResult& fitted,
       pairs[p] = study.pair(p, s, simulations);
       progress.advance();
     });
-    const auto widest = std::find(all[s].pairs.begin(), all[s].pairs.end(),
-                                  std::pair<std::size_t, std::size_t>(0, all[s].points.size() - 1));
-    studies.back().paper = static_cast<std::size_t>(widest - all[s].pairs.begin());
+    const auto of_paper =
+        std::find(all[s].pairs.begin(), all[s].pairs.end(),
+                  std::pair<std::size_t, std::size_t>(0, all[s].points.size() - 1));
+    studies.back().paper = static_cast<std::size_t>(of_paper - all[s].pairs.begin());
   }
   return studies;
 }

@@ -1,15 +1,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
+#include "core/json.hpp"
 #include "studies/synthetic/case.hpp"
 
 namespace hidden {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using recoil::Json;
 
 /// As a table prints it: `digits` significant digits, never 1.2e+01.
 std::string printed(double value, int digits) {
