@@ -112,7 +112,7 @@ Section provenance_section(const Analysis& a) {
     if (!dataset.sha256.empty()) entries.emplace_back("  sha256", Sentence(dataset.sha256));
   }
   Section section{"provenance", "Provenance"};
-  section.blocks = {items(std::move(entries))};
+  section.blocks = {items(entries)};
   append(section.blocks, provenance_banners(a.datasets));
   return section;
 }

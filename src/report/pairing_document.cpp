@@ -166,7 +166,7 @@ Section impacts_section(const PassageTable& table, const PairingResult& pairs) {
   if (const Sentence words = angle_words(table, pairs); !words.empty()) {
     entries.emplace_back("angle", words);
   }
-  return {"impacts", "Impacts", {}, {items(std::move(entries))}};
+  return {"impacts", "Impacts", {}, {items(entries)}};
 }
 
 Section unpaired_section(const PairingResult& pairs, const Averages& averages) {
