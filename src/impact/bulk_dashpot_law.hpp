@@ -14,6 +14,9 @@ namespace recoil {
 /// gives kappa = (3/2) m V / (Z n_c).
 struct BulkDashpotLaw {
   static constexpr unsigned groups = 4;  ///< alpha, beta, gamma, kappa
+  static constexpr double start = 0.0;
+
+  static double strength_slope(const ImpactGroups&) { return 1.0; }
 
   static std::array<double, groups> groups_of(const ImpactGroups& g) {
     return {g.alpha, g.beta, g.gamma, g.kappa};

@@ -13,12 +13,20 @@ using Pack = std::experimental::fixed_size_simd<double, RECOIL_LANES>;
 
 void fly_with_dashpot(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                       std::span<ImpactResult> results);
+void fly_by_jkr(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                std::span<ImpactResult> results);
+void fly_by_dmt(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                std::span<ImpactResult> results);
 
 std::size_t lanes() { return RECOIL_LANES; }
 
 void fly(std::span<const ImpactGroups> groups, const ImpactOptions& options,
          std::span<ImpactResult> results) {
-  if (options.dashpot) {
+  if (options.adhesion == AdhesionLaw::jkr) {
+    fly_by_jkr(groups, options, results);
+  } else if (options.adhesion == AdhesionLaw::dmt) {
+    fly_by_dmt(groups, options, results);
+  } else if (options.dashpot) {
     fly_with_dashpot(groups, options, results);
   } else if (options.gradient) {
     Flights<RingAdhesionLaw, Pack, true>(groups, options, results).fly();

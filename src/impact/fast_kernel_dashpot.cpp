@@ -1,4 +1,4 @@
-// The other law of fast_kernel.cpp, compiled like it; apart, so that both compile at the same time.
+// A further law of fast_kernel.cpp, compiled like it; apart, so that they compile at the same time.
 #include <experimental/simd>
 
 #include "impact/bulk_dashpot_law.hpp"

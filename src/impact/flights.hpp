@@ -17,7 +17,8 @@ namespace recoil {
 /// Several impacts under way at once, one per lane of `Pack`, each with its own step and
 /// its own end; a lane that has landed takes the next impact of the queue.
 ///
-/// Every lane integrates dq/dsigma = u, du/dsigma = f(q, u; p) by DOP853, f from `Law`. Its last
+/// Every lane integrates dq/dsigma = u, du/dsigma = f(q, u; p) by DOP853, f from `Law`, from the
+/// law's q at touch, which depends on none of the groups, to the release at q = 0. Its last
 /// step before an event takes u (turning point) or q (release) as the independent variable and so
 /// lands on zero exactly (Henon 1982, Physica D 5, 412-414).
 ///
@@ -242,6 +243,7 @@ class Flights {
           return settled_[lane] ? 0.0 : areas_[p][lane] / mu_[lane];
         };
         ((result.gradient[k] = 2.0 * (area(k) + potential.template derivative<k>())), ...);
+        result.gradient[1] *= Law::strength_slope(queue_[impact_[lane]]);
       }
     }
     (std::make_integer_sequence<unsigned, parameters>{});
@@ -263,7 +265,7 @@ class Flights {
       areas_[k][lane] = 0.0;
     }
     acts_[lane] = phase_ == AdhesionDampingPhase::both ? 1.0 : 0.0;
-    q_[lane] = 0.0;
+    q_[lane] = Law::start;
     u_[lane] = 1.0;
     mu_[lane] = 1.0;
     // A first guess; the error estimate corrects it at once.

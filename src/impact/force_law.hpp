@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -62,11 +63,11 @@ inline double well_depth(double beta) { return -4.0 / 15.0 * beta * beta * std::
 /// this part of its depth. It then counts as resting at the bottom.
 inline constexpr double settled_part = 1e-10;
 
-/// True when the sphere is bound to creep into the well: (C_H + C_A) V_a >= 2, the critical damping
-/// of small motions about its bottom (x'' + (alpha + gamma) beta^(3/2) x' + beta^(1/2) (x - beta) =
-/// 0 there, where a dashpot adds kappa beta^(1/2) x'). Such a sphere never has an outer turning
-/// point, at whatever velocity it arrives: found by integration from V / V_a = 1e-3 to 1e4, not
-/// proved (tests/impact/outcome_test.cpp asks the reference again).
+/// True when the sphere is bound to creep into the well of the ring law: (C_H + C_A) V_a >= 2, the
+/// critical damping of small motions about its bottom (x'' + (alpha + gamma) beta^(3/2) x' +
+/// beta^(1/2) (x - beta) = 0 there, where a dashpot adds kappa beta^(1/2) x'). Such a sphere never
+/// has an outer turning point, at whatever velocity it arrives: found by integration from V / V_a =
+/// 1e-3 to 1e4, not proved (tests/impact/outcome_test.cpp asks the reference again).
 inline bool creeps_into_the_well(const ImpactGroups& groups) {
   constexpr double critical_damping = 2.0;
   const double damping = (groups.alpha + groups.gamma) * std::pow(groups.beta, 1.25);
@@ -75,9 +76,13 @@ inline bool creeps_into_the_well(const ImpactGroups& groups) {
 }
 
 /// The model as a solver of any number type sees it: another law is another struct like this one.
+/// `start` is q at touch, the release is q = 0, `strength` the law's own measure of the adhesion.
 struct RingAdhesionLaw {
   static constexpr unsigned groups = 3;  ///< alpha, beta, gamma
+  static constexpr double start = 0.0;
 
+  static double strength(const ImpactGroups& g) { return g.beta; }
+  static double strength_slope(const ImpactGroups&) { return 1.0; }
   static std::array<double, groups> groups_of(const ImpactGroups& g) {
     return {g.alpha, g.beta, g.gamma};
   }
@@ -92,6 +97,27 @@ struct RingAdhesionLaw {
   }
   /// q at the bottom of the well, where a sphere that stays comes to rest.
   static double resting_place(const ImpactGroups& g) { return std::sqrt(g.beta); }
+  static bool creeps(const ImpactGroups& g) { return creeps_into_the_well(g); }
+  static double depth(const ImpactGroups& g) { return well_depth(g.beta); }
+
+  /// x [n_c], dx / dq and the four forces [m V^2 / n_c].
+  static double penetration(double q, double) { return q * q; }
+  static double clock(double q, double) { return 2.0 * q; }
+  static ContactForces<double, double, double, double> forces(double q, double u, double alpha,
+                                                              double beta, double gamma,
+                                                              double acts) {
+    return contact_forces(q, u, alpha, beta, gamma, acts);
+  }
+  /// The largest energy on the way [m V^2].
+  static double largest_energy(double q, double beta) {
+    return std::max(0.4 * std::pow(q, 5), 2.0 / 3.0 * beta * q * q * q);
+  }
+  /// Where potential (2/3) beta q^3 and kinetic energy, u ~ q^(3/2), are below `energy`, about
+  /// q = u = 0.
+  static double cusp_radius(double beta, double energy) {
+    return std::cbrt(energy / std::max(beta, 1.0));
+  }
+  static constexpr double least_beta = 0.0;
 };
 
 }  // namespace recoil

@@ -18,6 +18,18 @@ struct NamesOf<AdhesionDampingPhase> {
   static constexpr std::array<std::string_view, 2> names = {"rebound", "both"};
 };
 
+/// What holds sphere and surface together; the elastic part is Hertz's or, in JKR, its own.
+enum class AdhesionLaw {
+  ring,  ///< the paper's: a force 2 pi a f0 along the edge of the contact (RingAdhesionLaw)
+  jkr,   ///< JkrLaw
+  dmt    ///< DmtLaw
+};
+
+template <>
+struct NamesOf<AdhesionLaw> {
+  static constexpr std::array<std::string_view, 3> names = {"ring", "jkr", "dmt"};
+};
+
 /// One sphere about to hit one surface, in SI units.
 struct ImpactConditions {
   double diameter = 0.0;          ///< [m]
@@ -82,11 +94,12 @@ struct EnergyBudget {
 
 /// The result of one dimensionless impact.
 ///
-/// `restitution_squared` is e^2 after a rebound. After a capture it is continued below zero as
-/// 2 H / (m V^2), H = mechanical energy at the first outer turning point: C1 across the capture
-/// velocity, never below the depth of the adhesive well, -(8/15) beta^(5/2) = -(8/15) (V / V_a)^-2,
-/// so that a fit has gradients there. A sphere so strongly damped that it creeps into the well
-/// without turning once more has no outer turning point; it ends on that floor.
+/// `restitution_squared` is e^2 after a rebound (the text speaks of the ring law; under the others
+/// the depth of the well is JkrLaw::depth or DmtLaw::depth). After a capture it is continued below
+/// zero as 2 H / (m V^2), H = mechanical energy at the first outer turning point: C1 across the
+/// capture velocity, never below the depth of the adhesive well, -(8/15) beta^(5/2) = -(8/15) (V /
+/// V_a)^-2, so that a fit has gradients there. A sphere so strongly damped that it creeps into the
+/// well without turning once more has no outer turning point; it ends on that floor.
 struct ImpactResult {
   ImpactOutcome outcome = ImpactOutcome::integration_failure;
   double restitution_squared = 0.0;
@@ -105,10 +118,11 @@ struct ImpactResult {
 
 /// What to compute and how exactly.
 struct ImpactOptions {
+  AdhesionLaw adhesion = AdhesionLaw::ring;
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   bool gradient = false;          ///< forward sensitivities
   bool budget = false;            ///< energy budget, contact time and peak forces
-  bool dashpot = false;           ///< the law with kappa; without, kappa has to be 0
+  bool dashpot = false;           ///< the ring law with kappa; without, kappa has to be 0
   double tolerance = 1e-11;       ///< relative, per step, of the reference
   long max_steps = 200000;        ///< of the reference
   double fast_tolerance = 1e-10;  ///< absolute error of q and u per step of the fast solver

@@ -9,8 +9,10 @@
 #include <memory>
 #include <sundials/sundials_context.hpp>
 
+#include "impact/dmt_law.hpp"
 #include "impact/force_law.hpp"
 #include "impact/impact.hpp"
+#include "impact/jkr_law.hpp"
 
 namespace recoil {
 namespace {
@@ -19,13 +21,13 @@ constexpr int most_groups = 4;       // three, and kappa where there is a dashpo
 constexpr int anderson_depth = 0;    // the field is not stiff: plain functional iteration
 constexpr double longest_arc = 1e9;  // "until an event": no impact is this long in sigma
 // At the separatrix q falls like sigma^-2 and release is never reached. Inside this circle about
-// q = u = 0 the energy that is left is below 1e-15 m V^2 (see near_cusp_radius) and decides.
+// q = u = 0 the energy that is left is below 1e-15 m V^2 (`cusp_radius` of the law) and decides.
 constexpr double undecided_energy = 1e-15;
 
 enum class Stage { compression, restitution };
 
 struct Field {
-  double alpha, beta, gamma, kappa;
+  double alpha, strength, gamma, kappa;
   AdhesionDampingPhase phase;
   Stage stage = Stage::compression;
   double cusp_radius_squared = 0.0;
@@ -38,26 +40,39 @@ struct Field {
 
 const Field& field_of(void* user_data) { return *static_cast<const Field*>(user_data); }
 
+/// du/dsigma under `Law`; only the ring law knows a dashpot.
+template <class Law, class Q, class U, class Alpha, class Strength, class Gamma, class Kappa>
+auto acceleration_of(const Q& q, const U& u, double acts, const Alpha& alpha,
+                     const Strength& strength, const Gamma& gamma,
+                     [[maybe_unused]] const Kappa& kappa) {
+  if constexpr (std::is_same_v<Law, RingAdhesionLaw>) {
+    return Law::acceleration(q, u, acts, alpha, strength, gamma) +
+           dashpot_acceleration(q, u, kappa);
+  } else {
+    return Law::acceleration(q, u, acts, alpha, strength, gamma);
+  }
+}
+
+template <class Law>
 int right_hand_side(realtype, N_Vector y, N_Vector y_dot, void* user_data) {
   const Field& f = field_of(user_data);
   const double q = NV_Ith_S(y, 0);
   const double u = NV_Ith_S(y, 1);
   NV_Ith_S(y_dot, 0) = u;
-  NV_Ith_S(y_dot, 1) = regularised_acceleration(q, u, f.alpha, f.beta, f.gamma, f.acts()) +
-                       dashpot_acceleration(q, u, f.kappa);
+  NV_Ith_S(y_dot, 1) = acceleration_of<Law>(q, u, f.acts(), f.alpha, f.strength, f.gamma, f.kappa);
   return 0;
 }
 
 /// s_dot = (d field / d y) s + d field / d p, every partial derivative from the one force law.
+template <class Law>
 int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vector* s,
                                 N_Vector* s_dot, void* user_data, N_Vector, N_Vector) {
   const Field& f = field_of(user_data);
   using Dual = ceres::Jet<double, 2 + most_groups>;
   const Dual q(NV_Ith_S(y, 0), 0);
   const Dual u(NV_Ith_S(y, 1), 1);
-  const Dual acceleration = regularised_acceleration(q, u, Dual(f.alpha, 2), Dual(f.beta, 3),
-                                                     Dual(f.gamma, 4), f.acts()) +
-                            dashpot_acceleration(q, u, Dual(f.kappa, 5));
+  const Dual acceleration = acceleration_of<Law>(
+      q, u, f.acts(), Dual(f.alpha, 2), Dual(f.strength, 3), Dual(f.gamma, 4), Dual(f.kappa, 5));
   for (int i = 0; i < count; ++i) {
     const double s_q = NV_Ith_S(s[i], 0);
     const double s_u = NV_Ith_S(s[i], 1);
@@ -68,15 +83,17 @@ int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vec
   return 0;
 }
 
-/// Time and the losses: dt = 2 q dsigma, power = -force times u.
+/// Time and the losses: dt = (dx / dq) dsigma, power = -force times u.
+template <class Law>
 int quadrature_right_hand_side(realtype, N_Vector y, N_Vector rates, void* user_data) {
   const Field& f = field_of(user_data);
   const double q = NV_Ith_S(y, 0);
   const double u = NV_Ith_S(y, 1);
-  const auto forces = contact_forces(q, u, f.alpha, f.beta, f.gamma, f.acts());
-  NV_Ith_S(rates, 0) = 2.0 * q;
-  NV_Ith_S(rates, 1) = -2.0 * q * forces.hertz_damping * u;
-  NV_Ith_S(rates, 2) = -2.0 * q * forces.adhesion_damping * u;
+  const auto forces = Law::forces(q, u, f.alpha, f.strength, f.gamma, f.acts());
+  const double clock = Law::clock(q, f.strength);
+  NV_Ith_S(rates, 0) = clock;
+  NV_Ith_S(rates, 1) = -clock * forces.hertz_damping * u;
+  NV_Ith_S(rates, 2) = -clock * forces.adhesion_damping * u;
   if (NV_LENGTH_S(rates) > 3) NV_Ith_S(rates, 3) = -dashpot_acceleration(q, u, f.kappa) * u;
   return 0;
 }
@@ -110,18 +127,21 @@ using NonlinearSolver =
     std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, FreeNonlinearSolver>;
 
 /// One CVODES integration, with everything it owns.
+template <class Law>
 class Integration {
  public:
   Integration(const ImpactGroups& groups, const ImpactOptions& options)
       : options_(options),
         groups_count_(options.dashpot ? most_groups : most_groups - 1),
-        field_{groups.alpha, groups.beta, groups.gamma, groups.kappa, options.phase},
+        strength_slope_(Law::strength_slope(groups)),
+        resting_place_(Law::resting_place(groups)),
+        depth_(Law::depth(groups)),
+        field_{groups.alpha, Law::strength(groups), groups.gamma, groups.kappa, options.phase},
         state_(N_VNew_Serial(2, context_)),
         quadratures_(N_VNew_Serial(groups_count_, context_)) {
-    // U(q) and u^2/2 are both below undecided_energy when (2/3) beta q^3 is, with u ~ q^(3/2).
-    const double radius = std::cbrt(undecided_energy / std::max(groups.beta, 1.0));
+    const double radius = Law::cusp_radius(field_.strength, undecided_energy);
     field_.cusp_radius_squared = radius * radius;
-    NV_Ith_S(state_.get(), 0) = 0.0;
+    NV_Ith_S(state_.get(), 0) = Law::start;
     NV_Ith_S(state_.get(), 1) = 1.0;
     N_VConst(0.0, quadratures_.get());
     memory_.reset(CVodeCreate(CV_ADAMS, context_));
@@ -133,6 +153,7 @@ class Integration {
   const Field& field() const { return field_; }
   double q() const { return NV_Ith_S(state_.get(), 0); }
   double u() const { return NV_Ith_S(state_.get(), 1); }
+  double potential() const { return Law::potential(q(), 0.0, field_.strength, 0.0); }
   double quadrature(int i) const { return NV_Ith_S(quadratures_.get(), i); }
 
   /// One internal step, or to the next event if that comes first; CVODES's return code.
@@ -162,9 +183,9 @@ class Integration {
 
   /// Puts a sphere that has all but settled to rest at the bottom of the well; true when it did.
   bool settles() {
-    const double energy = 0.5 * u() * u() + potential_energy(q(), field_.beta);
-    if (!(energy < (1.0 - settled_part) * well_depth(field_.beta))) return false;
-    NV_Ith_S(state_.get(), 0) = std::sqrt(field_.beta);
+    const double energy = 0.5 * u() * u() + potential();
+    if (!(energy < (1.0 - settled_part) * depth_)) return false;
+    NV_Ith_S(state_.get(), 0) = resting_place_;
     NV_Ith_S(state_.get(), 1) = 0.0;
     return true;
   }
@@ -174,13 +195,14 @@ class Integration {
   bool energy_gradient(std::array<double, most_groups>& gradient) {
     if (CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
     using Dual = ceres::Jet<double, 2>;
-    const Dual potential = potential_energy(Dual(q(), 0), Dual(field_.beta, 1));
+    const Dual potential = Law::potential(Dual(q(), 0), 0.0, Dual(field_.strength, 1), 0.0);
     for (int i = 0; i < groups_count_; ++i) {
       const double s_q = NV_Ith_S(sensitivity_[i], 0);
       const double s_u = NV_Ith_S(sensitivity_[i], 1);
       const double direct = i == 1 ? potential.v[1] : 0.0;
       gradient[static_cast<std::size_t>(i)] = 2.0 * (u() * s_u + potential.v[0] * s_q + direct);
     }
+    gradient[1] *= strength_slope_;
     return true;
   }
 
@@ -190,7 +212,7 @@ class Integration {
     const double absolute = 1e-2 * options_.tolerance;
     std::array<int, 1> falling = {-1};
     CVodeSetErrFile(memory, nullptr);
-    bool good = CVodeInit(memory, right_hand_side, 0.0, state_.get()) == CV_SUCCESS &&
+    bool good = CVodeInit(memory, right_hand_side<Law>, 0.0, state_.get()) == CV_SUCCESS &&
                 CVodeSStolerances(memory, options_.tolerance, absolute) == CV_SUCCESS &&
                 CVodeSetUserData(memory, &field_) == CV_SUCCESS &&
                 CVodeRootInit(memory, 1, turning_event) == CV_SUCCESS &&
@@ -199,7 +221,8 @@ class Integration {
     good = good && CVodeSetNonlinearSolver(memory, solver_.get()) == CV_SUCCESS;
     if (good && options_.gradient) good = set_up_sensitivities(absolute);
     if (good && options_.budget) {
-      good = CVodeQuadInit(memory, quadrature_right_hand_side, quadratures_.get()) == CV_SUCCESS &&
+      good = CVodeQuadInit(memory, quadrature_right_hand_side<Law>, quadratures_.get()) ==
+                 CV_SUCCESS &&
              CVodeSetQuadErrCon(memory, SUNTRUE) == CV_SUCCESS &&
              CVodeQuadSStolerances(memory, options_.tolerance, absolute) == CV_SUCCESS;
     }
@@ -217,7 +240,7 @@ class Integration {
     absolutes.fill(absolute);
     sensitivity_solver_.reset(
         SUNNonlinSol_FixedPointSens(groups_count_ + 1, state_.get(), anderson_depth, context_));
-    return CVodeSensInit(memory, groups_count_, CV_SIMULTANEOUS, sensitivity_right_hand_side,
+    return CVodeSensInit(memory, groups_count_, CV_SIMULTANEOUS, sensitivity_right_hand_side<Law>,
                          sensitivity_) == CV_SUCCESS &&
            CVodeSensSStolerances(memory, options_.tolerance, absolutes.data()) == CV_SUCCESS &&
            CVodeSetSensErrCon(memory, SUNTRUE) == CV_SUCCESS &&
@@ -228,6 +251,7 @@ class Integration {
   sundials::Context context_;
   ImpactOptions options_;
   int groups_count_;
+  double strength_slope_, resting_place_, depth_;
   Field field_;
   Vector state_;
   Vector quadratures_;
@@ -241,29 +265,31 @@ class Integration {
 };
 
 /// What is watched on the way, from step to step.
-void observe(const Integration& run, const ImpactOptions& options, ImpactResult& result,
+template <class Law>
+void observe(const Integration<Law>& run, const ImpactOptions& options, ImpactResult& result,
              std::vector<ImpactMoment>* history) {
   const Field& f = run.field();
   const double q = std::max(run.q(), 0.0);
-  const auto forces = contact_forces(q, run.u(), f.alpha, f.beta, f.gamma, f.acts());
+  const double x = Law::penetration(q, f.strength);
+  const auto forces = Law::forces(q, run.u(), f.alpha, f.strength, f.gamma, f.acts());
   const double push =
       -(forces.hertz + forces.hertz_damping + forces.adhesion + forces.adhesion_damping) +
       q * f.kappa * run.u();
-  result.penetration_max = std::max(result.penetration_max, q * q);
+  result.penetration_max = std::max(result.penetration_max, x);
   result.force_compression = std::max(result.force_compression, push);
   result.force_tension = std::max(result.force_tension, -push);
-  result.energy.largest = std::max({result.energy.largest, run.u() * run.u() / 2.0,
-                                    0.4 * std::pow(q, 5), 2.0 / 3.0 * f.beta * q * q * q});
+  result.energy.largest = std::max(
+      {result.energy.largest, run.u() * run.u() / 2.0, Law::largest_energy(q, f.strength)});
   if (history != nullptr && options.budget) {
-    history->push_back({run.quadrature(0), q * q, run.u(), -forces.hertz, -forces.hertz_damping,
+    history->push_back({run.quadrature(0), x, run.u(), -forces.hertz, -forces.hertz_damping,
                         -forces.adhesion, -forces.adhesion_damping, q * f.kappa * run.u()});
   }
 }
 
-void finish(Integration& run, const ImpactOptions& options, ImpactResult& result) {
-  const Field& f = run.field();
+template <class Law>
+void finish(Integration<Law>& run, const ImpactOptions& options, ImpactResult& result) {
   const double kinetic = run.u() * run.u() / 2.0;
-  const double potential = potential_energy(run.q(), f.beta);
+  const double potential = run.potential();
   const double left = kinetic + potential;
   if (!std::isfinite(left)) {
     result.outcome = ImpactOutcome::integration_failure;
@@ -284,23 +310,12 @@ void finish(Integration& run, const ImpactOptions& options, ImpactResult& result
   result.energy.potential = potential;
 }
 
-}  // namespace
-
-double EnergyBudget::audit() const {
-  return (0.5 - (kinetic + potential + hertz_loss + adhesion_loss + dashpot_loss)) /
-         std::max(largest, 0.5);
-}
-
-ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& options,
-                             std::vector<ImpactMoment>* history) {
+/// From touch to release or to the first outer turning point.
+template <class Law>
+ImpactResult simulate(const ImpactGroups& groups, const ImpactOptions& options,
+                      std::vector<ImpactMoment>* history) {
   ImpactResult result;
-  if (!(std::isfinite(groups.alpha) && std::isfinite(groups.beta) && std::isfinite(groups.gamma) &&
-        groups.alpha >= 0.0 && groups.beta >= 0.0 && groups.gamma >= 0.0 &&
-        (options.dashpot ? std::isfinite(groups.kappa) && groups.kappa >= 0.0
-                         : groups.kappa == 0.0))) {
-    return result;  // an inadmissible trial point of an optimiser is a failure, not a crash
-  }
-  Integration run(groups, options);
+  Integration<Law> run(groups, options);
   if (!run.ready()) return result;
   observe(run, options, result, history);
   bool turned = false;
@@ -319,6 +334,44 @@ ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& op
     if (!run.turn()) return result;
   }
   finish(run, options, result);
+  return result;
+}
+
+/// Hertz's contact, which every law becomes, with the slope that JKR has there.
+ImpactResult without_adhesion(ImpactGroups groups, const ImpactOptions& options,
+                              std::vector<ImpactMoment>* history) {
+  groups.beta = 0.0;
+  ImpactResult result = simulate<RingAdhesionLaw>(groups, options, history);
+  result.gradient[1] = 0.0;
+  return result;
+}
+
+}  // namespace
+
+double EnergyBudget::audit() const {
+  return (0.5 - (kinetic + potential + hertz_loss + adhesion_loss + dashpot_loss)) /
+         std::max(largest, 0.5);
+}
+
+ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& options,
+                             std::vector<ImpactMoment>* history) {
+  ImpactResult result;
+  if (!(std::isfinite(groups.alpha) && std::isfinite(groups.beta) && std::isfinite(groups.gamma) &&
+        groups.alpha >= 0.0 && groups.beta >= 0.0 && groups.gamma >= 0.0 &&
+        (options.dashpot ? options.adhesion == AdhesionLaw::ring && std::isfinite(groups.kappa) &&
+                               groups.kappa >= 0.0
+                         : groups.kappa == 0.0))) {
+    return result;  // an inadmissible trial point of an optimiser is a failure, not a crash
+  }
+  switch (options.adhesion) {
+    case AdhesionLaw::ring:
+      return simulate<RingAdhesionLaw>(groups, options, history);
+    case AdhesionLaw::dmt:
+      return simulate<DmtLaw>(groups, options, history);
+    case AdhesionLaw::jkr:
+      return groups.beta < JkrLaw::least_beta ? without_adhesion(groups, options, history)
+                                              : simulate<JkrLaw>(groups, options, history);
+  }
   return result;
 }
 

@@ -41,15 +41,20 @@ TEST(FastKernel, EveryInstructionSetGivesTheSameDigits) {
     ASSERT_EQ(std::string(fast_kernels().front().name), "avx512");
   }
 #endif
-  for (const bool gradient : {false, true}) {
-    ImpactOptions options;
-    options.gradient = gradient;
-    std::vector<ImpactResult> baseline(impacts.size());
-    fast_kernels().back().fly(impacts, options, baseline);
-    for (const FastKernel& kernel : fast_kernels()) {
-      std::vector<ImpactResult> results(impacts.size());
-      kernel.fly(impacts, options, results);
-      for (std::size_t i = 0; i < impacts.size(); ++i) expect_same_digits(results[i], baseline[i]);
+  for (const AdhesionLaw law : values_of<AdhesionLaw>()) {
+    for (const bool gradient : {false, true}) {
+      ImpactOptions options;
+      options.adhesion = law;
+      options.gradient = gradient;
+      std::vector<ImpactResult> baseline(impacts.size());
+      fast_kernels().back().fly(impacts, options, baseline);
+      for (const FastKernel& kernel : fast_kernels()) {
+        std::vector<ImpactResult> results(impacts.size());
+        kernel.fly(impacts, options, results);
+        for (std::size_t i = 0; i < impacts.size(); ++i) {
+          expect_same_digits(results[i], baseline[i]);
+        }
+      }
     }
   }
 }

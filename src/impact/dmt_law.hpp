@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "impact/force_law.hpp"
+
+namespace recoil {
+
+/// The contact of Derjaguin, Muller & Toporov (1975), J. Colloid Interface Sci. 53, 314-326, in the
+/// form that Maugis (2000) calls DMT-M: Hertz's contact under a constant pull 2 pi W r, with the
+/// two dampings of eq. 5. The pull acts while the bodies touch (n > 0), so that nothing is lost
+/// without damping. With q = x^(1/2), dt = 2 q dsigma,
+///   dq/dsigma = u,   du/dsigma = 2 q [p (1 + gamma S) - q^3 (1 + alpha u)].
+/// p = 2 pi W r n_c / (m V^2) = beta^(3/2) / 3, where beta is that of the f0 that eqs 9 and 10 have
+/// for this W: all laws depend on the same three groups.
+struct DmtLaw {
+  static constexpr unsigned groups = 3;  ///< alpha, p, gamma
+  static constexpr double start = 0.0;
+
+  static double strength(const ImpactGroups& g) { return g.beta * std::sqrt(g.beta) / 3.0; }
+  /// d p / d beta
+  static double strength_slope(const ImpactGroups& g) { return 0.5 * std::sqrt(g.beta); }
+  static std::array<double, groups> groups_of(const ImpactGroups& g) {
+    return {g.alpha, strength(g), g.gamma};
+  }
+
+  template <class Q, class U, class Alpha, class P, class Gamma, class Acts>
+  static constexpr auto acceleration(const Q& q, const U& u, const Acts& acts, const Alpha& alpha,
+                                     const P& p, const Gamma& gamma) {
+    const Q twice_q = q + q;
+    const Q push = -(twice_q * (q * q * q));
+    const auto pull = twice_q * p;
+    return push + push * (alpha * u) + (pull + -(pull * (acts * (gamma * u))));
+  }
+  template <class Q, class Alpha, class P, class Gamma>
+  static constexpr auto potential(const Q& q, const Alpha&, const P& p, const Gamma&) {
+    const Q x = q * q;
+    const Q hertz = 0.4 * (x * x * q);
+    return hertz + (-x) * p;
+  }
+  static double resting_place(const ImpactGroups& g) { return std::cbrt(strength(g)); }
+
+  /// Damping that is critical about the bottom does not hold a fast sphere here, as it does not
+  /// grow with the contact: whether one creeps into the well has to be followed.
+  static bool creeps(const ImpactGroups&) { return false; }
+  static double depth(const ImpactGroups& g) { return -0.6 * std::pow(strength(g), 5.0 / 3.0); }
+
+  /// x [n_c], dx / dq and the four forces [m V^2 / n_c].
+  static double penetration(double q, double) { return q * q; }
+  static double clock(double q, double) { return 2.0 * q; }
+  static ContactForces<double, double, double, double> forces(double q, double u, double alpha,
+                                                              double p, double gamma, double acts) {
+    const double hertz = -q * q * q;
+    return {hertz, hertz * alpha * u, p, -p * acts * gamma * u};
+  }
+  static double largest_energy(double q, double p) {
+    return std::max(0.4 * std::pow(q, 5), p * q * q);
+  }
+  static double cusp_radius(double p, double energy) {
+    return std::sqrt(energy / std::max(p, 0.5));
+  }
+
+  static constexpr double least_beta = 0.0;  ///< without adhesion it is Hertz's contact
+};
+
+}  // namespace recoil

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "impact/force_law.hpp"
+
+namespace recoil {
+
+/// The contact of Johnson, Kendall & Roberts (1971), Proc. R. Soc. A 324, 301-313, with the two
+/// dampings of eq. 5: C_H on the elastic part, C_A on the adhesive part. With the contact radius a,
+///   P = K a^3 / r - (6 pi W K a^3)^(1/2),   n = a^2 / r - (8 pi W a / (3 K))^(1/2):
+/// the contact opens at n = 0 with a finite radius and parts at the smallest n, below zero, so that
+/// an undamped impact loses the work in between, 7.0922 (W^5 r^4 / E*^2)^(1/3).
+///
+/// In z = (a / a_p)^(1/2), a_p the radius at which it parts, and with dt = (dn / dz) dsigma, the
+/// equation of motion is a polynomial:
+///   dz/dsigma = u,  du/dsigma = -lambda (z^3 - 1) [z^6 (1 + alpha u) - 6 z^3 (1 + gamma S)],
+/// from z = 4^(1/3) to the release at z = 1. lambda = 4 6^(-10/3) beta^(5/2), where beta is that of
+/// the f0 that eqs 9 and 10 have for this W: both laws depend on the same three groups. q = z - 1.
+///
+/// e^2 is as exact as that of the ring law; so is its gradient for beta > 1e-3. Below (V beyond
+/// 5000 V_a) the slope in beta goes with beta^(-1/4), and the solvers agree on it to 1e-4 of
+/// itself.
+struct JkrLaw {
+  static constexpr unsigned groups = 3;                    ///< alpha, lambda, gamma
+  static constexpr double start = 0.58740105196819947475;  ///< 4^(1/3) - 1
+
+  static double strength(const ImpactGroups& g) {
+    return 4.0 * std::pow(6.0, -10.0 / 3.0) * g.beta * g.beta * std::sqrt(g.beta);
+  }
+  /// d lambda / d beta
+  static double strength_slope(const ImpactGroups& g) {
+    return 10.0 * std::pow(6.0, -10.0 / 3.0) * g.beta * std::sqrt(g.beta);
+  }
+  static std::array<double, groups> groups_of(const ImpactGroups& g) {
+    return {g.alpha, strength(g), g.gamma};
+  }
+
+  template <class Q, class U, class Alpha, class Lambda, class Gamma, class Acts>
+  static constexpr auto acceleration(const Q& q, const U& u, const Acts& acts, const Alpha& alpha,
+                                     const Lambda& lambda, const Gamma& gamma) {
+    const Q z = q + 1.0;
+    const Q cube = z * z * z;
+    const Q rate = q * (q * (q + 3.0) + 3.0) * cube;  // (z^3 - 1) z^3
+    const Q push = -(rate * cube);
+    const Q pull = 6.0 * rate;
+    return lambda * ((push + pull) + push * (alpha * u) + -(pull * (acts * (gamma * u))));
+  }
+  /// Zero at the release, where the sphere has parted; at touch it is the work that is lost.
+  template <class Q, class Alpha, class Lambda, class Gamma>
+  static constexpr auto potential(const Q& q, const Alpha&, const Lambda& lambda, const Gamma&) {
+    const Q polynomial =
+        ((((((((0.1 * q + 1.0) * q + 4.5) * q + 11.0) * q + 14.0) * q + 4.2) * q + -12.5) * q +
+          -17.0) *
+             q +
+         -7.5) *
+        (q * q);
+    return polynomial * lambda;
+  }
+  static double resting_place(const ImpactGroups&) {
+    return 0.81712059283213965889;
+  }  // 6^(1/3) - 1
+
+  /// Of the small motions about the bottom of the well, where n'' = -(9/10) b^(2/3) (n - n_0) -
+  /// (alpha + gamma) b^2 n', b = beta^(3/4).
+  static bool creeps(const ImpactGroups& g) {
+    return (g.alpha + g.gamma) * std::pow(g.beta, 1.25) >= 2.0 * std::sqrt(0.9);
+  }
+  static double depth(const ImpactGroups& g) {
+    return potential(resting_place(g), 0.0, strength(g), 0.0);
+  }
+
+  /// n [n_c] and the four forces [m V^2 / n_c]; dn / dz is the clock.
+  static double penetration(double q, double lambda) {
+    const double z = q + 1.0;
+    return std::pow(0.25 * lambda, 0.4) * (z * z * z - 4.0) * z;
+  }
+  static double clock(double q, double lambda) {
+    return 4.0 * std::pow(0.25 * lambda, 0.4) * q * (q * (q + 3.0) + 3.0);
+  }
+  static ContactForces<double, double, double, double> forces(double q, double u, double alpha,
+                                                              double lambda, double gamma,
+                                                              double acts) {
+    const double cube = (q + 1.0) * (q + 1.0) * (q + 1.0);
+    const double unit = std::pow(0.25 * lambda, 0.6);
+    const double hertz = -unit * cube * cube;
+    const double adhesion = 6.0 * unit * cube;
+    return {hertz, hertz * alpha * u, adhesion, -adhesion * acts * gamma * u};
+  }
+  /// The largest energy on the way [m V^2].
+  static double largest_energy(double q, double lambda) {
+    const double z = q + 1.0;
+    return lambda * std::pow(z, 7) * std::max(0.1 * z * z * z, 1.0);
+  }
+  /// Where potential and kinetic energy are below `energy`, about q = u = 0.
+  static double cusp_radius(double lambda, double energy) {
+    return std::sqrt(energy / std::max(7.5 * lambda, 0.5));
+  }
+
+  /// Below, adhesion changes e by less than 1e-10 at any damping that lets a sphere come back.
+  static constexpr double least_beta = 1e-14;
+};
+
+}  // namespace recoil
