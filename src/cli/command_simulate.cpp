@@ -217,6 +217,7 @@ void simulate(const SimulateOptions& options) {
   ImpactConditions conditions =
       conditions_at(model, model.initial(), d, options.diameter * units::um, options.velocity);
   ImpactOptions impact_options;
+  impact_options.adhesion = model.adhesion;
   impact_options.phase = model.phase;
   impact_options.budget = true;
   impact_options.gradient = true;

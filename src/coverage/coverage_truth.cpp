@@ -1,5 +1,7 @@
 #include "coverage/coverage_truth.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -51,7 +53,7 @@ CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& data
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     truth.theta[model.slot_C_H[d]] = recipes[d].parameters.at("C_H");
     truth.theta[model.slot_C_A[d]] = recipes[d].parameters.at("C_A");
-    truth.theta[model.slot_f0[d]] = recipes[d].parameters.at("f0");
+    truth.theta[model.slot_adhesion[d]] = recipes[d].parameters.at("f0");
     truths.push_back(recipes[d].recipe.truth);
   }
   add_capture_velocities(truth, datasets, truths);
@@ -71,7 +73,7 @@ Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::siz
   RingAdhesionTruth truth;
   truth.density = contact.particle_density;
   truth.stiffness = contact.stiffness;
-  truth.adhesion_force = theta[model.slot_f0[dataset]];
+  truth.adhesion_force = theta[model.slot_adhesion[dataset]];
   truth.reference_diameter = contact.reference_diameter;
   truth.C_H = theta[model.slot_C_H[dataset]];
   truth.C_A = theta[model.slot_C_A[dataset]];
@@ -186,6 +188,13 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
 
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed) {
+  if (spec.adhesion != AdhesionLaw::ring) {
+    throw InputError({spec.file.string()},
+                     fmt::format("coverage can simulate no truth with adhesion = \"{}\"",
+                                 to_string(spec.adhesion)),
+                     "its independent simulator knows the ring law alone",
+                     "set adhesion = \"ring\"");
+  }
   if (!spec.mechanisms.empty()) {
     throw InputError({spec.file.string()}, "coverage can simulate no truth with mechanisms",
                      "its simulator, which shares no code with the fitter, has the base model only",

@@ -127,7 +127,7 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
     candidate.spec.mechanisms.emplace_back(mechanism->info.id);
   }
   candidate.spec.parameters.clear();
-  for (const Parameter* parameter : parameters_with(candidate.spec.mechanisms)) {
+  for (const Parameter* parameter : parameters_with(candidate.spec.mechanisms, spec.adhesion)) {
     ParameterSpec stated = spec.statement_of(*parameter);
     const auto& before = spec.mechanisms;
     const bool is_new =

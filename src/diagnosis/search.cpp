@@ -206,6 +206,7 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
   std::vector<const Mechanism*> untried;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     const auto& own = base.spec.mechanisms;
+    if (!mechanism.works_with(base.spec.adhesion)) continue;
     // Counts of captures have told the base model already how the impacts differ.
     if (mechanism.spreads() && base.fitted.data.noise.event_spread > 0.0) continue;
     if (std::find(own.begin(), own.end(), mechanism.info.id) == own.end()) {

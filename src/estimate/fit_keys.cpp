@@ -22,6 +22,8 @@ std::vector<FitKey> all_keys() {
       {"", "noise", "", "the table [noise]"},
       {"", "uncertainty", "", "the table [uncertainty]"},
 
+      {"model", "adhesion", quoted(name_of(fit.adhesion)),
+       "the law of adhesion: ring (eq. 5, with f0), jkr or dmt (with W)"},
       {"model", "adhesion_damping_phase", quoted(name_of(fit.phase)),
        "when the damping of the adhesion acts: while the sphere moves outward (rebound), or in "
        "both "

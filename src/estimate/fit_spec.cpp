@@ -162,6 +162,15 @@ class FitReader : private TomlReader {
 
   void read_model(const toml::table& model) {
     allow_only(model, "[model]", fit_keys_of("model"));
+    if (const toml::node* node = model.get("adhesion")) {
+      const std::string word = string(*node, "adhesion", "\"ring\"");
+      const auto law = value_named<AdhesionLaw>(word);
+      if (!law) {
+        fail(*node, fmt::format("unknown law of adhesion {}", quote(word)), "",
+             did_you_mean(word, all_names<AdhesionLaw>()));
+      }
+      fit_.spec.adhesion = *law;
+    }
     if (const toml::node* node = model.get("adhesion_damping_phase")) {
       const std::string word = string(*node, "adhesion_damping_phase", "\"rebound\"");
       const auto phase = value_named<AdhesionDampingPhase>(word);
@@ -185,6 +194,13 @@ class FitReader : private TomlReader {
     for (const Mechanism& mechanism : mechanism_catalogue()) known.emplace_back(mechanism.info.id);
     if (find_mechanism(id) == nullptr) {
       fail(item, fmt::format("unknown mechanism {}", quote(id)), "", did_you_mean(id, known));
+    }
+    if (!find_mechanism(id)->works_with(fit_.spec.adhesion)) {
+      fail(item,
+           fmt::format("the mechanism {} cannot stand beside adhesion = \"{}\"", quote(id),
+                       name_of(fit_.spec.adhesion)),
+           "its loss is worked out on the contact of the ring law",
+           "leave the mechanism out, or choose adhesion = \"ring\"");
     }
     std::vector<std::string>& mechanisms = fit_.spec.mechanisms;
     if (std::find(mechanisms.begin(), mechanisms.end(), id) != mechanisms.end()) {
@@ -210,12 +226,26 @@ class FitReader : private TomlReader {
     }
   }
 
+  /// f0 belongs to the ring law, W to the others.
+  void refuse_the_adhesion_of_other_laws(const toml::table& parameters) const {
+    const AdhesionLaw law = fit_.spec.adhesion;
+    const Parameter& right = base_parameters(law)[2];
+    const Parameter& wrong =
+        base_parameters(law == AdhesionLaw::ring ? AdhesionLaw::jkr : AdhesionLaw::ring)[2];
+    const toml::node* const node = parameters.get(wrong.name);
+    if (node == nullptr) return;
+    fail(*node, fmt::format("'{}' is no parameter of adhesion = \"{}\"", wrong.name, name_of(law)),
+         "", fmt::format("state {} [{}], the {}", right.name, right.unit, right.meaning));
+  }
+
   void read_parameters(const toml::table* parameters) {
-    const std::vector<const Parameter*> known = parameters_with(fit_.spec.mechanisms);
+    const std::vector<const Parameter*> known =
+        parameters_with(fit_.spec.mechanisms, fit_.spec.adhesion);
     std::vector<std::string> names;
     for (const Parameter* parameter : known) names.emplace_back(parameter->name);
     if (parameters != nullptr) {
       refuse_parameters_of_others(*parameters);
+      refuse_the_adhesion_of_other_laws(*parameters);
       allow_only(*parameters, "[parameters]", names);
     }
     for (const Parameter* parameter : known) {

@@ -21,12 +21,10 @@ struct ParameterSpec {
   double upper = 0.0;
   bool free = true;
   bool per_dataset = false;     ///< `per = "dataset"`: one value for each dataset of the fit
-  bool initial_stated = false;  ///< f0 takes eq. 12 when its initial value is not stated
+  bool initial_stated = false;  ///< f0 and W come from the materials when this is not stated
 
   /// Is the start (or the value, if it is fixed) to be had from the materials of the datasets?
-  bool is_derived() const {
-    return parameter->role == ParameterRole::adhesion_force && !initial_stated;
-  }
+  bool is_derived() const { return parameter->is_adhesion() && !initial_stated; }
 };
 
 /// What a fit file means that does not mention `parameter`.
@@ -47,9 +45,11 @@ struct FitSpec {
   std::string id;  ///< the file's name without its ending
   std::filesystem::path file;
   std::vector<std::filesystem::path> datasets;  ///< folders, as seen from here
+  AdhesionLaw adhesion = AdhesionLaw::ring;
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
-  std::vector<std::string> mechanisms;    ///< ids from the catalogue of mechanisms
-  std::vector<ParameterSpec> parameters;  ///< all of `parameters_with(mechanisms)`, in that order
+  std::vector<std::string> mechanisms;  ///< ids from the catalogue of mechanisms
+  std::vector<ParameterSpec>
+      parameters;  ///< all of `parameters_with(mechanisms, adhesion)`, in that order
   NoiseSpec noise;
   Location variance_place;  ///< where the file names the variance function, for messages
   UncertaintySpec uncertainty;

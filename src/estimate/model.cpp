@@ -57,7 +57,7 @@ std::vector<std::size_t> add_base_slots(ImpactModel& model, const ParameterSpec&
       slots.push_back(slots.front());
       continue;
     }
-    const double initial = derived ? model.contacts[d].adhesion_force : spec.initial;
+    const double initial = derived ? derived_adhesion(model, d) : spec.initial;
     slots.push_back(add_slot(model, spec, split ? datasets[d].id : "", "", initial));
   }
   return slots;
@@ -93,6 +93,7 @@ int ImpactModel::free_count() const {
 
 ImpactOptions ImpactModel::impact_options(bool gradient) const {
   ImpactOptions options;
+  options.adhesion = adhesion;
   options.phase = phase;
   options.gradient = gradient;
   options.tolerance *= solver.tolerance_factor;
@@ -106,13 +107,14 @@ SimulateImpacts ImpactModel::simulator() const {
 
 ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets) {
   ImpactModel model;
+  model.adhesion = spec.adhesion;
   model.phase = spec.phase;
   for (const Dataset& dataset : datasets) {
     model.contacts.push_back(derive_contact(dataset.system, reference_diameter_of(dataset)));
     model.surroundings.push_back(surroundings_of(dataset.system, model.contacts.back()));
   }
   model.chain = chain_of(spec.mechanisms);
-  for (const Parameter* parameter : parameters_with(spec.mechanisms)) {
+  for (const Parameter* parameter : parameters_with(spec.mechanisms, spec.adhesion)) {
     const ParameterSpec stated = spec.statement_of(*parameter);
     switch (parameter->role) {
       case ParameterRole::hertz_damping:
@@ -122,7 +124,8 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
         model.slot_C_A = add_base_slots(model, stated, datasets);
         break;
       case ParameterRole::adhesion_force:
-        model.slot_f0 = add_base_slots(model, stated, datasets);
+      case ParameterRole::adhesion_energy:
+        model.slot_adhesion = add_base_slots(model, stated, datasets);
         break;
       case ParameterRole::of_mechanism:
         model.slot_own.push_back(add_own_slots(model, stated, datasets));
@@ -130,6 +133,26 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     }
   }
   return model;
+}
+
+double derived_adhesion(const ImpactModel& model, std::size_t dataset) {
+  const ContactProperties& contact = model.contacts[dataset];
+  return model.adhesion == AdhesionLaw::ring ? contact.adhesion_force : contact.adhesion_energy;
+}
+
+double adhesion_force_under(const ImpactModel& model, std::span<const double> theta,
+                            std::size_t dataset) {
+  const double value = theta[model.slot_adhesion[dataset]];
+  if (model.adhesion == AdhesionLaw::ring) return value;
+  const ContactProperties& contact = model.contacts[dataset];
+  return adhesion_force_for(value, contact.reference_diameter / 2.0, contact.stiffness);
+}
+
+double adhesion_force_slope(const ImpactModel& model, std::span<const double> theta,
+                            std::size_t dataset) {
+  if (model.adhesion == AdhesionLaw::ring) return 1.0;
+  const double energy = theta[model.slot_adhesion[dataset]];
+  return energy > 0.0 ? 2.0 / 3.0 * adhesion_force_under(model, theta, dataset) / energy : 0.0;
 }
 
 std::vector<double> without_mechanisms(const ImpactModel& model, std::vector<double> theta) {
@@ -148,7 +171,8 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
           velocity,
           contact.particle_density,
           contact.stiffness,
-          adhesion_force_at(theta[model.slot_f0[dataset]], contact.reference_diameter, diameter),
+          adhesion_force_at(adhesion_force_under(model, theta, dataset), contact.reference_diameter,
+                            diameter),
           theta[model.slot_C_H[dataset]],
           theta[model.slot_C_A[dataset]]};
 }

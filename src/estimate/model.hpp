@@ -34,11 +34,13 @@ struct ParameterSlot {
 
 /// The model applied to the datasets of one fit: what the parameters are and how they enter.
 struct ImpactModel {
+  AdhesionLaw adhesion = AdhesionLaw::ring;
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   SolverSettings solver;
   std::vector<ParameterSlot> slots;
-  std::vector<ContactProperties> contacts;               ///< per dataset
-  std::vector<std::size_t> slot_C_H, slot_C_A, slot_f0;  ///< per dataset: index into `slots`
+  std::vector<ContactProperties> contacts;      ///< per dataset
+  std::vector<std::size_t> slot_C_H, slot_C_A;  ///< per dataset: index into `slots`
+  std::vector<std::size_t> slot_adhesion;  ///< of f0, or of W under another law than the ring's
 
   std::vector<const Mechanism*> chain;     ///< in the order in which they act
   std::vector<Surroundings> surroundings;  ///< per dataset
@@ -52,6 +54,18 @@ struct ImpactModel {
   /// What solves them.
   SimulateImpacts simulator() const;
 };
+
+/// What the materials of `dataset` say of its parameter of adhesion: f0 [N/m] or W [J/m2].
+double derived_adhesion(const ImpactModel& model, std::size_t dataset);
+
+/// f0 at the reference diameter of `dataset` [N/m]; from W by eqs 9 and 10 where W is the
+/// parameter.
+double adhesion_force_under(const ImpactModel& model, std::span<const double> theta,
+                            std::size_t dataset);
+
+/// d f0 / d (its parameter): 1, or (2/3) f0 / W.
+double adhesion_force_slope(const ImpactModel& model, std::span<const double> theta,
+                            std::size_t dataset);
 
 /// theta with every mechanism at its null value: the base model.
 std::vector<double> without_mechanisms(const ImpactModel& model, std::vector<double> theta);

@@ -8,6 +8,7 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
+constexpr std::size_t place_of_force = 2;  // of f0 among the values of a point
 
 }  // namespace
 
@@ -18,14 +19,17 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     : model_(model),
       points_(std::move(points)),
       beta_per_f0_(points_.size()),
+      force_(model.contacts.size()),
+      force_slope_(model.contacts.size()),
       groups_(points_.size()),
       results_(points_.size()) {
-  std::vector<double> unit_adhesion = model.initial();
-  for (const std::size_t slot : model.slot_f0) unit_adhesion[slot] = 1.0;
+  const std::vector<double> initial = model.initial();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointConditions& p = points_[i];
-    beta_per_f0_[i] =
-        impact_groups(conditions_at(model, unit_adhesion, p.dataset, p.diameter, p.velocity)).beta;
+    ImpactConditions unit = conditions_at(model, initial, p.dataset, p.diameter, p.velocity);
+    unit.adhesion_force =
+        adhesion_force_at(1.0, model.contacts[p.dataset].reference_diameter, p.diameter);
+    beta_per_f0_[i] = impact_groups(unit).beta;
   }
 
   std::vector<const Mechanism*> chain;
@@ -48,7 +52,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
   std::vector<ExtendedPoint> extended;
   for (const PointConditions& p : points_) {
     extended.push_back({&model.surroundings[p.dataset], p.diameter, p.velocity});
-    for (const auto* base : {&model.slot_C_H, &model.slot_C_A, &model.slot_f0}) {
+    for (const auto* base : {&model.slot_C_H, &model.slot_C_A, &model.slot_adhesion}) {
       slots_.push_back((*base)[p.dataset]);
       nulls_.push_back(0.0);
     }
@@ -67,11 +71,15 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
 long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   assert(theta.size() == model_.slots.size());
   const ImpactOptions options = model_.impact_options(gradient);
+  for (std::size_t d = 0; d < force_.size(); ++d) {
+    force_[d] = adhesion_force_under(model_, theta, d);
+    force_slope_[d] = adhesion_force_slope(model_, theta, d);
+  }
   if (extended_) return evaluate_extended(theta, options);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointConditions& p = points_[i];
     groups_[i] = {theta[model_.slot_C_H[p.dataset]] * p.velocity,
-                  theta[model_.slot_f0[p.dataset]] * beta_per_f0_[i],
+                  force_[p.dataset] * beta_per_f0_[i],
                   theta[model_.slot_C_A[p.dataset]] * p.velocity};
   }
   return model_.simulator()(groups_, options, results_);
@@ -81,6 +89,10 @@ long PointPredictor::evaluate_extended(std::span<const double> theta,
                                        const ImpactOptions& options) {
   for (std::size_t k = 0; k < slots_.size(); ++k) {
     values_[k] = slots_[k] == no_slot ? nulls_[k] : theta[slots_[k]];
+  }
+  const std::size_t per_point = values_.size() / points_.size();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    values_[i * per_point + place_of_force] = force_[points_[i].dataset];
   }
   const long handed_over = extended_->evaluate(values_, options, model_.simulator());
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -98,12 +110,14 @@ void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double>
     const std::span<const double> slopes = extended_->slopes(i).subspan(2);
     for (std::size_t k = 0; k < slopes.size(); ++k) {
       const std::size_t slot = slots_[i * slopes.size() + k];
-      if (slot != no_slot) row[slot] += scale * slopes[k];
+      const double own = k == place_of_force ? force_slope_[p.dataset] : 1.0;
+      if (slot != no_slot) row[slot] += scale * own * slopes[k];
     }
     return;
   }
   row[model_.slot_C_H[p.dataset]] += scale * p.velocity * by_group[0];
-  row[model_.slot_f0[p.dataset]] += scale * beta_per_f0_[i] * by_group[1];
+  row[model_.slot_adhesion[p.dataset]] +=
+      scale * beta_per_f0_[i] * force_slope_[p.dataset] * by_group[1];
   row[model_.slot_C_A[p.dataset]] += scale * p.velocity * by_group[2];
 }
 
@@ -145,7 +159,7 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
                          const PointConditions& point) {
   std::vector<double> values = {theta[model.slot_C_H[point.dataset]],
                                 theta[model.slot_C_A[point.dataset]],
-                                theta[model.slot_f0[point.dataset]]};
+                                adhesion_force_under(model, theta, point.dataset)};
   std::size_t k = 0;
   for (const Mechanism* mechanism : model.chain) {
     for (const Parameter& p : mechanism->info.parameters) {

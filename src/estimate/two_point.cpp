@@ -131,7 +131,7 @@ class Iteration {
   /// f0 stays at eq. 12 even when the full fit frees it: the iteration knows no third unknown.
   static double beta_at(const ImpactModel& model, const TwoPoints& points, double velocity) {
     std::vector<double> theta = model.initial();
-    theta[model.slot_f0[points.dataset]] = model.contacts[points.dataset].adhesion_force;
+    theta[model.slot_adhesion[points.dataset]] = derived_adhesion(model, points.dataset);
     return impact_groups(conditions_at(model, theta, points.dataset, points.diameter, velocity))
         .beta;
   }
@@ -203,7 +203,7 @@ std::vector<TwoPointRun> iterate_two_points(const ImpactModel& model,
 std::vector<double> two_point_theta(const ImpactModel& model, std::size_t dataset,
                                     const TwoPointRun& run) {
   std::vector<double> theta = model.initial();
-  theta[model.slot_f0[dataset]] = model.contacts[dataset].adhesion_force;
+  theta[model.slot_adhesion[dataset]] = derived_adhesion(model, dataset);
   theta[model.slot_C_H[dataset]] = run.C_H;
   theta[model.slot_C_A[dataset]] = run.C_A;
   return theta;

@@ -45,6 +45,16 @@ double adhesion_force_per_length(double stiffness, double equilibrium_radius, do
   return stiffness * equilibrium_radius * equilibrium_radius / (2.0 * pi * radius);
 }
 
+double adhesion_force_for(double adhesion_energy, double radius, double stiffness) {
+  const double radius_at_rest = equilibrium_contact_radius(adhesion_energy, radius, stiffness);
+  return adhesion_force_per_length(stiffness, radius_at_rest, radius);
+}
+
+double adhesion_energy_for(double adhesion_force, double radius, double stiffness) {
+  return std::pow(2.0 * std::numbers::pi * adhesion_force, 1.5) /
+         (6.0 * std::numbers::pi * std::sqrt(stiffness * radius));
+}
+
 double adhesion_force_at(double f0_reference, double reference_diameter, double diameter) {
   return f0_reference * std::cbrt(diameter / reference_diameter);
 }

@@ -48,6 +48,13 @@ double equilibrium_contact_radius(double adhesion_energy, double radius, double 
 /// Eq. 9 (and 12): f0 = K a_eq^2 / (2 pi r) [N/m].
 double adhesion_force_per_length(double stiffness, double equilibrium_radius, double radius);
 
+/// f0 for a work of adhesion: eqs 9 and 10 together, f0 = (6 pi W)^(2/3) (K r)^(1/3) / (2 pi)
+/// [N/m].
+double adhesion_force_for(double adhesion_energy, double radius, double stiffness);
+
+/// Its inverse: W = (2 pi f0)^(3/2) / (6 pi (K r)^(1/2)) [J/m2].
+double adhesion_energy_for(double adhesion_force, double radius, double stiffness);
+
 /// f0 at another diameter by f0 ~ r^(1/3), eq. 12 [N/m].
 double adhesion_force_at(double f0_reference, double reference_diameter, double diameter);
 

@@ -82,6 +82,10 @@ struct Mechanism {
     return std::get<MechanismLaw<T>>(laws);
   }
   bool spreads() const { return law<double>().vary != nullptr; }
+  /// What acts in the contact is worked out on the ring law's.
+  bool works_with(AdhesionLaw adhesion) const {
+    return adhesion == AdhesionLaw::ring || info.place != MechanismPlace::contact;
+  }
   bool is_batch() const { return info.place == MechanismPlace::batch; }
 };
 

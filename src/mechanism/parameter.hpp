@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "impact/impact.hpp"
+
 namespace recoil {
 
 struct Mechanism;
@@ -29,6 +31,7 @@ enum class ParameterRole {
   hertz_damping,     ///< C_H
   adhesion_damping,  ///< C_A
   adhesion_force,    ///< f0: follows from the materials (eq. 12) unless a fit says otherwise
+  adhesion_energy,   ///< W, in the place of f0 under another adhesion law than the ring's
 };
 
 /// One parameter that a fit may have, of the base model or of a mechanism. It is described here and
@@ -56,12 +59,16 @@ struct Parameter {
   bool is_damping() const {
     return role == ParameterRole::hertz_damping || role == ParameterRole::adhesion_damping;
   }
+  bool is_adhesion() const {
+    return role == ParameterRole::adhesion_force || role == ParameterRole::adhesion_energy;
+  }
 };
 
-/// C_H, C_A and f0, in this order.
-const std::vector<Parameter>& base_parameters();
+/// C_H, C_A and f0, in this order; under another law than the ring's W stands for f0.
+const std::vector<Parameter>& base_parameters(AdhesionLaw law = AdhesionLaw::ring);
 
 /// Those and the parameters of the mechanisms `ids`, in the order in which the mechanisms act.
-std::vector<const Parameter*> parameters_with(const std::vector<std::string>& ids);
+std::vector<const Parameter*> parameters_with(const std::vector<std::string>& ids,
+                                              AdhesionLaw law = AdhesionLaw::ring);
 
 }  // namespace recoil

@@ -105,6 +105,7 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
   const ImpactConditions conditions = reference_conditions(analysis, dataset, velocity);
   const ImpactScales scales = impact_scales(conditions);
   ImpactOptions options;
+  options.adhesion = analysis.fitted.model.adhesion;
   options.phase = analysis.fitted.model.phase;
   options.budget = true;
   std::vector<ImpactMoment> history;
@@ -176,8 +177,8 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
   bool refined = false;
   for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
     const ContactProperties& contact = model.contacts[k];
-    const std::size_t slot = model.slot_f0[k];
-    const double f0 = analysis.fitted.theta[slot];
+    const std::size_t slot = model.slot_adhesion[k];
+    const double f0 = adhesion_force_under(model, analysis.fitted.theta, k);
     const plot::Marker& marker = plot::marker(k);
     plot::Line line = cube_root_curve(f0, contact.reference_diameter, largest_um);
     line.stroke = {marker.colour, 2.0};
@@ -202,7 +203,7 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
       refined = true;
     }
     const Interval interval = recommended_interval(intervals_of(analysis, slot));
-    if (interval.available()) {
+    if (interval.available() && model.adhesion == AdhesionLaw::ring) {
       plot::Points free{{contact.reference_diameter / 2.0 / units::um}, {f0}};
       free.lower = {*interval.lower};
       free.upper = {*interval.upper};
@@ -220,9 +221,9 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
       "{f0} grows with the cube root of the radius (eq. 12); marks: the diameters of the data.");
   for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
     caption += fmt::format(" {}: {} N/m at d = {} µm{}.", analysis.datasets[k].id,
-                           number(analysis.fitted.theta[model.slot_f0[k]]),
+                           number(adhesion_force_under(model, analysis.fitted.theta, k)),
                            diameter_text(model.contacts[k].reference_diameter),
-                           model.slots[model.slot_f0[k]].free ? ", fitted" : "");
+                           model.slots[model.slot_adhesion[k]].free ? ", fitted" : "");
   }
   if (refined) caption += " Dashed: what the material constants alone give.";
   return {figure_of(std::move(picture), caption)};

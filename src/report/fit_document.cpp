@@ -117,11 +117,28 @@ Section provenance_section(const Analysis& a) {
   return section;
 }
 
+Sentence equation_words(AdhesionLaw law) {
+  switch (law) {
+    case AdhesionLaw::ring:
+      return say(
+          "Hertz contact with ring adhesion 2 pi {a} {f0} and damping {C_H}, {C_A} (Li, "
+          "Dunn & Brach 1999, eq. 5)");
+    case AdhesionLaw::jkr:
+      return say(
+          "Contact of Johnson, Kendall & Roberts (1971) with the work of adhesion {W}; "
+          "damping {C_H} on its elastic part, {C_A} on its adhesive part");
+    case AdhesionLaw::dmt:
+      return say(
+          "Hertz contact under the constant pull 2 pi {W} r of Derjaguin, Muller & Toporov "
+          "(1975); damping {C_H} on its elastic part, {C_A} on its adhesive part");
+  }
+  return {};
+}
+
 Section model_section(const Analysis& a) {
   Section section{"model", "Model"};
   section.blocks = {
-      Paragraph{say("Hertz contact with ring adhesion 2 pi {a} {f0} and damping {C_H}, {C_A} (Li, "
-                    "Dunn & Brach 1999, eq. 5)")},
+      Paragraph{equation_words(a.fitted.model.adhesion)},
       items(
           {{"adhesion damping",
             say("phase \"{}\", always dissipative", to_string(a.fitted.model.phase))},

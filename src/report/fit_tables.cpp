@@ -286,7 +286,8 @@ Table materials_table(const Analysis& a, std::size_t k) {
 Table contact_table(const Analysis& a, std::size_t k) {
   const ImpactSystem& system = a.datasets[k].system;
   const ContactProperties& contact = a.fitted.model.contacts[k];
-  const bool f0_free = a.fitted.model.slots[a.fitted.model.slot_f0[k]].free;
+  const bool by_force = a.fitted.model.adhesion == AdhesionLaw::ring;
+  const bool adhesion_free = a.fitted.model.slots[a.fitted.model.slot_adhesion[k]].free;
   const auto origin = [](bool stated) { return stated ? "stated" : "derived"; };
   Table table;
   table.caption = say("{}: the contact", a.datasets[k].id);
@@ -300,10 +301,18 @@ Table contact_table(const Analysis& a, std::size_t k) {
   const bool has_theta = a.fitted.theta.size() == a.fitted.model.slots.size();
   if (!has_theta) return table;
   const ImpactConditions conditions = reference_conditions(a, k, 1.0);
-  table.rows.push_back(
-      {say("{f0} [N/m]"), Number{conditions.adhesion_force},
-       say("{}; eq. 12 gives {}", f0_free ? "fitted" : origin(system.adhesion_force_f0.has_value()),
-           number(contact.adhesion_force_derived))});
+  table.rows.push_back({say("{f0} [N/m]"), Number{conditions.adhesion_force},
+                        say("{}; eq. 12 gives {}",
+                            !by_force       ? "of the W below"
+                            : adhesion_free ? "fitted"
+                                            : origin(system.adhesion_force_f0.has_value()),
+                            number(contact.adhesion_force_derived))});
+  table.rows.push_back({say("{W} [{J/m2}]"),
+                        Number{adhesion_energy_for(conditions.adhesion_force,
+                                                   conditions.diameter / 2.0, contact.stiffness)},
+                        by_force        ? "of this f0, by eqs 9 and 10"
+                        : adhesion_free ? "fitted"
+                                        : "of the materials"});
   table.rows.push_back({say("reference diameter [{um}]"),
                         Sentence(diameter_text(contact.reference_diameter)),
                         say("{f0} grows with the cube root of the radius from here")});
@@ -315,7 +324,8 @@ Table contact_table(const Analysis& a, std::size_t k) {
 }
 
 Table options_table(const Analysis& a) {
-  return items({{"fit", Sentence(a.spec.file.empty() ? a.spec.id : a.spec.file.generic_string())},
+  return items({{"adhesion", Sentence(to_string(a.fitted.model.adhesion))},
+                {"fit", Sentence(a.spec.file.empty() ? a.spec.id : a.spec.file.generic_string())},
                 {"adhesion damping acts", a.fitted.model.phase == AdhesionDampingPhase::rebound
                                               ? "during rebound"
                                               : "during approach and rebound"},

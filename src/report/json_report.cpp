@@ -66,7 +66,8 @@ Json options_json(const Analysis& a) {
     parameters[slot.label()] = entry;
   }
   // The number of threads is left out on purpose: no digit of a result depends on it.
-  return {{"adhesion_damping_phase", to_string(a.fitted.model.phase)},
+  return {{"adhesion", to_string(a.fitted.model.adhesion)},
+          {"adhesion_damping_phase", to_string(a.fitted.model.phase)},
           {"mechanisms", a.spec.mechanisms},
           {"replicates", options.replicates_auto ? Json("auto") : Json(options.replicates)},
           {"scheme", to_string(options.scheme)},
@@ -148,6 +149,9 @@ Json model_json(const Analysis& a) {
          {"stiffness_K_derived_Pa", number_or_null(contact.stiffness_derived)},
          {"adhesion_energy_J_per_m2", number_or_null(contact.adhesion_energy)},
          {"f0_N_per_m", number_or_null(conditions.adhesion_force)},
+         {"W_of_f0_J_per_m2",
+          number_or_null(adhesion_energy_for(conditions.adhesion_force, conditions.diameter / 2.0,
+                                             contact.stiffness))},
          {"f0_eq12_N_per_m", number_or_null(contact.adhesion_force_derived)},
          {"reference_diameter_um", number_or_null(contact.reference_diameter / units::um)},
          {"particle_density_kg_per_m3", number_or_null(contact.particle_density)},
@@ -155,6 +159,7 @@ Json model_json(const Analysis& a) {
          {"contradictions", contact.contradictions}});
   }
   return {{"equation", "Li, Dunn & Brach (1999), eq. 5"},
+          {"adhesion", to_string(a.fitted.model.adhesion)},
           {"adhesion_damping_phase", to_string(a.fitted.model.phase)},
           {"contacts", contacts}};
 }

@@ -71,17 +71,18 @@ std::vector<Meaning> combinations_of(const FitResult& fitted) {
   for (std::size_t d = 0; d < model.contacts.size(); ++d) {
     const std::size_t H = model.slot_C_H[d];
     const std::size_t A = model.slot_C_A[d];
-    const std::size_t f = model.slot_f0[d];
+    const std::size_t f = model.slot_adhesion[d];
     const double total = fitted.theta[A] + 2.0 * fitted.theta[H];
     if (!(total > 0.0)) continue;
-    // V_a ~ f0^(5/4).
+    // V_a ~ f0^(5/4), and f0 ~ W^(2/3) where W is the parameter.
+    const double per_force = model.adhesion == AdhesionLaw::ring ? 1.0 : 2.0 / 3.0;
     std::vector<double> near(fitted.theta.size(), 0.0);
-    near[f] = 3.75;
+    near[f] = 3.75 * per_force;
     near[A] += fitted.theta[A] / total;
     near[H] += 2.0 * fitted.theta[H] / total;
     list.push_back({Combination::capture_velocity, near});
     std::vector<double> far(fitted.theta.size(), 0.0);
-    far[f] = 1.0;
+    far[f] = per_force;
     far[A] = 1.0;
     list.push_back({Combination::adhesion_loss, far});
     std::vector<double> plateau(fitted.theta.size(), 0.0);

@@ -45,8 +45,8 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
   // Parameters of other datasets stay out of this: only what this diameter can tell is refitted.
   ImpactModel alone = fitted.model;
   for (std::size_t j = 0; j < alone.slots.size(); ++j) {
-    const bool used =
-        j == alone.slot_C_H[dataset] || j == alone.slot_C_A[dataset] || j == alone.slot_f0[dataset];
+    const bool used = j == alone.slot_C_H[dataset] || j == alone.slot_C_A[dataset] ||
+                      j == alone.slot_adhesion[dataset];
     alone.slots[j].free = alone.slots[j].free && used;
   }
   const FitResult on_one = fit(alone, seen);

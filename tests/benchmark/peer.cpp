@@ -21,7 +21,7 @@ constexpr int refits = 1999;
 
 /// C_H, C_A and f0 in the order of `names`, however theta is laid out.
 std::vector<double> in_order(const ImpactModel& model, const std::vector<double>& theta) {
-  return {theta[model.slot_C_H[0]], theta[model.slot_C_A[0]], theta[model.slot_f0[0]]};
+  return {theta[model.slot_C_H[0]], theta[model.slot_C_A[0]], theta[model.slot_adhesion[0]]};
 }
 
 Json named(const std::vector<double>& values) {
@@ -71,7 +71,7 @@ class Comparison {
     }
     theta[exact_.slot_C_H[0]] = result["estimate"]["C_H"];
     theta[exact_.slot_C_A[0]] = result["estimate"]["C_A"];
-    theta[exact_.slot_f0[0]] = result["estimate"]["f0"];
+    theta[exact_.slot_adhesion[0]] = result["estimate"]["f0"];
     result["difference_in_std_errors"] = named(off);
     result["largest_difference"] = largest;
     result["chi2_above_yardstick"] = chi2(theta) - least_;

@@ -274,7 +274,7 @@ Analysis four_diameters() {
                  slot(ParameterRole::adhesion_force, f0, 1e4, false)};
   model.slot_C_H = {0};
   model.slot_C_A = {1};
-  model.slot_f0 = {2};
+  model.slot_adhesion = {2};
   a.fitted.theta = {0.00312, 0.0487, f0};
   add_dataset(a, 0, {0.00312, 0.0487, f0}, {0.0046, 0.062}, false);
   add_statistics(a, {0.00021, 0.0023, 0.0});
@@ -305,7 +305,7 @@ Analysis two_datasets() {
   model.slots[3].dataset = a.datasets[1].id;
   model.slot_C_H = {0, 0};
   model.slot_C_A = {1, 1};
-  model.slot_f0 = {2, 3};
+  model.slot_adhesion = {2, 3};
   a.fitted.theta = {0.00312, 0.0487, 8.9, 5.9};
   add_dataset(a, 0, {0.00312, 0.0487, 8.9}, {0.0046, 0.062}, true);
   add_dataset(a, 1, {0.00312, 0.0487, 5.9}, {0.0046, 0.062}, true);

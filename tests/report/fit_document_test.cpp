@@ -323,13 +323,13 @@ TEST(FitTables, WithoutAdhesionThereIsNoCaptureVelocity) {
   ASSERT_FALSE(analysis.uncertainty.capture.empty());
   EXPECT_GT(number_in(capture_table(analysis).rows[0][2]).value, 0.0);
   analysis.fitted.model.contacts[0].adhesion_force = 0.0;
-  analysis.fitted.model.slots[analysis.fitted.model.slot_f0[0]].free = false;
+  analysis.fitted.model.slots[analysis.fitted.model.slot_adhesion[0]].free = false;
   const Table none = capture_table(analysis);
   ASSERT_EQ(none.rows.size(), 4U);
   for (const auto& row : none.rows) EXPECT_EQ(row.size(), 3U) << "no interval";
   EXPECT_TRUE(std::holds_alternative<Sentence>(none.rows[0][2]));
   // A fitted f0 is an adhesion.
-  analysis.fitted.model.slots[analysis.fitted.model.slot_f0[0]].free = true;
+  analysis.fitted.model.slots[analysis.fitted.model.slot_adhesion[0]].free = true;
   EXPECT_GT(number_in(capture_table(analysis).rows[0][2]).value, 0.0);
 }
 
