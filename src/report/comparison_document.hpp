@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "document/document.hpp"
+
+namespace recoil {
+
+/// One number that several fits have an opinion on.
+struct ComparedQuantity {
+  std::string name;  ///< "C_A", "V* (4.90 um)"
+  std::string unit;
+  double value = 0.0;
+  bool free = true;
+  std::optional<NumberRange> interval;  ///< the recommended one
+};
+
+/// What a comparison takes from one fit.json.
+struct ComparedFit {
+  std::string id;
+  std::string adhesion;
+  std::vector<std::string> mechanisms;
+  std::vector<std::string> data;  ///< id and sha256 of every dataset: what was fitted
+  double chi2 = 0.0;
+  int points = 0;
+  int free_parameters = 0;
+  bool sd_stated = false;
+  double rmse = 0.0;  ///< of e [1]
+  std::optional<double> held_out_rmse;
+  std::vector<ComparedQuantity> quantities;  ///< parameters, then capture velocities
+
+  /// Akaike's criterion for small samples, chi^2 + 2 k + 2 k (k + 1) / (n - k - 1) (Hurvich & Tsai
+  /// 1989, Biometrika 76, 297); none where no standard deviations are stated, as every fit then
+  /// has its own, or where there are too few points.
+  std::optional<double> aicc() const;
+};
+
+/// @param file names it in messages
+/// @throws InputError when `fit_json` is not the fit.json of a fit
+ComparedFit compared_fit(const std::string& file, const std::string& fit_json);
+
+/// What two fits disagree on: both have an interval, and these do not overlap.
+struct ChoiceDependence {
+  std::vector<std::string> depends, holds;
+};
+ChoiceDependence choice_dependence(const std::vector<ComparedFit>& fits);
+
+/// Fits of the same data side by side: how well they describe them, what they say of the parameters
+/// and capture velocities, and what of that depends on the choice.
+/// @throws InputError when they are not of the same data. @pre two or more
+std::vector<Section> comparison_sections(const std::vector<ComparedFit>& fits);
+
+}  // namespace recoil

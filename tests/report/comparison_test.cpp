@@ -1,0 +1,62 @@
+// Fits side by side, from what their fit.json say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "report/comparison_document.hpp"
+
+namespace recoil {
+namespace {
+
+using testing::ElementsAre;
+
+/// A fit.json with what a comparison reads.
+std::string fit_json(const std::string& id, const std::string& adhesion, double chi2,
+                     const std::string& C_A, const std::string& capture,
+                     const std::string& sha = "abc") {
+  return R"({"fit": {"id": ")" + id + R"("}, "options": {"adhesion": ")" + adhesion +
+         R"(", "mechanisms": []}, "datasets": [{"id": "d", "sha256": ")" + sha +
+         R"(", "points": 20}], "goodness": {"chi2": )" + std::to_string(chi2) +
+         R"(, "p_value": 0.4, "rmse": 0.02}, "full": {"held_out_rmse": 0.03}, "parameters": {
+           "C_H": {"unit": "s/m", "free": true, "value": 0.003, "intervals": {"wald": [0.002, 0.004]},
+                   "recommended": {"interval": "wald"}},
+           "C_A": {"unit": "s/m", "free": true, "value": 0.05, "intervals": {"wald": )" +
+         C_A + R"(}, "recommended": {"interval": "wald"}}},
+           "derived": {"capture_velocity": [{"dataset": "d", "diameter_um": 4.9, "value": 1.0,
+                                             "interval": )" +
+         capture + "}]}}";
+}
+
+TEST(Comparison, SaysWhatDependsOnTheChoice) {
+  const std::vector<ComparedFit> fits = {
+      compared_fit("a", fit_json("a", "ring", 18.0, "[0.04, 0.06]", "[0.9, 1.1]")),
+      compared_fit("b", fit_json("b", "jkr", 25.0, "[0.07, 0.08]", "[1.0, 1.3]"))};
+  const ChoiceDependence found = choice_dependence(fits);
+  EXPECT_THAT(found.depends, ElementsAre("C_A"));
+  EXPECT_THAT(found.holds, ElementsAre("C_H", "V* at 4.9 um"));
+  // k = 2, n = 20: 18 + 4 + 12 / 17.
+  EXPECT_NEAR(fits[0].aicc().value(), 22.0 + 12.0 / 17.0, 1e-9);
+  EXPECT_EQ(fits[1].adhesion, "jkr");
+  EXPECT_EQ(comparison_sections(fits).size(), 2U);
+}
+
+TEST(Comparison, ThreeFitsDependWhereAnyTwoAreApart) {
+  const std::vector<ComparedFit> fits = {
+      compared_fit("a", fit_json("a", "ring", 18.0, "[0.04, 0.06]", "[0.9, 1.1]")),
+      compared_fit("b", fit_json("b", "jkr", 25.0, "[0.05, 0.08]", "[1.0, 1.3]")),
+      compared_fit("c", fit_json("c", "dmt", 25.0, "[0.07, 0.09]", "null"))};
+  EXPECT_THAT(choice_dependence(fits).depends, ElementsAre("C_A"));
+  EXPECT_THAT(choice_dependence(fits).holds, ElementsAre("C_H", "V* at 4.9 um"));
+}
+
+TEST(Comparison, RefusesOtherDataAndWhatIsNoFit) {
+  const std::vector<ComparedFit> fits = {
+      compared_fit("a", fit_json("a", "ring", 18.0, "[0.04, 0.06]", "[0.9, 1.1]")),
+      compared_fit("b", fit_json("b", "jkr", 25.0, "[0.07, 0.08]", "[1.0, 1.3]", "other"))};
+  EXPECT_THROW(comparison_sections(fits), InputError);
+  EXPECT_THROW(compared_fit("x.json", "{"), InputError);
+  EXPECT_THROW(compared_fit("x.json", R"({"verdict": "adequate"})"), InputError);
+}
+
+}  // namespace
+}  // namespace recoil
