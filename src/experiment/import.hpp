@@ -9,6 +9,7 @@
 
 #include "core/names.hpp"
 #include "data/dataset.hpp"
+#include "data/inherited_system.hpp"
 
 namespace recoil {
 
@@ -76,6 +77,7 @@ enum class ImportRemark {
   no_source,
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,
+  overrides_left_out,  ///< `left_out`: they contradict the materials
 };
 
 /// Launches from one stated height, if their first bounces were like their second ones.
@@ -91,6 +93,7 @@ struct ImportNote {
   std::vector<std::string> names = {};
   std::size_t count = 0;
   std::vector<ReleaseCheck> releases = {};
+  std::vector<LeftOverride> left_out = {};
 };
 
 /// What was written.
@@ -104,6 +107,8 @@ struct ImportResult {
 /// valid.
 ///
 /// With `replace` the package that is there keeps its name, its materials and its other resources.
+/// An override of K, W_A or f0 that contradicts the materials is never taken over, neither from it
+/// nor from `like`.
 /// When it was a reconstruction, its recipe.toml is kept aside as recipe-set-aside.toml (no command
 /// takes it for the folder's recipe any more; recipes of other folders may still compare with it).
 ///

@@ -11,6 +11,7 @@
 #include "data/datapackage.hpp"
 #include "data/datapackage_writer.hpp"
 #include "data/folder_names.hpp"
+#include "data/inherited_system.hpp"
 #include "data/text.hpp"
 #include "experiment/option_values.hpp"
 
@@ -57,14 +58,13 @@ Json material(const std::string& words, const std::string& option) {
 }
 
 Json recoil_block(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
-                  Provenance provenance) {
+                  Provenance provenance, std::vector<ImportNote>& notes) {
   Json block;
   block["provenance"] = to_string(provenance);
   Json stated = existing ? existing->json["recoil"] : Json::object();
   if (!request.like.empty()) stated = stated_system(request.like);
   if (!request.particle.empty()) stated["particle"] = material(request.particle, "--particle");
   if (!request.surface.empty()) stated["surface"] = material(request.surface, "--surface");
-  if (request.adhesion_energy) stated["adhesion_energy"] = *request.adhesion_energy;
   for (const char* body : {"particle", "surface"}) {
     if (stated.contains(body)) continue;
     const bool sphere = std::string(body) == "particle";
@@ -75,6 +75,11 @@ Json recoil_block(const ImportRequest& request, const std::optional<ExistingPack
                     "..., or --like DIR",
                     body, sphere ? "density=...," : ""));
   }
+  if (request.adhesion_energy) stated.erase("adhesion_energy");  // not inherited then
+  ImportNote left{ImportRemark::overrides_left_out};
+  left.left_out = leave_out_contradictions(stated);
+  if (!left.left_out.empty()) notes.push_back(left);
+  if (request.adhesion_energy) stated["adhesion_energy"] = *request.adhesion_energy;
   for (const auto& [key, value] : stated.items()) {
     if (key != "provenance") block[key] = value;
   }
@@ -262,7 +267,7 @@ std::string imported_package(const ImportRequest& request, const PointsText& poi
   } else {
     package["resources"] = Json::array({resource});
   }
-  package["recoil"] = recoil_block(request, existing, provenance);
+  package["recoil"] = recoil_block(request, existing, provenance, notes);
   return package_text(package);
 }
 

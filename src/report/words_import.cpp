@@ -6,6 +6,7 @@
 #include "core/units.hpp"
 #include "data/folder_names.hpp"
 #include "data/text.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {
@@ -66,6 +67,8 @@ std::string note_sentence(const ImportNote& note) {
       return fmt::format(
           "the folder is no reconstruction any more; its {} is kept as {}, for comparison only",
           recipe_name, set_aside_recipe_name);
+    case ImportRemark::overrides_left_out:
+      return left_out_sentence(note.left_out);
   }
   return "";
 }

@@ -249,6 +249,18 @@ TEST(FitDocument, StaysNarrowWhateverTheWordsAre) {
   EXPECT_LE(longest_line(text_report(analysis)), terminal_columns) << text_report(analysis);
 }
 
+TEST(FitTables, TheContactNamesEveryF0ByTheStiffnessItFollowsFrom) {
+  Analysis analysis = sample::four_diameters();
+  const auto f0_from = [&] { return words(row_of(contact_table(analysis, 0), "f0 [N/m]")[2]); };
+  EXPECT_EQ(f0_from(), "derived; eq. 12 gives 8.908");
+  // By hand, (9 W^2 K r / (2 pi))^(1/3) with W = 0.336 J/m2, r = 2.45 um and either K.
+  ImpactSystem& system = analysis.datasets[0].system;
+  system.adhesion_energy = 0.336;
+  system.stiffness_K = 0.2 * 1.789e9;
+  analysis.fitted.model.contacts[0] = derive_contact(system, 4.9e-6);
+  EXPECT_EQ(f0_from(), "derived; eq. 12 gives 5.214 with this K, 8.915 with that of eq. 6");
+}
+
 TEST(FitTables, GiveEstimateErrorIntervalAndStartOfAParameter) {
   const Table table = parameters_table(sample::four_diameters());
   ASSERT_EQ(table.rows.size(), 3U);
