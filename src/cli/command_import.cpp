@@ -80,7 +80,8 @@ void add_import(CLI::App& program) {
   command->add_option(
       "--particle", r.particle,
       "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
-  command->add_option("--surface", r.surface, "the same of the surface, without density");
+  command->add_option("--surface", r.surface,
+                      "the same of the surface; its density may be left out");
   command->add_option("--like", flags->like, "take the materials of this dataset");
   command->add_option("--adhesion-energy", r.adhesion_energy,
                       "of the pair of materials [J/m2]; 0: no adhesion");

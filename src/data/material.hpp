@@ -8,7 +8,7 @@ namespace recoil {
 /// An elastic solid, as a dataset states it.
 struct Material {
   std::string name;
-  double density = 0.0;                  ///< [kg/m3]; needed for the particle only
+  double density = 0.0;                  ///< [kg/m3]; 0: not stated, for the surface only
   double youngs_modulus = 0.0;           ///< E [Pa]
   double poisson_ratio = 0.0;            ///< nu [1], -1 < nu <= 0.5
   std::optional<double> surface_energy;  ///< gamma [J/m2]; Gilman's estimate when absent
