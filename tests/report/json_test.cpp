@@ -107,6 +107,22 @@ TEST(JsonReport, RepeatsTheNumbersExactly) {
   EXPECT_NEAR(fit["correlation"]["C_H"]["C_A"].get<double>(), -0.43, 1e-12);
 }
 
+TEST(JsonReport, SaysWhereTheModelHolds) {
+  Analysis analysis = sample::four_diameters();
+  analysis.validity = {{ValidityQuantity::contact_radius, 0.52, 0.3, 0, 4.9e-6, 100.0},
+                       {ValidityQuantity::tabor, 13.4, 5.0, 0, 4.9e-6, 100.0}};
+  const PlainJson validity = PlainJson::parse(json_report(analysis))["validity"];
+  ASSERT_EQ(validity.size(), 2U);
+  EXPECT_EQ(validity[0]["quantity"], "contact_radius_over_sphere_radius");
+  EXPECT_EQ(validity[0]["value"], 0.52);
+  EXPECT_EQ(validity[0]["limit"], 0.3);
+  EXPECT_EQ(validity[0]["limit_is"], "largest");
+  EXPECT_EQ(validity[0]["passed"], true);
+  EXPECT_THAT(validity[0]["text"].get<std::string>(), HasSubstr("0.52 of the sphere's radius"));
+  EXPECT_EQ(validity[1]["limit_is"], "least");
+  EXPECT_EQ(validity[1]["passed"], false);
+}
+
 TEST(JsonReport, GivesAReasonForEveryMissingInterval) {
   const PlainJson fit = PlainJson::parse(json_report(sample::four_diameters()));
   for (const auto& [name, parameter] : fit["parameters"].items()) {
@@ -122,7 +138,8 @@ TEST(JsonReport, GivesAReasonForEveryMissingInterval) {
 }
 
 /// Collects the pointers of null values.
-void collect_nulls(const PlainJson& value, const std::string& where, std::vector<std::string>& nulls) {
+void collect_nulls(const PlainJson& value, const std::string& where,
+                   std::vector<std::string>& nulls) {
   if (value.is_null()) nulls.push_back(where);
   if (!value.is_structured()) return;
   for (const auto& [key, child] : value.items()) collect_nulls(child, where + "/" + key, nulls);
