@@ -14,7 +14,8 @@ struct Material {
   std::optional<double> surface_energy;  ///< gamma [J/m2]; Gilman's estimate when absent
 };
 
-/// The two bodies of an impact, and what the dataset states instead of deriving it.
+/// The two bodies of an impact, what the dataset states instead of deriving it, and the conditions
+/// of all its points.
 struct ImpactSystem {
   Material particle;
   Material surface;
@@ -22,6 +23,8 @@ struct ImpactSystem {
   std::optional<double> adhesion_energy;    ///< W_A [J/m2], instead of 2 sqrt(gamma1 gamma2)
   std::optional<double> adhesion_force_f0;  ///< f0 [N/m] at `reference_diameter`, instead of eq. 12
   std::optional<double> reference_diameter;  ///< [m]
+  std::optional<double> ambient_pressure;    ///< [Pa]; 0: vacuum
+  std::optional<double> temperature;         ///< [K]
 };
 
 }  // namespace recoil

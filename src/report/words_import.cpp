@@ -17,6 +17,15 @@ std::string release_words(const ReleaseCheck& check) {
                      check.missing / units::mm);
 }
 
+std::string air_sentence(const AirShare& air) {
+  return fmt::format(
+      "the drag of the air ({:g} Pa, {:g} K) was taken out; it took {:.2g} % of e at {:.3g} m/s "
+      "and "
+      "{:.2g} % at {:.3g} m/s (--ambient-pressure 0 for vacuum)",
+      air.pressure, air.temperature, 100.0 * air.slow_share, air.slow, 100.0 * air.fast_share,
+      air.fast);
+}
+
 }  // namespace
 
 std::string note_sentence(const ImportNote& note) {
@@ -43,6 +52,16 @@ std::string note_sentence(const ImportNote& note) {
     case ImportRemark::without_air:
       return "V = sqrt(2 g h) leaves out the air, and both heights have to be those of the same "
              "point of the ball";
+    case ImportRemark::same_point:
+      return "both heights have to be those of the same point of the ball";
+    case ImportRemark::air_drag:
+      return air_sentence(note.air);
+    case ImportRemark::turbulent_air:
+      return fmt::format(
+          "the Reynolds number of the fastest impact, {:.2g}, is beyond the law of drag (2e5), "
+          "from "
+          "where on the drag of a smooth sphere can fall to a fifth",
+          note.air.reynolds);
     case ImportRemark::bounces_missing:
       return fmt::format("{} {} of intervals left out, because a bounce between them is missing",
                          note.count, note.count == 1 ? "pair" : "pairs");
