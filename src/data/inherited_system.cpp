@@ -1,5 +1,6 @@
 #include "data/inherited_system.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/error.hpp"
@@ -22,7 +23,8 @@ std::optional<ImpactSystem> readable_system(const Json& system) {
 
 }  // namespace
 
-std::vector<LeftOverride> leave_out_contradictions(Json& system) {
+std::vector<LeftOverride> leave_out_contradictions(Json& system,
+                                                   const std::vector<std::string>& own) {
   std::vector<LeftOverride> left;
   std::optional<ImpactSystem> kept = readable_system(system);
   if (!kept) return left;
@@ -32,6 +34,7 @@ std::vector<LeftOverride> leave_out_contradictions(Json& system) {
                              double ContactProperties::*derived) {
     const std::optional<double> value = (*kept).*stated;
     const double other = derive_contact(*kept, diameter).*derived;
+    if (std::find(own.begin(), own.end(), key) != own.end()) return false;
     if (!value || *value == 0.0 || !contradicts(*value, other)) return false;
     left.push_back({key, *value, other});
     system.erase(key);

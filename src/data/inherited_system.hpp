@@ -19,7 +19,11 @@ struct LeftOverride {
 /// that follows from the materials. f0 is compared with eq. 12 after the others are gone, and takes
 /// its `reference_diameter` [m] along. A stated 0 (no adhesion) contradicts nothing.
 ///
+/// @param own keys that are stated anew and not taken over: they are kept, and the others compared
+///   with what follows from them
+///
 /// A system that cannot be read is left as it is, since whoever reads it says where it is wrong.
-std::vector<LeftOverride> leave_out_contradictions(Json& system);
+std::vector<LeftOverride> leave_out_contradictions(Json& system,
+                                                   const std::vector<std::string>& own = {});
 
 }  // namespace recoil

@@ -253,11 +253,14 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
                     "..., or --like DIR",
                     body, sphere ? "density=...," : ""));
   }
-  if (request.adhesion_energy) stated.erase("adhesion_energy");  // not inherited then
+  std::vector<std::string> own;
+  if (request.adhesion_energy) {
+    own = {"adhesion_energy"};
+    stated[own.front()] = *request.adhesion_energy;
+  }
   ImportNote left{ImportRemark::overrides_left_out};
-  left.left_out = leave_out_contradictions(stated);
+  left.left_out = leave_out_contradictions(stated, own);
   if (!left.left_out.empty()) notes.push_back(left);
-  if (request.adhesion_energy) stated["adhesion_energy"] = *request.adhesion_energy;
   put_conditions(request, stated);
   for (const auto& [key, value] : stated.items()) {
     if (key != "provenance") block[key] = value;

@@ -84,6 +84,18 @@ TEST(InheritedSystem, AStatedSurfaceEnergyIsWhatTheAdhesionEnergyIsHeldAgainst) 
   EXPECT_TRUE(leave_out_contradictions(system).empty());
 }
 
+TEST(InheritedSystem, WhatIsStatedAnewIsKeptAndDecides) {
+  // With W = 0.05 J/m2 eq. 12 gives 308.8546 (0.05 / 2.72)^(2/3) = 21.5124 N/m.
+  Json system = steel();
+  system["adhesion_energy"] = 0.05;
+  system["adhesion_force_f0"] = 308.8546;
+  system["reference_diameter"] = 49e-6;
+  const auto left = leave_out_contradictions(system, {"adhesion_energy"});
+  ASSERT_EQ(keys_of(left), Keys{"adhesion_force_f0"});
+  EXPECT_NEAR(left[0].derived, 21.51236, 1e-4);
+  EXPECT_EQ(system["adhesion_energy"], 0.05);
+}
+
 TEST(InheritedSystem, WhatCannotBeReadIsLeftToItsReader) {
   Json system = steel();
   system["stiffness_K"] = 11.4e9;
