@@ -49,6 +49,17 @@ TEST(Simulate, BudgetAddsUpToTheWhole) {
               100.0, 3e-5);
 }
 
+TEST(Simulate, SaysWhereTheModelHolds) {
+  const Workplace place;
+  const auto at = [&](const std::string& velocity) {
+    return place.run({"simulate", "fit.toml", "--velocity", velocity, "--diameter", "4.9"}).out;
+  };
+  EXPECT_NE(at("1").find("contact radius over that of the sphere"), std::string::npos);
+  EXPECT_EQ(at("1").find("note: the contact grows"), std::string::npos);
+  // (5 pi / 4 rho V^2 / E*)^(1/5) is above 0.3 for any organic solid at 100 m/s.
+  EXPECT_NE(at("100").find("note: the contact grows to 0."), std::string::npos);
+}
+
 TEST(Simulate, WritesTheForceHistory) {
   const Workplace place;
   const Outcome run = place.run({"simulate", "fit.toml", "--velocity", "5.2", "--diameter", "4.9",

@@ -257,7 +257,7 @@ TEST(FitDocument, SaysWhereAPointPassesALimitOfTheModel) {
   EXPECT_THAT(text, testing::HasSubstr(
                         "[[Limits of the Model]]\n"
                         "    - On example-silicon the contact grows to 0.52 of the sphere's radius "
-                        "(100 m/s, 4.9 um);\n      Hertz' theory is good to about 0.3.\n"));
+                        "(100 m/s, 4.9 um); Hertz'\n      theory is good to about 0.3.\n"));
   EXPECT_EQ(text.find("Tabor"), std::string::npos);  // within its limit: only in fit.json
   const Document page = fit_document(analysis);
   EXPECT_NE(section_of(page, "validity"), nullptr);
