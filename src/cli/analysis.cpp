@@ -137,6 +137,7 @@ Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}",
                                        analysis.spec.file.string(), analysis.fitted.failure));
   }
+  analysis.validity = fit_validity(analysis.fitted, analysis.datasets);
   return analysis;
 }
 

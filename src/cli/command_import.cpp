@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
+#include "data/limits.hpp"
 #include "data/text.hpp"
 #include "experiment/import.hpp"
 #include "report/dataset_document.hpp"
@@ -80,7 +81,8 @@ void add_import(CLI::App& program) {
   command->add_option(
       "--particle", r.particle,
       "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
-  command->add_option("--surface", r.surface, "the same of the surface, without density");
+  command->add_option("--surface", r.surface,
+                      "the same of the surface; its density may be left out");
   command->add_option("--like", flags->like, "take the materials of this dataset");
   command->add_option("--adhesion-energy", r.adhesion_energy,
                       "of the pair of materials [J/m2]; 0: no adhesion");
@@ -109,6 +111,13 @@ void add_import(CLI::App& program) {
                       "one standard deviation of the time of one bounce: 1ms");
   command->add_flag("--average", r.average, "make one point of all drops from the same height");
   command->add_option("--gravity", r.gravity, "gravity [m/s2]")->capture_default_str();
+  command
+      ->add_option("--ambient-pressure", r.ambient_pressure,
+                   "of the air [Pa], whose drag is taken out of heights and intervals (default "
+                   "101325); 0: vacuum")
+      ->check(CLI::Range(0.0, limits::highest_pressure));
+  command->add_option("--temperature", r.temperature, "of the air [K] (default 293)")
+      ->check(CLI::Range(limits::lowest_temperature, limits::highest_temperature));
   for (CLI::Option* option : command->get_options()) {
     if (option->get_items_expected_max() > 1)
       option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -7,8 +7,10 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
+#include "data/datapackage_writer.hpp"
 #include "data/dataset.hpp"
 #include "data/folder_names.hpp"
+#include "data/inherited_system.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
@@ -16,6 +18,7 @@
 #include "plot/draw.hpp"
 #include "report/experiment_figures.hpp"
 #include "report/pairing_document.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {
@@ -120,8 +123,10 @@ void write_dataset(const PairCommand& command, const PassageTable& table,
                    const PairingResult& pairs, const std::string& points) {
   const bool mixed =
       command.averaging.size_edges.size() <= 2 && command.averaging.size_classes == 1;
+  Json system = stated_system(command.like);
+  const std::vector<LeftOverride> left_out = leave_out_contradictions(system);
   const std::string package = package_json(
-      command.like, fs::absolute(command.into).lexically_normal().filename(),
+      system, fs::absolute(command.into).lexically_normal().filename(),
       provenance_of(command, table), fs::path(table.file).filename().string(),
       fmt::format("{} impacts that recoil pair found in {} passages; the measuring plane {:.5g} mm "
                   "above the surface; velocities at the surface.",
@@ -133,6 +138,7 @@ void write_dataset(const PairCommand& command, const PassageTable& table,
     write_whole_file(fs::path(command.into) / "sizes.csv", sizes_csv(distributions(table, pairs)));
   }
   write_whole_file(fs::path(command.into) / package_file_name, package);
+  if (!left_out.empty()) fmt::print("note: {}\n", left_out_sentence(left_out));
 }
 
 void run_pair(PairCommand command) {

@@ -12,7 +12,9 @@
 #include "document/terminal.hpp"
 #include "estimate/predictor.hpp"
 #include "impact/sensitivity.hpp"
+#include "predict/validity.hpp"
 #include "report/words_dataset.hpp"
+#include "report/words_validity.hpp"
 
 namespace recoil {
 namespace {
@@ -216,6 +218,11 @@ void simulate(const SimulateOptions& options) {
   const std::size_t d = choose_dataset(datasets, options.dataset);
   ImpactConditions conditions =
       conditions_at(model, model.initial(), d, options.diameter * units::um, options.velocity);
+  fmt::print("parameters: {}\n  C_H = {:.6g} s/m, C_A = {:.6g} s/m\n",
+             options.parameters.empty()
+                 ? "initial values of the fit file (--parameters fit.json takes fitted ones)"
+                 : "from " + options.parameters,
+             conditions.hertz_damping, conditions.adhesion_damping);
   ImpactOptions impact_options;
   impact_options.adhesion = model.adhesion;
   impact_options.phase = model.phase;
@@ -247,15 +254,14 @@ void simulate(const SimulateOptions& options) {
   }
   print_impact(groups, scales, conditions, impact, datasets[d], model.contacts[d], model.phase,
                extended);
+  const std::vector<Validity> validity =
+      impact_validity(model, datasets[d].system, model.initial(),
+                      {d, options.diameter * units::um, options.velocity});
+  fmt::print("{}", terminal_text(validity_table(validity), indent));
+  for (const std::string& sentence : passed_limits(validity, {})) print_line("note: " + sentence);
   if (!extended) {
     fmt::print("{}", terminal_text(sensitivities(conditions, impact, datasets[d]), indent));
   }
-  print_line(
-      fmt::format("parameters: C_H = {:.6g} s/m, C_A = {:.6g} s/m ({})", conditions.hertz_damping,
-                  conditions.adhesion_damping,
-                  options.parameters.empty()
-                      ? "initial values of the fit file; --parameters fit.json takes fitted ones"
-                      : "from " + options.parameters));
 }
 
 }  // namespace

@@ -206,7 +206,7 @@ std::string limits_block(const CLI::App&) {
       {"diameter", "m", limits::smallest_diameter, limits::largest_diameter},
       {"velocity", "m/s", limits::slowest_velocity, limits::fastest_velocity},
       {"restitution (above 1: kept, with a warning)", "1", 0.0, limits::largest_restitution},
-      {"density of the particle", "kg/m3", limits::lowest_density, limits::highest_density},
+      {"density", "kg/m3", limits::lowest_density, limits::highest_density},
       {"Young's modulus", "Pa", limits::lowest_modulus, limits::highest_modulus},
       {"surface energy", "J/m2", 0.0, limits::highest_surface_energy},
       {"adhesion energy", "J/m2", 0.0, limits::highest_adhesion_energy},

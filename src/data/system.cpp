@@ -95,6 +95,16 @@ void read_overrides(const JsonNode& recoil, ImpactSystem& system) {
   }
 }
 
+void read_conditions(const JsonNode& conditions, ImpactSystem& system) {
+  conditions.allow_only({"ambient_pressure", "temperature"});
+  system.ambient_pressure = bounded_if_any(
+      conditions, "ambient_pressure",
+      {0.0, limits::highest_pressure, "Pa", "give it in Pa: 1 atm is 101325 Pa, 0 is vacuum"});
+  system.temperature = bounded_if_any(conditions, "temperature",
+                                      {limits::lowest_temperature, limits::highest_temperature, "K",
+                                       "give it in K: 20 degrees Celsius are 293 K"});
+}
+
 }  // namespace
 
 Provenance read_provenance(const JsonNode& recoil) {
@@ -108,11 +118,12 @@ Provenance read_provenance(const JsonNode& recoil) {
 
 ImpactSystem read_system(const JsonNode& recoil) {
   recoil.allow_only({"provenance", "particle", "surface", "stiffness_K", "adhesion_energy",
-                     "adhesion_force_f0", "reference_diameter"});
+                     "adhesion_force_f0", "reference_diameter", "conditions"});
   ImpactSystem system;
   system.particle = read_material(recoil, "particle", true);
   system.surface = read_material(recoil, "surface", false);
   read_overrides(recoil, system);
+  if (const auto conditions = recoil.find("conditions")) read_conditions(*conditions, system);
   return system;
 }
 

@@ -9,8 +9,8 @@ namespace recoil {
 /// @throws InputError at the value, or when there is none.
 Provenance read_provenance(const JsonNode& recoil);
 
-/// The two materials and the overrides of the object under the key `recoil`, which is refused when
-/// it has keys that are not known.
+/// The two materials, the overrides and the conditions of the object under the key `recoil`, which
+/// is refused when it has keys that are not known.
 /// @throws InputError at the key or value that is missing or physically impossible.
 ImpactSystem read_system(const JsonNode& recoil);
 

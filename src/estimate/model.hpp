@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "data/contact.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
 #include "estimate/solver_settings.hpp"
-#include "impact/contact.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/extended_impacts.hpp"
 #include "mechanism/parameter.hpp"

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/folder_names.hpp"
 #include "data/text.hpp"
 #include "experiment/import_columns.hpp"
+#include "experiment/import_diameters.hpp"
 #include "experiment/import_digitised.hpp"
 #include "experiment/import_flights.hpp"
 #include "experiment/import_package.hpp"
@@ -21,87 +21,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ImportedPoints read_points_of(const ImportRequest& request,
+ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
                               const std::vector<std::string>& package_map) {
   switch (request.format) {
     case ImportFormat::webplotdigitizer:
       return read_digitised(request);
     case ImportFormat::heights:
-      return read_heights(request);
+      return read_heights(request, sphere_in_air(system));
     case ImportFormat::intervals:
-      return read_intervals(request);
+      return read_intervals(request, sphere_in_air(system));
     case ImportFormat::csv:
       break;
   }
   return read_columns(request, package_map);
-}
-
-/// The diameter that --diameter states for a series.
-std::optional<double> stated_diameter(const ImportRequest& request, const std::string& series) {
-  std::optional<double> found;
-  for (const std::string& word : request.diameters) {
-    const auto pair = split_pair(word);
-    if (pair && pair->first != series) continue;
-    const double value =
-        value_with_unit(pair ? pair->second : word, Dimension::length, "--diameter");
-    if (pair) return value;
-    found = value;
-  }
-  return found;
-}
-
-/// A diameter in the name of a series: "2.58 um", "d = 4.9um on Mo".
-std::optional<double> diameter_in_name(const std::string& series) {
-  static const std::regex pattern(
-      R"re((^|[^0-9.])([0-9]+\.?[0-9]*)\s*(nm|um|µm|mm)($|[^a-zA-Z]))re");
-  std::smatch match;
-  if (!std::regex_search(series, match, pattern)) return std::nullopt;
-  const auto number = parse_number(match[2].str());
-  const auto factor = unit_factor(Dimension::length, match[3].str());
-  return number && factor ? std::optional<double>(*number * *factor) : std::nullopt;
-}
-
-void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
-  const StatedError error =
-      stated_error(request.diameter_error, Dimension::length, "--diameter-error");
-  std::vector<std::string> named;
-  std::vector<std::string> series;
-  bool asked = request.diameters.empty();
-  for (const std::string& word : request.diameters) {  // also those that nothing will need
-    const auto pair = split_pair(word);
-    value_with_unit(pair ? pair->second : word, Dimension::length, "--diameter");
-  }
-  for (ImportedPoint& point : imported.points) {
-    if (std::find(series.begin(), series.end(), point.series) == series.end()) {
-      series.push_back(point.series);
-    }
-    asked = asked || !point.diameter;
-    if (!point.diameter) point.diameter = stated_diameter(request, point.series);
-    if (!point.diameter) {
-      point.diameter = diameter_in_name(point.series);
-      if (point.diameter && std::find(named.begin(), named.end(), point.series) == named.end()) {
-        named.push_back(point.series);
-      }
-    }
-    if (!point.diameter) {
-      throw InputError({request.file.string(), point.line, 1},
-                       fmt::format("the diameter of series {} is not known", quote(point.series)),
-                       "", "give --diameter 4.9um, or --diameter \"SERIES=4.9um\" for each series");
-    }
-    if (error.stated() && !point.diameter_sd) point.diameter_sd = error.of(*point.diameter);
-  }
-  for (const std::string& word : request.diameters) {
-    const auto pair = split_pair(word);
-    if (!pair || std::find(series.begin(), series.end(), pair->first) != series.end()) continue;
-    throw InputError({}, fmt::format("--diameter {}: there is no such series", quote(word)), "",
-                     did_you_mean(pair->first, series));
-  }
-  if (!asked) {
-    imported.notes.push_back({ImportRemark::diameter_not_used});
-  }
-  if (!named.empty()) {
-    imported.notes.push_back({ImportRemark::diameters_from_names, named});
-  }
 }
 
 /// The scatter of the experiment on top of what the readings contribute.
@@ -184,15 +116,16 @@ ImportResult import_points(const ImportRequest& request) {
   require_free(request);
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();
+  ImportResult result;
+  const Json system = imported_system(request, existing, result.notes);
   ImportedPoints imported =
-      read_points_of(request, existing ? existing->map : std::vector<std::string>());
+      read_points_of(request, system, existing ? existing->map : std::vector<std::string>());
   settle_diameters(request, imported);
   add_scatter(request, imported.points);
 
-  ImportResult result;
-  result.notes = std::move(imported.notes);
+  result.notes.insert(result.notes.begin(), imported.notes.begin(), imported.notes.end());
   const PointsText points = points_text(imported.points);
-  const std::string package = imported_package(request, points, existing, result.notes);
+  const std::string package = imported_package(request, system, points, existing, result.notes);
   const fs::path points_file = request.into / (existing ? existing->points_path : "points.csv");
   try {
     result.dataset = parse_dataset(package, points.csv, request.into);

@@ -9,6 +9,7 @@
 
 #include "core/names.hpp"
 #include "data/dataset.hpp"
+#include "data/inherited_system.hpp"
 
 namespace recoil {
 
@@ -54,10 +55,12 @@ struct ImportRequest {
   std::string scatter;            ///< of e, beside the errors of the reading
   double captured_below = 0.0;    ///< a restitution below this is a capture [1]
 
-  std::string drop_error, rebound_error;  ///< of the heights
-  std::string time_error;                 ///< of one bounce
-  bool average = false;                   ///< repeated drops from one height become one point
-  std::string gravity = "9.80665";        ///< [m/s2]
+  std::string drop_error, rebound_error;   ///< of the heights
+  std::string time_error;                  ///< of one bounce
+  bool average = false;                    ///< repeated drops from one height become one point
+  std::string gravity = "9.80665";         ///< [m/s2]
+  std::optional<double> ambient_pressure;  ///< [Pa]; 0: vacuum
+  std::optional<double> temperature;       ///< [K]
 };
 
 /// What was assumed, left out or found by a check.
@@ -69,13 +72,17 @@ enum class ImportRemark {
   reading_error_alone,   ///< restitution_sd holds no scatter of the experiment
   few_drops,             ///< fewer than five from some heights
   no_drop_error,
-  without_air,      ///< V = sqrt(2 g h)
+  without_air,      ///< heights: V = sqrt(2 g h)
+  same_point,       ///< heights: both of the same point of the ball
+  air_drag,         ///< `air`: what the air's drag makes of e
+  turbulent_air,    ///< `air`: faster than the law of drag knows
   bounces_missing,  ///< `count` pairs of intervals left out
   release_heights,  ///< `releases`: a check, no point rests on them
   shared_bounces,   ///< errors of successive points are not independent
   no_source,
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,
+  overrides_left_out,  ///< `left_out`: they contradict the materials
 };
 
 /// Launches from one stated height, if their first bounces were like their second ones.
@@ -86,11 +93,22 @@ struct ReleaseCheck {
   double missing = 0.0;  ///< by how much the ball seems to have fallen further [m]
 };
 
+/// What the drag of the air does to a restitution that is read without it.
+struct AirShare {
+  double pressure = 0.0;                ///< [Pa]
+  double temperature = 0.0;             ///< [K]
+  double slow = 0.0, slow_share = 0.0;  ///< slowest impact [m/s], by which part of e too low [1]
+  double fast = 0.0, fast_share = 0.0;  ///< the same of the fastest
+  double reynolds = 0.0;                ///< the largest
+};
+
 struct ImportNote {
   ImportRemark remark = ImportRemark::no_source;
   std::vector<std::string> names = {};
   std::size_t count = 0;
   std::vector<ReleaseCheck> releases = {};
+  std::vector<LeftOverride> left_out = {};
+  AirShare air = {};
 };
 
 /// What was written.
@@ -104,6 +122,8 @@ struct ImportResult {
 /// valid.
 ///
 /// With `replace` the package that is there keeps its name, its materials and its other resources.
+/// An override of K, W_A or f0 that contradicts the materials is never taken over, neither from it
+/// nor from `like`.
 /// When it was a reconstruction, its recipe.toml is kept aside as recipe-set-aside.toml (no command
 /// takes it for the folder's recipe any more; recipes of other folders may still compare with it).
 ///

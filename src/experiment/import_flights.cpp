@@ -8,12 +8,15 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "data/limits.hpp"
 #include "data/text.hpp"
+#include "experiment/import_diameters.hpp"
 #include "experiment/import_table.hpp"
 
 namespace recoil {
 namespace {
 
+constexpr double thinnest_air = 1e-3;     // [Pa]
 constexpr double slowest_gravity = 1e-3;  // [m/s2]
 constexpr double fastest_gravity = 1e3;
 
@@ -97,9 +100,77 @@ std::vector<Launch> gather_launches(const ImportTable& table, const ImportReques
   return launches;
 }
 
+/// The spheres of one import in their air, and what it does to e.
+class Reduction {
+ public:
+  Reduction(const ImportRequest& request, const SphereInAir& sphere, double gravity)
+      : request_(request), sphere_(sphere), gravity_(gravity) {}
+
+  /// The flights of a sphere of `series`; nothing in vacuum, and where size, density or air are
+  /// unknown or impossible (the dataset is refused then).
+  std::optional<AirFlight> flights_of(const std::string& series,
+                                      const std::optional<double>& in_file) const {
+    const std::optional<double> diameter = known_diameter(request_, series, in_file);
+    const auto within = [](double value, double low, double high) {
+      return value >= low && value <= high;
+    };
+    const bool possible =
+        diameter && within(*diameter, limits::smallest_diameter, limits::largest_diameter) &&
+        within(sphere_.density, limits::lowest_density, limits::highest_density) &&
+        within(sphere_.air.pressure, thinnest_air, limits::highest_pressure) &&
+        within(sphere_.air.temperature, limits::lowest_temperature, limits::highest_temperature);
+    if (!possible) return std::nullopt;
+    return AirFlight(sphere_.air, *diameter, sphere_.density, gravity_);
+  }
+
+  /// Keeps what the air did to one point. @param plain e as it would be in vacuum
+  void add(const ImportTable& table, std::size_t row, const std::string& quantity,
+           const AirFlight& flights, const ImportedPoint& point, double plain) {
+    const double e = *point.restitution;
+    if (!(e <= limits::largest_restitution) && plain <= limits::largest_restitution) {
+      table.fail(row, quantity,
+                 fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
+                             sphere_.air.pressure),
+                 "a sphere of this size and density could not have come so far",
+                 "check --diameter and the density, or write --ambient-pressure 0 for vacuum");
+    }
+    const double share = e > 0.0 ? 1.0 - plain / e : 0.0;
+    if (!any_ || point.velocity < share_.slow) {
+      share_.slow = point.velocity;
+      share_.slow_share = share;
+    }
+    if (!any_ || point.velocity > share_.fast) {
+      share_.fast = point.velocity;
+      share_.fast_share = share;
+    }
+    share_.reynolds = std::max(share_.reynolds, flights.reynolds(point.velocity));
+    any_ = true;
+  }
+
+  void note(std::vector<ImportNote>& notes) const {
+    if (!any_) return;
+    ImportNote note{ImportRemark::air_drag};
+    note.air = share_;
+    note.air.pressure = sphere_.air.pressure;
+    note.air.temperature = sphere_.air.temperature;
+    notes.push_back(note);
+    if (share_.reynolds <= drag_law_reynolds) return;
+    note.remark = ImportRemark::turbulent_air;
+    notes.push_back(note);
+  }
+
+ private:
+  const ImportRequest& request_;
+  SphereInAir sphere_;
+  double gravity_;
+  bool any_ = false;
+  AirShare share_;
+};
+
 /// What the first two flights say of the height from which the ball was released, were its first
 /// bounce like its second.
-std::vector<ReleaseCheck> release_check(const std::vector<Launch>& launches, double gravity) {
+std::vector<ReleaseCheck> release_check(const std::vector<Launch>& launches, double gravity,
+                                        const Reduction& reduction) {
   struct Sum {
     double first = 0.0;    // e of the first bounce, with the stated height
     double second = 0.0;   // e of the second
@@ -110,13 +181,21 @@ std::vector<ReleaseCheck> release_check(const std::vector<Launch>& launches, dou
   for (const Launch& launch : launches) {
     if (!launch.release || launch.flights.size() < 2 || !(*launch.release > 0.0)) continue;
     if (launch.flights[1].bounce != launch.flights[0].bounce + 1.0) continue;
-    const double fall = std::sqrt(2.0 * gravity * *launch.release);
-    const double first = 0.5 * gravity * launch.flights[0].duration / fall;
-    const double second = launch.flights[1].duration / launch.flights[0].duration;
-    Sum& sum = by_height[*launch.release];
+    const double height = *launch.release;
+    double first = 0.5 * gravity * launch.flights[0].duration / std::sqrt(2.0 * gravity * height);
+    double second = launch.flights[1].duration / launch.flights[0].duration;
+    double missing = (first * first / (second * second) - 1.0) * height;
+    if (const auto air = reduction.flights_of(launch.name, launch.diameter)) {
+      const double up = air->launch_for_duration(launch.flights[0].duration);
+      first = up / air->fall(height).speed;
+      second = air->launch_for_duration(launch.flights[1].duration) / air->return_speed(up);
+      missing = air->fall_to_reach(up / second) - height;
+      if (!std::isfinite(missing)) continue;
+    }
+    Sum& sum = by_height[height];
     sum.first += first;
     sum.second += second;
-    sum.missing += (first * first / (second * second) - 1.0) * *launch.release;
+    sum.missing += missing;
     sum.count += 1.0;
   }
   std::vector<ReleaseCheck> checks;
@@ -138,7 +217,9 @@ double gravity_of(const ImportRequest& request) {
 
 }  // namespace
 
-ImportedPoints read_heights(const ImportRequest& request) {
+bool air_acts(const Air& air) { return air.pressure >= thinnest_air; }
+
+ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sphere) {
   const ImportTable table(request.file, request.map,
                           {{"series", Dimension::text},
                            {"diameter", Dimension::length},
@@ -150,6 +231,7 @@ ImportedPoints read_heights(const ImportRequest& request) {
   const StatedError rebound =
       stated_error(request.rebound_error, Dimension::length, "--rebound-error");
   const double g = gravity_of(request);
+  Reduction reduction(request, sphere, g);
   ImportedPoints out;
   struct Group {
     ImportedPoint point;
@@ -157,6 +239,7 @@ ImportedPoints read_heights(const ImportRequest& request) {
     double drop_sd = 0.0;
     double rebound_sd = 0.0;
     std::vector<double> e;
+    std::vector<double> plain;  // e as it would be in vacuum
   };
   std::vector<Group> groups;
   for (std::size_t r = 0; r < table.size(); ++r) {
@@ -172,13 +255,22 @@ ImportedPoints read_heights(const ImportRequest& request) {
     group.drop = h1;
     group.drop_sd = table.value(r, "drop_height_sd").value_or(drop.of(h1));
     group.rebound_sd = table.value(r, "rebound_height_sd").value_or(rebound.of(h2));
-    group.e = {std::sqrt(h2 / h1)};
+    group.plain = {std::sqrt(h2 / h1)};
+    group.e = group.plain;
+    group.point.velocity = std::sqrt(2.0 * g * h1);
+    if (const auto air = reduction.flights_of(group.point.series, group.point.diameter)) {
+      group.point.velocity = air->fall(h1).speed;
+      group.e = {air->launch_for_height(h2) / group.point.velocity};
+      group.point.restitution = group.e.front();
+      reduction.add(table, r, "rebound_height", *air, group.point, group.plain.front());
+    }
     const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& other) {
       return other.drop == h1 && other.point.series == group.point.series &&
              other.point.diameter == group.point.diameter;
     });
     if (request.average && same != groups.end()) {
       same->e.push_back(group.e.front());
+      same->plain.push_back(group.plain.front());
     } else {
       groups.push_back(std::move(group));
     }
@@ -188,16 +280,19 @@ ImportedPoints read_heights(const ImportRequest& request) {
     const double n = static_cast<double>(group.e.size());
     double mean = 0.0;
     for (const double e : group.e) mean += e / n;
+    double plain = 0.0;
+    for (const double e : group.plain) plain += e / n;
     double square = 0.0;
     for (const double e : group.e) square += (e - mean) * (e - mean);
     // The error of the rebound: as stated, or what the repetitions show, whichever is larger.
     double own = 0.0;
-    if (mean > 0.0) own = group.rebound_sd / (2.0 * group.drop * mean) / std::sqrt(n);
+    if (mean > 0.0) {
+      own = group.rebound_sd / (2.0 * group.drop * plain) * (mean / plain) / std::sqrt(n);
+    }
     if (group.e.size() > 1) own = std::max(own, std::sqrt(square / (n - 1.0) / n));
     few = few || (group.e.size() > 1 && group.e.size() < 5);
     const double shared = 0.5 * mean * group.drop_sd / group.drop;
     const double sd = std::hypot(own, shared);
-    group.point.velocity = std::sqrt(2.0 * g * group.drop);
     group.point.restitution = mean;
     if (sd > 0.0) group.point.restitution_sd = sd;
     if (group.drop_sd > 0.0) {
@@ -210,11 +305,13 @@ ImportedPoints read_heights(const ImportRequest& request) {
   if (!drop.stated() && !table.has("drop_height_sd")) {
     out.notes.push_back({ImportRemark::no_drop_error});
   }
-  out.notes.push_back({ImportRemark::without_air});
+  out.notes.push_back(
+      {air_acts(sphere.air) ? ImportRemark::same_point : ImportRemark::without_air});
+  reduction.note(out.notes);
   return out;
 }
 
-ImportedPoints read_intervals(const ImportRequest& request) {
+ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& sphere) {
   const ImportTable table(request.file, request.map,
                           {{"launch", Dimension::text},
                            {"bounce", Dimension::count},
@@ -229,12 +326,15 @@ ImportedPoints read_intervals(const ImportRequest& request) {
                           : "which column has the intervals?",
         "", "name one with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
   }
+  const bool times = table.has("time");
   const StatedError time = stated_error(request.time_error, Dimension::time, "--time-error");
   const double g = gravity_of(request);
   const std::vector<Launch> launches = gather_launches(table, request);
+  Reduction reduction(request, sphere, g);
   ImportedPoints out;
   std::size_t gaps = 0;
   for (const Launch& launch : launches) {
+    const auto air = reduction.flights_of(launch.name, launch.diameter);
     for (std::size_t i = 0; i + 1 < launch.flights.size(); ++i) {
       const Flight& in = launch.flights[i];
       const Flight& back = launch.flights[i + 1];
@@ -254,6 +354,16 @@ ImportedPoints read_intervals(const ImportRequest& request) {
         point.restitution_sd = tau / in.duration * std::sqrt(2.0 * (1.0 + e + e * e));
         point.velocity_sd = g * tau / std::sqrt(2.0);
       }
+      if (air) {
+        const double plain_velocity = point.velocity;
+        point.velocity = air->return_speed(air->launch_for_duration(in.duration));
+        point.restitution = air->launch_for_duration(back.duration) / point.velocity;
+        reduction.add(table, back.row, times ? "time" : "interval", *air, point, e);
+        if (time.stated()) {
+          *point.restitution_sd *= *point.restitution / e;
+          *point.velocity_sd *= point.velocity / plain_velocity;
+        }
+      }
       out.points.push_back(point);
     }
   }
@@ -263,8 +373,9 @@ ImportedPoints read_intervals(const ImportRequest& request) {
                      "say with --map launch=COLUMN which rows belong together");
   }
   if (gaps > 0) out.notes.push_back({ImportRemark::bounces_missing, {}, gaps});
-  const std::vector<ReleaseCheck> releases = release_check(launches, g);
+  const std::vector<ReleaseCheck> releases = release_check(launches, g, reduction);
   if (!releases.empty()) out.notes.push_back({ImportRemark::release_heights, {}, 0, releases});
+  reduction.note(out.notes);
   out.notes.push_back({ImportRemark::shared_bounces});
   return out;
 }

@@ -11,6 +11,7 @@
 #include "data/datapackage.hpp"
 #include "data/datapackage_writer.hpp"
 #include "data/folder_names.hpp"
+#include "data/inherited_system.hpp"
 #include "data/text.hpp"
 #include "experiment/option_values.hpp"
 
@@ -56,31 +57,6 @@ Json material(const std::string& words, const std::string& option) {
   return json;
 }
 
-Json recoil_block(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
-                  Provenance provenance) {
-  Json block;
-  block["provenance"] = to_string(provenance);
-  Json stated = existing ? existing->json["recoil"] : Json::object();
-  if (!request.like.empty()) stated = stated_system(request.like);
-  if (!request.particle.empty()) stated["particle"] = material(request.particle, "--particle");
-  if (!request.surface.empty()) stated["surface"] = material(request.surface, "--surface");
-  if (request.adhesion_energy) stated["adhesion_energy"] = *request.adhesion_energy;
-  for (const char* body : {"particle", "surface"}) {
-    if (stated.contains(body)) continue;
-    const bool sphere = std::string(body) == "particle";
-    throw InputError(
-        {}, fmt::format("the {} is not known", sphere ? "sphere's material" : "surface's material"),
-        "",
-        fmt::format("give --{0} FILE.json, --{0} material=...,{1}youngs_modulus=...,poisson_ratio="
-                    "..., or --like DIR",
-                    body, sphere ? "density=...," : ""));
-  }
-  for (const auto& [key, value] : stated.items()) {
-    if (key != "provenance") block[key] = value;
-  }
-  return block;
-}
-
 Provenance provenance_for(const ImportRequest& request,
                           const std::optional<ExistingPackage>& existing) {
   if (request.provenance) return *request.provenance;
@@ -99,6 +75,21 @@ Provenance provenance_for(const ImportRequest& request,
                    "give --provenance measured, or digitised when they were read off a figure");
 }
 
+/// Conditions that are stated, and those that the flights are reduced with.
+void put_conditions(const ImportRequest& request, Json& system) {
+  const bool flights =
+      request.format == ImportFormat::heights || request.format == ImportFormat::intervals;
+  const auto put = [&](const char* key, const std::optional<double>& stated, double otherwise) {
+    if (stated) {
+      system["conditions"][key] = *stated;
+    } else if (flights && !(system.contains("conditions") && system["conditions"].contains(key))) {
+      system["conditions"][key] = otherwise;
+    }
+  };
+  put("ambient_pressure", request.ambient_pressure, Air().pressure);
+  put("temperature", request.temperature, Air().temperature);
+}
+
 /// Fit for a Frictionless name.
 std::string name_for(const std::filesystem::path& folder) {
   const std::filesystem::path plain = std::filesystem::absolute(folder).lexically_normal();
@@ -112,7 +103,15 @@ std::string name_for(const std::filesystem::path& folder) {
   return name.empty() ? "dataset" : name;
 }
 
-std::string description_of(const ImportRequest& request) {
+/// "without air", or how the air was taken out.
+std::string air_words(const Air& air) {
+  if (!air_acts(air)) return "without air";
+  return fmt::format(
+      "with the drag of air at {:g} Pa and {:g} K (C_d of Brown & Lawler 2003) taken out",
+      air.pressure, air.temperature);
+}
+
+std::string description_of(const ImportRequest& request, const Air& air) {
   switch (request.format) {
     case ImportFormat::webplotdigitizer:
       return fmt::format(
@@ -123,13 +122,13 @@ std::string description_of(const ImportRequest& request) {
     case ImportFormat::heights:
       return fmt::format(
           "Drop and rebound heights, imported from {}: e = sqrt(h2 / h1), V = sqrt(2 "
-          "g h1) with g = {} m/s2, without air.",
-          request.file.filename().string(), request.gravity);
+          "g h1) with g = {} m/s2, {}.",
+          request.file.filename().string(), request.gravity, air_words(air));
     case ImportFormat::intervals:
       return fmt::format(
           "Times between bounces, imported from {}: e is the ratio of successive "
-          "intervals, V = g t / 2 with g = {} m/s2, without air.",
-          request.file.filename().string(), request.gravity);
+          "intervals, V = g t / 2 with g = {} m/s2, {}.",
+          request.file.filename().string(), request.gravity, air_words(air));
     case ImportFormat::csv:
       break;
   }
@@ -236,10 +235,56 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
   return text;
 }
 
-std::string imported_package(const ImportRequest& request, const PointsText& points,
+Json imported_system(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
+                     std::vector<ImportNote>& notes) {
+  Json block;
+  block["provenance"] = to_string(provenance_for(request, existing));
+  Json stated = existing ? existing->json["recoil"] : Json::object();
+  if (!request.like.empty()) stated = stated_system(request.like);
+  if (!request.particle.empty()) stated["particle"] = material(request.particle, "--particle");
+  if (!request.surface.empty()) stated["surface"] = material(request.surface, "--surface");
+  for (const char* body : {"particle", "surface"}) {
+    if (stated.contains(body)) continue;
+    const bool sphere = std::string(body) == "particle";
+    throw InputError(
+        {}, fmt::format("the {} is not known", sphere ? "sphere's material" : "surface's material"),
+        "",
+        fmt::format("give --{0} FILE.json, --{0} material=...,{1}youngs_modulus=...,poisson_ratio="
+                    "..., or --like DIR",
+                    body, sphere ? "density=...," : ""));
+  }
+  std::vector<std::string> own;
+  if (request.adhesion_energy) {
+    own = {"adhesion_energy"};
+    stated[own.front()] = *request.adhesion_energy;
+  }
+  ImportNote left{ImportRemark::overrides_left_out};
+  left.left_out = leave_out_contradictions(stated, own);
+  if (!left.left_out.empty()) notes.push_back(left);
+  put_conditions(request, stated);
+  for (const auto& [key, value] : stated.items()) {
+    if (key != "provenance") block[key] = value;
+  }
+  return block;
+}
+
+SphereInAir sphere_in_air(const Json& system) {
+  SphereInAir sphere;
+  const auto number = [](const Json& object, const char* key, double otherwise) {
+    const auto found = object.is_object() ? object.find(key) : object.end();
+    return found != object.end() && found->is_number() ? found->get<double>() : otherwise;
+  };
+  const Json conditions = system.value("conditions", Json::object());
+  sphere.air.pressure = number(conditions, "ambient_pressure", 0.0);
+  sphere.air.temperature = number(conditions, "temperature", sphere.air.temperature);
+  sphere.density = number(system.at("particle"), "density", 0.0);
+  return sphere;
+}
+
+std::string imported_package(const ImportRequest& request, const Json& system,
+                             const PointsText& points,
                              const std::optional<ExistingPackage>& existing,
                              std::vector<ImportNote>& notes) {
-  const Provenance provenance = provenance_for(request, existing);
   const bool was_reconstruction = existing && existing->provenance == Provenance::reconstruction;
   Json package = existing ? existing->json : Json::object();
   if (!package.contains("name")) package["name"] = name_for(request.into);
@@ -249,7 +294,7 @@ std::string imported_package(const ImportRequest& request, const PointsText& poi
     if (was_reconstruction) remove_words(title, title_claim);
   }
   package["title"] = title.empty() ? package["name"].get<std::string>() : title;
-  package["description"] = description_of(request);
+  package["description"] = description_of(request, sphere_in_air(system).air);
   if (was_reconstruction && package.contains("licenses")) {
     package.erase("licenses");
     notes.push_back({ImportRemark::licence_removed});
@@ -262,7 +307,7 @@ std::string imported_package(const ImportRequest& request, const PointsText& poi
   } else {
     package["resources"] = Json::array({resource});
   }
-  package["recoil"] = recoil_block(request, existing, provenance);
+  package["recoil"] = system;
   return package_text(package);
 }
 

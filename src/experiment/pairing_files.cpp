@@ -78,11 +78,11 @@ std::string impacts_csv(const PassageTable& table, const PairingResult& pairs) {
   return out;
 }
 
-std::string package_json(const std::filesystem::path& like, const std::string& id,
-                         Provenance provenance, const std::string& events_file,
-                         const std::string& description, double sizes_height) {
+std::string package_json(const Json& system, const std::string& id, Provenance provenance,
+                         const std::string& events_file, const std::string& description,
+                         double sizes_height) {
   Json recoil = {{"provenance", to_string(provenance)}};
-  recoil.update(stated_system(like));
+  recoil.update(system);
   const auto fields = Json::array({
       package_field("series", "string", "", "the run, and the size class where there are several"),
       package_field("diameter", "number", "um", "mean over the impacts"),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json.hpp"
 #include "data/dataset.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/histogram.hpp"
@@ -21,14 +22,14 @@ std::string points_csv(const Averages& averages);
 /// restitution, diameter, number of the impact, what became of it.
 std::string impacts_csv(const PassageTable& table, const PairingResult& pairs);
 
-/// `datapackage.json` for points_csv, with the materials and overrides of the dataset in `like`.
+/// `datapackage.json` for points_csv.
+/// @param system what stands under the key `recoil` beside the provenance
 /// @param id its name
 /// @param description what was done.
 /// @param sizes_height of the plane [m]: lists sizes.csv beside the points; 0 for no such file.
-/// @throws InputError when `like` has no data package with the key `recoil`.
-std::string package_json(const std::filesystem::path& like, const std::string& id,
-                         Provenance provenance, const std::string& events_file,
-                         const std::string& description, double sizes_height = 0.0);
+std::string package_json(const Json& system, const std::string& id, Provenance provenance,
+                         const std::string& events_file, const std::string& description,
+                         double sizes_height = 0.0);
 
 /// The distributions that the paper shows, SI units.
 struct Distributions {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "impact/contact.hpp"
+#include "data/contact.hpp"
 #include "impact/impact.hpp"
 
 namespace recoil {

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "impact/contact.hpp"
+#include "data/contact.hpp"
 
 namespace recoil {
 

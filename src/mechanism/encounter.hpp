@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "data/contact.hpp"
 #include "data/material.hpp"
-#include "impact/contact.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/dual.hpp"
 

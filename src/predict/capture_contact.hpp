@@ -1,6 +1,6 @@
 #pragma once
 
-#include "impact/contact.hpp"
+#include "data/contact.hpp"
 
 namespace recoil {
 

@@ -16,10 +16,11 @@
 namespace recoil {
 namespace {
 
-Material read_material(TomlTable table, bool with_density) {
+Material read_material(TomlTable table, bool needs_density) {
   Material material;
   material.name = table.text("material");
-  if (with_density) material.density = table.positive("density");
+  material.density =
+      needs_density ? table.positive("density") : table.optional_positive("density").value_or(0.0);
   material.youngs_modulus = table.positive("youngs_modulus");
   material.poisson_ratio = table.number("poisson_ratio");
   if (!(material.poisson_ratio > -1.0 && material.poisson_ratio <= 0.5)) {

@@ -50,7 +50,7 @@ struct PassageDesign {
   double velocity_sd = 0.0;  ///< of one passage, relative [1]
   double diameter_sd = 0.0;  ///< of one passage, relative [1]
   double volume_sd = 0.0;    ///< of the height at which a passage is timed [m]
-  double angle_sd = 0.0;     ///< of the rebound to the normal [rad]
+  double angle_sd = 0.0;     ///< of the incidence to the normal [rad]
   double seen = 1.0;         ///< part of the passages that is recorded [1]
   double return_time = 0.0;  ///< a rebound comes back through the volume with exp(-t / this) [s]
 };

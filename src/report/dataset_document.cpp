@@ -84,6 +84,17 @@ Sentence override_words(const ImpactSystem& system) {
   return join(stated, ", ");
 }
 
+Sentence condition_words(const ImpactSystem& system) {
+  std::vector<Sentence> stated;
+  if (system.ambient_pressure == 0.0) {
+    stated.push_back("vacuum");
+  } else if (system.ambient_pressure) {
+    stated.push_back(say("{:g} Pa", *system.ambient_pressure));
+  }
+  if (system.temperature) stated.push_back(say("{:g} K", *system.temperature));
+  return join(stated, ", ");
+}
+
 Sentence column_words(const Dataset& dataset) {
   std::vector<Sentence> names;
   for (const DataColumn& column : dataset.columns) {
@@ -111,6 +122,7 @@ Table dataset_table(const Dataset& dataset) {
   entry("particle", material_words(dataset.system.particle));
   entry("surface", material_words(dataset.system.surface));
   entry("stated", override_words(dataset.system));
+  entry("conditions", condition_words(dataset.system));
   entry("columns", column_words(dataset));
   entry("points", say("{} in {} series", dataset.points.size(), dataset.series.size()));
   entry("sha256", dataset.sha256);

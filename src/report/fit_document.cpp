@@ -19,6 +19,7 @@
 #include "report/words_identifiability.hpp"
 #include "report/words_intervals.hpp"
 #include "report/words_two_point.hpp"
+#include "report/words_validity.hpp"
 
 namespace recoil {
 namespace {
@@ -361,6 +362,10 @@ Glossary glossary(const Analysis& a) {
   return terms;
 }
 
+Section validity_section(const Analysis& a, const char* title) {
+  return {"validity", title, {}, {list_of_sentences(passed_limits(a.validity, a.datasets))}};
+}
+
 std::vector<Section> fit_sections(const Analysis& a) {
   std::vector<Section> sections = {provenance_section(a), model_section(a)};
   if (a.fitted.usable) {
@@ -371,6 +376,7 @@ std::vector<Section> fit_sections(const Analysis& a) {
     sections.push_back(two_point_section(a, true));
     sections.push_back(bootstrap_section(a));
     sections.push_back(identifiability_section(a));
+    sections.push_back(validity_section(a, "Limits of the Model"));
   } else {
     sections.push_back({"failure", "Failure", {}, {Paragraph{a.fitted.failure}}});
   }
@@ -406,6 +412,7 @@ Document fit_document(const Analysis& a, std::vector<Block> diagnosis) {
   capture.caption = "Capture velocity: slower spheres stay on the surface";
   page.sections.push_back({"capture", "Capture velocity", {}, {std::move(capture)}});
   page.sections.push_back(identifiability_section(a));
+  page.sections.push_back(validity_section(a, "Where the points pass the limits of the model"));
   page.sections.push_back(two_point_section(a, false));
   page.sections.push_back(bootstrap_section(a));
   page.sections.push_back(inputs_section(a));

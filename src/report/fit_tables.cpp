@@ -51,6 +51,16 @@ Cell p_value_cell(const Analysis& a) {
   return Number{a.fitted.p_value, probability()};
 }
 
+/// f0 of eq. 12 at the reference diameter [N/m]: two values where the K that is used is not that of
+/// the elastic constants.
+Sentence eq_12_words(const ContactProperties& contact) {
+  if (!contradicts(contact.stiffness, contact.stiffness_derived)) {
+    return number(contact.adhesion_force_derived);
+  }
+  return say("{} with this {K}, {} with that of eq. 6", number(contact.adhesion_force_derived),
+             number(contact.adhesion_force_materials));
+}
+
 }  // namespace
 
 Sentence labelled(const ParameterSlot& slot) {
@@ -274,7 +284,8 @@ Table materials_table(const Analysis& a, std::size_t k) {
   table.columns = {{}, {"particle"}, {"surface"}};
   table.rows = {
       {"material", Sentence(p.name), Sentence(s.name)},
-      {say("density [{kg/m3}]"), Number{p.density, significant(5)}, {}},
+      {say("density [{kg/m3}]"), Number{p.density, significant(5)},
+       s.density > 0.0 ? Cell(Number{s.density, significant(5)}) : Cell()},
       {"Young's modulus [GPa]", Number{p.youngs_modulus / units::GPa},
        Number{s.youngs_modulus / units::GPa}},
       {"Poisson ratio", Number{p.poisson_ratio}, Number{s.poisson_ratio}},
@@ -306,7 +317,7 @@ Table contact_table(const Analysis& a, std::size_t k) {
                             !by_force       ? "of the W below"
                             : adhesion_free ? "fitted"
                                             : origin(system.adhesion_force_f0.has_value()),
-                            number(contact.adhesion_force_derived))});
+                            eq_12_words(contact))});
   table.rows.push_back({say("{W} [{J/m2}]"),
                         Number{adhesion_energy_for(conditions.adhesion_force,
                                                    conditions.diameter / 2.0, contact.stiffness)},

@@ -10,6 +10,7 @@
 #include "report/words_identifiability.hpp"
 #include "report/words_intervals.hpp"
 #include "report/words_noise.hpp"
+#include "report/words_validity.hpp"
 
 namespace recoil {
 namespace {
@@ -203,6 +204,22 @@ Json capture_json(const Analysis& a) {
   return list;
 }
 
+Json validity_json(const Analysis& a) {
+  Json list = Json::array();
+  for (const Validity& one : a.validity) {
+    list.push_back({{"quantity", to_string(one.quantity)},
+                    {"value", number_or_null(one.value)},
+                    {"limit", one.limit},
+                    {"limit_is", one.limit_is_least() ? "least" : "largest"},
+                    {"passed", one.passed()},
+                    {"dataset", a.datasets[one.dataset].id},
+                    {"diameter_um", one.diameter / units::um},
+                    {"incident_velocity", one.velocity},
+                    {"text", validity_sentence(one)}});
+  }
+  return list;
+}
+
 Json bootstrap_json(const Analysis& a) {
   const BootstrapResult& bootstrap = a.uncertainty.bootstrap;
   Json two_point_failed = Json::object();
@@ -294,6 +311,7 @@ std::string json_report(const Analysis& analysis) {
   out["goodness"] = goodness_json(analysis);
   out["noise"] = noise_json(analysis);
   out["identifiability"] = identifiability_json(analysis);
+  out["validity"] = validity_json(analysis);
   out["bootstrap"] = bootstrap_json(analysis);
   put_two_point(out, analysis);
   out["starts"] = starts_json(analysis);

@@ -9,6 +9,7 @@
 #include "experiment/correction_study.hpp"
 #include "predict/capture_comparison.hpp"
 #include "predict/polydisperse.hpp"
+#include "predict/validity.hpp"
 #include "uncertainty/uncertainty_result.hpp"
 
 namespace recoil {
@@ -18,6 +19,7 @@ struct Analysis {
   FitSpec spec;
   std::vector<Dataset> datasets;
   FitResult fitted;
+  std::vector<Validity> validity;  ///< where the model holds, the worst point of each dataset
   UncertaintyResult uncertainty;
   std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
   std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty

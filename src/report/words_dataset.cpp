@@ -1,6 +1,9 @@
 #include "report/words_dataset.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/units.hpp"
 
 namespace recoil {
 
@@ -42,6 +45,22 @@ std::string warning_sentence(const DatasetWarning& warning) {
                  "kept; a point that was copied by accident would count twice");
   }
   return "";
+}
+
+std::string left_out_sentence(const std::vector<LeftOverride>& left_out) {
+  std::vector<std::string> words;
+  for (const LeftOverride& one : left_out) {
+    if (one.key == "stiffness_K") {
+      words.push_back(fmt::format("stiffness_K = {:.4g} GPa (they give {:.4g} GPa)",
+                                  one.stated / units::GPa, one.derived / units::GPa));
+    } else {
+      words.push_back(fmt::format("{} = {:.4g} {} (they give {:.4g} {})", one.key, one.stated,
+                                  one.key == "adhesion_energy" ? "J/m2" : "N/m", one.derived,
+                                  one.key == "adhesion_energy" ? "J/m2" : "N/m"));
+    }
+  }
+  return fmt::format("not taken over, because the materials contradict it: {}",
+                     fmt::join(words, ", "));
 }
 
 }  // namespace recoil

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "data/dataset.hpp"
+#include "data/inherited_system.hpp"
 
 namespace recoil {
 
@@ -12,5 +14,8 @@ std::string provenance_sentence(Provenance provenance);
 
 /// "2 points with a restitution above 1 (first in line 5): ..."
 std::string warning_sentence(const DatasetWarning& warning);
+
+/// What a dataset did not take over from the one whose materials it has, and what these give.
+std::string left_out_sentence(const std::vector<LeftOverride>& left_out);
 
 }  // namespace recoil

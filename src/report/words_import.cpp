@@ -6,6 +6,7 @@
 #include "core/units.hpp"
 #include "data/folder_names.hpp"
 #include "data/text.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {
@@ -14,6 +15,15 @@ std::string release_words(const ReleaseCheck& check) {
   return fmt::format("{:g} mm: e = {:.3f} at the first bounce, {:.3f} at the second, {:+.1f} mm",
                      check.height / units::mm, check.first, check.second,
                      check.missing / units::mm);
+}
+
+std::string air_sentence(const AirShare& air) {
+  return fmt::format(
+      "the drag of the air ({:g} Pa, {:g} K) was taken out; it took {:.2g} % of e at {:.3g} m/s "
+      "and "
+      "{:.2g} % at {:.3g} m/s (--ambient-pressure 0 for vacuum)",
+      air.pressure, air.temperature, 100.0 * air.slow_share, air.slow, 100.0 * air.fast_share,
+      air.fast);
 }
 
 }  // namespace
@@ -42,6 +52,16 @@ std::string note_sentence(const ImportNote& note) {
     case ImportRemark::without_air:
       return "V = sqrt(2 g h) leaves out the air, and both heights have to be those of the same "
              "point of the ball";
+    case ImportRemark::same_point:
+      return "both heights have to be those of the same point of the ball";
+    case ImportRemark::air_drag:
+      return air_sentence(note.air);
+    case ImportRemark::turbulent_air:
+      return fmt::format(
+          "the Reynolds number of the fastest impact, {:.2g}, is beyond the law of drag (2e5), "
+          "from "
+          "where on the drag of a smooth sphere can fall to a fifth",
+          note.air.reynolds);
     case ImportRemark::bounces_missing:
       return fmt::format("{} {} of intervals left out, because a bounce between them is missing",
                          note.count, note.count == 1 ? "pair" : "pairs");
@@ -66,6 +86,8 @@ std::string note_sentence(const ImportNote& note) {
       return fmt::format(
           "the folder is no reconstruction any more; its {} is kept as {}, for comparison only",
           recipe_name, set_aside_recipe_name);
+    case ImportRemark::overrides_left_out:
+      return left_out_sentence(note.left_out);
   }
   return "";
 }

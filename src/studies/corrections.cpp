@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/files.hpp"
+#include "data/datapackage_writer.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
 #include "experiment/pairing_files.hpp"
@@ -64,9 +65,9 @@ std::vector<std::optional<double>> errors_by_velocity(const KnownPassages& event
 
 void fit_points(const FitSpec& spec, const Dataset& like, const KnownPassages& events,
                 const Averages& averages, CorrectionRow& row) {
-  const Dataset dataset = parse_dataset(
-      package_json(like.folder, like.id, like.provenance, events.table.file, "a study"),
-      points_csv(averages), like.folder);
+  const Dataset dataset = parse_dataset(package_json(stated_system(like.folder), like.id,
+                                                     like.provenance, events.table.file, "a study"),
+                                        points_csv(averages), like.folder);
   const FitResult fitted = fit(make_model(spec, {dataset}), gather({dataset}, spec));
   row.usable = fitted.usable;
   if (!fitted.usable) return;

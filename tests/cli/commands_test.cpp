@@ -33,6 +33,9 @@ TEST(Simulate, HertzWithHuntCrossleyDampingToNineDigits) {
   const Outcome run = place.run({"simulate", "hertz.toml", "--velocity", "5", "--diameter", "4.9"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find("restitution: 0.93747558\n"), std::string::npos) << run.out;
+  // Whose parameters these are comes first: nobody should take a guess for a fit.
+  EXPECT_EQ(run.out.rfind("parameters: initial values of the fit file (--parameters", 0), 0U)
+      << run.out;
   EXPECT_NE(run.out.find("outcome: rebound\n"), std::string::npos);
   EXPECT_NEAR(number_after(run.out, "rebound  "), 100.0 * 0.9374755799 * 0.9374755799, 2e-5);
 }
@@ -44,6 +47,17 @@ TEST(Simulate, BudgetAddsUpToTheWhole) {
   EXPECT_NEAR(number_after(run.out, "rebound  ") + number_after(run.out, "Hertz damping (C_H)") +
                   number_after(run.out, "adhesion damping (C_A)"),
               100.0, 3e-5);
+}
+
+TEST(Simulate, SaysWhereTheModelHolds) {
+  const Workplace place;
+  const auto at = [&](const std::string& velocity) {
+    return place.run({"simulate", "fit.toml", "--velocity", velocity, "--diameter", "4.9"}).out;
+  };
+  EXPECT_NE(at("1").find("contact radius over that of the sphere"), std::string::npos);
+  EXPECT_EQ(at("1").find("note: the contact grows"), std::string::npos);
+  // (5 pi / 4 rho V^2 / E*)^(1/5) is above 0.3 for any organic solid at 100 m/s.
+  EXPECT_NE(at("100").find("note: the contact grows to 0."), std::string::npos);
 }
 
 TEST(Simulate, WritesTheForceHistory) {

@@ -59,6 +59,23 @@ TEST(LoadDataset, ReadsThePackage) {
   EXPECT_EQ(dataset.folder, folder.path());
 }
 
+TEST(LoadDataset, TheDensityOfTheSurfaceIsOptional) {
+  EXPECT_EQ(load_dataset(DatasetFolder().path()).system.surface.density, 0.0);
+  const DatasetFolder folder(
+      changed(example::package, "\"surface\": {", "\"surface\": {\"density\": 2200,"));
+  EXPECT_EQ(load_dataset(folder.path()).system.surface.density, 2200.0);
+}
+
+TEST(LoadDataset, ReadsTheConditions) {
+  const DatasetFolder plain;
+  EXPECT_EQ(load_dataset(plain.path()).system.ambient_pressure, std::nullopt);
+  const DatasetFolder folder(
+      changed(example::package, "\"surface\": {",
+              "\"conditions\": {\"ambient_pressure\": 0, \"temperature\": 293}, \"surface\": {"));
+  EXPECT_EQ(load_dataset(folder.path()).system.ambient_pressure, 0.0);
+  EXPECT_EQ(load_dataset(folder.path()).system.temperature, 293.0);
+}
+
 TEST(LoadDataset, ReadsTheOverrides) {
   const DatasetFolder folder(
       changed(example::package, "\"provenance\": \"measured\",",

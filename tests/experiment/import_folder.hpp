@@ -13,7 +13,7 @@ class Place : public support::TemporaryFolder {
  public:
   const std::filesystem::path& folder() const { return path(); }
 
-  /// `text` as input.csv into the dataset `made`, polystyrene of 2 um on silicon.
+  /// `text` as input.csv into the dataset `made`, polystyrene of 2 um on silicon, in vacuum.
   recoil::ImportRequest request(const std::string& text, recoil::ImportFormat format) const;
 };
 

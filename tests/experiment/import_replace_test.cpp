@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "data/contact.hpp"
 #include "import_folder.hpp"
 #include "support/workplace.hpp"
 
@@ -51,7 +52,10 @@ TEST(Replace, EveryShippedReconstructionBecomesDigitisedInOneCommand) {
     EXPECT_EQ(after.id, id);
     EXPECT_EQ(after.points.size(), 4U);
     EXPECT_EQ(after.system.particle.name, before.system.particle.name);
-    EXPECT_EQ(after.system.stiffness_K, before.system.stiffness_K);
+    // K and f0 as the paper prints them for steel are not what its elastic constants give.
+    EXPECT_EQ(after.system.stiffness_K, std::nullopt) << id;
+    EXPECT_EQ(after.system.adhesion_force_f0, std::nullopt) << id;
+    EXPECT_EQ(after.system.adhesion_energy, before.system.adhesion_energy) << id;
     EXPECT_FALSE(place.has("datasets/" + id + "/recipe.toml"));
     EXPECT_TRUE(place.has("datasets/" + id + "/recipe-set-aside.toml"));
     // No word of the old claim is left; a size distribution still says that it is one.
@@ -101,6 +105,52 @@ TEST(Replace, PointsOfTheRecipeDoNotBecomeDigitised) {
   EXPECT_TRUE(place.has("datasets/wall1990-mica/recipe.toml"));
   request.provenance = recoil::Provenance::synthetic;
   EXPECT_EQ(complaint(request), "no error");
+}
+
+TEST(Replace, ThePrintedConstantsOfSteelStayWithTheReconstruction) {
+  const Place place;
+  copy_datasets(place);
+  const support::Workplace at;
+  const std::string source = (place.folder() / "datasets/li1999-sst65-silicon").string();
+  const std::string table = (place.folder() / "new.csv").string();
+  place.write("new.csv", kPoints);
+  const std::string mine = (place.folder() / "mine").string();
+  const std::vector<std::vector<std::string>> ways = {
+      {"import", table, "--format", "csv", "--into", mine, "--like", source, "--provenance",
+       "measured", "--map",
+       "series=series,diameter=diameter:um,incident_velocity=incident_velocity:m/s,"
+       "restitution=restitution"},
+      {"import", table, "--format", "csv", "--into", source, "--replace"},
+  };
+  for (const auto& words : ways) {
+    const support::Outcome run = at.run(words);
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("note: not taken over, because the materials contradict it: "
+                                   "stiffness_K = 11.4 GPa (they give 113.5 GPa), "
+                                   "adhesion_force_f0 = 288 N/m (they give 308.9 N/m)\n"));
+    const recoil::Dataset made = recoil::load_dataset(words[5]);
+    const auto package =
+        nlohmann::json::parse(support::text_of(fs::path(words[5]) / "datapackage.json"));
+    for (const char* key : {"stiffness_K", "adhesion_force_f0", "reference_diameter"}) {
+      EXPECT_FALSE(package["recoil"].contains(key)) << words[5] << " " << key;
+    }
+    EXPECT_EQ(package["recoil"]["adhesion_energy"], 2.72);  // agrees with Gilman's estimates
+    // (4/3) / ((1 - 0.3^2) / 193e9 + (1 - 0.28^2) / 131e9), worked out by hand
+    EXPECT_NEAR(recoil::derive_contact(made.system, 49e-6).stiffness, 113.473821e9, 1e3);
+  }
+}
+
+TEST(Replace, MaterialsOfOnesOwnAreWhatOverridesAreHeldAgainst) {
+  const Place place;
+  copy_datasets(place);
+  place.write("new.csv", kPoints);
+  ImportRequest request = replacement(place, "li1999-sst65-silicon", kPoints);
+  request.surface = "material=rubber,youngs_modulus=5e6,poisson_ratio=0.49";
+  auto made = recoil::import_points(request);
+  EXPECT_EQ(made.dataset.system.adhesion_energy, std::nullopt);  // 2.72 J/m2 was steel on silicon
+  request.adhesion_energy = 0.06;  // stated, not inherited: it is used
+  made = recoil::import_points(request);
+  EXPECT_EQ(made.dataset.system.adhesion_energy, 0.06);
 }
 
 TEST(Replace, TheCommandLine) {

@@ -1,6 +1,7 @@
 // `recoil pair` as a user runs it.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -38,6 +39,24 @@ TEST(PairCommand, EventsToADatasetThatCheckAccepts) {
   EXPECT_EQ(check.status, 0) << check.err;
   EXPECT_NE(check.out.find("synthetic"), std::string::npos);
   EXPECT_NE(check.out.find("in 2 series"), std::string::npos) << check.out;
+}
+
+TEST(PairCommand, PrintedConstantsOfTheOtherDatasetAreNotTakenOver) {
+  const Workplace place;
+  place.write("e.csv", small_stream().csv);
+  const auto steel = std::filesystem::path(RECOIL_SOURCE_DIR) / "datasets/li1999-sst65-silicon";
+  const Outcome pair = place.run({"pair", "e.csv", "--unit", kUnits, "--into", "set", "--like",
+                                  steel.string(), "--provenance", "synthetic"});
+  ASSERT_EQ(pair.status, 0) << pair.err;
+  EXPECT_NE(pair.out.find("note: not taken over, because the materials contradict it: "
+                          "stiffness_K = 11.4 GPa (they give 113.5 GPa), "
+                          "adhesion_force_f0 = 288 N/m (they give 308.9 N/m)\n"),
+            std::string::npos)
+      << pair.out;
+  const auto made = nlohmann::json::parse(place.read("set/datapackage.json"))["recoil"];
+  EXPECT_FALSE(made.contains("stiffness_K"));
+  EXPECT_FALSE(made.contains("adhesion_force_f0"));
+  EXPECT_EQ(made["adhesion_energy"], 2.72);
 }
 
 TEST(PairCommand, HistogramsAndPictures) {

@@ -44,6 +44,7 @@ bool may_include(const std::string& from, const std::string& target) {
     return to == "core" || target.starts_with("studies/synthetic/");
   }
   if (stage == "reconstruction") {
+    if (target == "data/contact.hpp") return false;  // a recipe derives its contact by itself
     return to == "core" || to == "data" || to == stage ||
            (to == "experiment" && pairs_passages(from));
   }
@@ -87,6 +88,8 @@ TEST(Layering, TheRuleItself) {
   EXPECT_TRUE(may_include("coverage/a.cpp", "reconstruction/b.hpp"));
   EXPECT_TRUE(may_include("cli/a.cpp", "reconstruction/b.hpp"));
   EXPECT_FALSE(may_include("reconstruction/a.cpp", "impact/b.hpp"));
+  EXPECT_TRUE(may_include("reconstruction/a.cpp", "data/material.hpp"));
+  EXPECT_FALSE(may_include("reconstruction/a.cpp", "data/contact.hpp"));
   EXPECT_FALSE(may_include("reconstruction/passages.cpp", "experiment/b.hpp"));
   EXPECT_TRUE(may_include("reconstruction/paired_points.cpp", "experiment/b.hpp"));
   EXPECT_FALSE(may_include("reconstruction/paired_points.cpp", "impact/b.hpp"));

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "impact/contact.hpp"
+#include "data/contact.hpp"
 #include "impact/impact.hpp"
 
 namespace recoil {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "impact/contact.hpp"
+#include "data/contact.hpp"
 #include "impact/fast_solver.hpp"
 #include "support/independent_impact.hpp"
 

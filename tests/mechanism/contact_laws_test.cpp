@@ -267,6 +267,18 @@ TEST(ElasticWaves, SteelOnSteelLosesAsHunterSays) {
   EXPECT_NEAR(1.0 - square(kSteel, {"elastic_waves"}, {1.0}, 49e-6, V), expected, 0.02 * expected);
 }
 
+TEST(ElasticWaves, RunInTheSurface) {
+  // D = c(nu) / (2 pi mu c_T): c(1/4) = 0.9308, mu = 40 GPa, c_T = (mu / 2500 kg/m3)^(1/2) = 4000
+  // m/s give 9.2588e-16 m s / N. The sphere's density is that of nothing here.
+  ImpactSystem system = one_point::steel();
+  system.surface = {"glass", 2500.0, 100e9, 0.25, {}};
+  EXPECT_NEAR(one_point::around(system).wave_mobility, 9.2588e-16, 1e-19);
+  system.particle.density = 1000.0;
+  EXPECT_NEAR(one_point::around(system).wave_mobility, 9.2588e-16, 1e-19);
+  system.surface.density = 0.0;  // not stated: that of the sphere
+  EXPECT_NEAR(one_point::around(system).wave_mobility, 9.2588e-16 * std::sqrt(0.4), 1e-19);
+}
+
 TEST(Capillary, MeansAnEquivalentVelocity) {
   // 4 pi r gamma over 1 nm: 0.23 m/s for 4.9 um.
   const double V = 1.0;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "impact/contact.hpp"
+#include "data/contact.hpp"
 #include "mechanism/survivors_mean.hpp"
 #include "one_point.hpp"
 

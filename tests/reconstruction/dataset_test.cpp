@@ -77,6 +77,8 @@ TEST_P(Committed, DatasetStatesTheMaterialsOfTheRecipe) {
   EXPECT_EQ(system.particle.density, recipe.particle.density);
   EXPECT_EQ(system.particle.youngs_modulus, recipe.particle.youngs_modulus);
   EXPECT_EQ(system.particle.poisson_ratio, recipe.particle.poisson_ratio);
+  EXPECT_GT(system.surface.density, 0.0);  // waves run in the surface, not in the sphere
+  EXPECT_EQ(system.surface.density, recipe.surface.density);
   EXPECT_EQ(system.surface.youngs_modulus, recipe.surface.youngs_modulus);
   EXPECT_EQ(system.surface.poisson_ratio, recipe.surface.poisson_ratio);
   if (const auto* truth = std::get_if<RingAdhesionTruth>(&recipe.truth)) {

@@ -66,6 +66,45 @@ TEST(Passages, PointsFromThemAreTheTruth) {
   EXPECT_NEAR(squares / n, 1.0, 5.0 * std::sqrt(2.0 / n));
 }
 
+TEST(Passages, TheAngleSelectsByRestitution) {
+  // A sphere without spin leaves rolling: v_t' = (5/7) v_t, so that tan(out) = (5/7) tan(in) / e.
+  // From 0.05 rad it is beyond 8 degrees where e < (5/7) 0.0500417 / 0.1405408 = 0.254330.
+  Recipe recipe = steel("li1999-sst65-silicon");
+  recipe.noise.relative = 0.0;
+  PassageDesign& design = *recipe.passages;
+  design.velocity_sd = design.diameter_sd = design.volume_sd = 0.0;
+  design.seen = 1.0;
+  design.return_time = 1e-9;  // nothing comes back
+  design.rate = 0.01;         // and no two are in the air
+  const PassageTable table = read(draw_passages(recipe, 3, 20));
+  const double fall = 2.0 * 9.80665 * recipe.sizes->probe_height;
+  const double limit = std::tan(8.0 * M_PI / 180.0);
+  std::size_t rebounds = 0;
+  std::size_t beyond = 0;
+  double square = 0.0;
+  for (std::size_t i = 0; i + 1 < table.passages.size(); ++i) {
+    const Passage& down = table.passages[i];
+    const Passage& up = table.passages[i + 1];
+    if (!(down.velocity > 0.0 && up.velocity < 0.0)) continue;
+    const double in = std::sqrt(down.velocity * down.velocity + fall);
+    const double out = std::sqrt(up.velocity * up.velocity + fall);
+    EXPECT_NEAR(up.tangential, 5.0 / 7.0 * down.tangential, 1e-5);
+    const double e = out / in;
+    const bool left_out = std::abs(up.tangential) / out > limit;
+    const double tan_in = std::abs(down.tangential) / in;
+    const double margin = 0.254330 * tan_in / 0.0500417 / e;  // above 1: beyond 8 degrees
+    if (std::abs(margin - 1.0) > 1e-3) {
+      EXPECT_EQ(left_out, margin > 1.0) << e << " " << tan_in;
+    }
+    ++rebounds;
+    beyond += left_out ? 1 : 0;
+    square += std::pow(std::atan(tan_in) / 0.05, 2);
+  }
+  EXPECT_GT(rebounds, 10000U);
+  EXPECT_GT(beyond, 20U);
+  EXPECT_NEAR(square / static_cast<double>(rebounds), 1.0, 0.06);
+}
+
 TEST(Passages, ARecipeWithoutThemSaysSo) {
   EXPECT_THROW(draw_passages(steel("dahneke1975-quartz"), 1), InputError);
 }

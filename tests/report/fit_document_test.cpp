@@ -249,6 +249,34 @@ TEST(FitDocument, StaysNarrowWhateverTheWordsAre) {
   EXPECT_LE(longest_line(text_report(analysis)), terminal_columns) << text_report(analysis);
 }
 
+TEST(FitDocument, SaysWhereAPointPassesALimitOfTheModel) {
+  Analysis analysis = sample::two_datasets();
+  analysis.validity = {{ValidityQuantity::contact_radius, 0.52, 0.3, 1, 4.9e-6, 100.0},
+                       {ValidityQuantity::tabor, 13.4, 5.0, 1, 4.9e-6, 100.0}};
+  const std::string text = text_report(analysis);
+  EXPECT_THAT(text, testing::HasSubstr(
+                        "[[Limits of the Model]]\n"
+                        "    - On example-silicon the contact grows to 0.52 of the sphere's radius "
+                        "(100 m/s, 4.9 um); Hertz'\n      theory is good to about 0.3.\n"));
+  EXPECT_EQ(text.find("Tabor"), std::string::npos);  // within its limit: only in fit.json
+  const Document page = fit_document(analysis);
+  EXPECT_NE(section_of(page, "validity"), nullptr);
+  analysis.validity.erase(analysis.validity.begin());
+  EXPECT_EQ(text_report(analysis).find("Limits of the Model"), std::string::npos);
+}
+
+TEST(FitTables, TheContactNamesEveryF0ByTheStiffnessItFollowsFrom) {
+  Analysis analysis = sample::four_diameters();
+  const auto f0_from = [&] { return words(row_of(contact_table(analysis, 0), "f0 [N/m]")[2]); };
+  EXPECT_EQ(f0_from(), "derived; eq. 12 gives 8.908");
+  // By hand, (9 W^2 K r / (2 pi))^(1/3) with W = 0.336 J/m2, r = 2.45 um and either K.
+  ImpactSystem& system = analysis.datasets[0].system;
+  system.adhesion_energy = 0.336;
+  system.stiffness_K = 0.2 * 1.789e9;
+  analysis.fitted.model.contacts[0] = derive_contact(system, 4.9e-6);
+  EXPECT_EQ(f0_from(), "derived; eq. 12 gives 5.214 with this K, 8.916 with that of eq. 6");
+}
+
 TEST(FitTables, GiveEstimateErrorIntervalAndStartOfAParameter) {
   const Table table = parameters_table(sample::four_diameters());
   ASSERT_EQ(table.rows.size(), 3U);

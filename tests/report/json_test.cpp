@@ -11,7 +11,7 @@
 namespace recoil {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 using testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -84,13 +84,13 @@ const char* const promised[] = {"/dataset/id",
 TEST(JsonReport, HoldsEveryPromisedKey) {
   const std::string text = json_report(sample::four_diameters());
   EXPECT_EQ(text.back(), '\n');
-  const Json fit = Json::parse(text);
-  for (const char* key : promised) EXPECT_TRUE(fit.contains(Json::json_pointer(key))) << key;
+  const PlainJson fit = PlainJson::parse(text);
+  for (const char* key : promised) EXPECT_TRUE(fit.contains(PlainJson::json_pointer(key))) << key;
 }
 
 TEST(JsonReport, RepeatsTheNumbersExactly) {
   const Analysis analysis = sample::four_diameters();
-  const Json fit = Json::parse(json_report(analysis));
+  const PlainJson fit = PlainJson::parse(json_report(analysis));
   EXPECT_EQ(fit["parameters"]["C_H"]["value"], 0.00312);
   EXPECT_EQ(fit["parameters"]["C_H"]["intervals"]["bca"][1], 0.00312 + 2.08 * 0.00021);
   EXPECT_EQ(fit["parameters"]["f0"]["free"], false);
@@ -107,10 +107,26 @@ TEST(JsonReport, RepeatsTheNumbersExactly) {
   EXPECT_NEAR(fit["correlation"]["C_H"]["C_A"].get<double>(), -0.43, 1e-12);
 }
 
+TEST(JsonReport, SaysWhereTheModelHolds) {
+  Analysis analysis = sample::four_diameters();
+  analysis.validity = {{ValidityQuantity::contact_radius, 0.52, 0.3, 0, 4.9e-6, 100.0},
+                       {ValidityQuantity::tabor, 13.4, 5.0, 0, 4.9e-6, 100.0}};
+  const PlainJson validity = PlainJson::parse(json_report(analysis))["validity"];
+  ASSERT_EQ(validity.size(), 2U);
+  EXPECT_EQ(validity[0]["quantity"], "contact_radius_over_sphere_radius");
+  EXPECT_EQ(validity[0]["value"], 0.52);
+  EXPECT_EQ(validity[0]["limit"], 0.3);
+  EXPECT_EQ(validity[0]["limit_is"], "largest");
+  EXPECT_EQ(validity[0]["passed"], true);
+  EXPECT_THAT(validity[0]["text"].get<std::string>(), HasSubstr("0.52 of the sphere's radius"));
+  EXPECT_EQ(validity[1]["limit_is"], "least");
+  EXPECT_EQ(validity[1]["passed"], false);
+}
+
 TEST(JsonReport, GivesAReasonForEveryMissingInterval) {
-  const Json fit = Json::parse(json_report(sample::four_diameters()));
+  const PlainJson fit = PlainJson::parse(json_report(sample::four_diameters()));
   for (const auto& [name, parameter] : fit["parameters"].items()) {
-    const Json& intervals = parameter["intervals"];
+    const PlainJson& intervals = parameter["intervals"];
     for (const char* kind : {"wald", "profile", "percentile", "bca", "studentized"}) {
       if (!intervals[kind].is_null()) continue;
       EXPECT_FALSE(intervals["why"][kind].get<std::string>().empty()) << name << " " << kind;
@@ -122,7 +138,8 @@ TEST(JsonReport, GivesAReasonForEveryMissingInterval) {
 }
 
 /// Collects the pointers of null values.
-void collect_nulls(const Json& value, const std::string& where, std::vector<std::string>& nulls) {
+void collect_nulls(const PlainJson& value, const std::string& where,
+                   std::vector<std::string>& nulls) {
   if (value.is_null()) nulls.push_back(where);
   if (!value.is_structured()) return;
   for (const auto& [key, child] : value.items()) collect_nulls(child, where + "/" + key, nulls);
@@ -149,7 +166,7 @@ TEST(JsonReport, NeverPrintsWhatIsNotANumber) {
   analysis.uncertainty.two_point[0].result.theta[0] = nan;
   const std::string text = json_report(analysis);
   EXPECT_FALSE(std::regex_search(text, std::regex("[:\\[, ]-?(nan|inf|NaN|Infinity)\\b")));
-  const Json fit = Json::parse(text);
+  const PlainJson fit = PlainJson::parse(text);
   EXPECT_TRUE(fit["goodness"]["chi2"].is_null());
   EXPECT_FALSE(fit["goodness"]["chi2_why"].get<std::string>().empty());
   EXPECT_FALSE(fit["parameters"]["C_H"]["value_why"].get<std::string>().empty());
@@ -158,13 +175,13 @@ TEST(JsonReport, NeverPrintsWhatIsNotANumber) {
 }
 
 TEST(JsonReport, APValueWithoutStatedDeviationsIsNullAndSaysWhy) {
-  const Json fit = Json::parse(json_report(sample::two_datasets()));
+  const PlainJson fit = PlainJson::parse(json_report(sample::two_datasets()));
   EXPECT_TRUE(fit["goodness"]["p_value"].is_null());
   EXPECT_THAT(fit["goodness"]["p_value_why"].get<std::string>(), HasSubstr("estimated"));
 }
 
 TEST(JsonReport, DescribesAJointFitAsOneAndLists) {
-  const Json fit = Json::parse(json_report(sample::two_datasets()));
+  const PlainJson fit = PlainJson::parse(json_report(sample::two_datasets()));
   EXPECT_EQ(fit["dataset"]["id"], "example-molybdenum+example-silicon");
   EXPECT_EQ(fit["dataset"]["provenance"], "reconstruction") << "the weaker of the two";
   EXPECT_EQ(fit["dataset"]["points"], 64);
@@ -180,7 +197,7 @@ TEST(JsonReport, DescribesAJointFitAsOneAndLists) {
 TEST(JsonReport, WithoutABootstrapStaysWhole) {
   Analysis analysis = sample::four_diameters();
   analysis.uncertainty = UncertaintyResult{};
-  const Json fit = Json::parse(json_report(analysis));
+  const PlainJson fit = PlainJson::parse(json_report(analysis));
   EXPECT_TRUE(fit["two_point"].is_null());
   EXPECT_FALSE(fit["two_point_why"].get<std::string>().empty());
   EXPECT_TRUE(fit["parameters"]["C_H"]["intervals"]["bca"].is_null());
@@ -197,7 +214,7 @@ TEST(JsonReport, IsTheSameTwice) {
 TEST(JsonReport, SurvivesWordsThatAreNotUtf8) {
   Analysis analysis = sample::four_diameters();
   analysis.datasets[0].title = "broken \xff\xfe title \"quoted\"\n";
-  EXPECT_TRUE(Json::accept(json_report(analysis)));
+  EXPECT_TRUE(PlainJson::accept(json_report(analysis)));
 }
 
 }  // namespace

@@ -13,20 +13,25 @@ namespace recoil {
 /// A value stated by the dataset wins over the derived one; the derived one is kept beside it, and
 /// a disagreement becomes a sentence in `contradictions`.
 struct ContactProperties {
-  double k_particle = 0.0;              ///< eq. 7: k = (1 - nu^2) / (pi E) [1/Pa]
-  double k_surface = 0.0;               ///< eq. 7 [1/Pa]
-  double gamma_particle = 0.0;          ///< surface energy, stated or eq. 11 [J/m2]
-  double gamma_surface = 0.0;           ///< [J/m2]
-  double stiffness_derived = 0.0;       ///< eq. 6: K = 4 / (3 pi (k1 + k2)) = (4/3) E* [Pa]
-  double stiffness = 0.0;               ///< the K that is used [Pa]
-  double adhesion_energy = 0.0;         ///< W_A = 2 sqrt(gamma1 gamma2), or as stated [J/m2]
-  double equilibrium_radius = 0.0;      ///< eq. 10: a_eq = (6 pi W_A r^2 / K)^(1/3) [m]
-  double adhesion_force_derived = 0.0;  ///< eq. 9: f0 = K a_eq^2 / (2 pi r) [N/m]
-  double adhesion_force = 0.0;          ///< the f0 that is used, at the reference diameter [N/m]
-  double reference_diameter = 0.0;      ///< [m]
-  double particle_density = 0.0;        ///< [kg/m3]
+  double k_particle = 0.0;               ///< eq. 7: k = (1 - nu^2) / (pi E) [1/Pa]
+  double k_surface = 0.0;                ///< eq. 7 [1/Pa]
+  double gamma_particle = 0.0;           ///< surface energy, stated or eq. 11 [J/m2]
+  double gamma_surface = 0.0;            ///< [J/m2]
+  double stiffness_derived = 0.0;        ///< eq. 6: K = 4 / (3 pi (k1 + k2)) = (4/3) E* [Pa]
+  double stiffness = 0.0;                ///< the K that is used [Pa]
+  double adhesion_energy_derived = 0.0;  ///< W_A = 2 sqrt(gamma1 gamma2) [J/m2]
+  double adhesion_energy = 0.0;          ///< the W_A that is used [J/m2]
+  double equilibrium_radius = 0.0;       ///< eq. 10: a_eq = (6 pi W_A r^2 / K)^(1/3) [m]
+  double adhesion_force_derived = 0.0;   ///< eq. 9: f0 = K a_eq^2 / (2 pi r), with the K used [N/m]
+  double adhesion_force_materials = 0.0;  ///< the same with `stiffness_derived` [N/m]
+  double adhesion_force = 0.0;            ///< the f0 that is used, at the reference diameter [N/m]
+  double reference_diameter = 0.0;        ///< [m]
+  double particle_density = 0.0;          ///< [kg/m3]
   std::vector<std::string> contradictions;  ///< what disagrees, and which value is used
 };
+
+/// Do a stated and a derived value differ by more than the rounding of printed digits, 2 %?
+bool contradicts(double stated, double derived);
 
 /// Derives the contact of `system` with f0 at `reference_diameter` [m] (the system's own, when it
 /// states one).

@@ -1,4 +1,4 @@
-#include "impact/contact.hpp"
+#include "data/contact.hpp"
 
 #include <fmt/format.h>
 
@@ -19,11 +19,11 @@ constexpr double gilman_a0 = 1.3e-10;  // elastic distance of the attractive for
 // Stated and derived values that differ by more than rounding of three printed digits.
 constexpr double contradiction_tolerance = 0.02;
 
-bool disagree(double stated, double derived) {
+}  // namespace
+
+bool contradicts(double stated, double derived) {
   return std::abs(stated - derived) > contradiction_tolerance * std::abs(derived);
 }
-
-}  // namespace
 
 double compliance(double youngs_modulus, double poisson_ratio) {
   return (1.0 - poisson_ratio * poisson_ratio) / (pi * youngs_modulus);
@@ -73,7 +73,7 @@ ContactProperties derive_contact(const ImpactSystem& system, double reference_di
   contact.k_surface = compliance(system.surface.youngs_modulus, system.surface.poisson_ratio);
   contact.stiffness_derived = hertzian_stiffness(contact.k_particle, contact.k_surface);
   contact.stiffness = system.stiffness_K.value_or(contact.stiffness_derived);
-  if (disagree(contact.stiffness, contact.stiffness_derived)) {
+  if (contradicts(contact.stiffness, contact.stiffness_derived)) {
     contact.contradictions.push_back(fmt::format(
         "stiffness_K = {:.4g} GPa is stated, but the elastic constants give K = {:.4g} GPa (a "
         "factor of {:.3g}); the stated K = {:.4g} GPa is used",
@@ -86,8 +86,9 @@ ContactProperties derive_contact(const ImpactSystem& system, double reference_di
   contact.gamma_surface =
       system.surface.surface_energy.value_or(gilman_surface_energy(system.surface.youngs_modulus));
   const double energy_derived = 2.0 * std::sqrt(contact.gamma_particle * contact.gamma_surface);
+  contact.adhesion_energy_derived = energy_derived;
   contact.adhesion_energy = system.adhesion_energy.value_or(energy_derived);
-  if (contact.adhesion_energy > 0.0 && disagree(contact.adhesion_energy, energy_derived)) {
+  if (contact.adhesion_energy > 0.0 && contradicts(contact.adhesion_energy, energy_derived)) {
     contact.contradictions.push_back(fmt::format(
         "adhesion_energy = {:.4g} J/m2 is stated, but the two surface energies give W_A = {:.4g} "
         "J/m2; the stated W_A is used",
@@ -98,17 +99,17 @@ ContactProperties derive_contact(const ImpactSystem& system, double reference_di
       equilibrium_contact_radius(contact.adhesion_energy, radius, contact.stiffness);
   contact.adhesion_force_derived =
       adhesion_force_per_length(contact.stiffness, contact.equilibrium_radius, radius);
+  contact.adhesion_force_materials = adhesion_force_per_length(
+      contact.stiffness_derived,
+      equilibrium_contact_radius(contact.adhesion_energy, radius, contact.stiffness_derived),
+      radius);
   contact.adhesion_force = system.adhesion_force_f0.value_or(contact.adhesion_force_derived);
-  if (disagree(contact.adhesion_force, contact.adhesion_force_derived)) {
-    const double with_derived_K = adhesion_force_per_length(
-        contact.stiffness_derived,
-        equilibrium_contact_radius(contact.adhesion_energy, radius, contact.stiffness_derived),
-        radius);
+  if (contradicts(contact.adhesion_force, contact.adhesion_force_derived)) {
     contact.contradictions.push_back(fmt::format(
         "adhesion_force_f0 = {:.4g} N/m is stated, but eq. 12 gives f0 = {:.4g} N/m with the K "
         "that is used and {:.4g} N/m with the K of the elastic constants; the stated f0 = {:.4g} "
         "N/m is used",
-        contact.adhesion_force, contact.adhesion_force_derived, with_derived_K,
+        contact.adhesion_force, contact.adhesion_force_derived, contact.adhesion_force_materials,
         contact.adhesion_force));
   }
   return contact;

@@ -1,0 +1,135 @@
+#include "predict/validity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/units.hpp"
+#include "estimate/predictor.hpp"
+
+namespace recoil {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double largest_contact = 0.3;   // a / R
+constexpr double largest_pressure = 0.3;  // p_0 / E*
+constexpr double yield_share = 0.03;      // yield pressure over E of the softer body
+constexpr double least_tabor = 5.0;
+constexpr double least_transits = 5.0;
+constexpr double atomic_distance = 0.4e-9;  // z_0 [m]
+
+/// Does a mechanism of the fit have a pressure at which the contact gives way? It is the one kind
+/// of parameter that the modulus limits.
+bool yields(const ImpactModel& model) {
+  return std::any_of(model.slots.begin(), model.slots.end(), [](const ParameterSlot& slot) {
+    return std::isfinite(slot.parameter->modulus_limit.share);
+  });
+}
+
+/// The largest contact radius over R of an elastic sphere without damping [1]: where
+/// (2/5) K sqrt(r) n^(5/2) - (4/3) pi sqrt(r) f0 n^(3/2) = m V^2 / 2, by Newton from above.
+double undamped_contact(const ContactProperties& contact, double diameter, double velocity,
+                        double f0) {
+  const double r = diameter / 2.0;
+  const double m = sphere_mass(diameter, contact.particle_density);
+  const double hertz =
+      std::pow(1.25 * m * velocity * velocity / (contact.stiffness * std::sqrt(r)), 0.4);
+  double n = hertz + 10.0 / 3.0 * pi * f0 / contact.stiffness;
+  for (int step = 0; step < 20; ++step) {
+    const double root = std::sqrt(r * n);
+    const double energy = 0.4 * contact.stiffness * root * n * n - 4.0 / 3.0 * pi * f0 * root * n -
+                          0.5 * m * velocity * velocity;
+    n -= energy / (root * (contact.stiffness * n - 2.0 * pi * f0));
+  }
+  return std::sqrt(n / r);
+}
+
+/// The points of one dataset at which a quantity can be worst: the largest contact, the fastest
+/// and the smallest sphere.
+std::vector<PointConditions> extreme_points(const FitResult& fitted, std::size_t dataset) {
+  const ImpactModel& model = fitted.model;
+  const ContactProperties& contact = model.contacts[dataset];
+  std::vector<PointConditions> points;
+  for (const Observation& point : fitted.data.points) {
+    if (point.dataset == dataset) points.push_back(point.conditions());
+  }
+  if (points.empty()) return points;
+  const double f0 = fitted.theta[model.slot_f0[dataset]];
+  const auto contact_of = [&](const PointConditions& p) {
+    return undamped_contact(contact, p.diameter, p.velocity,
+                            adhesion_force_at(f0, contact.reference_diameter, p.diameter));
+  };
+  const auto worst = [&](const auto& more) {
+    return *std::max_element(
+        points.begin(), points.end(),
+        [&](const PointConditions& a, const PointConditions& b) { return more(a) < more(b); });
+  };
+  return {worst(contact_of), worst([](const PointConditions& p) { return p.velocity; }),
+          worst([](const PointConditions& p) { return -p.diameter; })};
+}
+
+}  // namespace
+
+std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSystem& system,
+                                      std::span<const double> theta, const PointConditions& point) {
+  const ContactProperties& contact = model.contacts[point.dataset];
+  const ContactView view = contact_view(model, theta, point);
+  ImpactOptions options = model.impact_options(false);
+  options.budget = true;
+  options.dashpot = !model.chain.empty();
+  const ImpactResult impact = simulate_impact(view.groups, options);
+  if (!impact.usable()) return {};
+
+  const double radius = view.encounter.diameter / 2.0;
+  const double modulus = 0.75 * contact.stiffness;  // E*
+  const double contact_radius = std::sqrt(impact.penetration_max * view.scales.length / radius);
+  const double pressure = 2.0 * modulus * contact_radius / pi;
+  std::vector<Validity> found;
+  const auto add = [&](ValidityQuantity quantity, double value, double limit) -> Validity& {
+    found.push_back({quantity, value, limit, point.dataset, point.diameter, point.velocity});
+    return found.back();
+  };
+  add(ValidityQuantity::contact_radius, contact_radius, largest_contact);
+  add(ValidityQuantity::pressure_modulus, pressure / modulus, largest_pressure);
+  if (!yields(model)) {
+    const double yield =
+        yield_share * std::min(system.particle.youngs_modulus, system.surface.youngs_modulus);
+    add(ValidityQuantity::pressure_yield, pressure / yield, 1.0).yield_pressure = yield;
+  }
+  const double f0 = view.encounter.adhesion_force;
+  if (f0 > 0.0) {
+    // eq. 12: f0^3 = 9 W^2 K r / (2 pi)
+    const double work = std::sqrt(2.0 * pi * f0 * f0 * f0 / (9.0 * contact.stiffness * radius));
+    const double tabor = std::cbrt(radius * work * work / (modulus * modulus)) / atomic_distance;
+    add(ValidityQuantity::tabor, tabor, least_tabor);
+  }
+  const double wave = std::sqrt(system.particle.youngs_modulus / system.particle.density);
+  add(ValidityQuantity::wave_transits,
+      impact.contact_time * view.scales.time * wave / view.encounter.diameter, least_transits);
+  return found;
+}
+
+std::vector<Validity> fit_validity(const FitResult& fitted, const std::vector<Dataset>& datasets) {
+  std::vector<Validity> all;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    std::vector<Validity> worst;
+    for (const PointConditions& point : extreme_points(fitted, d)) {
+      for (const Validity& one :
+           impact_validity(fitted.model, datasets[d].system, fitted.theta, point)) {
+        const auto known = std::find_if(worst.begin(), worst.end(), [&](const Validity& other) {
+          return other.quantity == one.quantity;
+        });
+        if (known == worst.end()) {
+          worst.push_back(one);
+        } else if (one.limit_is_least() ? one.value < known->value : one.value > known->value) {
+          *known = one;
+        }
+      }
+    }
+    all.insert(all.end(), worst.begin(), worst.end());
+  }
+  return all;
+}
+
+}  // namespace recoil
