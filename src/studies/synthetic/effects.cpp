@@ -121,6 +121,10 @@ double square_of_restitution(const Base& base, const Effects& effects, double ve
   return square / (velocity * velocity);
 }
 
+double size_of(double spread, double z) {
+  return std::exp(spread * z) / std::exp(0.5 * spread * spread);
+}
+
 double oddity_factor(const Effects& effects, double velocity) {
   const double x = std::log(velocity / effects.oddity_centre) / effects.oddity_width;
   switch (effects.oddity) {
@@ -156,8 +160,8 @@ Expected expected_point(const Base& base, const Effects& effects, const Scatter&
       // equal parts of both distributions, paired without order (golden section)
       const double u = (i + 0.5) / nodes;
       const double w = std::fmod(0.5 + i * (std::numbers::phi - 1.0), 1.0);
-      size = std::exp(effects.size_spread *
-                      gsl_cdf_ugaussian_Pinv(effects.adhesion_spread > 0.0 ? w : u));
+      size = size_of(effects.size_spread,
+                     gsl_cdf_ugaussian_Pinv(effects.adhesion_spread > 0.0 ? w : u));
       adhesion = std::exp(effects.adhesion_spread * gsl_cdf_ugaussian_Pinv(u));
     }
     const double square = square_of_restitution(base, effects, velocity, diameter, size, adhesion);

@@ -45,6 +45,10 @@ double square_of_restitution(const Base& base, const Effects& effects, double ve
                              double diameter, double size_factor = 1.0,
                              double adhesion_factor = 1.0);
 
+/// Diameter over the stated one of the sphere at z standard deviations of ln d: the stated one is
+/// the mean of all, not their median.
+double size_of(double spread, double z);
+
 /// How single readings of e scatter: (relative e)^2 + floor^2 + (slope (1 - e^2) / e)^2; the last
 /// is a scatter of the velocity, which counts where e rises steeply.
 struct Scatter {
