@@ -48,6 +48,10 @@ inline constexpr double highest_adhesion_energy = 2.0 * highest_surface_energy;
 inline constexpr double lowest_stiffness = 1e3;
 inline constexpr double highest_stiffness = highest_modulus;
 
+/// Pressure of the air [Pa]: the best vacuum of a laboratory to a hundred atmospheres.
+inline constexpr double lowest_pressure = 1e-9;
+inline constexpr double highest_pressure = 1e7;
+
 /// f0 [N/m]: Table 1 of Li, Dunn & Brach (1999) has 5.7 to 310.
 inline constexpr double highest_adhesion_force = 1e6;
 

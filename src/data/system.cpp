@@ -95,6 +95,15 @@ void read_overrides(const JsonNode& recoil, ImpactSystem& system) {
   }
 }
 
+void read_conditions(const JsonNode& recoil, ImpactSystem& system) {
+  const auto conditions = recoil.find("conditions");
+  if (!conditions) return;
+  conditions->allow_only({"ambient_pressure"});
+  system.ambient_pressure = bounded_if_any(*conditions, "ambient_pressure",
+                                           {limits::lowest_pressure, limits::highest_pressure, "Pa",
+                                            "give it in Pa: 1 atm is 101325 Pa, 1 mbar is 100 Pa"});
+}
+
 }  // namespace
 
 Provenance read_provenance(const JsonNode& recoil) {
@@ -108,11 +117,12 @@ Provenance read_provenance(const JsonNode& recoil) {
 
 ImpactSystem read_system(const JsonNode& recoil) {
   recoil.allow_only({"provenance", "particle", "surface", "stiffness_K", "adhesion_energy",
-                     "adhesion_force_f0", "reference_diameter"});
+                     "adhesion_force_f0", "reference_diameter", "conditions"});
   ImpactSystem system;
   system.particle = read_material(recoil, "particle", true);
   system.surface = read_material(recoil, "surface", false);
   read_overrides(recoil, system);
+  read_conditions(recoil, system);
   return system;
 }
 

@@ -70,6 +70,8 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
   s.stiffness = contact.stiffness;
   s.reduced_modulus = 0.75 * contact.stiffness;
   s.reference_diameter = contact.reference_diameter;
+  s.adhesion_energy = contact.adhesion_energy;
+  s.ambient_pressure = system.ambient_pressure;
   const Material& surface = system.surface;
   s.wave_mobility =
       half_space_mobility(surface.youngs_modulus, surface.poisson_ratio,

@@ -21,6 +21,9 @@ struct Effects {
   double gas_distance = 2e-5;         ///< from the measuring plane [m]
   double surface_field = 0.0;         ///< of the charge, at the reference diameter [V/m]
   double charge_exponent = 2.0;       ///< of the charge with the diameter
+  double hamaker_constant = 0.0;      ///< [J]
+  double flight_pressure = 0.0;       ///< of the air in which dropped spheres fly [Pa]
+  double height_error = 0.0;          ///< read too much in the height of the rebound [m]
   double plane_height = 0.0;          ///< [m]
   double velocity_error = 0.0;        ///< read too much [m/s]
   double rebound_error_sign = 1.0;    ///< -1: the rebound reads as much too little
