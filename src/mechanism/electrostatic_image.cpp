@@ -7,11 +7,11 @@ namespace {
 
 constexpr double vacuum_permittivity = 8.8541878128e-12;  // [F/m], CODATA 2018
 
-/// Field at which the surface of a sphere discharges [V/m]: in air of the density delta (1 at 1
-/// atm) Peek's law for spheres, 2.72e6 delta (1 + 0.54 / sqrt(delta r / cm)), measured at radii of
-/// centimetres and taken down to where field emission limits, 9e8 V/m for negative charge (positive
-/// ions leave at 2.1e10 V/m). Where the free path of the molecules exceeds the radius tenfold no
-/// avalanche grows. Of an unknown gas the larger of both.
+/// Field at which the surface of a sphere discharges [V/m]. In air of the density delta (1 at 1
+/// atm) Peek's law for spheres, 2.72e6 delta (1 + 0.54 / sqrt(delta r / cm)): that of electrodes of
+/// millimetres and more, taken far below here, up to what emission from the surface allows, 9e8 V/m
+/// for electrons (2.1e10 V/m for positive ions). Where the free path of the molecules exceeds ten
+/// radii no avalanche grows and emission alone limits; so it does where nobody says what is around.
 double breakdown_field(const Encounter<double>& sphere) {
   constexpr double emission = 9e8;
   constexpr double free_path_times_pressure = 66e-9 * 101325.0;  // Hinds [m Pa]
@@ -74,9 +74,11 @@ Mechanism electrostatic_image() {
             // Technology (charge limits of solid particles).
             .limit = {.quantity = "field at the surface over that of breakdown",
                       .upper = 1.0,
-                      .why = "air stands 2.72e6 (1 + 0.54 / (r / cm)^(1/2)) V/m around a "
-                             "sphere at 1 atm, vacuum 9e8 V/m; where the dataset states no "
-                             "ambient_pressure, the larger counts",
+                      .why = "air at 1 atm holds 2.72e6 (1 + 0.54 / (r / cm)^(1/2)) V/m "
+                             "around a sphere (Peek 1929, from electrodes of mm and "
+                             "more), vacuum 9e8 V/m (emission of electrons; Hinds, Aerosol "
+                             "Technology); where the dataset states no ambient_pressure, "
+                             "the larger counts",
                       .of =
                           [](const Encounter<double>& sphere, std::span<const double> own) {
                             const double growth = sphere.diameter / sphere.at->reference_diameter;

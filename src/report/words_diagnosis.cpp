@@ -292,7 +292,7 @@ std::string implausible_words(const FoundParameter& parameter) {
                          parameter.upper, parameter.range_why);
     case Implausible::beyond_limit: {
       const bool above = parameter.quantity > parameter.limit->upper;
-      return fmt::format("{} = {:.3g}{} makes the {} {:.2g}, which is at {} {:g}: {}",
+      return fmt::format("{} = {:.3g}{}: the {} would be {:.2g}, and is at {} {:g}, as {}",
                          parameter.label, parameter.value, unit_suffix(parameter.unit),
                          parameter.limit->quantity, parameter.quantity, above ? "most" : "least",
                          above ? parameter.limit->upper : parameter.limit->lower,

@@ -60,7 +60,8 @@ double risen(double pressure, double density, double diameter, double speed) {
 
 /// Speed of a sphere after crossing the gas between the measuring plane and the surface (inward:
 /// the gap closes). Drag of Stokes with Schiller & Naumann's inertia and Cunningham's slip far from
-/// the wall, plus the film between slipping walls near it (Hocking 1973); dv/dx by the classical
+/// the wall, plus the film between slipping walls near it (Hocking 1973), and between them what
+/// Bevan & Prieve (2000), J. Chem. Phys. 113, 1228-1236, add for the wall; dv/dx by the classical
 /// Runge-Kutta method in ln(x + lambda).
 double through_gas(const Effects& effects, double mass, double radius, double speed, bool inward) {
   const double share = effects.gas_pressure / bar;
@@ -72,11 +73,13 @@ double through_gas(const Effects& effects, double mass, double radius, double sp
   const auto loss = [&](double at, double v) {  // dv / d ln(x + path), per step towards the wall
     if (!(v > 0.0)) return 0.0;
     const double x = std::exp(at);
-    const double thickness = std::max(x - path, 1e-6 * path) / (6.0 * 1.15 * path);
+    const double gap = std::max(x - path, 1e-6 * path);
+    const double thickness = gap / (6.0 * 1.15 * path);
     const double film =
         radius / (3.0 * 1.15 * path) * ((1.0 + thickness) * std::log1p(1.0 / thickness) - 1.0);
     const double reynolds = gas_density * share * 2.0 * radius * v / viscosity;
-    const double drag = (1.0 + 0.15 * std::pow(reynolds, 0.687)) / slip + film;
+    const double wall = 0.5 / (1.0 + 3.0 * gap / radius);
+    const double drag = (1.0 + 0.15 * std::pow(reynolds, 0.687) + wall) / slip + film;
     return -6.0 * pi * viscosity * radius / mass * drag * x;
   };
   constexpr int steps = 200;
