@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -118,6 +119,24 @@ std::string mechanisms_block(const CLI::App&) {
   return out;
 }
 
+/// What a parameter can be: its range, its limit, or both.
+std::string plausible_words(const Parameter& p) {
+  std::string words;
+  if (p.limit.of == nullptr || p.plausible.lower != p.lower || p.plausible.upper != p.upper) {
+    words = fmt::format("{:.4g} to {:.4g}: {}", p.plausible.lower, p.plausible.upper,
+                        literal(p.plausible.why));
+  }
+  if (p.limit.of == nullptr) return words;
+  const bool least = std::isfinite(p.limit.lower);
+  const bool most = std::isfinite(p.limit.upper);
+  const std::string within = least && most
+                                 ? fmt::format("{:g} to {:g}", p.limit.lower, p.limit.upper)
+                                 : fmt::format("at {} {:g}", least ? "least" : "most",
+                                               least ? p.limit.lower : p.limit.upper);
+  return fmt::format("{}{}{} {}: {}", words, words.empty() ? "" : "; ", literal(p.limit.quantity),
+                     within, literal(p.limit.why));
+}
+
 std::string mechanism_details_block(const CLI::App&) {
   std::string out;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
@@ -131,11 +150,9 @@ std::string mechanism_details_block(const CLI::App&) {
         "\n| parameter | unit | meaning | absent at | start | bounds | plausible |\n"
         "|---|---|---|---|---|---|---|\n";
     for (const Parameter& p : info.parameters) {
-      out += fmt::format(
-          "| {} | {} | {} | {:.4g} | {:.4g} | {:.4g} to {:.4g} | {:.4g} to {:.4g}: "
-          "{} |\n",
-          code(p.name), p.unit, literal(p.meaning), p.null_value, p.initial, p.lower, p.upper,
-          p.plausible.lower, p.plausible.upper, literal(p.plausible.why));
+      out += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {:.4g} to {:.4g} | {} |\n",
+                         code(p.name), p.unit, literal(p.meaning), p.null_value, p.initial, p.lower,
+                         p.upper, plausible_words(p));
     }
   }
   return out;
@@ -210,6 +227,7 @@ std::string limits_block(const CLI::App&) {
       {"Young's modulus", "Pa", limits::lowest_modulus, limits::highest_modulus},
       {"surface energy", "J/m2", 0.0, limits::highest_surface_energy},
       {"adhesion energy", "J/m2", 0.0, limits::highest_adhesion_energy},
+      {"ambient pressure", "Pa", 0.0, limits::highest_pressure},
       {"stiffness K", "Pa", limits::lowest_stiffness, limits::highest_stiffness},
       {"adhesion force f0", "N/m", 0.0, limits::highest_adhesion_force}};
   std::string out = "| quantity | unit | accepted |\n|---|---|---|\n";

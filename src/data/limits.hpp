@@ -51,7 +51,7 @@ inline constexpr double highest_stiffness = highest_modulus;
 /// f0 [N/m]: Table 1 of Li, Dunn & Brach (1999) has 5.7 to 310.
 inline constexpr double highest_adhesion_force = 1e6;
 
-/// Ambient pressure [Pa], up to a hundred atmospheres.
+/// Ambient pressure [Pa], from vacuum (0) to a hundred atmospheres.
 inline constexpr double highest_pressure = 1e7;
 /// Temperatures [K]. Below the lower end a number is more likely in degrees Celsius.
 inline constexpr double lowest_temperature = 50.0;

@@ -23,7 +23,7 @@ struct ImpactSystem {
   std::optional<double> adhesion_energy;    ///< W_A [J/m2], instead of 2 sqrt(gamma1 gamma2)
   std::optional<double> adhesion_force_f0;  ///< f0 [N/m] at `reference_diameter`, instead of eq. 12
   std::optional<double> reference_diameter;  ///< [m]
-  std::optional<double> ambient_pressure;    ///< [Pa]; 0: vacuum
+  std::optional<double> ambient_pressure;    ///< of the air around [Pa]; 0: vacuum, absent: unknown
   std::optional<double> temperature;         ///< [K]
 };
 

@@ -63,11 +63,16 @@ std::vector<std::vector<double>> best_starts(const LeastSquaresProblem& problem,
   return best;
 }
 
-/// Narrows the bounds of a mechanism's parameter to its plausible range and a fifth of its width
-/// beyond (of its logarithm where it has one): an estimate scatters about a truth at the edge.
-void keep_possible(ParameterSpec& spec) {
+/// Narrows the bounds of a mechanism's parameter to what it can be and a fifth of that width beyond
+/// (of its logarithm where it has one): an estimate scatters about a truth at the edge.
+void keep_possible(ParameterSpec& spec, const AllowedValues& allowed) {
   const Parameter& parameter = *spec.parameter;
-  const auto [lower, upper, why] = parameter.plausible;
+  const double upper = allowed.upper;
+  // The lower limit of what vanishes below it is no bound: the way to nothing stays open.
+  const bool open = allowed.lower_by_limit && parameter.null_value <= allowed.lower;
+  const double lower =
+      open ? std::max(parameter.plausible.lower, parameter.null_value) : allowed.lower;
+  if (!(upper > lower)) return;  // nothing is possible, and will be said to be so
   if (parameter.log_scale) {
     const double beyond = std::pow(upper / lower, 0.2);
     spec.lower = std::max(spec.lower, lower / beyond);
@@ -117,6 +122,32 @@ bool Candidate::adds(const ParameterSlot& slot) const {
 
 std::string Candidate::name() const { return fmt::format("{}", fmt::join(added, " + ")); }
 
+AllowedValues allowed_values(const Candidate& candidate, std::span<const double> theta,
+                             std::size_t j) {
+  const ImpactModel& model = candidate.model;
+  const Parameter& parameter = *model.slots[j].parameter;
+  const std::vector<Parameter>& parameters = parameter.mechanism->info.parameters;
+  std::size_t first = 0;  // of the mechanism's parameters among those of the chain
+  for (const Mechanism* mechanism : model.chain) {
+    if (mechanism == parameter.mechanism) break;
+    first += mechanism->info.parameters.size();
+  }
+  const auto k = static_cast<std::size_t>(&parameter - parameters.data());
+  std::vector<double> own;
+  std::vector<Encounter<double>> spheres;
+  for (const PointConditions& at : candidate.impacts) {
+    const std::vector<std::size_t>& slots = model.slot_own[first + k][at.dataset];
+    if (std::find(slots.begin(), slots.end(), j) == slots.end()) continue;
+    if (own.empty()) {
+      for (std::size_t i = 0; i < parameters.size(); ++i) {
+        own.push_back(theta[model.slot_own[first + i][at.dataset].front()]);
+      }
+    }
+    spheres.push_back(plain_sphere(model.surroundings[at.dataset], at.diameter, at.velocity));
+  }
+  return allowed_values(parameter, k, own, spheres);
+}
+
 Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datasets,
                          const std::vector<std::string>& added, bool release, bool possible) {
   Candidate candidate;
@@ -135,12 +166,28 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
         std::find(before.begin(), before.end(), parameter->mechanism->info.id) == before.end();
     if (is_new) {
       stated.free = stated.free || release;
-      if (possible && stated.free) keep_possible(stated);
       if (parameter->is_scatter_of_rebounds) take_stated_scatter(datasets, stated);
     }
     candidate.spec.parameters.push_back(stated);
   }
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    for (const ImpactPoint& point : datasets[d].points) {
+      candidate.impacts.push_back({d, point.diameter, point.incident_velocity, point.series});
+    }
+  }
   candidate.model = make_model(candidate.spec, datasets);
+  if (possible) {
+    const std::vector<double> initial = candidate.model.initial();
+    for (std::size_t j = 0; j < initial.size(); ++j) {
+      const ParameterSlot& slot = candidate.model.slots[j];
+      if (!slot.free || !candidate.adds(slot)) continue;
+      for (ParameterSpec& stated : candidate.spec.parameters) {
+        if (stated.parameter != slot.parameter) continue;
+        keep_possible(stated, allowed_values(candidate, initial, j));
+      }
+    }
+    candidate.model = make_model(candidate.spec, datasets);
+  }
   candidate.free_count = candidate.model.free_count();
   return candidate;
 }

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "estimate/fit.hpp"
+#include "estimate/point_conditions.hpp"
+#include "mechanism/plausible_range.hpp"
 
 namespace recoil {
 
@@ -15,6 +17,7 @@ struct Candidate {
   bool released = false;  ///< parameters that the catalogue holds fixed are free
   FitSpec spec;
   ImpactModel model;
+  std::vector<PointConditions> impacts;  ///< all of the datasets
   int free_count = 0;
 
   /// The ids of what is added: one, or "one + another".
@@ -22,6 +25,11 @@ struct Candidate {
   /// Does `slot` belong to one of the further mechanisms?
   bool adds(const ParameterSlot& slot) const;
 };
+
+/// What values the parameter of slot `j`, of a mechanism, can have in the impacts of `candidate`
+/// while the others are at `theta`.
+AllowedValues allowed_values(const Candidate& candidate, std::span<const double> theta,
+                             std::size_t j);
 
 /// `spec` with the mechanisms `added` on top of its own, their parameters as the catalogue has
 /// them.

@@ -13,12 +13,12 @@ namespace recoil {
 
 /// Why a parameter cannot have its value.
 enum class Implausible {
-  outside_range,      ///< of what the catalogue gives for it
-  firmer_than_solids  ///< a yield pressure that no solid has
+  outside_range,  ///< of what the catalogue gives for it
+  beyond_limit    ///< of a dimensionless quantity that it stands for
 };
 template <>
 struct NamesOf<Implausible> {
-  static constexpr std::array<std::string_view, 2> names = {"outside_range", "firmer_than_solids"};
+  static constexpr std::array<std::string_view, 2> names = {"outside_range", "beyond_limit"};
 };
 
 /// A parameter of an added mechanism as it was fitted.
@@ -31,10 +31,10 @@ struct FoundParameter {
   /// Plausible, or no further outside than half the range, or a factor of two: limits of what is
   /// plausible are not sharp.
   bool near_plausible = true;
-  double lower = 0.0, upper = 0.0;    ///< the range that it lies outside of
-  std::string_view range_why = {};    ///< why that is the range
-  double over_modulus = 0.0;          ///< a yield pressure over the reduced modulus [1]
-  std::string_view modulus_why = {};  ///< why no solid goes beyond the limit
+  double lower = 0.0, upper = 0.0;        ///< the range that it lies outside of
+  std::string_view range_why = {};        ///< why that is the range
+  const PlausibleLimit* limit = nullptr;  ///< the limit that it lies beyond
+  double quantity = 0.0;                  ///< what is limited, at this value [1]
 
   bool plausible() const { return !implausible; }
 };

@@ -10,13 +10,6 @@ namespace {
 constexpr double allowed_errors = 2.0;  // outside of a plausible range
 constexpr double at_null = 1e-9;        // of the range of a parameter
 
-/// The softest E* of the datasets of a model [Pa].
-double softest(const ImpactModel& model) {
-  double modulus = INFINITY;
-  for (const Surroundings& at : model.surroundings) modulus = std::min(modulus, at.reduced_modulus);
-  return modulus;
-}
-
 /// Beyond the range by no more than half of it, or a factor of two.
 bool is_near(const ParameterSlot& slot, double value, double lower, double upper) {
   if (slot.log_scale) return value >= 0.5 * lower && value <= 2.0 * upper;
@@ -34,6 +27,27 @@ double nearest_to_range(const ParameterSlot& slot, double value, double sd, doub
   if (value > upper) return std::max(down, upper);
   if (value < lower) return std::min(up, lower);
   return value;
+}
+
+/// Sets what of `parameter`, the one of slot `j`, is impossible.
+void judge(const Candidate& candidate, const Refit& refit, std::size_t j, double error,
+           FoundParameter& parameter) {
+  const ParameterSlot& slot = candidate.model.slots[j];
+  const AllowedValues allowed = allowed_values(candidate, refit.theta, j);
+  const double value = nearest_to_range(slot, parameter.value, error, allowed.lower, allowed.upper);
+  if (value >= allowed.lower && value <= allowed.upper) return;
+  const bool by_limit = value > allowed.upper ? allowed.upper_by_limit : allowed.lower_by_limit;
+  const PlausibleLimit& limit = slot.parameter->limit;
+  parameter.implausible = by_limit ? Implausible::beyond_limit : Implausible::outside_range;
+  parameter.near_plausible =
+      !(by_limit && limit.sharp) && is_near(slot, value, allowed.lower, allowed.upper);
+  parameter.lower = allowed.lower;
+  parameter.upper = allowed.upper;
+  parameter.range_why = slot.parameter->plausible.why;
+  if (by_limit) {
+    parameter.limit = &limit;
+    parameter.quantity = allowed.quantity;
+  }
 }
 
 }  // namespace
@@ -78,7 +92,6 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
   for (std::size_t j = 0; j < refit.theta.size(); ++j) {
     const ParameterSlot& slot = candidate.model.slots[j];
     if (!candidate.adds(slot)) continue;
-    const Parameter& entry = *slot.parameter;
     FoundParameter parameter;
     parameter.label = slot.label();
     parameter.unit = slot.parameter->unit;
@@ -86,25 +99,7 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
     parameter.null_value = slot.parameter->null_value;
     const bool vanishes = std::abs(parameter.value - slot.parameter->null_value) <=
                           at_null * (slot.upper - slot.lower);
-    if (slot.free && !vanishes) {
-      const auto [lower, upper, why] = entry.plausible;
-      const double value = nearest_to_range(slot, parameter.value, errors[j], lower, upper);
-      if (value < lower || value > upper) {
-        parameter.implausible = Implausible::outside_range;
-        parameter.near_plausible = is_near(slot, value, lower, upper);
-        parameter.lower = lower;
-        parameter.upper = upper;
-        parameter.range_why = why;
-      }
-      const double modulus = softest(candidate.model);
-      const double limit = entry.modulus_limit.share * modulus;
-      if (nearest_to_range(slot, parameter.value, errors[j], lower, limit) > limit) {
-        parameter.implausible = Implausible::firmer_than_solids;
-        parameter.near_plausible = false;
-        parameter.over_modulus = parameter.value / modulus;
-        parameter.modulus_why = entry.modulus_limit.why;
-      }
-    }
+    if (slot.free && !vanishes) judge(candidate, refit, j, errors[j], parameter);
     found.push_back(std::move(parameter));
   }
   return found;

@@ -209,6 +209,11 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
     if (!mechanism.works_with(base.spec.adhesion)) continue;
     // Counts of captures have told the base model already how the impacts differ.
     if (mechanism.spreads() && base.fitted.data.noise.event_spread > 0.0) continue;
+    const std::vector<Surroundings>& places = base.candidate.model.surroundings;
+    if (std::none_of(places.begin(), places.end(),
+                     [&](const Surroundings& at) { return mechanism.acts_at(at); })) {
+      continue;
+    }
     if (std::find(own.begin(), own.end(), mechanism.info.id) == own.end()) {
       untried.push_back(&mechanism);
     }

@@ -7,7 +7,7 @@ struct AdhesionHysteresis {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
     // a_max^2 = R n_max
-    e.lose(std::numbers::pi * e.contact_radius * e.deepest() * own[0]);
+    e.lose(std::numbers::pi * e.at->adhesion_energy * e.contact_radius * e.deepest() * own[0]);
   }
 };
 
@@ -20,21 +20,28 @@ Mechanism adhesion_hysteresis() {
       .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula = "loss pi a_max^2 dW, with a_max of the undamped impact",
+      .formula = "loss pi a_max^2 dW, dW = s W_A with W_A of the two bodies, and a_max of the "
+                 "undamped impact",
       .source =
           "Chaudhury, M. K. & Whitesides, G. M. (1991), Langmuir 7, 1013-1025 (adhesion hysteresis "
-          "of contacts); that damping makes the contact smaller is left out",
+          "of contacts); that dW of unlike targets has the ratio of their W_A is an assumption; "
+          "that "
+          "damping makes the contact smaller is left out",
       .fingerprint = "1 - e^2 falls like V^(-6/5) d^(-1), slower than for a constant energy; V* ~ "
-                     "d^(-5/6), which a freed size law takes for f0 ~ r^(5/9)",
-      .parameters = {{.name = "hysteresis_energy",
-                      .unit = "J/m2",
-                      .meaning = "dW, work of parting less work of meeting",
-                      .null_value = 0.0,
-                      .initial = 0.05,
-                      .lower = 0.0,
-                      .upper = 50.0,
-                      .plausible = {0.0, 1.0, "0.01 to 0.3 J/m2 is usual for organic solids"},
-                      .starts = {0.01, 0.3}}},
+                     "d^(-5/6), which a freed size law takes for f0 ~ r^(5/9); grows with W_A from "
+                     "target to target",
+      .parameters =
+          {{.name = "hysteresis_factor",
+            .unit = "1",
+            .meaning = "s, work of parting less work of meeting, over W_A",
+            .null_value = 0.0,
+            .initial = 0.15,
+            .lower = 0.0,
+            .upper = 150.0,
+            .plausible = {0.0, 3.0,
+                          "organic solids part with up to a few times the work that they met with"},
+            .starts = {0.03, 1.0}}},
+      .needs_adhesion = true,
   });
 }
 

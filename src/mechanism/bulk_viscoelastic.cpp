@@ -31,10 +31,20 @@ Mechanism bulk_viscoelastic() {
                       .initial = 1e-10,
                       .lower = 0.0,
                       .upper = 1e-3,
-                      .plausible = {0.0, 1e-8,
-                                    "up to 1e-9 s for organic solids, below 1e-12 s for metals; "
-                                    "1e-8 s would be a rubber"},
-                      .starts = {1e-12, 1e-11, 1e-9}}},
+                      .plausible = {0.0, 1e-3, "the domain of the formula"},
+                      .starts = {1e-12, 1e-11, 1e-9},
+                      // Ferry 1980, Viscoelastic Properties of Polymers: glasses have 0.01 to 0.1,
+                      // rubbers about 1 where they turn to glass.
+                      .limit = {.quantity = "loss tangent of the contact, pi A over its duration",
+                                .upper = 1.0,
+                                .why = "organic solids have 0.01 to 0.1, metals less, rubbers at "
+                                       "most about 1; beyond, the law itself does not hold",
+                                .of =
+                                    [](const Encounter<double>& sphere,
+                                       std::span<const double> own) {
+                                      return std::numbers::pi * own[0] /
+                                             sphere.hertz_contact_time();
+                                    }}}},
   });
 }
 

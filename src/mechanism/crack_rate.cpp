@@ -31,8 +31,9 @@ const std::vector<Node>& nodes() {
   return all;
 }
 
-/// Work of separation w = w_0 + w_1 (v_c / (1 m/s))^k at the crack velocity v_c = |a'|, a^2 = R n.
-/// The first term is paid back in closing; the second costs on the way out
+/// Work of separation w = w_0 + w_1 (v_c / (1 m/s))^k at the crack velocity v_c = |a'|, a^2 = R n,
+/// w_1 = s W_A: the work without rate is multiplied (Gent & Schultz 1972). The first term is paid
+/// back in closing; the second costs on the way out
 ///   integral of w_1 v_c^k d(pi a^2) = pi R w_1 integral over n of (sqrt(R / n) |n'| / 2)^k.
 /// n' is that of an undamped sphere (`undamped_square`) less what the base model loses, spread
 /// evenly over the way out: n'^2 - (1 - e_0^2) V^2 (1 - n / n_max). With n = n_max sin^4(phi)
@@ -60,7 +61,8 @@ struct CrackRate {
       const T log_crack = shape + 0.5 * (logarithm(square) - node.log_s);
       sum += node.weight * exponential(k * log_crack);
     }
-    e.lose(std::numbers::pi * e.contact_radius * deepest * own[0] * sum);
+    const T work = own[0] * e.at->adhesion_energy;
+    e.lose(std::numbers::pi * e.contact_radius * deepest * work * sum);
   }
 };
 
@@ -73,26 +75,25 @@ Mechanism crack_rate() {
       .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula =
-          "w = w_0 + w_1 (v_c / (1 m/s))^k on opening; loss = integral of w_1 v_c^k d(pi a^2) on "
-          "the way out, v_c = (R / n)^(1/2) |n'| / 2",
+      .formula = "w = w_0 + w_1 (v_c / (1 m/s))^k on opening, w_1 = s W_A with W_A of the two "
+                 "bodies; loss "
+                 "= integral of w_1 v_c^k d(pi a^2) on the way out, v_c = (R / n)^(1/2) |n'| / 2",
       .source =
           "Gent, A. N. & Schultz, J. (1972), J. Adhesion 3, 281-294; Maugis, D. & Barquins, "
           "M. (1978), J. Phys. D 11, 1989-2023. The contact is taken to open at the speed of the "
           "base model's sphere",
       .fingerprint = "1 - e^2 ~ V^((3k-6)/5) d^(-1), V* ~ d^(-5/(6-3k)): between area hysteresis "
-                     "(k = 0) and viscous loss; grows with the target's surface energy",
-      .parameters = {{.name = "crack_energy",
-                      .unit = "J/m2",
-                      .meaning = "w_1, rate-dependent work of separation at 1 m/s",
+                     "(k = 0) and viscous loss; grows with W_A from target to target",
+      .parameters = {{.name = "crack_factor",
+                      .unit = "1",
+                      .meaning = "s, rate-dependent work of separation at 1 m/s over W_A",
                       .null_value = 0.0,
-                      .initial = 0.05,
+                      .initial = 0.15,
                       .lower = 0.0,
-                      .upper = 50.0,
-                      .plausible = {0.0, 10.0,
-                                    "rates multiply the 0.01 to 0.3 J/m2 of van der Waals contacts "
-                                    "by up to some tens"},
-                      .starts = {0.01, 0.3}},
+                      .upper = 150.0,
+                      .plausible = {0.0, 30.0,
+                                    "rates multiply the work of adhesion by up to some tens"},
+                      .starts = {0.03, 1.0}},
                      {.name = "crack_exponent",
                       .unit = "1",
                       .meaning = "k, of the crack velocity",
@@ -102,6 +103,7 @@ Mechanism crack_rate() {
                       .upper = 1.5,
                       .plausible = {0.2, 0.8, "0.3 to 0.7 are measured for polymers"},
                       .free = false}},
+      .needs_adhesion = true,
   });
 }
 

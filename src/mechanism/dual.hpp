@@ -103,6 +103,12 @@ T exponential(const T& x) {
   const double f = std::exp(value_of(x));
   return compose(x, f, f);
 }
+/// exp(x) - 1, exact for small x.
+template <class T>
+T exponential_less_one(const T& x) {
+  const double f = std::expm1(value_of(x));
+  return compose(x, f, f + 1.0);
+}
 template <class T>
 T logarithm(const T& x) {
   return compose(x, std::log(value_of(x)), 1.0 / value_of(x));

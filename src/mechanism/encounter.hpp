@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "data/contact.hpp"
 #include "data/material.hpp"
@@ -16,7 +17,9 @@ struct Surroundings {
   double stiffness = 0.0;           ///< K [Pa]
   double reduced_modulus = 0.0;     ///< E* = (3/4) K [Pa]
   double reference_diameter = 0.0;  ///< where f0 is stated [m]
+  double adhesion_energy = 0.0;     ///< W_A of the two bodies, see `ContactProperties` [J/m2]
   double wave_mobility = 0.0;       ///< D of `elastic_waves`, for a half-space [m s / N]
+  std::optional<double> ambient_pressure;  ///< of the air [Pa], where the dataset states it
 };
 
 /// @param contact derived from `system`
@@ -47,6 +50,9 @@ struct Encounter {
   T scale() const {
     return power(mass() * velocity * velocity / (sqrt(contact_radius) * at->stiffness), 0.4);
   }
+  /// How long an elastic sphere without adhesion touches, 2 sqrt(pi) Gamma(7/5) / Gamma(9/10) n_max
+  /// / V [s] (Hertz).
+  T hertz_contact_time() const { return 2.943275 * hertz_penetration() / velocity; }
   /// Largest penetration of an elastic sphere without adhesion, (5/4)^(2/5) n_c [m].
   T hertz_penetration() const { return scale() * std::pow(1.25, 0.4); }
   /// Kinetic energy per mass, times two, of an undamped sphere at penetration n [m2/s2]:
@@ -92,6 +98,12 @@ struct Observed {
   T square;    ///< e^2, continued below zero [1]
   T velocity;  ///< measured incident velocity [m/s]
 };
+
+/// max(y, 0), rounded off over `width`: of what something stops altogether.
+template <class T>
+T positive_part(const T& y, const T& width) {
+  return 0.5 * (y + sqrt(y * y + width * width));
+}
 
 /// (sqrt(x) + shift)^2 for what was seen to come back: rises smoothly from x to its value around
 /// x = 0, over |x| ~ width^2. At x >> width^2 the relative error of `shift` is below

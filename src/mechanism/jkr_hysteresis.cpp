@@ -7,11 +7,21 @@ namespace {
 /// (W^5 R^4 / E*^2)^(1/3): the integral of the JKR curve; Thornton & Ning (1998) print 7.09.
 constexpr double parting_work = 7.0922;
 
+/// Range of the adhesive forces, the equilibrium distance of two surfaces [m].
+constexpr double force_range = 0.4e-9;
+
+/// mu = (R W^2 / (E*^2 z0^3))^(1/3).
+double tabor_parameter(const Encounter<double>& sphere, std::span<const double> own) {
+  const double ratio = own[0] * sphere.at->adhesion_energy / sphere.at->reduced_modulus;
+  return std::cbrt(0.5 * sphere.diameter * ratio * ratio) / force_range;
+}
+
 struct JkrHysteresis {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
     const double E = e.at->reduced_modulus;
-    e.lose(parting_work * std::cbrt(1.0 / (E * E)) * power(own[0], 5.0 / 3.0) *
+    const T work = own[0] * e.at->adhesion_energy;
+    e.lose(parting_work * std::cbrt(1.0 / (E * E)) * power(work, 5.0 / 3.0) *
            power(e.contact_radius, 4.0 / 3.0));
   }
 };
@@ -26,24 +36,35 @@ Mechanism jkr_hysteresis() {
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
       .formula =
-          "constant work lost per impact, 7.0922 (W^5 R^4 / E*^2)^(1/3); e^2 = e_0^2 - (V_s / V)^2",
-      .source = "Johnson, K. L., Kendall, K. & Roberts, A. D. (1971), Proc. R. Soc. A 324, "
-                "301-313; Thornton, C. & Ning, Z. (1998), Powder Technol. 99, 154-162",
+          "constant work lost per impact, 7.0922 (W^5 R^4 / E*^2)^(1/3), W = s W_A with W_A of the "
+          "two bodies; e^2 = e_0^2 - (V_s / V)^2",
+      .source =
+          "Johnson, K. L., Kendall, K. & Roberts, A. D. (1971), Proc. R. Soc. A 324, "
+          "301-313; Thornton, C. & Ning, Z. (1998), Powder Technol. 99, 154-162. The number "
+          "7.0922 holds from a Tabor parameter mu = (R W^2 / (E*^2 z0^3))^(1/3) (z0 = 0.4 nm) "
+          "of about 3 to 5, and falls to nothing towards 1: Greenwood, J. A. (1997), Proc. R. "
+          "Soc. A 453, 1277-1297",
       .fingerprint =
           "1 - e^2 falls like V^-2 d^(-5/3), e towards 1 far above capture; V* ~ d^(-5/6), which a "
-          "freed size law takes for f0 ~ r^(5/9); V* ~ W^(5/6) between targets",
+          "freed size law takes for f0 ~ r^(5/9); V* ~ W_A^(5/6) between targets",
       .parameters =
-          {{.name = "jkr_work",
-            .unit = "J/m2",
-            .meaning = "work of adhesion W of the JKR contact",
+          {{.name = "jkr_factor",
+            .unit = "1",
+            .meaning = "s, work of adhesion of the JKR contact over W_A",
             .null_value = 0.0,
-            .initial = 0.1,
+            .initial = 0.3,
             .lower = 0.0,
-            .upper = 50.0,
+            .upper = 150.0,
             .plausible = {0.0, 3.0,
-                          "van der Waals contacts have 0.01 to 0.3 J/m2, clean metals and "
-                          "semiconductors up to 3"},
-            .starts = {0.02, 0.5}}},
+                          "rough or covered surfaces have less than W_A, down to a hundredth; "
+                          "of soft solids Gilman's estimate is about half of what is measured"},
+            .starts = {0.05, 1.5},
+            .limit = {.quantity = "Tabor parameter mu of the largest sphere",
+                      .lower = 1.0,
+                      .why = "below it a contact neither jumps in nor out, and no hysteresis is "
+                             "expected",
+                      .of = tabor_parameter}}},
+      .needs_adhesion = true,
   });
 }
 

@@ -51,6 +51,9 @@ struct MechanismInfo {
   std::vector<Parameter> parameters = {};
   /// Does it say that the spheres of one point differ in size?
   bool mixes_sizes = false;
+  /// Is its strength a multiple of the dataset's own work of adhesion? Where that is 0 it does
+  /// nothing.
+  bool needs_adhesion = false;
 };
 
 /// The law of a mechanism for one number type; null where it does nothing. `own` holds its
@@ -68,7 +71,7 @@ struct MechanismLaw {
 inline constexpr std::size_t base_directions = 5;
 using FewDirections = Dual<8>;    ///< up to three parameters
 using SomeDirections = Dual<12>;  ///< up to seven: two or three mechanisms
-using ManyDirections = Dual<32>;  ///< more than the whole catalogue has
+using ManyDirections = Dual<40>;  ///< more than the whole catalogue has
 
 struct Mechanism {
   MechanismInfo info;
@@ -80,6 +83,9 @@ struct Mechanism {
   template <class T>
   const MechanismLaw<T>& law() const {
     return std::get<MechanismLaw<T>>(laws);
+  }
+  bool acts_at(const Surroundings& at) const {
+    return !info.needs_adhesion || at.adhesion_energy > 0.0;
   }
   bool spreads() const { return law<double>().vary != nullptr; }
   /// What acts in the contact is worked out on the ring law's.

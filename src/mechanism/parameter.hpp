@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,8 @@
 namespace recoil {
 
 struct Mechanism;
+template <class T>
+struct Encounter;
 
 /// Values that a parameter can physically have, and why.
 struct PlausibleRange {
@@ -18,11 +21,18 @@ struct PlausibleRange {
   std::string_view why;
 };
 
-/// What a parameter can at most be, as a share of the reduced modulus E* of the bodies: what no
-/// catalogue can know in Pa.
-struct ModulusLimit {
-  double share = std::numeric_limits<double>::infinity();
+/// What no catalogue can know in a parameter's own unit, as it depends on the bodies, their size,
+/// the velocity or the gas: a dimensionless quantity of an impact, and what it can be. The impact
+/// with the largest quantity counts.
+struct PlausibleLimit {
+  std::string_view quantity = {};  ///< in words
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
   std::string_view why = {};
+  bool sharp = false;  ///< nothing lies even somewhat beyond
+  /// The quantity [1] of a sphere as it arrives, `own` being the parameters of the mechanism. It
+  /// rises with the parameter that has this limit. Null: there is no limit.
+  double (*of)(const Encounter<double>& sphere, std::span<const double> own) = nullptr;
 };
 
 /// What a parameter is to the base model.
@@ -51,7 +61,7 @@ struct Parameter {
   bool per_series = false;          ///< one value for every series
   /// The relative scatter of single slow rebounds: starts at what the points state of it.
   bool is_scatter_of_rebounds = false;
-  ModulusLimit modulus_limit = {};
+  PlausibleLimit limit = {};  ///< beside `plausible`
   ParameterRole role = ParameterRole::of_mechanism;
   const Mechanism* mechanism = nullptr;  ///< to which it belongs (set by the catalogue); null for
                                          ///< the base model

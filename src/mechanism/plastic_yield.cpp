@@ -3,8 +3,13 @@
 namespace recoil {
 namespace {
 
-/// Elastic-perfectly plastic contact, with p = p_Y (V / (1 m/s))^q where the rate of straining
-/// raises the yield pressure. V_Y = (pi^2 / sqrt(40)) sqrt(p^5 / (E*^4 rho)); with
+/// Where p_Y is stated when the rate of straining raises it; the velocity is 1 m/s.
+constexpr double rate_diameter = 10e-6;  // [m]
+
+/// Elastic-perfectly plastic contact. The rate of straining in a Hertz contact is (a / r) / t_c ~
+/// V^(3/5) / d; where it raises the yield pressure as its power 5q/3,
+///   p = p_Y (V / (1 m/s))^q (d / (10 um))^(-5q/3).
+/// V_Y = (pi^2 / sqrt(40)) sqrt(p^5 / (E*^4 rho)); with
 /// s = (V_Y / V)^2 < 1 and the loads in units of that at yield,
 ///   P = sqrt(1 + (6/5) (1/s - 1))                       at the turning point,
 ///   e_p^2 = (6 sqrt(3) / 5) (1 - s/6) sqrt(y / (y + 2 sqrt(6/5 - s/5))),  y = V_Y / V,
@@ -16,7 +21,8 @@ struct PlasticYield {
   static void before(Encounter<T>& e, std::span<const T> own) {
     const double E = e.at->reduced_modulus;
     const double pi = std::numbers::pi;
-    const T pressure = own[0] * exponential(own[1] * logarithm(e.velocity));
+    const T rate = logarithm(e.velocity) - 5.0 / 3.0 * logarithm(e.diameter / rate_diameter);
+    const T pressure = own[0] * exponential(own[1] * rate);
     const T yield_velocity =
         power(pressure, 2.5) * (pi * pi / (std::sqrt(40.0 * e.at->density) * E * E));
     if (!(value_of(e.velocity) > value_of(yield_velocity))) return;
@@ -40,16 +46,20 @@ Mechanism plastic_yield() {
       .title = "plastic yielding of the contact",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula = "above V_Y = 1.56 (p^5 / (E*^4 rho))^(1/2), p = p_Y (V / (1 m/s))^q: e_p^2 = (6 "
+      .formula = "above V_Y = 1.56 (p^5 / (E*^4 rho))^(1/2), p = p_Y (V / (1 m/s))^q (d / (10 "
+                 "um))^(-5q/3): e_p^2 = (6 "
                  "sqrt(3) / 5) (1 - s/6) "
                  "(y / (y + 2 (6/5 - s/5)^(1/2)))^(1/2), y = V_Y / V, s = y^2; unloading with the "
                  "flattened radius R_p",
       .source = "Thornton, C. & Ning, Z. (1998), Powder Technol. 99, 154-162; Johnson, K. L. "
                 "(1985), Contact Mechanics, section 11.5. The load at which adhesion alone yields "
                 "is not lowered here",
-      .fingerprint = "e falls with V above a threshold, concave, towards V^(-1/4), alike for all "
-                     "sizes and targets; the flattened contact sticks better, so that capture sets "
-                     "in earlier and steeper with size",
+      .fingerprint =
+          "e falls with V above a threshold, concave, towards V^(-1/4 + 5q/8), alike for "
+          "all targets, and for all sizes where q = 0; else small spheres, which strain "
+          "faster, lose less: e ~ d^(-25q/24); the flattened contact sticks better, so that "
+          "capture sets "
+          "in earlier and steeper with size",
       .parameters =
           {{.name = "yield_pressure",
             .unit = "Pa",
@@ -58,23 +68,35 @@ Mechanism plastic_yield() {
             .initial = 3e8,
             .lower = 1e5,
             .upper = 1e12,
-            .plausible = {1e7, 3e10,
-                          "1.6 to 2.8 times the yield stress: from soft organic solids "
-                          "(10 MPa) to hard ceramics (30 GPa)"},
+            .plausible = {1e5, 1e12, "the domain of the formula"},
             .starts = {3e7, 1e8, 1e9, 3e9},
             .log_scale = true,
             // Frenkel 1926, Z. Phys. 37, 572-609: no solid resists a shear of more than about a
             // tenth of its modulus; Tabor 1951, The Hardness of Metals: a contact flows at 2.8
-            // times the yield stress.
-            .modulus_limit = {0.3, "no solid resists more than about 0.3 of it"}},
+            // times the yield stress, which annealed pure metals have at some 1e-4 of the modulus.
+            .limit = {.quantity = "yield pressure over the reduced modulus of the bodies",
+                      .lower = 5e-4,
+                      .upper = 0.3,
+                      .why =
+                          "no solid resists more than about 0.3 of it, and only soft pure metals "
+                          "flow below 0.001",
+                      .sharp = true,
+                      .of =
+                          [](const Encounter<double>& sphere, std::span<const double> own) {
+                            return own[0] / sphere.at->reduced_modulus;
+                          }}},
            {.name = "yield_rate_exponent",
             .unit = "1",
-            .meaning = "q, of the yield pressure with the impact velocity (p_Y is that at 1 m/s)",
+            .meaning =
+                "q, of the yield pressure with the impact velocity; p_Y is that of 10 um at 1 m/s",
             .null_value = 0.0,
             .initial = 0.0,
             .lower = 0.0,
             .upper = 0.35,
-            .plausible = {0.0, 0.35, "metals have 0.01 to 0.1, organic solids up to about a third"},
+            .plausible =
+                {0.0, 0.35,
+                 "3/5 of the exponent of the rate: metals have 0.01 to 0.1, organic solids "
+                 "up to about a third"},
             .starts = {0.1, 0.25},
             .free = false}},
   });

@@ -3,13 +3,16 @@
 namespace recoil {
 namespace {
 
+/// ln of a lognormal diameter is normal about ln of its median, and its mean is exp(s^2 / 2) times
+/// that median: the stated diameter is the mean.
 struct Polydispersity {
   template <class T>
   static void vary(Encounter<T>& e, std::span<const T> own, double z) {
-    const T factor = exponential(own[0] * z);
+    const T shift = own[0] * z - 0.5 * own[0] * own[0];
+    const T factor = exponential(shift);
     e.diameter *= factor;
     e.contact_radius *= factor;
-    e.adhesion_force *= exponential(own[0] * (z / 3.0));
+    e.adhesion_force *= exponential(1.0 / 3.0 * shift);
   }
 };
 
@@ -22,8 +25,9 @@ Mechanism polydispersity() {
       .cause = "unequal impacts averaged in one point",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::spread,
-      .formula = "diameters are lognormal about the stated one; a point is the mean e of those "
-                 "that rebound",
+      .formula =
+          "diameters are lognormal with the stated one as their mean (by number), d = d_mean "
+          "exp(s z - s^2 / 2); a point is the mean e of those that rebound",
       .source = "Hinds, W. C., Aerosol Technology (lognormal sizes)",
       .fingerprint = "rounds e(V) off near capture, where only the large ones come back: e too "
                      "high just above V*, where the mean sphere would hardly rebound",

@@ -290,10 +290,14 @@ std::string implausible_words(const FoundParameter& parameter) {
       return fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}", parameter.label,
                          parameter.value, unit_suffix(parameter.unit), parameter.lower,
                          parameter.upper, parameter.range_why);
-    case Implausible::firmer_than_solids:
-      return fmt::format("{} = {:.3g}{} is {:.2g} times the reduced modulus: {}", parameter.label,
-                         parameter.value, unit_suffix(parameter.unit), parameter.over_modulus,
-                         parameter.modulus_why);
+    case Implausible::beyond_limit: {
+      const bool above = parameter.quantity > parameter.limit->upper;
+      return fmt::format("{} = {:.3g}{}: the {} would be {:.2g}, and is at {} {:g}, as {}",
+                         parameter.label, parameter.value, unit_suffix(parameter.unit),
+                         parameter.limit->quantity, parameter.quantity, above ? "most" : "least",
+                         above ? parameter.limit->upper : parameter.limit->lower,
+                         parameter.limit->why);
+    }
   }
   return "";
 }

@@ -59,11 +59,28 @@ void add_about_bounds(const FitResult& fitted, std::vector<std::string>& warning
   }
 }
 
+void add_about_idle_mechanisms(const ImpactModel& model, std::vector<std::string>& warnings) {
+  for (const Mechanism* mechanism : model.chain) {
+    const auto idle =
+        std::count_if(model.surroundings.begin(), model.surroundings.end(),
+                      [&](const Surroundings& at) { return !mechanism->acts_at(at); });
+    if (idle == 0) continue;
+    warnings.push_back(fmt::format(
+        "{} does nothing in {} of {} datasets, whose work of adhesion is 0 (it is a multiple of "
+        "it): {}",
+        mechanism->info.id, idle, model.surroundings.size(),
+        static_cast<std::size_t>(idle) == model.surroundings.size()
+            ? "leave it out, or state adhesion_energy"
+            : "its parameter rests on the others"));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> fit_warnings(const FitResult& fitted) {
   std::vector<std::string> warnings;
   add_about_data(fitted.data, warnings);
+  add_about_idle_mechanisms(fitted.model, warnings);
   if (fitted.unused_counts) {
     warnings.push_back(fmt::format(
         "{} says how the impacts of a point differ: the counts of captured spheres at {} points "

@@ -80,8 +80,10 @@ TEST(LoadDataset, ReadsTheOverrides) {
   const DatasetFolder folder(
       changed(example::package, "\"provenance\": \"measured\",",
               "\"provenance\": \"digitised\", \"stiffness_K\": 3.745e9, \"adhesion_energy\": 0,\n"
-              "\"adhesion_force_f0\": 5.74, \"reference_diameter\": 1.28e-6,"));
+              "\"adhesion_force_f0\": 5.74, \"reference_diameter\": 1.28e-6,\n"
+              "\"conditions\": { \"ambient_pressure\": 50 },"));
   const Dataset dataset = load_dataset(folder.path());
+  EXPECT_EQ(dataset.system.ambient_pressure.value(), 50.0);
   EXPECT_EQ(dataset.provenance, Provenance::digitised);
   EXPECT_EQ(dataset.system.stiffness_K.value(), 3.745e9);
   EXPECT_EQ(dataset.system.adhesion_energy.value(), 0.0);

@@ -60,11 +60,12 @@ TEST(MechanismFit, FindsYieldPressureAndWorkOfAdhesion) {
   const FitResult result = fit(make_model(spec, datasets), gather(datasets));
   ASSERT_TRUE(result.usable) << result.failure;
   EXPECT_NEAR(value_of_slot(result, "yield_pressure"), 1e8, 1e4);
-  EXPECT_NEAR(value_of_slot(result, "jkr_work"), 0.2, 1e-4);
+  // 0.2 J/m2 in units of W_A = 2 sqrt(E1 E2) (1.3e-10 m / pi)^2 / 2e-10 m = 0.33555 J/m2.
+  EXPECT_NEAR(value_of_slot(result, "jkr_factor"), 0.2 / 0.33554639048, 3e-4);
   EXPECT_LT(result.chi2, 1e-3);
   for (const ParameterSlot& slot : result.model.slots) {
-    if (slot.parameter->name == "jkr_work") {
-      EXPECT_EQ(slot.parameter->unit, "J/m2");
+    if (slot.parameter->name == "jkr_factor") {
+      EXPECT_EQ(slot.parameter->unit, "1");
     }
     if (slot.parameter->name == "yield_pressure") {
       EXPECT_TRUE(slot.log_scale);
@@ -139,22 +140,23 @@ TEST(MechanismCapture, FollowsTheExtendedModelAndForgetsTheMeasurement) {
   const FitSpec spec = parsed("\"jkr_hysteresis\", \"probe_plane\", \"velocity_offset\"",
                               "C_H = { free = false, initial = 0 }\n"
                               "C_A = { free = false, initial = 0 }\n"
-                              "jkr_work = { initial = 0.2 }\n"
+                              "jkr_factor = { initial = 0.6 }\n"
                               "plane_height = { initial = 5e-3 }\n");
   const ImpactModel model = make_model(spec, datasets);
   const std::vector<double> theta = model.initial();
   const double d = 4.9e-6;
   const double E = 0.75 * 1.789e9;
-  const double expected = std::sqrt(2.0 * 7.0922 / mass(d)) *
-                          std::pow(std::pow(0.2, 5) * std::pow(0.5 * d, 4) / (E * E), 1.0 / 6.0);
+  const double expected =
+      std::sqrt(2.0 * 7.0922 / mass(d)) *
+      std::pow(std::pow(0.6 * 0.33554639048, 5) * std::pow(0.5 * d, 4) / (E * E), 1.0 / 6.0);
   const CaptureVelocity found = capture_velocity(model, theta, 0, d);
   ASSERT_TRUE(found.found);
   EXPECT_NEAR(found.value, expected, 1e-6 * expected);
   for (std::size_t j = 0; j < theta.size(); ++j) {
     // d ln V* / d ln W = 5/6; the instrument's errors do not move it.
     const std::string_view name = model.slots[j].parameter->name;
-    if (name == "jkr_work") {
-      EXPECT_NEAR(found.gradient[j] * 0.2 / expected, 5.0 / 6.0, 1e-6);
+    if (name == "jkr_factor") {
+      EXPECT_NEAR(found.gradient[j] * 0.6 / expected, 5.0 / 6.0, 1e-6);
     }
     if (name == "plane_height" || name == "velocity_error") {
       EXPECT_EQ(found.gradient[j], 0.0);
@@ -186,7 +188,7 @@ TEST(MechanismSpec, MistakesNameTheNearestKnownWord) {
   expect_refused("\"plastic_yield\"", "yield_presure = { initial = 1e8 }",
                  {"fit.toml:5:1: ", "did you mean 'yield_pressure'?"});
   expect_refused(
-      "\"plastic_yield\"", "jkr_work = { initial = 0.1 }",
+      "\"plastic_yield\"", "jkr_factor = { initial = 0.1 }",
       {"fit.toml:5:", "belongs to the mechanism 'jkr_hysteresis'", "\"jkr_hysteresis\""});
   expect_refused("\"plastic_yield\"", "yield_pressure = { initial = 10 }",
                  {"fit.toml:5:", "the formula of 'plastic_yield' holds from 100000 to 1e+12"});
@@ -210,7 +212,7 @@ TEST(MechanismSpec, ParametersMayBelongToEachDataset) {
   std::vector<Dataset> datasets = {synthetic::dataset({}), synthetic::dataset({})};
   datasets[1].id = "other";
   const ImpactModel model = make_model(
-      parsed("\"jkr_hysteresis\", \"series_offset\"", "jkr_work = { per = \"dataset\" }"),
+      parsed("\"jkr_hysteresis\", \"series_offset\"", "jkr_factor = { per = \"dataset\" }"),
       datasets);
   std::vector<std::string> labels;
   for (const ParameterSlot& slot : model.slots) labels.push_back(slot.label());
@@ -218,8 +220,8 @@ TEST(MechanismSpec, ParametersMayBelongToEachDataset) {
                                              "C_A",
                                              "f0[synthetic]",
                                              "f0[other]",
-                                             "jkr_work[synthetic]",
-                                             "jkr_work[other]",
+                                             "jkr_factor[synthetic]",
+                                             "jkr_factor[other]",
                                              "series_offset[synthetic/0]",
                                              "series_offset[synthetic/1]",
                                              "series_offset[other/0]",

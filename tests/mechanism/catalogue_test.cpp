@@ -36,16 +36,20 @@ std::vector<double> at_work(const Mechanism& m) {
   if (m.info.id == "plastic_yield") values = {1.2e8, 0.1};
   if (m.info.id == "elastic_waves") values = {100.0};
   if (m.info.id == "plate_flexure") values = {1e4};
+  if (m.info.id == "van_der_waals_approach") values = {1e-17};
+  if (m.info.id == "height_origin") values = {5e-3, 0.3};
+  if (m.info.id == "flight_drag") values = {0.1};
   return values;
 }
 
 TEST(Catalogue, HoldsTheIdsThatPeopleScriptAgainst) {
   const std::set<std::string_view> expected = {
-      "plastic_yield",   "jkr_hysteresis",      "adhesion_hysteresis", "crack_rate",
-      "elastic_waves",   "bulk_viscoelastic",   "plate_flexure",       "gas_film",
-      "capillary",       "electrostatic_image", "asperity_loss",       "probe_plane",
-      "velocity_offset", "size_calibration",    "polydispersity",      "survivor_bias",
-      "outliers",        "rebound_truncation",  "series_offset",       "size_law"};
+      "plastic_yield",   "jkr_hysteresis",         "adhesion_hysteresis", "crack_rate",
+      "elastic_waves",   "bulk_viscoelastic",      "plate_flexure",       "gas_film",
+      "capillary",       "electrostatic_image",    "asperity_loss",       "probe_plane",
+      "velocity_offset", "size_calibration",       "polydispersity",      "survivor_bias",
+      "outliers",        "rebound_truncation",     "series_offset",       "size_law",
+      "hysteretic_loss", "van_der_waals_approach", "height_origin",       "flight_drag"};
   std::set<std::string_view> found;
   for (const Mechanism& m : mechanism_catalogue()) found.insert(m.info.id);
   EXPECT_EQ(found, expected);
@@ -68,6 +72,9 @@ TEST(Catalogue, EntriesAreCompleteAndConsistent) {
     for (const Parameter& p : m.info.parameters) {
       EXPECT_TRUE(names.insert(p.name).second) << p.name << " is there twice";
       EXPECT_FALSE(p.unit.empty() || p.meaning.empty() || p.plausible.why.empty()) << p.name;
+      EXPECT_EQ(p.limit.of == nullptr, p.limit.quantity.empty()) << p.name;
+      EXPECT_EQ(p.limit.of == nullptr, p.limit.why.empty()) << p.name;
+      EXPECT_LT(p.limit.lower, p.limit.upper) << p.name;
       EXPECT_LT(p.lower, p.upper) << p.name;
       std::vector<double> inside = p.starts;
       inside.insert(inside.end(), {p.initial, p.null_value, p.plausible.lower, p.plausible.upper});

@@ -35,6 +35,8 @@ inline Surroundings around(const ImpactSystem& system) {
 
 inline const Surroundings kSoft = around(fluorescein());
 constexpr double kDiameter = 4.9e-6;
+/// W_A of these two by Gilman's estimate: 2 sqrt(E1 E2) (1.3e-10 m / pi)^2 / 2e-10 m [J/m2].
+constexpr double kSoftWork = 0.33554639048;
 
 /// C_H, C_A and f0 of the base model.
 struct Base {

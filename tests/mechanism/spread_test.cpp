@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "data/contact.hpp"
 #include "mechanism/survivors_mean.hpp"
@@ -56,7 +57,7 @@ TEST(Polydispersity, IsTheMeanOverTheSizes) {
   for (const double spread : {0.05, 0.3}) {
     for (const double V : {0.9, 1.3, 2.0, 10.0}) {
       const double expected = brute_force([&](double z) {
-        const double d = kDiameter * std::exp(spread * z);
+        const double d = kDiameter * std::exp(spread * z - 0.5 * spread * spread);
         return base_square(kBase.f0 * std::cbrt(d / kDiameter), d, V);
       });
       const double found = square(kSoft, {"polydispersity"}, {spread}, kDiameter, V, kBase);
@@ -66,6 +67,36 @@ TEST(Polydispersity, IsTheMeanOverTheSizes) {
         EXPECT_NEAR(std::sqrt(std::max(found, 0.0)), expected, 5e-3) << spread << " " << V;
       }
     }
+  }
+}
+
+TEST(Polydispersity, KeepsTheMeanDiameterThatTheDataState) {
+  // The law as it varies one sphere: its diameters, weighted by the normal density of z, have the
+  // stated mean and the wanted spread of the logarithm.
+  const MechanismLaw<double>& law = find_mechanism("polydispersity")->law<double>();
+  for (const double spread : {0.05, 0.3}) {
+    const std::vector<double> own = {spread};
+    double mean = 0.0;
+    double logarithm = 0.0;
+    double square = 0.0;
+    constexpr int count = 4000;
+    for (int i = 0; i < count; ++i) {
+      const double z = -8.0 + 16.0 * (i + 0.5) / count;
+      const double weight =
+          std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi) * 16.0 / count;
+      Encounter<double> e;
+      e.diameter = 1.0;
+      e.contact_radius = 0.5;
+      e.adhesion_force = 1.0;
+      law.vary(e, own, z);
+      mean += weight * e.diameter;
+      logarithm += weight * std::log(e.diameter);
+      square += weight * std::pow(std::log(e.diameter), 2);
+      EXPECT_NEAR(e.adhesion_force, std::cbrt(e.diameter), 1e-14);
+      EXPECT_NEAR(e.contact_radius, 0.5 * e.diameter, 1e-14);
+    }
+    EXPECT_NEAR(mean, 1.0, 1e-12);
+    EXPECT_NEAR(square - logarithm * logarithm, spread * spread, 1e-12);
   }
 }
 

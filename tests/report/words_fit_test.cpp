@@ -55,6 +55,18 @@ TEST(FitWarnings, OneForEveryFact) {
             1U);
 }
 
+TEST(FitWarnings, TellOfMechanismsWithNothingToDo) {
+  const auto with = [](double adhesion_energy) {
+    return warnings_after([&](FitResult& f) {
+      f.model.chain = chain_of({"jkr_hysteresis"});
+      f.model.surroundings.assign(1, {});
+      f.model.surroundings.front().adhesion_energy = adhesion_energy;
+    });
+  };
+  EXPECT_EQ(with(0.2), 0U);
+  EXPECT_EQ(with(0.0), 1U);
+}
+
 TEST(FitWarnings, TellHowStartsEnded) {
   const auto with = [](StartOutcome outcome, std::vector<std::size_t> differing) {
     return warnings_after([&](FitResult& f) {

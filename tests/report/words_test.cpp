@@ -64,6 +64,25 @@ TEST(Words, EveryFactHasItsOwn) {
   expect_words_for_all<CaptureConvention>([](CaptureConvention c) { return words_of(c); });
 }
 
+TEST(Words, OfAnImpossibleParameter) {
+  static const PlausibleLimit limit{
+      .quantity = "field over that of breakdown", .upper = 1.0, .why = "air sparks"};
+  FoundParameter parameter;
+  parameter.label = "surface_field";
+  parameter.unit = "V/m";
+  parameter.value = 2e8;
+  parameter.limit = &limit;
+  parameter.quantity = 2.071;
+  expect_words_for_all<Implausible>([&](Implausible why) {
+    parameter.implausible = why;
+    return implausible_words(parameter);
+  });
+  parameter.implausible = Implausible::beyond_limit;
+  EXPECT_EQ(implausible_words(parameter),
+            "surface_field = 2e+08 V/m: the field over that of breakdown would be 2.1, and is at "
+            "most 1, as air sparks");
+}
+
 TEST(Words, EveryHindranceIsTold) {
   Analysis analysis = sample::four_diameters();
   expect_words_for_all<Hindrance>([&](Hindrance hindrance) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "studies/synthetic/runge_kutta.hpp"
+
 namespace hidden {
 namespace {
 
@@ -20,9 +22,46 @@ constexpr double gas_density = 1.204;       // of air at 20 C and 1 bar [kg/m3]
 constexpr double free_path = 66e-9;         // there [m]
 constexpr double bar = 101325.0;            // [Pa]
 
+/// Deceleration by the air [m/s2]: Schiller & Naumann (1933) up to Re = 1000, C_d = 0.44 beyond.
+double air_drag(double pressure, double density, double diameter, double speed) {
+  const double share = pressure / bar;
+  const double reynolds = gas_density * share * diameter * speed / viscosity;
+  const double knudsen = 2.0 * free_path / (share * diameter);
+  const double slip = 1.0 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+  const double stokes = 18.0 * viscosity * speed / (density * diameter * diameter * slip);
+  return stokes *
+         (reynolds < 1000.0 ? 1.0 + 0.15 * std::pow(reynolds, 0.687) : 0.44 / 24.0 * reynolds);
+}
+
+/// Speed after a fall from rest over `height`; y = height that is left, speed.
+double fallen(double pressure, double density, double diameter, double height) {
+  State<2> y = {height, 0.0};
+  const double speed = std::sqrt(2.0 * gravity * height);
+  const auto field = [&](const State<2>& at) -> State<2> {
+    return {-at[1], gravity - air_drag(pressure, density, diameter, std::max(at[1], 0.0))};
+  };
+  const bool arrived = integrate_until<2>(
+      field, [](const State<2>& at) { return at[0]; }, y, 1e-3 * speed / gravity, {height, speed},
+      1e-8);
+  return arrived ? y[1] : 0.0;
+}
+
+/// Height that a sphere reaches; y = speed, height.
+double risen(double pressure, double density, double diameter, double speed) {
+  State<2> y = {speed, 0.0};
+  const auto field = [&](const State<2>& at) -> State<2> {
+    return {-gravity - air_drag(pressure, density, diameter, std::max(at[0], 0.0)), at[0]};
+  };
+  const bool turned = integrate_until<2>(
+      field, [](const State<2>& at) { return at[0]; }, y, 1e-3 * speed / gravity,
+      {speed, speed * speed / gravity}, 1e-8);
+  return turned ? y[1] : 0.0;
+}
+
 /// Speed of a sphere after crossing the gas between the measuring plane and the surface (inward:
 /// the gap closes). Drag of Stokes with Schiller & Naumann's inertia and Cunningham's slip far from
-/// the wall, plus lubrication 6 pi mu r^2 v / (x + lambda) near it; dv/dx by the classical
+/// the wall, plus the film between slipping walls near it (Hocking 1973), and between them what
+/// Bevan & Prieve (2000), J. Chem. Phys. 113, 1228-1236, add for the wall; dv/dx by the classical
 /// Runge-Kutta method in ln(x + lambda).
 double through_gas(const Effects& effects, double mass, double radius, double speed, bool inward) {
   const double share = effects.gas_pressure / bar;
@@ -34,11 +73,16 @@ double through_gas(const Effects& effects, double mass, double radius, double sp
   const auto loss = [&](double at, double v) {  // dv / d ln(x + path), per step towards the wall
     if (!(v > 0.0)) return 0.0;
     const double x = std::exp(at);
+    const double gap = std::max(x - path, 1e-6 * path);
+    const double thickness = gap / (6.0 * 1.15 * path);
+    const double film =
+        radius / (3.0 * 1.15 * path) * ((1.0 + thickness) * std::log1p(1.0 / thickness) - 1.0);
     const double reynolds = gas_density * share * 2.0 * radius * v / viscosity;
-    const double drag = (1.0 + 0.15 * std::pow(reynolds, 0.687)) / slip + radius / x;
+    const double wall = 0.5 / (1.0 + 3.0 * gap / radius);
+    const double drag = (1.0 + 0.15 * std::pow(reynolds, 0.687) + wall) / slip + film;
     return -6.0 * pi * viscosity * radius / mass * drag * x;
   };
-  constexpr int steps = 60;
+  constexpr int steps = 200;
   const double h = (from - to) / steps;
   double v = speed;
   for (int i = 0; i < steps; ++i) {
@@ -51,6 +95,11 @@ double through_gas(const Effects& effects, double mass, double radius, double sp
     v += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
   }
   return v;
+}
+
+/// Work of the force A r / 6 x^2 between 1 mm and 0.4 nm, per half mass.
+double van_der_waals_work(double hamaker_constant, double mass, double diameter) {
+  return hamaker_constant * diameter / 6.0 * (1.0 / 0.4e-9 - 1.0 / 1e-3) / mass;
 }
 
 /// Work of the image force q^2 / (16 pi eps0 (r + x)^2) between 1 mm and contact, per half mass.
@@ -81,6 +130,14 @@ double square_of_restitution(const Base& base, const Effects& effects, double ve
   double v = velocity - effects.velocity_error;
   double square = v * v + 2.0 * gravity * effects.plane_height;
   if (!(v > 0.0) || !(square > 0.0)) return -1.0;
+  const auto air = [&](auto flight, double from) {
+    return flight(effects.flight_pressure, base.density, d, from);
+  };
+  if (effects.flight_pressure > 0.0) {
+    v = air(fallen, 0.5 * square / gravity);
+    if (!(v > 0.0)) return -1.0;
+    square = v * v;
+  }
   if (effects.gas_pressure > 0.0) {
     v = through_gas(effects, sphere.mass, 0.5 * d, std::sqrt(square), true);
     if (!(v > 0.0)) return -1.0;
@@ -88,7 +145,8 @@ double square_of_restitution(const Base& base, const Effects& effects, double ve
   }
   const double image =
       effects.surface_field == 0.0 ? 0.0 : image_work(base, effects, sphere.mass, d);
-  square += image;
+  const double attraction = van_der_waals_work(effects.hamaker_constant, sphere.mass, d);
+  square += image + attraction;
 
   // contact
   v = std::sqrt(square);
@@ -108,17 +166,28 @@ double square_of_restitution(const Base& base, const Effects& effects, double ve
   square -= 2.0 * work / sphere.mass;
 
   // out
-  square -= image;
+  square -= image + attraction;
   if (effects.gas_pressure > 0.0 && square > 0.0) {
     v = through_gas(effects, sphere.mass, 0.5 * d, std::sqrt(square), false);
     square = v > 0.0 ? v * v : -1e-6;
   }
+  if (effects.flight_pressure > 0.0 && square > 0.0) {
+    square = 2.0 * gravity * air(risen, std::sqrt(square));
+  }
   square -= 2.0 * gravity * effects.plane_height;
+  if (square > 0.0 && effects.height_error != 0.0) {
+    square += 2.0 * gravity * effects.height_error;
+    if (!(square > 0.0)) square = -1e-6;
+  }
   if (square > 0.0 && effects.velocity_error != 0.0) {
     v = std::sqrt(square) + effects.rebound_error_sign * effects.velocity_error;
     square = v > 0.0 ? v * v : -1e-6;
   }
   return square / (velocity * velocity);
+}
+
+double size_of(double spread, double z) {
+  return std::exp(spread * z) / std::exp(0.5 * spread * spread);
 }
 
 double oddity_factor(const Effects& effects, double velocity) {
@@ -156,8 +225,8 @@ Expected expected_point(const Base& base, const Effects& effects, const Scatter&
       // equal parts of both distributions, paired without order (golden section)
       const double u = (i + 0.5) / nodes;
       const double w = std::fmod(0.5 + i * (std::numbers::phi - 1.0), 1.0);
-      size = std::exp(effects.size_spread *
-                      gsl_cdf_ugaussian_Pinv(effects.adhesion_spread > 0.0 ? w : u));
+      size = size_of(effects.size_spread,
+                     gsl_cdf_ugaussian_Pinv(effects.adhesion_spread > 0.0 ? w : u));
       adhesion = std::exp(effects.adhesion_spread * gsl_cdf_ugaussian_Pinv(u));
     }
     const double square = square_of_restitution(base, effects, velocity, diameter, size, adhesion);

@@ -21,6 +21,9 @@ struct Effects {
   double gas_distance = 2e-5;         ///< from the measuring plane [m]
   double surface_field = 0.0;         ///< of the charge, at the reference diameter [V/m]
   double charge_exponent = 2.0;       ///< of the charge with the diameter
+  double hamaker_constant = 0.0;      ///< [J]
+  double flight_pressure = 0.0;       ///< of the air in which dropped spheres fly [Pa]
+  double height_error = 0.0;          ///< read too much in the height of the rebound [m]
   double plane_height = 0.0;          ///< [m]
   double velocity_error = 0.0;        ///< read too much [m/s]
   double rebound_error_sign = 1.0;    ///< -1: the rebound reads as much too little
@@ -44,6 +47,10 @@ struct Effects {
 double square_of_restitution(const Base& base, const Effects& effects, double velocity,
                              double diameter, double size_factor = 1.0,
                              double adhesion_factor = 1.0);
+
+/// Diameter over the stated one of the sphere at z standard deviations of ln d: the stated one is
+/// the mean of all, not their median.
+double size_of(double spread, double z);
 
 /// How single readings of e scatter: (relative e)^2 + floor^2 + (slope (1 - e^2) / e)^2; the last
 /// is a scatter of the velocity, which counts where e rises steeply.

@@ -12,6 +12,9 @@ using E = Effects;
 using D = Design;
 using enum EffectKind;
 
+/// Could these velocities be those of a fall from the height of a house?
+bool are_dropped(const Design& design) { return design.rows.front().highest < 20.0; }
+
 }  // namespace
 
 const std::vector<HiddenEffect>& hidden_effects() {
@@ -19,13 +22,15 @@ const std::vector<HiddenEffect>& hidden_effects() {
       // Nothing yields below some 15 MPa, the softest organic solids.
       {"plastic_yield", physics, "GPa/p_Y", 60.0, 0.0,
        [](E& e, double s, const D&) { e.contact.yield_pressure = s > 0.0 ? 1e9 / s : 0.0; }},
-      {"jkr_hysteresis", physics, "J/m2", 1.0, 0.0,
-       [](E& e, double s, const D&) { e.jkr_work = s; }},
-      {"adhesion_hysteresis", physics, "J/m2", 1.0, 0.0,
-       [](E& e, double s, const D&) { e.contact.hysteresis_energy = s; }},
-      {"crack_rate", physics, "J/m2", 5.0, 0.0,
-       [](E& e, double s, const D&) { e.contact.crack_energy = s; }},
-      {"bulk_viscoelastic", physics, "s", 1e-8, 0.0,
+      {"jkr_hysteresis", physics, "W_A", 3.0, 0.0,
+       [](E& e, double s, const D& d) { e.jkr_work = s * d.base.adhesion_energy(); }},
+      {"adhesion_hysteresis", physics, "W_A", 3.0, 0.0,
+       [](E& e, double s, const D& d) {
+         e.contact.hysteresis_energy = s * d.base.adhesion_energy();
+       }},
+      {"crack_rate", physics, "W_A", 15.0, 0.0,
+       [](E& e, double s, const D& d) { e.contact.crack_energy = s * d.base.adhesion_energy(); }},
+      {"bulk_viscoelastic", physics, "s", 3e-9, 0.0,
        [](E& e, double s, const D&) { e.contact.bulk_relaxation = s; }},
       {"elastic_waves", physics, "1", 3.0, 0.0,
        [](E& e, double s, const D&) { e.contact.wave_radiation = s; }},
@@ -33,11 +38,20 @@ const std::vector<HiddenEffect>& hidden_effects() {
        [](E& e, double s, const D&) { e.contact.plate_mobility = s; }},
       {"gas_film", physics, "Pa", 1.05e5, 0.0,
        [](E& e, double s, const D&) { e.gas_pressure = s; }},
-      {"electrostatic_image", physics, "V/m", 3e6, 0.0,
+      {"electrostatic_image", physics, "V/m", 2e7, 0.0,
        [](E& e, double s, const D&) { e.surface_field = s; }},
       {"capillary", physics, "m", 2e-8, 0.0, [](E& e, double s, const D&) { e.bridge_length = s; }},
       {"asperity_loss", physics, "J", 1e-11, 0.0,
        [](E& e, double s, const D&) { e.asperity_energy = s; }},
+      {"hysteretic_loss", physics, "1", 0.6, 0.0,
+       [](E& e, double s, const D&) { e.contact.hysteretic_share = s; }},
+      {"van_der_waals_approach", physics, "J", 5e-19, 0.0,
+       [](E& e, double s, const D&) { e.hamaker_constant = s; }},
+      {"flight_drag", physics, "Pa", 1.05e5, 0.0,
+       [](E& e, double s, const D& d) { e.flight_pressure = are_dropped(d) ? s : 0.0; }},
+      // Points on a sphere are no further apart than its diameter: that of the smallest.
+      {"height_origin", measurement, "diameters", 1.0, 1.0,
+       [](E& e, double s, const D& d) { e.height_error = s * d.rows.front().diameter; }},
       {"probe_plane", measurement, "m", 5e-3, 2e-3,
        [](E& e, double s, const D&) { e.plane_height = s; }},
       {"velocity_offset", measurement, "m/s", 0.1, 0.1,

@@ -23,7 +23,8 @@ struct HiddenEffect {
 };
 
 /// All effects that can be hidden. Yielding is turned by 1 GPa / p_Y, all others by the parameter
-/// itself; that of series_offset is the standard deviation between series.
+/// itself (works of adhesion in units of W_A of the two bodies); that of series_offset is the
+/// standard deviation between series.
 const std::vector<HiddenEffect>& hidden_effects();
 
 /// @throws std::invalid_argument when there is none

@@ -19,7 +19,7 @@ double observed_mean(const Base& base, const Effects& effects, const Scatter& sc
   for (int tries = 0; seen < events && tries < 1000 * events; ++tries) {
     double square = typical;
     if (differ) {
-      const double size = std::exp(effects.size_spread * random.normal());
+      const double size = size_of(effects.size_spread, random.normal());
       const double adhesion = std::exp(effects.adhesion_spread * random.normal());
       square = square_of_restitution(base, effects, velocity, diameter, size, adhesion);
     }

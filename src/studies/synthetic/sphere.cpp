@@ -21,7 +21,8 @@ class Forces {
   double total(double n, double speed) const {
     if (!(n > 0.0)) return 0.0;
     const double a = std::sqrt(s_.radius * n);
-    double outward = elastic(n) * (1.0 + s_.C_H * speed);
+    const double given_back = retreat_ ? 1.0 - x_.hysteretic_share : 1.0;
+    double outward = elastic(n) * (given_back + s_.C_H * speed);
     outward += 1.5 * x_.bulk_relaxation * s_.stiffness * a * speed;
     double inward = 2.0 * pi * a * s_.adhesion_force;
     if (retreat_) {
@@ -73,6 +74,12 @@ double Base::stiffness() const {
   return 4.0 / 3.0 /
          ((1.0 - poisson_ratio * poisson_ratio) / youngs_modulus +
           (1.0 - surface_ratio * surface_ratio) / surface_modulus);
+}
+
+double Base::adhesion_energy() const {
+  // Gilman (1960) with the lengths of Li, Dunn & Brach (1999): (1.3 A / pi)^2 / 2 A.
+  constexpr double length = 1.3e-10 * 1.3e-10 / (pi * pi * 2e-10);
+  return 2.0 * length * std::sqrt(youngs_modulus * surface_modulus);
 }
 
 ContactResult contact(const Sphere& sphere, const ContactExtras& extras, const Base& base,

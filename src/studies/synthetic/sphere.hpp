@@ -18,7 +18,8 @@ struct Base {
 
   double stated_stiffness = 0.0;  ///< K [Pa], where it is not (4/3) E* of the moduli
 
-  double stiffness() const;  ///< K [Pa]
+  double stiffness() const;        ///< K [Pa]
+  double adhesion_energy() const;  ///< W_A of Gilman's surface energies [J/m2]
 };
 
 /// What else acts in the contact itself. Zero: absent.
@@ -30,6 +31,7 @@ struct ContactExtras {
   double bulk_relaxation = 0.0;    ///< A of Kuwabara & Kono [s]
   double plate_mobility = 0.0;     ///< 1 / Z of a thin plate [s/kg]
   double wave_radiation = 0.0;     ///< times what a half-space radiates
+  double hysteretic_share = 0.0;   ///< of the elastic energy, not given back
 };
 
 /// A sphere at the moment of contact.

@@ -1,0 +1,142 @@
+#include <vector>
+
+#include "core/quadrature.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double earth_gravity = 9.80665;  // standard [m/s2]
+
+// Air at 293 K (Hinds, Aerosol Technology): viscosity [Pa s], density over pressure [kg/(m3 Pa)],
+// free path times pressure [m Pa].
+struct Air {
+  static constexpr double viscosity = 1.81e-5;
+  static constexpr double density = 1.204 / 101325.0;
+  static constexpr double free_path = 66e-9 * 101325.0;
+};
+
+/// Drag of a sphere at the speed v over m g v, 3 rho_a C_d v / (4 rho d g) [s/m]. With Cunningham's
+/// slip and the drag of Cheng (2009), good to some per cent up to Re = 2e5:
+///   C_d = (24 / Re) (1 + 0.27 Re)^0.43 + 0.47 (1 - exp(-0.04 Re^0.38)).
+template <class T>
+class Flight {
+ public:
+  Flight(const Encounter<T>& e, const T& pressure)
+      : reynolds_(pressure * e.diameter * (Air::density / Air::viscosity)) {
+    const T inverse_knudsen = pressure * e.radius() / Air::free_path;
+    const T slip =
+        inverse_knudsen / (inverse_knudsen + 1.257 + 0.4 * exponential(-1.1 * inverse_knudsen));
+    stokes_ = slip / (e.diameter * e.diameter) *
+              (18.0 * Air::viscosity / (e.at->density * earth_gravity));
+  }
+  T drag(const T& speed) const {
+    constexpr double still = 1e-9;  // keeps slopes finite where there is no gas
+    const T re = reynolds_ * speed + still;
+    const T inertia = (0.47 / 24.0) * re * (1.0 - exponential(-0.04 * power(re, 0.38)));
+    return stokes_ * (power(1.0 + 0.27 * re, 0.43) + inertia);
+  }
+
+ private:
+  T reynolds_;  ///< at 1 m/s
+  T stokes_;    ///< [s/m]
+};
+
+/// v^2 after a fall from rest over the height `fall` / 2g, by steps in which the drag over v^2 is
+/// that of the middle: with k = drag / v, y = v^2 and u = 2 g h, y' = 1 - k y. Steps are even in
+/// h^(1/2), that is about even in time.
+template <class T>
+T fallen(const Flight<T>& flight, const T& fall) {
+  constexpr int steps = 40;
+  T y = fall * (1.0 / (steps * steps));  // the first step is one without drag ...
+  {
+    const T speed = sqrt(y * 0.5);
+    const T k = flight.drag(speed) / speed;
+    y = -1.0 * exponential_less_one(-1.0 * k * y) / k;  // ... but for this
+  }
+  for (int i = 1; i < steps; ++i) {
+    const T step = fall * ((2.0 * i + 1.0) / (steps * steps));
+    const T here = sqrt(y);
+    const T k = flight.drag(here) / here;
+    const T half = exponential_less_one(-0.5 * k * step);
+    const T middle = sqrt(y + half * (y - 1.0 / k));
+    const T q = flight.drag(middle) / middle;
+    y += exponential_less_one(-1.0 * q * step) * (y - 1.0 / q);
+  }
+  return y;
+}
+
+/// 2 g times the height that a sphere of the speed v reaches: the integral of dy / (1 + drag v).
+template <class T>
+T risen(const Flight<T>& flight, const T& square) {
+  static const std::vector<QuadratureNode> nodes = gauss_legendre(8);
+  const T speed = sqrt(square);
+  T sum(0.0);
+  for (const auto& [at, weight] : nodes) {
+    const T v = at * speed;
+    sum += (2.0 * at * weight) / (1.0 + flight.drag(v) * v);
+  }
+  return square * sum;
+}
+
+struct FlightDrag {
+  template <class T>
+  static void before(Encounter<T>& e, std::span<const T> own) {
+    if (value_of(own[0]) == 0.0) {
+      e.velocity -= lost_to_first_order(e, own, e.velocity);
+      return;
+    }
+    e.velocity = sqrt(fallen(Flight<T>(e, own[0]), T(e.velocity * e.velocity)));
+  }
+  template <class T>
+  static void after(Encounter<T>& e, std::span<const T> own) {
+    if (!(value_of(e.square) > 0.0)) return;
+    e.square = risen(Flight<T>(e, own[0]), e.square);
+  }
+  /// Without air nothing; with a trace of it (1 - v^2 / V^2) / 2 is the integral of the drag over
+  /// the fall, (1/3) drag V of a constant drag per speed.
+  template <class T>
+  static T lost_to_first_order(const Encounter<T>& e, std::span<const T> own, const T& v) {
+    return Flight<T>(e, own[0]).drag(v) * v * v * (1.0 / 3.0);
+  }
+};
+
+}  // namespace
+
+Mechanism flight_drag() {
+  return make_mechanism<FlightDrag>({
+      .id = "flight_drag",
+      .title = "drag of the air on spheres that fall and rise freely",
+      .kind = MechanismKind::physics,
+      .place = MechanismPlace::gas,
+      .formula =
+          "velocities stand for heights h = V^2 / 2g: the sphere falls from h with d(v^2) / dx "
+          "= 2 g - D, D = (3/2) (rho_a / rho) (C_d / d) v^2, and after the contact rises with "
+          "-2 g - D to the height that is read; C_d = (24 / Re) (1 + 0.27 Re)^0.43 + 0.47 (1 - "
+          "exp(-0.04 Re^0.38)), with Cunningham's slip",
+      .source = "Cheng, N.-S. (2009), Powder Technol. 189, 395-398 (C_d of a sphere, Re < 2e5). "
+                "Buoyancy leaves the ratio of the heights alone and is left out; so is the added "
+                "mass, rho_a / 2 rho",
+      .fingerprint = "1 - e^2 ~ V^2 d^(-1) at Re > 1000, V d^(-2) at Re < 1, no dependence on the "
+                     "target: looks like C_H where velocities come from heights; gone in vacuum",
+      .parameters = {{.name = "flight_pressure",
+                      .unit = "Pa",
+                      .meaning = "pressure of the air in which the spheres fly",
+                      .null_value = 0.0,
+                      .initial = 3e4,
+                      .lower = 0.0,
+                      .upper = 1e6,
+                      .plausible = {0.0, 1.1e5, "an experiment in open air has 1e5 Pa"},
+                      .starts = {3e3, 1e5},
+                      .limit = {.quantity = "height V^2 / 2g of the highest drop, over 20 m,",
+                                .upper = 1.0,
+                                .why = "such impacts are not those of spheres that were dropped",
+                                .of =
+                                    [](const Encounter<double>& sphere, std::span<const double>) {
+                                      const double v = sphere.velocity;
+                                      return v * v / (2.0 * earth_gravity) / 20.0;
+                                    }}}},
+  });
+}
+
+}  // namespace recoil

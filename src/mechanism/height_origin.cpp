@@ -1,0 +1,74 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+/// v^2 of a rebound that is the border between seen and not seen, over V^2.
+constexpr double lowest_rebound = 0.01;
+
+struct HeightOrigin {
+  /// 2 g delta.
+  template <class T>
+  static T too_much(std::span<const T> own) {
+    return 2.0 * 9.80665 * own[0];  // standard gravity [m/s2]
+  }
+  template <class T>
+  static void before(Encounter<T>& e, std::span<const T> own) {
+    const T less = too_much(own) * own[1];
+    const T fall = e.velocity * e.velocity - less;
+    e.velocity = sqrt(value_of(less) == 0.0 ? fall : positive_part(fall, 0.05 * less));
+  }
+  /// What stays on the surface is not read as a rebound of the height delta.
+  template <class T>
+  static void after(Encounter<T>& e, std::span<const T> own) {
+    const T least = lowest_rebound * e.measured_velocity * e.measured_velocity;
+    const T seen = 0.5 * (1.0 + e.square / sqrt(e.square * e.square + least * least));
+    e.square += too_much(own) * seen;
+  }
+};
+
+}  // namespace
+
+Mechanism height_origin() {
+  return make_mechanism<HeightOrigin>({
+      .id = "height_origin",
+      .title = "drop and rebound are read from different points",
+      .kind = MechanismKind::measurement,
+      .place = MechanismPlace::height,
+      .formula =
+          "heights h = V^2 / 2g: that of the rebound is read as h_2 + delta, that of the drop "
+          "as h_1 + s delta; e^2 = (e_0^2 (h_1 - s delta) + delta) / h_1 with h_1 as read",
+      .source = "Galilei's law of falling bodies; a height is that of the sphere's lowest point "
+                "above the surface: read at its centre or top it is too large by r or 2 r",
+      .fingerprint = "1 - e^2 changes by 2 g delta / V^2, the same at all sizes and targets: e is "
+                     "too high, or too low, where spheres fall from low. With s = 1 the same as "
+                     "probe_plane at h = -delta",
+      .parameters =
+          {{.name = "height_error",
+            .unit = "m",
+            .meaning = "delta, read too much in the height of the rebound",
+            .null_value = 0.0,
+            .initial = 1e-5,
+            .lower = -0.1,
+            .upper = 0.1,
+            .plausible = {-0.1, 0.1, "the domain of the formula"},
+            .starts = {-1e-5, 1e-4, -1e-4, 5e-3, -5e-3},
+            .limit = {.quantity = "error of the height over the diameter",
+                      .lower = -1.0,
+                      .upper = 1.0,
+                      .why = "points on a sphere are no more than one diameter apart",
+                      .of = [](const Encounter<double>& sphere,
+                               std::span<const double> own) { return own[0] / sphere.diameter; }}},
+           {.name = "drop_share",
+            .unit = "1",
+            .meaning = "s, of delta in the height of the drop",
+            .null_value = 0.0,
+            .initial = 0.0,
+            .lower = -1.0,
+            .upper = 1.0,
+            .plausible = {-1.0, 1.0, "an error of both heights is of one size"},
+            .free = false}},
+  });
+}
+
+}  // namespace recoil

@@ -1,0 +1,46 @@
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+struct HystereticLoss {
+  /// eta (2/5) K R^(1/2) n_max^(5/2): of the elastic energy at the deepest point, which is m V^2 /
+  /// 2 without adhesion.
+  template <class T>
+  static void after(Encounter<T>& e, std::span<const T> own) {
+    const T deepest = e.deepest();
+    e.lose(own[0] * (0.4 * e.at->stiffness) * deepest * deepest * sqrt(e.contact_radius * deepest));
+  }
+};
+
+}  // namespace
+
+Mechanism hysteretic_loss() {
+  return make_mechanism<HystereticLoss>({
+      .id = "hysteretic_loss",
+      .title = "a constant part of the elastic energy is lost",
+      .kind = MechanismKind::physics,
+      .place = MechanismPlace::contact,
+      .formula = "loss eta (2/5) K R^(1/2) n_max^(5/2), the part eta of the elastic energy at the "
+                 "deepest point of the undamped impact; without adhesion e^2 = e_0^2 - eta",
+      .source =
+          "Greenwood, J. A., Minshall, H. & Tabor, D. (1961), Proc. R. Soc. A 259, 480-507 "
+          "(hysteresis of rubber); Johnson, K. L. (1985), Contact Mechanics, section 9.2; that "
+          "damping makes the contact smaller is left out",
+      .fingerprint = "1 - e^2 ~ V^0 d^0: e is lower by the same at all velocities, sizes and "
+                     "targets, as long as adhesion is small; alone it captures nothing",
+      .parameters = {{.name = "hysteretic_share",
+                      .unit = "1",
+                      .meaning = "eta, part of the elastic energy that is lost",
+                      .null_value = 0.0,
+                      .initial = 0.05,
+                      .lower = 0.0,
+                      .upper = 1.0,
+                      .plausible = {0.0, 0.8,
+                                    "about pi times the loss tangent: steel has 0.001, wood 0.1, "
+                                    "golf balls and rubber 0.2 to 0.6"},
+                      .starts = {0.01, 0.2}}},
+  });
+}
+
+}  // namespace recoil
