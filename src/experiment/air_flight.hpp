@@ -27,8 +27,8 @@ inline constexpr double drag_law_reynolds = 2e5;
 /// Vertical flights of a sphere through air, m v' = -m g -+ C_d(Re) rho_air pi r^2 v^2 / 2, in
 /// which C_d is divided by the slip correction 1 + Kn (1.257 + 0.4 exp(-1.1 / Kn)), Kn = free path
 /// / r, so that it vanishes with the pressure. Left out: the buoyancy and the air that the sphere
-/// drags along, which lower g by 1.5 rho_air / rho (2 % of g for a table-tennis ball, 0.02 % for
-/// steel), and spin.
+/// drags along, which lower g by 1.5 rho_air / rho (0.02 % for steel, 2 % for a table-tennis ball,
+/// whose V then reads 1 to 2 % and whose e 0.1 to 0.2 % too high), and spin.
 ///
 /// Heights and times are integrals over the velocity, by Gauss-Legendre rules in a variable in
 /// which they are smooth up to the terminal speed: relative error below 1e-8.
