@@ -44,10 +44,8 @@ std::string rests_on_words(const CaptureComparison& comparison, CaptureModel mod
   }
   if (model == CaptureModel::thornton_ning) {
     const PublishedYield yield = comparison.yield.value_or(PublishedYield{});
-    return fmt::format(
-        "{}, yield pressure {:.3g} MPa ({}); a lower estimate, adhesion does not help the sphere "
-        "to yield",
-        constants, yield.pressure / 1e6, yield.source);
+    return fmt::format("{}, yield pressure {:.3g} MPa ({}); adhesion helps the sphere to yield",
+                       constants, yield.pressure / 1e6, yield.source);
   }
   return fmt::format("{}, e = {:.3g} (the largest of the fitted curve), the bond that of JKR",
                      constants, comparison.restitution);

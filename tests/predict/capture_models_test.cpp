@@ -115,39 +115,69 @@ TEST(ThorntonNing, ElasticIsJkrWithARoundedFactor) {
               1e-3);
 }
 
-TEST(ThorntonNing, YieldBeginsWhereTheHertzPressureReachesIt) {
-  // Hertz: p0^5 = (5/4 m V^2 / 2) ... written out: V_Y = 1.56 (p^5 / (E*^4 rho))^(1/2).
-  const CaptureContact c = fluorescein_on_silicon();
-  const double p = 35.3e6;
-  const double v = recoil::yield_velocity(c, p);
-  // Energy of a Hertz contact whose peak pressure is p: F = pi^3 R^2 p^3 / (6 E*^2),
-  // delta = (pi p / (2 E*))^2 R, U = (2/5) F delta.
-  const double R = 2.45e-6;
-  const double E = c.reduced_modulus;
-  const double force = std::pow(pi, 3.0) * R * R * p * p * p / (6.0 * E * E);
-  const double depth = std::pow(pi * p / (2.0 * E), 2.0) * R;
-  const double mass = 4.0 / 3.0 * pi * R * R * R * 1350.0;
-  EXPECT_NEAR(0.5 * mass * v * v / (0.4 * force * depth), 1.0, 1e-10);
-  EXPECT_NEAR(v, 0.18, 0.005);
+/// The same law in other hands: the pressure is summed over rings of the contact, the work by the
+/// trapezoidal rule, the contact that just comes free found by bisection.
+double sticking_by_rings(const CaptureContact& c, double yield_pressure) {
+  const double R = c.radius(), E = c.reduced_modulus, W = c.adhesion_energy;
+  const auto approach = [&](double a, double radius) {
+    return a * a / radius - std::sqrt(2.0 * pi * W * a / E);
+  };
+  const auto force = [&](double a) {
+    // With t = s the tensile part is finite: p 2 pi r dr = p 2 pi a^2 t dt.
+    constexpr int rings = 400;
+    double sum = 0.0;
+    for (int i = 0; i < rings; ++i) {
+      const double t = (i + 0.5) / rings;
+      const double p = 2.0 * E * a / (pi * R) * t - std::sqrt(2.0 * W * E / (pi * a)) / t;
+      sum += std::min(p, yield_pressure) * t / rings;
+    }
+    return 2.0 * pi * a * a * sum;
+  };
+  const auto work = [&](double from, double to, double radius, const auto& push) {
+    constexpr int steps = 4000;
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      const double a = from + (to - from) * i / steps;
+      const double b = from + (to - from) * (i + 1) / steps;
+      sum += push(0.5 * (a + b)) * (approach(b, radius) - approach(a, radius));
+    }
+    return sum;
+  };
+  const double touch = std::cbrt(2.0 * pi * W * R * R / E);
+  const auto given_back = [&](double a) {
+    const double adhesive = std::sqrt(8.0 * pi * W * E * a * a * a);
+    const double flattened = 4.0 * E * a * a * a / (3.0 * (force(a) + adhesive));
+    const double parts = std::cbrt(pi * W * flattened * flattened / (8.0 * E));
+    return work(parts, a, flattened, [&](double r) {
+      return 4.0 * E * r * r * r / (3.0 * flattened) - std::sqrt(8.0 * pi * W * E * r * r * r);
+    });
+  };
+  double low = touch;
+  while (given_back(1.02 * low) < 0.0) low *= 1.02;
+  double high = 1.02 * low;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (low + high);
+    (given_back(middle) < 0.0 ? low : high) = middle;
+  }
+  return std::sqrt(2.0 * work(touch, high, R, force) / c.mass());
 }
 
-TEST(ThorntonNing, PlasticRestitutionBeginsAtOneAndEndsInAPowerLaw) {
-  EXPECT_EQ(recoil::plastic_restitution(0.5, 1.0), 1.0);
-  EXPECT_NEAR(recoil::plastic_restitution(1.0 + 1e-12, 1.0), 1.0, 1e-9);
-  EXPECT_NEAR(recoil::plastic_restitution(1e12, 1.0), 1.185 * 1e-3, 1e-6);
+TEST(ThorntonNing, StickingWithYieldAndAdhesionAtWork) {
+  // Ammonium fluorescein of 4.9 um on silicon with w = 0.2 J/m2; the literature quotes about 1.6
+  // m/s for 35.3 MPa (Pasha et al. 2014, doi 10.1007/s10035-013-0476-y).
+  const CaptureContact c = fluorescein_on_silicon();
+  for (const double p : {35.3e6, 50e6, 200e6}) {
+    EXPECT_NEAR(recoil::thornton_ning_plastic_velocity(c, p) / sticking_by_rings(c, p), 1.0, 2e-3)
+        << p;
+  }
+  EXPECT_NEAR(recoil::thornton_ning_plastic_velocity(c, 35.3e6), 1.48, 0.01);
+  EXPECT_NEAR(recoil::thornton_ning_plastic_velocity(c, 50e6), 0.862, 0.005);
 }
 
-TEST(ThorntonNing, StickingWithYield) {
-  // 0.9593 m/s by an independent bisection of the same balance in other hands; the full simulation
-  // in the literature, with adhesion helping to yield, has about 1.6 m/s.
+TEST(ThorntonNing, AHardSphereSticksByJkrAndNothingSticksWithoutAdhesion) {
   const CaptureContact c = fluorescein_on_silicon();
-  const double v = recoil::thornton_ning_plastic_velocity(c, 35.3e6);
-  EXPECT_NEAR(v, 0.9593, 2e-4);
-  EXPECT_GT(v, recoil::jkr_capture_velocity(c));
-  EXPECT_LT(v, 1.6);
-  // A hard sphere does not yield.
-  EXPECT_EQ(recoil::thornton_ning_plastic_velocity(c, 1e9), recoil::jkr_capture_velocity(c));
-  // Nothing sticks without adhesion.
+  EXPECT_NEAR(recoil::thornton_ning_plastic_velocity(c, 1e10) / recoil::jkr_capture_velocity(c),
+              1.0, 1e-6);
   EXPECT_EQ(recoil::thornton_ning_plastic_velocity({4.9e-6, 1350, 1.3e9, 0.0}, 35.3e6), 0.0);
 }
 
