@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "document/html_style.hpp"
+#include "plot/xml.hpp"
 
 namespace recoil {
 namespace {
@@ -211,33 +212,7 @@ std::string contents_html(const Document& document) {
 
 }  // namespace
 
-std::string escape_html(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        // Control characters have no place in HTML; a newline is a blank anyway.
-        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-    }
-  }
-  return out;
-}
+std::string escape_html(std::string_view text) { return plot::escape_xml(text); }
 
 std::string html_of(const Sentence& sentence) {
   std::string out;

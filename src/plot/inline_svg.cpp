@@ -325,30 +325,6 @@ void prefix_ids(XmlNode& root, const std::string& name) {
   });
 }
 
-/// As the content of an attribute or an element.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string inline_svg(std::string_view document, const Picture& picture) {
@@ -372,7 +348,7 @@ std::string inline_svg(std::string_view document, const Picture& picture) {
   drop_empty(drawn);
   prefix_ids(drawn, picture.name);
 
-  const std::string title = escaped(picture.title);
+  const std::string title = escape_xml(picture.title);
   XmlNode out{"svg", "", {}, {}};
   out.attributes = {{"id", picture.name},
                     {"viewBox", fmt::format("0 0 {} {}", picture.width, picture.height)},

@@ -27,6 +27,10 @@ struct XmlNode {
 /// @throws ComputationError where it is not well-formed.
 XmlNode parse_xml(std::string_view document);
 
+/// `text` as the content of an element or of an attribute, in XML as in HTML; control characters,
+/// which have no place there, become blanks.
+std::string escape_xml(std::string_view text);
+
 std::string write_xml(const XmlNode& node);
 
 }  // namespace recoil::plot
