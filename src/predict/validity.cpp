@@ -6,6 +6,7 @@
 
 #include "core/units.hpp"
 #include "estimate/predictor.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
@@ -19,11 +20,11 @@ constexpr double least_tabor = 5.0;
 constexpr double least_transits = 5.0;
 constexpr double atomic_distance = 0.4e-9;  // z_0 [m]
 
-/// Does a mechanism of the fit have a pressure at which the contact gives way? It is the one kind
-/// of parameter that the modulus limits.
+/// Does a mechanism of the fit have a pressure at which the contact gives way?
 bool yields(const ImpactModel& model) {
   return std::any_of(model.slots.begin(), model.slots.end(), [](const ParameterSlot& slot) {
-    return std::isfinite(slot.parameter->modulus_limit.share);
+    return slot.mechanism() != nullptr && slot.parameter->unit == "Pa" &&
+           slot.mechanism()->info.place == MechanismPlace::contact;
   });
 }
 
@@ -55,7 +56,7 @@ std::vector<PointConditions> extreme_points(const FitResult& fitted, std::size_t
     if (point.dataset == dataset) points.push_back(point.conditions());
   }
   if (points.empty()) return points;
-  const double f0 = fitted.theta[model.slot_f0[dataset]];
+  const double f0 = adhesion_force_under(model, fitted.theta, dataset);
   const auto contact_of = [&](const PointConditions& p) {
     return undamped_contact(contact, p.diameter, p.velocity,
                             adhesion_force_at(f0, contact.reference_diameter, p.diameter));
@@ -77,7 +78,7 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
   const ContactView view = contact_view(model, theta, point);
   ImpactOptions options = model.impact_options(false);
   options.budget = true;
-  options.dashpot = !model.chain.empty();
+  options.dashpot = view.groups.kappa != 0.0;
   const ImpactResult impact = simulate_impact(view.groups, options);
   if (!impact.usable()) return {};
 
