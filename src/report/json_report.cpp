@@ -159,7 +159,10 @@ Json model_json(const Analysis& a) {
          {"adhesion_velocity_m_per_s", number_or_null(adhesion_velocity(conditions))},
          {"contradictions", contact.contradictions}});
   }
-  return {{"equation", "Li, Dunn & Brach (1999), eq. 5"},
+  const AdhesionLaw law = a.fitted.model.adhesion;
+  return {{"equation", law == AdhesionLaw::ring  ? "Li, Dunn & Brach (1999), eq. 5"
+                       : law == AdhesionLaw::jkr ? "Johnson, Kendall & Roberts (1971), damped"
+                                                 : "Derjaguin, Muller & Toporov (1975), damped"},
           {"adhesion", to_string(a.fitted.model.adhesion)},
           {"adhesion_damping_phase", to_string(a.fitted.model.phase)},
           {"contacts", contacts}};
