@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "data/datapackage_writer.hpp"
 #include "data/dataset.hpp"
 #include "support/dataset_folder.hpp"
 
@@ -89,6 +90,17 @@ TEST(LoadDataset, ReadsTheOverrides) {
   EXPECT_EQ(dataset.system.adhesion_energy.value(), 0.0);
   EXPECT_EQ(dataset.system.adhesion_force_f0.value(), 5.74);
   EXPECT_EQ(dataset.system.reference_diameter.value(), 1.28e-6);
+}
+
+TEST(StatedSystem, LeavesTheConditionsOfTheOtherExperiment) {
+  const DatasetFolder folder(changed(example::package, "\"provenance\": \"measured\",",
+                                     "\"provenance\": \"measured\", \"adhesion_energy\": 0.1,\n"
+                                     "\"conditions\": { \"ambient_pressure\": 50 },"));
+  const Json system = stated_system(folder.path());
+  EXPECT_EQ(system["adhesion_energy"], 0.1);
+  EXPECT_TRUE(system.contains("particle"));
+  EXPECT_FALSE(system.contains("conditions"));
+  EXPECT_FALSE(system.contains("provenance"));
 }
 
 TEST(LoadDataset, DividesReboundByIncidentVelocity) {
