@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "data/contact.hpp"
 #include "data/material.hpp"
@@ -19,7 +18,6 @@ struct Surroundings {
   double reference_diameter = 0.0;  ///< where f0 is stated [m]
   double adhesion_energy = 0.0;     ///< W_A of the two bodies, see `ContactProperties` [J/m2]
   double wave_mobility = 0.0;       ///< D of `elastic_waves`, for a half-space [m s / N]
-  std::optional<double> ambient_pressure;  ///< of the air [Pa], where the dataset states it
 };
 
 /// @param contact derived from `system`

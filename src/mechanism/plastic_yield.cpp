@@ -3,12 +3,9 @@
 namespace recoil {
 namespace {
 
-/// Where p_Y is stated when the rate of straining raises it; the velocity is 1 m/s.
-constexpr double rate_diameter = 10e-6;  // [m]
-
-/// Elastic-perfectly plastic contact. The rate of straining in a Hertz contact is (a / r) / t_c ~
-/// V^(3/5) / d; where it raises the yield pressure as its power 5q/3,
-///   p = p_Y (V / (1 m/s))^q (d / (10 um))^(-5q/3).
+/// Elastic-perfectly plastic contact, with p = p_Y (V / (1 m/s))^q where the rate of straining
+/// raises the yield pressure. (The rate in a Hertz contact is V^(3/5) / d: that it also depends on
+/// the size is left out, as it is in the recipes of the reconstructions.)
 /// V_Y = (pi^2 / sqrt(40)) sqrt(p^5 / (E*^4 rho)); with
 /// s = (V_Y / V)^2 < 1 and the loads in units of that at yield,
 ///   P = sqrt(1 + (6/5) (1/s - 1))                       at the turning point,
@@ -21,8 +18,7 @@ struct PlasticYield {
   static void before(Encounter<T>& e, std::span<const T> own) {
     const double E = e.at->reduced_modulus;
     const double pi = std::numbers::pi;
-    const T rate = logarithm(e.velocity) - 5.0 / 3.0 * logarithm(e.diameter / rate_diameter);
-    const T pressure = own[0] * exponential(own[1] * rate);
+    const T pressure = own[0] * exponential(own[1] * logarithm(e.velocity));
     const T yield_velocity =
         power(pressure, 2.5) * (pi * pi / (std::sqrt(40.0 * e.at->density) * E * E));
     if (!(value_of(e.velocity) > value_of(yield_velocity))) return;
@@ -46,8 +42,7 @@ Mechanism plastic_yield() {
       .title = "plastic yielding of the contact",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula = "above V_Y = 1.56 (p^5 / (E*^4 rho))^(1/2), p = p_Y (V / (1 m/s))^q (d / (10 "
-                 "um))^(-5q/3): e_p^2 = (6 "
+      .formula = "above V_Y = 1.56 (p^5 / (E*^4 rho))^(1/2), p = p_Y (V / (1 m/s))^q: e_p^2 = (6 "
                  "sqrt(3) / 5) (1 - s/6) "
                  "(y / (y + 2 (6/5 - s/5)^(1/2)))^(1/2), y = V_Y / V, s = y^2; unloading with the "
                  "flattened radius R_p",
@@ -55,11 +50,9 @@ Mechanism plastic_yield() {
                 "(1985), Contact Mechanics, section 11.5. The load at which adhesion alone yields "
                 "is not lowered here",
       .fingerprint =
-          "e falls with V above a threshold, concave, towards V^(-1/4 + 5q/8), alike for "
-          "all targets, and for all sizes where q = 0; else small spheres, which strain "
-          "faster, lose less: e ~ d^(-25q/24); the flattened contact sticks better, so that "
-          "capture sets "
-          "in earlier and steeper with size",
+          "e falls with V above a threshold, concave, towards V^(-1/4), alike for all sizes and "
+          "targets; the flattened contact sticks better, so that capture sets in earlier and "
+          "steeper with size",
       .parameters =
           {{.name = "yield_pressure",
             .unit = "Pa",

@@ -78,7 +78,7 @@ TEST(Jkr, LosesTheWorkBetweenTouchAndParting) {
   const double lost = 7.09217 * std::cbrt(std::pow(contact.W, 5) * std::pow(contact.radius, 4) /
                                           std::pow(contact.reduced_modulus, 2));
   const Jkr jkr(contact);
-  EXPECT_NEAR(-jkr.work(jkr.parts(), jkr.opens()) / lost, -1.0, 1e-5);
+  EXPECT_NEAR(-jkr.work(jkr.parts(), jkr.opens()) / lost, 1.0, 1e-5);
   for (const double V : {2.5, 3.0, 10.0}) {
     const double energy = 0.5 * contact.mass() * V * V;
     EXPECT_NEAR(simulated(contact, AdhesionLaw::jkr, V).restitution_squared, 1.0 - lost / energy,
@@ -158,7 +158,8 @@ TEST(Jkr, WeakDampingTakesWhatItsForcesSay) {
 
 TEST(Dmt, LosesNothingWithoutDamping) {
   for (const double V : {0.01, 0.3, 3.0, 100.0}) {
-    EXPECT_NEAR(simulated({}, AdhesionLaw::dmt, V).restitution_squared, 1.0, 1e-9);
+    const ImpactResult impact = simulated({}, AdhesionLaw::dmt, V);
+    EXPECT_NEAR(impact.restitution_squared, 1.0, 1e-9 * std::max(1.0, impact.energy.largest));
   }
 }
 

@@ -44,7 +44,7 @@ double by_hand(const Case& c) {
   const double well = 2.0 * charge * charge / (16.0 * pi * 8.8541878128e-12 * r) / m;
   v = std::sqrt(v * v + well);
   // Yielding in terms of the loads: F_Y, F*, and the elastic energy of the flattened contact.
-  const double p = c.yield * std::pow(v * std::pow(d / 10e-6, -5.0 / 3.0), c.rate);
+  const double p = c.yield * std::pow(v, c.rate);
   const double n_yield = std::pow(pi * p / (2.0 * E), 2) * r;
   const double f_yield = 4.0 / 3.0 * E * std::sqrt(r) * std::pow(n_yield, 1.5);
   const double energy = 0.5 * m * v * v - 0.4 * f_yield * n_yield;

@@ -62,11 +62,10 @@ std::vector<Question> clear_causes() {
 
 /// Nearly alike: naming the right one or listing it is true, anything else is not. (JKR's work and
 /// hysteresis per area, deepened by adhesion, leave a misfit of 1.6 of one another where each alone
-/// leaves 20. A charge with a field of 1.1e7 V/m that grows as d^1.6 leaves the same again, and
-/// nobody says that there was a neutraliser: the three have no cause in common.)
+/// leaves 20.)
 std::vector<Question> close_causes() {
   const std::vector<Mark> right = {Mark::named, Mark::inside};
-  return {{{"wall", {"jkr_hysteresis"}, 20.0, 0}, right},
+  return {{{"wall", {"jkr_hysteresis"}, 20.0, 0}, right, "adhesion hysteresis"},
           {{"wall", {"survivor_bias"}, 10.0, 0}, right, "unequal impacts averaged in one point"},
           {{"li", {"plate_flexure"}, 10.0, 0}, right},
           {{"wall", {"plastic_yield", "jkr_hysteresis"}, 20.0, 0},
