@@ -64,6 +64,10 @@ double AirFlight::deceleration(double speed) const {
 AirFlight::Way AirFlight::rise(double speed) const {
   Way way{0.0, 0.0, speed};
   const double end = std::sqrt(std::log1p(speed / terminal_));
+  if (!std::isfinite(end)) {  // a sphere that air holds at once
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {infinity, infinity, speed};
+  }
   const auto panels = static_cast<int>(end / panel_width) + 1;
   const double width = end / panels;
   for (int k = 0; k < panels; ++k) {
@@ -127,6 +131,7 @@ double AirFlight::launch_for(const F& excess, double least) const {
     high *= 2.0;
     if (high > fastest_launch) return std::numeric_limits<double>::infinity();
   }
+  if (!std::isfinite(excess(high))) return std::numeric_limits<double>::infinity();
   return find_root(excess, least, high, root_tolerance);
 }
 
