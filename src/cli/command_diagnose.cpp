@@ -7,8 +7,10 @@
 #include "cli/recipe_words.hpp"
 #include "core/files.hpp"
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/diagnosis_result.hpp"
 #include "diagnosis/extended_toml.hpp"
-#include "report/diagnosis_report.hpp"
+#include "report/diagnosis_document.hpp"
+#include "report/json_diagnosis.hpp"
 
 namespace recoil {
 namespace {

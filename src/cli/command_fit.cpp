@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "core/files.hpp"
+#include "report/json_report.hpp"
 
 namespace recoil {
 

@@ -9,7 +9,9 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "plot/draw.hpp"
-#include "report/prediction.hpp"
+#include "report/figures_mixture.hpp"
+#include "report/prediction_document.hpp"
+#include "report/prediction_files.hpp"
 #include "uncertainty/uncertainty.hpp"
 
 namespace recoil {

@@ -14,6 +14,8 @@
 #include "diagnosis/extended_toml.hpp"
 #include "report/diagnosis_document.hpp"
 #include "report/index_document.hpp"
+#include "report/json_diagnosis.hpp"
+#include "report/json_report.hpp"
 
 namespace recoil {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "document/terminal.hpp"
 #include "estimate/predictor.hpp"
+#include "impact/reference_solver.hpp"
 #include "impact/sensitivity.hpp"
 #include "predict/validity.hpp"
 #include "report/words_dataset.hpp"

@@ -15,6 +15,7 @@
 #include "data/text.hpp"
 #include "estimate/fit_keys.hpp"
 #include "estimate/fit_spec.hpp"
+#include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {

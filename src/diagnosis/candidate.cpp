@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "estimate/impact_problem.hpp"
+#include "mechanism/catalogue.hpp"
 #include "uncertainty/refit.hpp"
 
 namespace recoil {

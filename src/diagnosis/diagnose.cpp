@@ -16,6 +16,7 @@
 #include "diagnosis/search.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "estimate/capture_velocity.hpp"
+#include "mechanism/catalogue.hpp"
 #include "uncertainty/uncertainty.hpp"
 
 namespace recoil {

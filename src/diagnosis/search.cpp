@@ -12,6 +12,7 @@
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/simulated_observation.hpp"
+#include "mechanism/catalogue.hpp"
 
 namespace recoil {
 namespace {

@@ -13,6 +13,7 @@
 #include "data/text.hpp"
 #include "data/toml_reader.hpp"
 #include "estimate/fit_keys.hpp"
+#include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {

@@ -6,6 +6,8 @@
 #include <cassert>
 
 #include "impact/fast_solver.hpp"
+#include "impact/reference_solver.hpp"
+#include "mechanism/catalogue.hpp"
 
 namespace recoil {
 namespace {

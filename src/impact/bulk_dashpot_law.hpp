@@ -15,6 +15,7 @@ namespace recoil {
 struct BulkDashpotLaw {
   static constexpr unsigned groups = 4;  ///< alpha, beta, gamma, kappa
   static constexpr double start = 0.0;
+  static constexpr double tolerance_share = 1.0;  ///< of the fast solver, per step
 
   static double strength_slope(const ImpactGroups&) { return 1.0; }
 

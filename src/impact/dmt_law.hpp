@@ -18,6 +18,7 @@ namespace recoil {
 struct DmtLaw {
   static constexpr unsigned groups = 3;  ///< alpha, p, gamma
   static constexpr double start = 0.0;
+  static constexpr double tolerance_share = 1.0;  ///< of the fast solver, per step
 
   static double strength(const ImpactGroups& g) { return g.beta * std::sqrt(g.beta) / 3.0; }
   /// d p / d beta

@@ -2,36 +2,47 @@
 // RECOIL_KERNEL and RECOIL_LANES. No two of them have the same number of lanes: the templates are
 // then of different types, and the linker cannot mistake a function that was compiled for one
 // instruction set for that of another (tests/impact/kernel_symbols.sh looks at the symbols).
+#include "impact/fast_kernel.hpp"
+
 #include <experimental/simd>
 
+#include "impact/bulk_dashpot_law.hpp"
+#include "impact/dmt_law.hpp"
 #include "impact/flights.hpp"
 #include "impact/force_law.hpp"
+#include "impact/jkr_law.hpp"
 
 namespace recoil::RECOIL_KERNEL {
+namespace {
 
 using Pack = std::experimental::fixed_size_simd<double, RECOIL_LANES>;
 
-void fly_with_dashpot(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-                      std::span<ImpactResult> results);
-void fly_by_jkr(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-                std::span<ImpactResult> results);
-void fly_by_dmt(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-                std::span<ImpactResult> results);
+/// The law decides what a step may err: the path of JKR is longer, out to where the contact parts.
+template <class Law>
+void fly_by(std::span<const ImpactGroups> groups, ImpactOptions options,
+            std::span<ImpactResult> results) {
+  options.fast_tolerance *= Law::tolerance_share;
+  if (options.gradient) {
+    Flights<Law, Pack, true>(groups, options, results).fly();
+  } else {
+    Flights<Law, Pack, false>(groups, options, results).fly();
+  }
+}
+
+}  // namespace
 
 std::size_t lanes() { return RECOIL_LANES; }
 
 void fly(std::span<const ImpactGroups> groups, const ImpactOptions& options,
          std::span<ImpactResult> results) {
-  if (options.adhesion == AdhesionLaw::jkr) {
-    fly_by_jkr(groups, options, results);
-  } else if (options.adhesion == AdhesionLaw::dmt) {
-    fly_by_dmt(groups, options, results);
-  } else if (options.dashpot) {
-    fly_with_dashpot(groups, options, results);
-  } else if (options.gradient) {
-    Flights<RingAdhesionLaw, Pack, true>(groups, options, results).fly();
-  } else {
-    Flights<RingAdhesionLaw, Pack, false>(groups, options, results).fly();
+  switch (options.adhesion) {
+    case AdhesionLaw::ring:
+      if (options.dashpot) return fly_by<BulkDashpotLaw>(groups, options, results);
+      return fly_by<RingAdhesionLaw>(groups, options, results);
+    case AdhesionLaw::jkr:
+      return fly_by<JkrLaw>(groups, options, results);
+    case AdhesionLaw::dmt:
+      return fly_by<DmtLaw>(groups, options, results);
   }
 }
 

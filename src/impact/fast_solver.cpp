@@ -10,6 +10,7 @@
 #include "impact/fast_kernel.hpp"
 #include "impact/force_law.hpp"
 #include "impact/jkr_law.hpp"
+#include "impact/reference_solver.hpp"
 
 namespace recoil {
 

@@ -80,6 +80,7 @@ inline bool creeps_into_the_well(const ImpactGroups& groups) {
 struct RingAdhesionLaw {
   static constexpr unsigned groups = 3;  ///< alpha, beta, gamma
   static constexpr double start = 0.0;
+  static constexpr double tolerance_share = 1.0;  ///< of the fast solver, per step
 
   static double strength(const ImpactGroups& g) { return g.beta; }
   static double strength_slope(const ImpactGroups&) { return 1.0; }

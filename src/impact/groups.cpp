@@ -1,8 +1,9 @@
+#include "impact/groups.hpp"
+
 #include <cmath>
 #include <numbers>
 
 #include "data/contact.hpp"
-#include "impact/impact.hpp"
 
 namespace recoil {
 namespace {

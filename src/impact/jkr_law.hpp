@@ -26,6 +26,7 @@ namespace recoil {
 struct JkrLaw {
   static constexpr unsigned groups = 3;                    ///< alpha, lambda, gamma
   static constexpr double start = 0.58740105196819947475;  ///< 4^(1/3) - 1
+  static constexpr double tolerance_share = 0.1;           ///< of the fast solver, per step
 
   static double strength(const ImpactGroups& g) {
     return 4.0 * std::pow(6.0, -10.0 / 3.0) * g.beta * g.beta * std::sqrt(g.beta);

@@ -1,3 +1,5 @@
+#include "impact/reference_solver.hpp"
+
 #include <ceres/jet.h>
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>

@@ -1,3 +1,5 @@
+#include "mechanism/catalogue.hpp"
+
 #include <algorithm>
 
 #include "mechanism/mechanism.hpp"

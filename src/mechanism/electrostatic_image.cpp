@@ -1,3 +1,4 @@
+#include "mechanism/attraction.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -13,20 +14,12 @@ struct ElectrostaticImage {
         exponential((2.0 * own[1] - 4.0) * logarithm(e.diameter / e.at->reference_diameter));
     return 1.5 * vacuum_permittivity / e.at->density * own[0] * own[0] * growth;
   }
-  template <class T>
-  static void before(Encounter<T>& e, std::span<const T> own) {
-    e.velocity = sqrt(e.velocity * e.velocity + gained(e, own));
-  }
-  template <class T>
-  static void after(Encounter<T>& e, std::span<const T> own) {
-    e.square -= gained(e, own);
-  }
 };
 
 }  // namespace
 
 Mechanism electrostatic_image() {
-  return make_mechanism<ElectrostaticImage>({
+  return make_mechanism<Attraction<ElectrostaticImage>>({
       .id = "electrostatic_image",
       .title = "attraction of a charged sphere by its image",
       .kind = MechanismKind::physics,

@@ -1,5 +1,6 @@
 #include "mechanism/parameter.hpp"
 
+#include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {

@@ -1,3 +1,4 @@
+#include "mechanism/attraction.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -11,20 +12,12 @@ struct VanDerWaalsApproach {
   static T gained(const Encounter<T>& e, std::span<const T> own) {
     return own[0] * e.radius() / (3.0 * closest * e.mass());
   }
-  template <class T>
-  static void before(Encounter<T>& e, std::span<const T> own) {
-    e.velocity = sqrt(e.velocity * e.velocity + gained(e, own));
-  }
-  template <class T>
-  static void after(Encounter<T>& e, std::span<const T> own) {
-    e.square -= gained(e, own);
-  }
 };
 
 }  // namespace
 
 Mechanism van_der_waals_approach() {
-  return make_mechanism<VanDerWaalsApproach>({
+  return make_mechanism<Attraction<VanDerWaalsApproach>>({
       .id = "van_der_waals_approach",
       .title = "attraction of the surfaces before they touch",
       .kind = MechanismKind::physics,

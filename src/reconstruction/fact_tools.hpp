@@ -30,9 +30,5 @@ inline std::vector<GeneratedPoint> points_of(const FactContext& context, std::si
 }
 
 // Checks that live with others of their kind.
-FactOutcome printed_constants(const FactContext& context, const FactLimits& limits);
-FactOutcome contradictory_constants(const FactContext& context, const FactLimits& limits);
-FactOutcome two_point_runs_low(const FactContext& context, const FactLimits& limits);
-FactOutcome two_point_agrees(const FactContext& context, const FactLimits& limits);
 
 }  // namespace recoil

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "reconstruction/facts_monodisperse.hpp"
+#include "reconstruction/facts_polydisperse.hpp"
+
 namespace recoil {
 namespace {
 

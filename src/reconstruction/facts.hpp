@@ -39,10 +39,6 @@ struct FactKind {
   FactOutcome (*evaluate)(const FactContext&, const FactLimits&);
 };
 
-/// Facts about series of one size each, and facts about mixed sizes.
-const std::vector<FactKind>& monodisperse_facts();
-const std::vector<FactKind>& polydisperse_facts();
-
 /// @throws InputError at the fact when its id is not in the catalogue, or its limits are not those
 /// that the check takes.
 void require_known_fact(const FactSpec& fact);

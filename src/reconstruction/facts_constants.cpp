@@ -1,4 +1,6 @@
 // Facts that compare with the paper's Table 1 and with its calibration.
+#include "reconstruction/facts_constants.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // Facts about series of one size each (Wall et al. 1990, Dahneke 1975).
+#include "reconstruction/facts_monodisperse.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +8,7 @@
 
 #include "core/units.hpp"
 #include "reconstruction/fact_tools.hpp"
+#include "reconstruction/facts_constants.hpp"
 
 namespace recoil {
 namespace {

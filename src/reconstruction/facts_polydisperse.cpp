@@ -1,10 +1,13 @@
 // Facts about mixed sizes, of which only the rebounds are seen (Li, Dunn & Brach 1999).
+#include "reconstruction/facts_polydisperse.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/units.hpp"
 #include "reconstruction/fact_tools.hpp"
+#include "reconstruction/facts_constants.hpp"
 
 namespace recoil {
 namespace {

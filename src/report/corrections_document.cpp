@@ -1,8 +1,10 @@
+#include "report/corrections_document.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "report/corrections.hpp"
+#include "report/figures_corrections.hpp"
 #include "report/format.hpp"
 
 namespace recoil {

@@ -9,6 +9,8 @@
 #include "core/units.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
+#include "report/diagnosis_headline.hpp"
+#include "report/figures_diagnosis.hpp"
 #include "report/fit_document.hpp"
 #include "report/format.hpp"
 #include "report/words_diagnosis.hpp"

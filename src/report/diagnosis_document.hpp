@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/diagnosis_result.hpp"
 #include "document/document.hpp"
-#include "report/diagnosis_report.hpp"
+#include "report/diagnosis_document.hpp"
 
 namespace recoil {
 
@@ -24,6 +25,15 @@ std::vector<Block> diagnosis_answer(const Diagnosis& diagnosis);
 
 /// What `recoil diagnose` prints.
 std::vector<Section> diagnosis_sections(const Diagnosis& diagnosis);
+
+/// What `recoil diagnose` prints: the answer, the tests, the map, the ranking, the gain. At most
+/// 100 columns.
+std::string diagnosis_text(const Diagnosis& diagnosis);
+
+/// One self-contained page for someone who was not there: the answer in words, the misfit, the
+/// ranking, the fit before and after, what was gained.
+/// @throws ComputationError when gnuplot cannot be run.
+std::string diagnosis_html(const Diagnosis& diagnosis);
 
 /// The page of a diagnosis.
 Document diagnosis_document(const Diagnosis& diagnosis);

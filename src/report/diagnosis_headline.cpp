@@ -1,9 +1,11 @@
+#include "report/diagnosis_headline.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "report/diagnosis_report.hpp"
+#include "diagnosis/diagnosis_result.hpp"
 #include "report/format.hpp"
 
 namespace recoil {

@@ -1,3 +1,5 @@
+#include "report/figures_capture.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -6,7 +8,6 @@
 
 #include "core/units.hpp"
 #include "report/format.hpp"
-#include "report/prediction.hpp"
 #include "report/words_predict.hpp"
 
 namespace recoil {

@@ -1,8 +1,10 @@
+#include "report/figures_corrections.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
 
-#include "report/corrections.hpp"
+#include "report/corrections_document.hpp"
 #include "report/format.hpp"
 
 namespace recoil {

@@ -1,3 +1,5 @@
+#include "report/figures_diagnosis.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,10 +7,10 @@
 #include <map>
 
 #include "core/units.hpp"
+#include "diagnosis/diagnosis_result.hpp"
 #include "estimate/point_conditions.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "report/diagnosis_report.hpp"
 #include "report/format.hpp"
 #include "report/words_diagnosis.hpp"
 

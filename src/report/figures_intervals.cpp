@@ -1,9 +1,10 @@
+#include "report/figures_intervals.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/parameter_axis.hpp"
 #include "report/words_intervals.hpp"

@@ -1,3 +1,5 @@
+#include "report/figures_mixture.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -6,7 +8,6 @@
 
 #include "report/format.hpp"
 #include "report/panels.hpp"
-#include "report/prediction.hpp"
 
 namespace recoil {
 namespace {

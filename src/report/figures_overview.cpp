@@ -1,9 +1,10 @@
+#include "report/figures_overview.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
 

@@ -1,3 +1,5 @@
+#include "report/figures_pairs.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -5,7 +7,6 @@
 #include <functional>
 #include <set>
 
-#include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/pair_words.hpp"
 

@@ -1,3 +1,5 @@
+#include "report/figures_physics.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "report/figures.hpp"
+#include "impact/reference_solver.hpp"
 #include "report/format.hpp"
 
 namespace recoil {

@@ -1,3 +1,5 @@
+#include "report/figures_statistics.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "core/units.hpp"
 #include "report/density.hpp"
-#include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
 #include "report/parameter_axis.hpp"

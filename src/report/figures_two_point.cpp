@@ -1,10 +1,11 @@
+#include "report/figures_two_point.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "report/density.hpp"
-#include "report/figures.hpp"
 #include "report/format.hpp"
 #include "report/parameter_axis.hpp"
 

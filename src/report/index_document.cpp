@@ -11,7 +11,9 @@
 #include "core/json.hpp"
 #include "document/html.hpp"
 #include "mechanism/parameter.hpp"
+#include "report/diagnosis_headline.hpp"
 #include "report/format.hpp"
+#include "report/json_diagnosis.hpp"
 
 namespace recoil {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/diagnosis_result.hpp"
 #include "document/document.hpp"
-#include "report/diagnosis_report.hpp"
 #include "report/report.hpp"
 
 namespace recoil {

@@ -1,7 +1,10 @@
+#include "report/json_diagnosis.hpp"
+
 #include <algorithm>
 
 #include "core/units.hpp"
-#include "report/diagnosis_report.hpp"
+#include "diagnosis/diagnosis_result.hpp"
+#include "report/diagnosis_headline.hpp"
 #include "report/json_values.hpp"
 #include "report/words_diagnosis.hpp"
 

@@ -1,3 +1,5 @@
+#include "report/json_noise.hpp"
+
 #include <algorithm>
 
 #include "estimate/reweighting.hpp"

@@ -1,3 +1,5 @@
+#include "report/json_pairs.hpp"
+
 #include <cmath>
 
 #include "report/json_values.hpp"

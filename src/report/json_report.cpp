@@ -1,3 +1,5 @@
+#include "report/json_report.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -5,6 +7,8 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
+#include "report/json_noise.hpp"
+#include "report/json_resampling.hpp"
 #include "report/json_values.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_identifiability.hpp"

@@ -1,4 +1,6 @@
 // What the resampling says about itself in fit.json: chance, bounds, failures.
+#include "report/json_resampling.hpp"
+
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/json_values.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "report/json_pairs.hpp"
 #include "report/words_intervals.hpp"
 #include "report/words_two_point.hpp"
 

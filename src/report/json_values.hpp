@@ -22,33 +22,17 @@ Json interval_json(const Interval& interval);
 /// Why `interval_json` gave null.
 std::string why_none(const Interval& interval);
 
-/// The Monte-Carlo errors of both ends, or null where nothing is random.
-Json mc_error_json(const Interval& interval);
-
-/// `intervals_mc_error`, `intervals_note`, `intervals_differ` and the numbers behind them.
-void put_resampling(Json& parameter, const Analysis& analysis, std::size_t slot);
-
-/// Which replicates failed, with which data, and the minimiser's words; null when none did.
-Json failures_json(const BootstrapResult& bootstrap, const Observations& data);
-
 Json numbers_json(const std::vector<double>& values);
 
 /// `two_point` and `full` of the contract (those of the first dataset), and the same for every
 /// dataset under `two_point_by_dataset` and `full_by_dataset`.
 void put_two_point(Json& out, const Analysis& analysis);
 
-/// `out["pairs"]` and `out["pairs_study"]`: two points against all for every pair of `dataset`.
-void put_pairs(Json& out, const Analysis& analysis, std::size_t dataset);
-
 /// `curve`: one row per point of every curve.
 Json curve_json(const Analysis& analysis);
 
 /// `residuals`: one row per data point.
 Json residuals_json(const Analysis& analysis);
-
-/// `noise`: the variance function and how it was chosen, errors of the inputs, captures,
-/// distribution.
-Json noise_json(const Analysis& analysis);
 
 /// `starts`: where the minimisation began and ended.
 Json starts_json(const Analysis& analysis);

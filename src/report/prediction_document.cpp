@@ -1,3 +1,5 @@
+#include "report/prediction_document.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,8 +7,9 @@
 
 #include "core/units.hpp"
 #include "document/terminal.hpp"
+#include "report/figures_capture.hpp"
+#include "report/figures_mixture.hpp"
 #include "report/format.hpp"
-#include "report/prediction.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_predict.hpp"
 

@@ -1,3 +1,5 @@
+#include "report/prediction_files.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -5,7 +7,6 @@
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/json_values.hpp"
-#include "report/prediction.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_predict.hpp"
 

@@ -35,10 +35,6 @@ std::string version();
 /// the blocks that it has, and its failure.
 std::string text_report(const Analysis& analysis);
 
-/// `fit.json`. Indented, ends with a newline, no NaN: what has no number is null with a reason.
-/// @pre analysis.fitted.usable
-std::string json_report(const Analysis& analysis);
-
 /// One self-contained page: plots (inline SVG by gnuplot), tables, provenance; no network, no
 /// script, less than 1 MB.
 /// @param diagnosis the section on what the model gets wrong; empty: there is none

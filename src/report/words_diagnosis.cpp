@@ -8,6 +8,7 @@
 
 #include "core/units.hpp"
 #include "data/text.hpp"
+#include "mechanism/catalogue.hpp"
 
 namespace recoil {
 namespace {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/units.hpp"
+#include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
 #include "uncertainty/noise_alternatives.hpp"
 

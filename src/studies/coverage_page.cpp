@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "report/corrections_document.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {

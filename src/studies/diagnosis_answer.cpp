@@ -6,8 +6,9 @@
 
 #include "core/files.hpp"
 #include "core/json.hpp"
-#include "studies/hidden_effects_study.hpp"
+#include "studies/hidden_effects_plan.hpp"
 #include "studies/program_run.hpp"
+#include "studies/synthetic/case_files.hpp"
 
 namespace hidden {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "reconstruction/paired_points.hpp"
-#include "report/corrections.hpp"
+#include "report/corrections_document.hpp"
 #include "studies/corrections.hpp"
 
 namespace recoil {

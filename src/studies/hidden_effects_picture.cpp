@@ -1,3 +1,5 @@
+#include "studies/hidden_effects_picture.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <optional>

@@ -1,6 +1,6 @@
-#include <algorithm>
+#include "studies/hidden_effects_plan.hpp"
 
-#include "studies/hidden_effects_study.hpp"
+#include <algorithm>
 
 namespace hidden {
 namespace {

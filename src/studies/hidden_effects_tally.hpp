@@ -9,10 +9,20 @@
 #include <vector>
 
 #include "core/names.hpp"
-#include "studies/hidden_effects_study.hpp"
+#include "studies/diagnosis_answer.hpp"
+#include "studies/hidden_effects_plan.hpp"
 #include "studies/study_stamp.hpp"
 
 namespace hidden {
+
+/// Rows: what was hidden (visible effects in designs of several diameters). Columns: what was
+/// answered.
+struct Confusion {
+  std::vector<std::string> rows;
+  std::vector<std::string> columns;
+  std::vector<std::vector<int>> counts;
+};
+Confusion confusion_of(const std::vector<Answered>& answers);
 
 /// So many of so many.
 struct Count {

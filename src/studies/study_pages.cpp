@@ -14,6 +14,7 @@
 #include "studies/coverage_picture.hpp"
 #include "studies/event_chain.hpp"
 #include "studies/hidden_effects_page.hpp"
+#include "studies/hidden_effects_picture.hpp"
 #include "studies/pairing_study.hpp"
 #include "studies/study_stamp.hpp"
 

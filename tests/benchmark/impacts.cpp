@@ -9,6 +9,7 @@
 #include "core/random.hpp"
 #include "design.hpp"
 #include "impact/fast_solver.hpp"
+#include "impact/reference_solver.hpp"
 
 namespace recoil::bench {
 namespace {

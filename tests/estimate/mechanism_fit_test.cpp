@@ -11,6 +11,7 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/predictor.hpp"
+#include "mechanism/catalogue.hpp"
 #include "reconstruction/elastoplastic_truth.hpp"
 #include "support/independent_impact.hpp"
 #include "support/synthetic.hpp"

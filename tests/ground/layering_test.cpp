@@ -185,6 +185,23 @@ TEST(Layering, HeadersAreGuarded) {
   }
 }
 
+/// What a source declares stands in the header of its name. Others have their declarations in a
+/// register: the commands of a program, and the mechanisms, which their CMakeLists.txt lists.
+TEST(Layering, EverySourceHasAHeaderOfItsName) {
+  const std::string mechanisms = tree::text_of(tree::root() / "src/mechanism/CMakeLists.txt");
+  const std::size_t listed = mechanisms.find("set(mechanism_files");
+  ASSERT_NE(listed, std::string::npos);
+  for (const fs::path& file : tree::cpp_files(tree::root() / "src")) {
+    if (file.extension() != ".cpp" || file.stem() == "main") continue;
+    if (file.stem().string().rfind("command_", 0) == 0) continue;
+    const bool mechanism =
+        file.parent_path().filename() == "mechanism" &&
+        mechanisms.find("\n  " + file.filename().string(), listed) != std::string::npos;
+    fs::path header = file;
+    EXPECT_TRUE(mechanism || fs::exists(header.replace_extension(".hpp"))) << file;
+  }
+}
+
 /// The sources that the CMakeLists.txt of `folder` names: NAME.cpp, or recoil_fuzz(NAME).
 std::set<std::string> listed_sources(const fs::path& folder) {
   static const std::regex name(R"re([A-Za-z0-9_./-]+\.cpp)re");

@@ -7,6 +7,7 @@
 
 #include "data/contact.hpp"
 #include "impact/impact.hpp"
+#include "impact/reference_solver.hpp"
 
 namespace recoil {
 namespace {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "impact/impact.hpp"
+#include "impact/reference_solver.hpp"
 
 namespace recoil {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "impact/fast_solver.hpp"
 #include "impact/impact.hpp"
+#include "impact/reference_solver.hpp"
 #include "support/independent_impact.hpp"
 
 namespace recoil {

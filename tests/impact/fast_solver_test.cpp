@@ -7,6 +7,7 @@
 #include <random>
 
 #include "impact/dop853.hpp"
+#include "impact/reference_solver.hpp"
 
 namespace recoil {
 namespace {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "impact/impact.hpp"
+#include "impact/reference_solver.hpp"
 
 namespace recoil {
 namespace {

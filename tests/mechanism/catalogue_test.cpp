@@ -1,5 +1,7 @@
 // What every mechanism owes: an entry that is complete, a null value that leaves the base model, an
 // effect away from it, and derivatives that are those of its values.
+#include "mechanism/catalogue.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

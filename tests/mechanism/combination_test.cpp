@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mechanism/catalogue.hpp"
 #include "one_point.hpp"
 
 namespace recoil {

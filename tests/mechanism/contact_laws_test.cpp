@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "data/dataset.hpp"
+#include "mechanism/catalogue.hpp"
 #include "mechanism/half_space.hpp"
 #include "one_point.hpp"
 #include "reconstruction/elastoplastic_truth.hpp"

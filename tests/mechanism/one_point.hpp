@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "impact/fast_solver.hpp"
+#include "mechanism/catalogue.hpp"
 #include "mechanism/extended_impacts.hpp"
 
 namespace recoil::one_point {

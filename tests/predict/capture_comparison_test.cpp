@@ -25,13 +25,7 @@ TEST(CaptureComparison, OursIsTheCaptureOfTheOtherSimulator) {
   const recoil::ExactFit exact;
   const auto all = recoil::compare_captures(exact.fitted, exact.datasets, {});
   ASSERT_EQ(all.size(), 1U);
-  recoil::RingAdhesionTruth ring;
-  ring.density = 1350.0;
-  ring.stiffness = 1.789e9;
-  ring.adhesion_force = exact.design.f0;
-  ring.reference_diameter = 4.9e-6;
-  ring.C_H = exact.design.C_H;
-  ring.C_A = exact.design.C_A;
+  const recoil::RingAdhesionTruth ring = recoil::synthetic::truth_of(exact.design);
   const CaptureCurve& ours = curve(all[0], CaptureModel::fit);
   EXPECT_TRUE(ours.lower.empty());
   for (std::size_t k = 0; k < all[0].diameter.size(); k += 6) {

@@ -26,14 +26,7 @@ struct ExactFit {
 
   /// e of the other simulator [1].
   double truth(double diameter, double velocity) const {
-    RingAdhesionTruth ring;
-    ring.density = 1350.0;
-    ring.stiffness = 1.789e9;
-    ring.adhesion_force = design.f0;
-    ring.reference_diameter = 4.9e-6;
-    ring.C_H = design.C_H;
-    ring.C_A = design.C_A;
-    return true_restitution(ring, diameter, velocity);
+    return true_restitution(synthetic::truth_of(design), diameter, velocity);
   }
 };
 

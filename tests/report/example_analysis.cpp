@@ -5,6 +5,7 @@
 
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "impact/reference_solver.hpp"
 
 namespace recoil::sample {
 namespace {

@@ -8,8 +8,13 @@
 
 #include "core/units.hpp"
 #include "example_analysis.hpp"
-#include "report/corrections.hpp"
+#include "report/corrections_document.hpp"
 #include "report/experiment_figures.hpp"
+#include "report/figures_corner.hpp"
+#include "report/figures_corrections.hpp"
+#include "report/figures_intervals.hpp"
+#include "report/figures_physics.hpp"
+#include "report/figures_statistics.hpp"
 
 namespace recoil {
 namespace {

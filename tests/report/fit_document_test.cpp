@@ -14,7 +14,7 @@
 #include "document/terminal.hpp"
 #include "example_analysis.hpp"
 #include "page_checks.hpp"
-#include "report/corrections.hpp"
+#include "report/corrections_document.hpp"
 #include "report/fit_tables.hpp"
 
 namespace recoil {

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "example_analysis.hpp"
 #include "page_checks.hpp"
+#include "report/json_report.hpp"
 
 namespace recoil {
 namespace {

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "example_analysis.hpp"
+#include "report/json_report.hpp"
 
 namespace recoil {
 namespace {

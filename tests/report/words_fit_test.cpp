@@ -7,6 +7,7 @@
 
 #include "estimate/fit.hpp"
 #include "example_analysis.hpp"
+#include "mechanism/catalogue.hpp"
 #include "report/words_noise.hpp"
 #include "report/words_two_point.hpp"
 
@@ -55,7 +56,7 @@ TEST(FitWarnings, OneForEveryFact) {
             1U);
 }
 
-TEST(FitWarnings, TellOfMechanismsWithNothingToDo) {
+TEST(FitWarnings, TellOfLawsOfAdhesionWithoutAdhesion) {
   const auto with = [](double adhesion_energy) {
     return warnings_after([&](FitResult& f) {
       f.model.chain = chain_of({"jkr_hysteresis"});

@@ -6,6 +6,7 @@
 #include "core/files.hpp"
 #include "example_analysis.hpp"
 #include "report/index_document.hpp"
+#include "report/json_report.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

@@ -11,6 +11,7 @@
 #include "core/files.hpp"
 #include "studies/program_run.hpp"
 #include "studies/synthetic/case.hpp"
+#include "studies/synthetic/case_files.hpp"
 
 namespace {
 

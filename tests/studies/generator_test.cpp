@@ -9,6 +9,7 @@
 
 #include "studies/nearest_rival.hpp"
 #include "studies/program_run.hpp"
+#include "studies/synthetic/case_files.hpp"
 
 namespace {
 

@@ -22,6 +22,18 @@ struct Design {
   double sd = 0.01;
 };
 
+/// What the other simulator is given for it.
+inline RingAdhesionTruth truth_of(const Design& design) {
+  RingAdhesionTruth truth;
+  truth.density = 1350.0;
+  truth.stiffness = 1.789e9;
+  truth.adhesion_force = design.f0;
+  truth.reference_diameter = 4.9e-6;
+  truth.C_H = design.C_H;
+  truth.C_A = design.C_A;
+  return truth;
+}
+
 inline Dataset dataset(const Design& design) {
   Dataset data;
   data.id = "synthetic";
@@ -31,13 +43,7 @@ inline Dataset dataset(const Design& design) {
   data.system.reference_diameter = 4.9e-6;
   data.system.stiffness_K = 1.789e9;
   data.system.adhesion_force_f0 = 8.9;
-  RingAdhesionTruth truth;
-  truth.density = 1350.0;
-  truth.stiffness = 1.789e9;
-  truth.adhesion_force = design.f0;
-  truth.reference_diameter = 4.9e-6;
-  truth.C_H = design.C_H;
-  truth.C_A = design.C_A;
+  const RingAdhesionTruth truth = truth_of(design);
   for (std::size_t s = 0; s < design.diameters.size(); ++s) {
     data.series.push_back(std::to_string(s));
     for (const double v : design.velocities) {

@@ -40,14 +40,7 @@ struct Case {
 /// @throws std::invalid_argument for an unknown design or effect
 Case make_case(const CaseOrder& order);
 
-/// Writes what the diagnosis may see into `folder`: the dataset NAME/ and the fit NAME.toml beside
-/// it; NAME says nothing. @return the path of the fit
-std::filesystem::path write_case(const Case& made, const std::filesystem::path& folder);
-
 /// A name that is different for every order and says nothing.
 std::string neutral_name(const CaseOrder& order);
-
-/// What is true, as JSON; to be kept elsewhere.
-std::string truth_json(const Case& made);
 
 }  // namespace hidden

@@ -1,3 +1,5 @@
+#include "studies/synthetic/case_files.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/diagnosis_answer.hpp"
+#include "core/names.hpp"
+#include "studies/synthetic/case.hpp"
 
 namespace hidden {
 
@@ -31,15 +32,6 @@ Arm arm_of(const CaseOrder& order);
 /// Shuffled, the same way for equal sizes and seeds: what is done of a study that ends early is a
 /// fair sample of all of it.
 std::vector<CaseOrder> plan_study(const StudySize& size);
-
-/// Rows: what was hidden (visible effects in designs of several diameters). Columns: what was
-/// answered.
-struct Confusion {
-  std::vector<std::string> rows;
-  std::vector<std::string> columns;
-  std::vector<std::vector<int>> counts;
-};
-Confusion confusion_of(const std::vector<Answered>& answers);
 
 }  // namespace hidden
 

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "report/report.hpp"
+
+namespace recoil {
+
+/// All points and fitted curves of e(V) in one small picture; `id` is part of its name.
+plot::Picture restitution_overview(const Analysis& analysis, const std::string& id);
+
+}  // namespace recoil
