@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "diagnosis/discrepancy.hpp"
 #include "estimate/impact_problem.hpp"
 #include "mechanism/catalogue.hpp"
 #include "uncertainty/refit.hpp"
@@ -206,8 +207,9 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 }
 
 Refit refit_candidate(const Candidate& candidate, const Observations& data,
-                      std::span<const double> near, int tries) {
-  const LeastSquaresProblem problem = impact_problem(candidate.model, data);
+                      std::span<const double> near, int tries,
+                      std::shared_ptr<const Discrepancy> discrepancy) {
+  const LeastSquaresProblem problem = whitened(impact_problem(candidate.model, data), *discrepancy);
   const std::vector<double> first(near.begin(), near.end());
   const auto most = static_cast<std::size_t>(tries);
   std::vector<std::vector<double>> starts =
@@ -221,6 +223,7 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
   LeastSquaresOptions options = refit_options();
   options.covariance = false;
   Refit best;
+  best.discrepancy = std::move(discrepancy);
   for (const std::vector<double>& start : starts) {
     LeastSquaresResult run = minimise(problem, start, options);
     if (!run.converged || !std::isfinite(run.sum_of_squares)) continue;
@@ -250,6 +253,10 @@ double corrected_criterion(const Observations& data, double chi2, int free_count
   const double spare = n - k - 1.0;
   if (spare <= 0.0) return INFINITY;
   return log_deviance(data, chi2) + 2.0 * k + 2.0 * k * (k + 1.0) / spare;
+}
+
+double corrected_criterion(const Observations& data, const Refit& refit, int free_count) {
+  return corrected_criterion(data, refit.chi2, free_count) + refit.discrepancy->log_determinant();
 }
 
 }  // namespace recoil

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,11 @@
 #include "mechanism/plausible_range.hpp"
 
 namespace recoil {
+
+class Discrepancy;
+
+/// What residuals share that have nothing but their own noise.
+std::shared_ptr<const Discrepancy> nothing_shared();
 
 /// The model of a fit with further mechanisms, ready to be refitted to many samples.
 struct Candidate {
@@ -44,10 +50,11 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
 struct Refit {
   bool usable = false;
   std::vector<double> theta;      ///< [slots]
-  double chi2 = 0.0;              ///< deviance at theta
-  std::vector<double> residuals;  ///< weighted [points]
+  double chi2 = 0.0;              ///< sum of the squares of `residuals`
+  std::vector<double> residuals;  ///< weighted, whitened by `discrepancy` [points]
   std::vector<double> jacobian;   ///< d residual / d theta [points x slots]
   std::vector<bool> moving;       ///< [slots] free, and not resting on a bound
+  std::shared_ptr<const Discrepancy> discrepancy = nothing_shared();
 };
 
 /// The values of `theta` under `model` carried over to the free slots of another one by their
@@ -59,8 +66,10 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 /// catalogue advises; of these starts the `tries` with the smallest deviance are followed, and as
 /// many with the damping of the base model taken down to a tenth, if `tries` exceeds one.
 /// @param near theta of the candidate: the base parameters of a fit without the mechanisms, say
+/// @param discrepancy what the residuals share beside their own noise
 Refit refit_candidate(const Candidate& candidate, const Observations& data,
-                      std::span<const double> near, int tries);
+                      std::span<const double> near, int tries,
+                      std::shared_ptr<const Discrepancy> discrepancy = nothing_shared());
 
 /// -2 ln likelihood but for a constant: the deviance where standard deviations are stated,
 /// n ln(deviance / n) where only their proportions are known and their scale is estimated.
@@ -69,5 +78,8 @@ double log_deviance(const Observations& data, double chi2);
 /// log_deviance + 2 k + 2 k (k + 1) / (n - k - 1), k the number of free parameters (and of the
 /// scale, where it is estimated): Hurvich & Tsai (1989), Biometrika 76, 297-307.
 double corrected_criterion(const Observations& data, double chi2, int free_count);
+
+/// The same for a refit, whose covariance counts in the likelihood by its determinant.
+double corrected_criterion(const Observations& data, const Refit& refit, int free_count);
 
 }  // namespace recoil

@@ -26,6 +26,8 @@ struct FoundParameter {
   std::string label;
   std::string unit;
   double value = 0.0;
+  /// Standard error, the errors of the laws included; 0 where it is fixed or rests on a bound.
+  double sd = 0.0;
   double null_value = 0.0;
   std::optional<Implausible> implausible;  ///< none where its value is possible
   /// Plausible, or no further outside than half the range, or a factor of two: limits of what is
@@ -47,6 +49,7 @@ enum class SetAside {
   gains_too_little,       ///< less than its parameters cost
   chance,                 ///< gives the best of all candidates as much, too often
   not_possible,           ///< a parameter is implausible
+  batch_is_size,          ///< every series has its own diameter, and offsets run smoothly with it
   leaves_structure,       ///< behind
   predicts_no_better,     ///< sizes or targets that were held out
   one_would_do,           ///< of the two of a pair
@@ -55,10 +58,11 @@ enum class SetAside {
 };
 template <>
 struct NamesOf<SetAside> {
-  static constexpr std::array<std::string_view, 9> names = {
-      "description",  "gains_too_little",      "chance",
-      "not_possible", "leaves_structure",      "predicts_no_better",
-      "one_would_do", "one_hardly_takes_part", "at_the_edge"};
+  static constexpr std::array<std::string_view, 10> names = {
+      "description",        "gains_too_little", "chance",
+      "not_possible",       "batch_is_size",    "leaves_structure",
+      "predicts_no_better", "one_would_do",     "one_hardly_takes_part",
+      "at_the_edge"};
 };
 
 /// One mechanism, or several at once, tried as an explanation.

@@ -32,7 +32,8 @@ void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress)
   std::vector<std::optional<PerValue<StructureQuestion, double>>> answers(count);
   parallel_over(count, diagnosis.options.threads, [&](std::size_t b) {
     const Observations sample = simulate_base(base, b);
-    const Refit refit = refit_candidate(base.candidate, sample, base.refit.theta, 1);
+    const Refit refit =
+        refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
     if (refit.usable) answers[b] = statistics(refit.residuals);
     if (b % 10 == 0) progress.advance();
   });
@@ -191,6 +192,37 @@ bool more_than_chance(const Diagnosis& diagnosis) {
          diagnosis.candidates.front().p_value <= diagnosis.options.chance;
 }
 
+/// Would it explain the misfit, if only its value were possible, or it were not the same as a law
+/// of size that nobody knows?
+bool cannot_be_told(const CandidateResult& c) {
+  return (c.set_aside == SetAside::not_possible && !c.near_plausible) ||
+         c.set_aside == SetAside::batch_is_size;
+}
+
+/// A limit never promotes a worse cause. What fits best and cannot be true keeps its place: what is
+/// believable explains only if it is no worse by `margin`; two at once, beside a single one that
+/// leaves nothing, only if they are better by `lead`.
+bool outshone(const CandidateResult& best, const CandidateResult& impossible, double margin,
+              double lead) {
+  const bool pair = best.candidate.added.size() > 1;
+  const bool does_alone =
+      impossible.set_aside == SetAside::not_possible && impossible.remaining_p >= tolerated_level;
+  return pair && does_alone ? best.delta_aicc > impossible.delta_aicc - lead
+                            : best.delta_aicc > impossible.delta_aicc + margin;
+}
+
+/// The ids of all that cannot be told and fit as well as the best of them.
+std::vector<std::string> resembling(const std::vector<CandidateResult>& candidates, double margin) {
+  std::vector<std::string> ids;
+  double best = INFINITY;
+  for (const CandidateResult& c : candidates) {
+    if (!cannot_be_told(c)) continue;
+    best = std::min(best, c.delta_aicc);
+    if (c.delta_aicc <= best + margin) ids.push_back(c.candidate.added.front());
+  }
+  return ids;
+}
+
 /// Steps 2 to 4.
 void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const DiagnosisOptions& options = diagnosis.options;
@@ -198,8 +230,8 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   calibrate(base, diagnosis.candidates, [&] { progress.advance(); });
   const std::vector<Fold> folds =
       held_out_folds(base.fitted.data, base.datasets.size(), base.candidate.free_count + 1);
-  const std::vector<FoldPrediction> base_folds =
-      predict_folds(base.candidate, base.fitted.data, folds, base.refit.theta, options.threads);
+  const std::vector<FoldPrediction> base_folds = predict_folds(
+      base.candidate, base.fitted.data, base.laws, folds, base.refit.theta, options.threads);
   const bool one_size = has_one_size(base.fitted.data);
   const double margin = one_size ? margin_at_one_size : options.margin;
   judge(base, diagnosis.candidates, INFINITY, folds, base_folds);
@@ -209,6 +241,14 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
     const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
     judge(base, diagnosis.pairs, margin_in_pairs, folds, base_folds);
     found = explanations(diagnosis.pairs, margin_in_pairs, one_size);
+  }
+  const auto impossible =
+      std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(), cannot_be_told);
+  if (impossible != diagnosis.candidates.end() &&
+      (found.empty() ||
+       outshone(*found.front(), *impossible, margin, std::max(margin, options.margin_in_pairs)))) {
+    found.clear();
+    diagnosis.resembles = resembling(diagnosis.candidates, margin);
   }
   diagnosis.unstated = unstated_errors(base);
   if (!found.empty() && outdone_by_errors(*found.front(), diagnosis, margin)) {

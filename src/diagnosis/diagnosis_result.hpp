@@ -44,6 +44,9 @@ struct Diagnosis {
   std::vector<CandidateResult> pairs;       ///< the best pairs of causes, when one did not suffice
   std::vector<std::string> named;
   std::vector<std::string> rivals;
+  /// What fits best and cannot be true, or not be told from an unknown law of size: something of
+  /// this shape acts. Nothing is named then.
+  std::vector<std::string> resembles;
   std::vector<std::string> common;          ///< of the rivals, those that every explanation has
   std::string shared_cause;                 ///< of which all rivals are laws; empty: none
   std::optional<CandidateResult> extended;  ///< the model of `extended.toml`

@@ -8,6 +8,7 @@
 #include "core/random.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "diagnosis/law_errors.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/point_conditions.hpp"
 #include "estimate/predictor.hpp"
@@ -23,15 +24,39 @@ constexpr int resamplings = 1999;
 // its wrong side would outweigh all others.
 constexpr double worst_miss = 5.0;
 
-Observations subset(const Observations& data, const std::vector<std::size_t>& points, bool inside) {
+/// `points` of all, or the others, in the order of the data.
+std::vector<std::size_t> indices_of(const Observations& data,
+                                    const std::vector<std::size_t>& points, bool inside) {
   std::vector<bool> chosen(data.points.size(), false);
   for (const std::size_t i : points) chosen[i] = true;
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    if (chosen[i] == inside) indices.push_back(i);
+  }
+  return indices;
+}
+
+Observations subset(const Observations& data, const std::vector<std::size_t>& points, bool inside) {
   Observations part = data;
   part.points.clear();
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    if (chosen[i] == inside) part.points.push_back(data.points[i]);
+  for (const std::size_t i : indices_of(data, points, inside)) {
+    part.points.push_back(data.points[i]);
   }
   return part;
+}
+
+/// Takes from the `residuals` of a fold what the residuals `r_seen` of the other points say of it,
+/// and returns what its residuals then share.
+Discrepancy given_the_others(const Eigen::MatrixXd& U_seen, const std::vector<double>& r_seen,
+                             const Eigen::MatrixXd& U, std::vector<double>& residuals) {
+  const Eigen::Index rank = U.cols();
+  const Eigen::LLT<Eigen::MatrixXd> information(Eigen::MatrixXd::Identity(rank, rank) +
+                                                U_seen.transpose() * U_seen);
+  const Eigen::Map<const Eigen::VectorXd> r(r_seen.data(), U_seen.rows());
+  Eigen::Map<Eigen::VectorXd> own(residuals.data(), U.rows());
+  own -= U * information.solve(U_seen.transpose() * r);
+  // (I + U_s' U_s)^-1 = L^-T L^-1
+  return Discrepancy(information.matrixL().solve(U.transpose()).transpose());
 }
 
 /// Distinct values with how many points each has, split into at most `most` runs of like size.
@@ -108,17 +133,31 @@ std::vector<Fold> held_out_folds(const Observations& data, std::size_t datasets,
 }
 
 std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Observations& data,
-                                          const std::vector<Fold>& folds,
+                                          const LawErrors& laws, const std::vector<Fold>& folds,
                                           std::span<const double> near, int threads) {
   std::vector<FoldPrediction> predictions(folds.size());
   parallel_over(folds.size(), threads, [&](std::size_t f) {
     const Observations seen = subset(data, folds[f].points, false);
     const Observations unseen = subset(data, folds[f].points, true);
-    const Refit refit = refit_candidate(candidate, seen, near, 2);
+    const LawErrors of_seen = laws.of(indices_of(data, folds[f].points, false));
+    const LawErrors of_unseen = laws.of(folds[f].points);
+    const Refit refit =
+        with_law_errors(candidate, seen, refit_candidate(candidate, seen, near, 2), of_seen);
     if (!refit.usable) return;
     const LeastSquaresProblem problem = impact_problem(candidate.model, unseen);
     std::vector<double> residuals(unseen.points.size());
     if (!problem.evaluate(refit.theta, residuals, {})) return;
+    double log_determinant = 0.0;
+    if (!laws.none()) {
+      const auto U_seen = law_error_columns(candidate, seen, refit.theta, of_seen);
+      const auto U_unseen = law_error_columns(candidate, unseen, refit.theta, of_unseen);
+      if (!U_seen || !U_unseen) return;
+      std::vector<double> plain = refit.residuals;
+      refit.discrepancy->unwhiten(plain);
+      const Discrepancy left = given_the_others(*U_seen, plain, *U_unseen, residuals);
+      left.whiten(residuals);
+      log_determinant = left.log_determinant();
+    }
     std::vector<PointConditions> conditions;
     for (const Observation& point : unseen.points) {
       conditions.push_back({point.dataset, point.diameter, point.velocity, point.series});
@@ -127,7 +166,8 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
         predict(candidate.model, refit.theta, std::move(conditions), false);
     FoldPrediction& out = predictions[f];
     out.usable = true;
-    out.criterion = corrected_criterion(seen, refit.chi2, candidate.free_count);
+    out.criterion = corrected_criterion(seen, refit, candidate.free_count);
+    out.deviance = log_determinant;
     for (std::size_t k = 0; k < residuals.size(); ++k) {
       const Observation& point = unseen.points[k];
       out.deviance += std::min(residuals[k] * residuals[k], worst_miss * worst_miss);

@@ -8,6 +8,8 @@
 
 namespace recoil {
 
+struct LawErrors;
+
 /// What the points of a block have in common.
 enum class FoldKind { size, velocity, target };
 template <>
@@ -32,14 +34,19 @@ std::vector<Fold> held_out_folds(const Observations& data, std::size_t datasets,
 /// How one model predicts the points of one fold from all others.
 struct FoldPrediction {
   bool usable = false;
-  double criterion = 0.0;     ///< of the fit to the other points, `corrected_criterion`
-  double deviance = 0.0;      ///< sum of r^2 over the fold, of each no more than 25
+  double criterion = 0.0;  ///< of the fit to the other points, `corrected_criterion`
+  /// -2 ln likelihood of the fold, given the other points, but for a constant: the sum of r^2, of
+  /// each no more than 25, r whitened.
+  double deviance = 0.0;
   std::vector<double> error;  ///< e - e_model of each point of the fold [1]
 };
 
+/// What the other points say of the errors of the laws they say of the fold, too: with residuals r
+/// and errors U of the points seen (s) and of the fold (f), those of the fold are
+///   r_f - U_f (I + U_s' U_s)^-1 U_s' r_s,  of covariance I + U_f (I + U_s' U_s)^-1 U_f'.
 /// @param near where the refits start [slots of the candidate]
 std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Observations& data,
-                                          const std::vector<Fold>& folds,
+                                          const LawErrors& laws, const std::vector<Fold>& folds,
                                           std::span<const double> near, int threads);
 
 /// What an extended model gains over the base on data that neither has seen. Sizes and targets that

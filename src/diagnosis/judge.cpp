@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "diagnosis/batches.hpp"
+#include "mechanism/catalogue.hpp"
 
 namespace recoil {
 namespace {
 
-// What a cause may leave, though it is structure: this part of what it took. The laws of the
-// catalogue are good to some per cent of the loss that they describe.
-constexpr double tolerated_part = 0.03;
 constexpr std::size_t shown_leads = 8;  // are held out whatever is held against them
 constexpr double lead_within = 30.0;    // of the criterion, of the best
 
@@ -19,9 +18,11 @@ std::optional<SetAside> reason_against(const SearchBase& base, const CandidateRe
   if (!(c.delta_aicc < 0.0)) return SetAside::gains_too_little;
   if (c.p_value && *c.p_value > base.options.chance) return SetAside::chance;
   if (!c.plausible) return SetAside::not_possible;
-  if (c.remaining_p < tolerated_level && c.remaining_part > tolerated_part) {
-    return SetAside::leaves_structure;
+  if (c.candidate.added.size() == 1 && find_mechanism(c.candidate.added.front())->is_batch() &&
+      batch_is_size(base.fitted.data, c, base.noise_scale)) {
+    return SetAside::batch_is_size;
   }
+  if (c.remaining_p < tolerated_level) return SetAside::leaves_structure;
   return std::nullopt;
 }
 
@@ -30,8 +31,8 @@ std::optional<SetAside> reason_against(const SearchBase& base, const CandidateRe
 void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, double reach,
            const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base_folds) {
   const auto hold_out = [&](CandidateResult& c) {
-    const std::vector<FoldPrediction> own =
-        predict_folds(c.candidate, base.fitted.data, folds, c.refit.theta, base.options.threads);
+    const std::vector<FoldPrediction> own = predict_folds(
+        c.candidate, base.fitted.data, base.laws, folds, c.refit.theta, base.options.threads);
     c.gain = held_out_gain(folds, base_folds, own, base.options.seed);
     if (c.explains() && c.gain->decisive && !(c.gain->log_score > 0.0)) {
       c.set_aside = SetAside::predicts_no_better;

@@ -96,6 +96,7 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
     parameter.label = slot.label();
     parameter.unit = slot.parameter->unit;
     parameter.value = refit.theta[j];
+    parameter.sd = errors[j];
     parameter.null_value = slot.parameter->null_value;
     const bool vanishes = std::abs(parameter.value - slot.parameter->null_value) <=
                           at_null * (slot.upper - slot.lower);

@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "diagnosis/batches.hpp"
 #include "diagnosis/plausibility.hpp"
 #include "estimate/point_conditions.hpp"
 #include "estimate/predictor.hpp"
@@ -17,6 +18,7 @@
 namespace recoil {
 namespace {
 
+constexpr double base_part = 0.3;  // of the error of a mechanism's law, is that of the base model
 constexpr int tries_alone = 4;
 constexpr int tries_in_pairs = 2;
 constexpr std::size_t sets_at_once = 13;    // between two looks at how many gain more
@@ -64,7 +66,7 @@ CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit
   result.refit = std::move(refit);
   if (!result.refit.usable) return result;
   result.delta_aicc =
-      corrected_criterion(data, result.refit.chi2, result.candidate.free_count) - base.criterion;
+      corrected_criterion(data, result.refit, result.candidate.free_count) - base.criterion;
   result.parameters = found_parameters(result.candidate, result.refit, base.noise_scale);
   result.plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
                                  [](const FoundParameter& p) { return p.plausible(); });
@@ -79,7 +81,9 @@ CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit
 
 CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
                         int tries) {
-  Refit refit = refit_candidate(candidate, base.fitted.data, near, tries);
+  Refit refit =
+      with_law_errors(candidate, base.fitted.data,
+                      refit_candidate(candidate, base.fitted.data, near, tries), base.laws);
   return examine(base, std::move(candidate), std::move(refit));
 }
 
@@ -100,20 +104,6 @@ bool rests_on_the_edge(const CandidateResult& result) {
     if (own && slot.free && !result.refit.moving[j]) return true;
   }
   return false;
-}
-
-/// Does every series hold one diameter, and every diameter one series? A batch then cannot be told
-/// from an effect of size.
-bool series_are_sizes(const Observations& data) {
-  std::set<std::pair<std::size_t, std::size_t>> series;
-  std::set<std::pair<std::size_t, double>> sizes;
-  std::set<std::tuple<std::size_t, std::size_t, double>> both;
-  for (const Observation& point : data.points) {
-    series.insert({point.dataset, point.series});
-    sizes.insert({point.dataset, point.diameter});
-    both.insert({point.dataset, point.series, point.diameter});
-  }
-  return sizes.size() > 1 && series.size() == both.size() && sizes.size() == both.size();
 }
 
 bool can_be_released(const Candidate& candidate) {
@@ -160,6 +150,7 @@ CandidateResult try_both(const SearchBase& base, const CandidateResult& first,
     Refit refit = refit_candidate(both, base.fitted.data, near, 1);
     if (refit.usable && !(best.usable && best.chi2 <= refit.chi2)) best = std::move(refit);
   }
+  best = with_law_errors(both, base.fitted.data, std::move(best), base.laws);
   CandidateResult result = examine(base, std::move(both), std::move(best));
   try_released(base, result, tries_in_pairs);
   // Each has to carry its part.
@@ -182,22 +173,30 @@ CandidateResult try_both(const SearchBase& base, const CandidateResult& first,
 
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        const FitResult& fitted, const DiagnosisOptions& options) {
-  SearchBase base{spec, datasets, fitted, make_candidate(spec, datasets, {}),
+  SearchBase base{spec, datasets, fitted, {},     make_candidate(spec, datasets, {}),
                   {},   0.0,      1.0,    options};
+  base.laws = {options.law_error, base_part * options.law_error, smooth_functions(fitted.data)};
   base.candidate.model.solver = fitted.model.solver;
-  base.refit = refit_candidate(base.candidate, fitted.data, fitted.theta, 1);
-  base.criterion = corrected_criterion(fitted.data, base.refit.chi2, base.candidate.free_count);
+  base.refit =
+      with_law_errors(base.candidate, fitted.data,
+                      refit_candidate(base.candidate, fitted.data, fitted.theta, 1), base.laws);
+  base.criterion = corrected_criterion(fitted.data, base.refit, base.candidate.free_count);
   if (!fitted.data.sd_stated) base.noise_scale = fitted.noise_scale;
   return base;
 }
 
 Observations simulate_base(const SearchBase& base, std::uint64_t index) {
   RandomStream random(base.options.seed, RandomPurpose::diagnosis, index);
+  Eigen::VectorXd bend = Eigen::VectorXd::Zero(base.laws.functions.cols());
+  for (double& weight : bend) weight = random.normal();
+  const Eigen::VectorXd wrong_by = base.laws.base * (base.laws.functions * bend);
   Observations sample = base.fitted.data;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     Observation& point = sample.points[i];
-    point = simulate_observation(point, base.fitted.prediction_squared[i], base.noise_scale,
-                                 sample.noise.student, random);
+    const double square = base.fitted.prediction_squared[i];
+    const double loss = std::clamp(1.0 - square, 0.0, 1.0);
+    point = simulate_observation(point, square + loss * wrong_by(static_cast<Eigen::Index>(i)),
+                                 base.noise_scale, sample.noise.student, random);
     if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
   }
   return sample;
@@ -239,20 +238,21 @@ void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
   std::vector<double> most(count, -INFINITY);
   const auto gains_more = [&](std::size_t b) {
     const Observations sample = simulate_base(base, b);
-    const Refit alone = refit_candidate(base.candidate, sample, base.refit.theta, 1);
+    const Refit alone =
+        refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
     tick();
     if (!alone.usable) return;
-    const double criterion = corrected_criterion(sample, alone.chi2, base.candidate.free_count);
+    const double criterion = corrected_criterion(sample, alone, base.candidate.free_count);
     bool spread = false;
     for (const CandidateResult& c : candidates) {
       // One spread looks like the other, and takes nine times as long as anything else.
       if (spreads(c) && std::exchange(spread, true)) continue;
       const std::vector<double> near =
           carried_over(base.candidate.model, alone.theta, c.candidate.model);
-      const Refit refit = refit_candidate(c.candidate, sample, near, 1);
+      // What chance alone makes of a mechanism is small, and so is the error of its law.
+      const Refit refit = refit_candidate(c.candidate, sample, near, 1, base.refit.discrepancy);
       if (!refit.usable) continue;
-      const double gain =
-          criterion - corrected_criterion(sample, refit.chi2, c.candidate.free_count);
+      const double gain = criterion - corrected_criterion(sample, refit, c.candidate.free_count);
       most[b] = std::max(most[b], gain);
     }
   };

@@ -5,6 +5,7 @@
 
 #include "diagnosis/candidate_result.hpp"
 #include "diagnosis/diagnosis_options.hpp"
+#include "diagnosis/law_errors.hpp"
 #include "diagnosis/structure.hpp"
 
 namespace recoil {
@@ -14,6 +15,7 @@ struct SearchBase {
   const FitSpec& spec;
   const std::vector<Dataset>& datasets;
   const FitResult& fitted;  ///< its `data` are what every candidate is fitted to
+  LawErrors laws;           ///< what every model is allowed to be wrong by
   Candidate candidate;      ///< the base itself: nothing added
   Refit refit;
   double criterion = 0.0;
@@ -24,7 +26,8 @@ struct SearchBase {
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        const FitResult& fitted, const DiagnosisOptions& options);
 
-/// Replicate `index` of the sample under the base model.
+/// Replicate `index` of the sample under the base model, its losses wrong by a smooth factor of the
+/// size that `laws` allows.
 Observations simulate_base(const SearchBase& base, std::uint64_t index);
 
 /// Every mechanism of the catalogue that `spec` does not have, refitted, with its structure and its

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/random.hpp"
+#include "diagnosis/discrepancy.hpp"
 
 namespace recoil {
 namespace {
@@ -52,7 +53,7 @@ double upper_share(const std::vector<double>& sorted, double value) {
 
 StructureStatistics::StructureStatistics(const Observations& data, const Refit& fitted,
                                          std::span<const double> predicted)
-    : stated_(data.sd_stated), used_(data.points.size(), true) {
+    : stated_(data.sd_stated), discrepancy_(fitted.discrepancy), used_(data.points.size(), true) {
   const std::size_t n = data.points.size();
   const std::size_t p = fitted.theta.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -84,6 +85,17 @@ bool StructureStatistics::orthogonalise(Column& column, const std::vector<Column
   const double after = std::sqrt(dot(column, column));
   if (!(after > std::sqrt(negligible) * before)) return false;
   for (double& value : column) value /= after;
+  return true;
+}
+
+/// Whitens `column` and keeps what neither the model nor `into` can follow.
+bool StructureStatistics::take(Column column, std::vector<Column>& into) const {
+  discrepancy_->whiten(column);
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (!used_[i]) column[i] = 0.0;
+  }
+  if (!orthogonalise(column, into)) return false;
+  into.push_back(std::move(column));
   return true;
 }
 
@@ -128,12 +140,10 @@ void StructureStatistics::add_local_functions(const Observations& data) {
     // Every family is orthogonal in itself (groups share no points but through the model).
     const std::vector<std::vector<Column>*> families = {&size_, &trend_, &curvature_};
     for (std::size_t degree = 0; degree < local.size(); ++degree) {
-      if (orthogonalise(local[degree], *families[degree])) {
-        families[degree]->push_back(std::move(local[degree]));
-      }
+      take(std::move(local[degree]), *families[degree]);
     }
   }
-  if (orthogonalise(near_capture, {})) capture_.push_back(std::move(near_capture));
+  take(std::move(near_capture), capture_);
 }
 
 void StructureStatistics::add_global_functions(const Observations& data) {
@@ -162,7 +172,7 @@ void StructureStatistics::add_global_functions(const Observations& data) {
                                                                : data.points[i].weights.sd;
         if (sd > 0.0) column[i] /= sd;
       }
-      if (orthogonalise(column, smooth_)) smooth_.push_back(std::move(column));
+      take(std::move(column), smooth_);
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -34,7 +35,8 @@ struct Structure {
   bool smooth = false;   ///< is it in the shape of the residuals, or only in their size?
 };
 
-/// The statistics of `StructureTest`, for residuals in units of their standard deviation.
+/// The statistics of `StructureTest`, for residuals in units of their standard deviation, whitened
+/// by what the fit says they share. Functions are whitened as they are.
 ///
 /// With groups g (the points of one diameter in one dataset, ordered by velocity) and P_k the
 /// Legendre polynomials over the ln V of a group, made orthonormal on its points:
@@ -64,7 +66,7 @@ class StructureStatistics {
 
   bool tests_scatter() const { return stated_; }
 
-  /// The free-form discrepancy that the smallest criterion T_m - 2 m chooses, as residuals
+  /// The free-form discrepancy that the smallest criterion T_m - 2 m chooses, as whitened residuals
   /// [points]; empty when m = 0 is best.
   std::vector<double> free_form(std::span<const double> residuals) const;
 
@@ -73,9 +75,11 @@ class StructureStatistics {
   void add_local_functions(const Observations& data);
   void add_global_functions(const Observations& data);
   bool orthogonalise(Column& column, const std::vector<Column>& against) const;
+  bool take(Column column, std::vector<Column>& into) const;
   double square_along(const std::vector<Column>& columns, std::span<const double> r) const;
 
   bool stated_ = true;
+  std::shared_ptr<const Discrepancy> discrepancy_;  // whitens functions as it did the residuals
   std::vector<bool> used_;
   std::vector<Column> model_;                   // orthonormal, spans the Jacobian
   std::vector<std::vector<std::size_t>> runs_;  // groups in the order of velocity

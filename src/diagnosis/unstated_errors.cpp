@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "diagnosis/search.hpp"
 
 namespace recoil {
 namespace {
@@ -32,6 +33,10 @@ double deviance_with_weights(const Observations& data, std::span<const double> r
     if (!point.censored) sum += 2.0 * std::log(square_sd(point));
   }
   return sum;
+}
+
+double deviance_with_weights(const Observations& data, const Refit& refit) {
+  return deviance_with_weights(data, refit.residuals) + refit.discrepancy->log_determinant();
 }
 
 /// Part of normal samples through the same projection whose fourth moment, beside the square of the
@@ -111,16 +116,17 @@ std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
   if (!relative_sd) return std::nullopt;
   const FitResult fitted = fit_with_velocity_errors(base, *relative_sd);
   if (!fitted.usable) return std::nullopt;
-  const Refit refit = refit_candidate(base.candidate, fitted.data, fitted.theta, 1);
+  const Refit refit =
+      with_law_errors(base.candidate, fitted.data,
+                      refit_candidate(base.candidate, fitted.data, fitted.theta, 1), base.laws);
   if (!refit.usable) return std::nullopt;
   const int free = base.candidate.free_count;
   UnstatedErrors found;
   found.source = ErrorSource::velocity_errors;
   found.value = *relative_sd;
   found.delta_aicc =
-      corrected_criterion(fitted.data, deviance_with_weights(fitted.data, refit.residuals),
-                          free + 1) -
-      corrected_criterion(data, deviance_with_weights(data, base.refit.residuals), free);
+      corrected_criterion(fitted.data, deviance_with_weights(fitted.data, refit), free + 1) -
+      corrected_criterion(data, deviance_with_weights(data, base.refit), free);
   found.remaining_p = remaining_p(base, fitted.data, refit, fitted.prediction_squared);
   return found;
 }

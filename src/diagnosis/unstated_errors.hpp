@@ -3,9 +3,11 @@
 #include <vector>
 
 #include "core/names.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/candidate_result.hpp"
 
 namespace recoil {
+
+struct SearchBase;
 
 enum class ErrorSource {
   velocity_errors,    ///< every incident velocity is uncertain by the same part of itself

@@ -50,6 +50,10 @@ std::string headline(const Diagnosis& d) {
     case Verdict::not_separable:
       return headline_of_several(d);
     case Verdict::unexplained:
+      if (!d.resembles.empty()) {
+        return fmt::format("Something of the shape of {} acts, which cannot be what it is",
+                           causes(d.resembles, " or "));
+      }
       return rival_errors(d).empty()
                  ? "Something is missed that nothing in the catalogue explains"
                  : "Either the errors are larger than stated, or something is missed that nothing "

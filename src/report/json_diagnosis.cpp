@@ -44,6 +44,7 @@ Json parameters_json(const CandidateResult& candidate) {
   Json parameters = Json::object();
   for (const FoundParameter& p : candidate.parameters) {
     parameters[p.label] = {{"value", number_or_null(p.value)},
+                           {"sd", p.sd > 0.0 ? number_or_null(p.sd) : Json(nullptr)},
                            {"unit", p.unit},
                            {"null_value", p.null_value},
                            {"plausible", p.plausible()}};
@@ -179,6 +180,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   out["misfit"]["free_form_remaining_p"] = d.free_form_p;
   out["named"] = d.named;
   out["rivals"] = d.rivals;
+  out["resembles"] = d.resembles;
   out["in_every_explanation"] = d.common;
   out["shared_cause"] = d.shared_cause.empty() ? Json(nullptr) : Json(d.shared_cause);
   out["candidates"] = candidates_json(d.candidates, d.candidates.size());

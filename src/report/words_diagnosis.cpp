@@ -44,6 +44,10 @@ std::string because_words(const CandidateResult& c) {
                          100.0 * c.p_value.value_or(1.0));
     case SetAside::not_possible:
       break;
+    case SetAside::batch_is_size:
+      return "every series has its own diameter and the offsets run smoothly with it: a batch and "
+             "an "
+             "unknown law of size are the same thing here";
     case SetAside::leaves_structure:
       return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
     case SetAside::predicts_no_better:
@@ -70,6 +74,12 @@ std::string titles_of(const std::vector<std::string>& ids, const char* between =
   return fmt::format("{}", fmt::join(titles, between));
 }
 
+/// "3.1", "3.1 +/- 0.2"
+std::string value_words(const FoundParameter& p) {
+  return p.sd > 0.0 ? fmt::format("{:.3g} +/- {:.2g}", p.value, p.sd)
+                    : fmt::format("{:.3g}", p.value);
+}
+
 /// "C_x = 3 m"; of more than `most_values`, as a parameter per series may be, the range.
 std::string parameters_words(const CandidateResult& candidate) {
   const auto& all = candidate.parameters;
@@ -81,7 +91,7 @@ std::string parameters_words(const CandidateResult& candidate) {
   }
   std::vector<std::string> words;
   for (const FoundParameter& p : candidate.parameters) {
-    words.push_back(fmt::format("{} = {:.3g}{}", p.label, p.value, unit_suffix(p.unit)));
+    words.push_back(fmt::format("{} = {}{}", p.label, value_words(p), unit_suffix(p.unit)));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -101,21 +111,13 @@ std::string gain_words(const Diagnosis& d) {
   return text + ".";
 }
 
-/// What an explanation leaves and is forgiven, being small beside what it takes.
-std::string rest_words(const Diagnosis& d) {
-  if (d.extended->remaining_p >= tolerated_level) return "";
-  return fmt::format(
-      " {:.1f} % of the misfit remains, more than noise ({}): the laws are good to some per cent, "
-      "or "
-      "something smaller acts beside them.",
-      100.0 * d.extended->remaining_part, p_words(d.extended->remaining_p, quick_samples));
-}
-
 /// Those that would have gained as much as the answer, but are not possible.
 std::string impossible_words(const Diagnosis& d) {
   std::vector<std::string> words;
   const double answer = d.extended ? d.extended->delta_aicc + d.options.margin : 0.0;
   for (const CandidateResult& c : d.candidates) {
+    const auto& said = d.resembles;
+    if (std::find(said.begin(), said.end(), c.candidate.name()) != said.end()) continue;
     if (!c.plausible && c.delta_aicc < answer && words.size() < 2) {
       const bool listed =
           std::find(d.rivals.begin(), d.rivals.end(), c.candidate.name()) != d.rivals.end();
@@ -126,6 +128,30 @@ std::string impossible_words(const Diagnosis& d) {
     }
   }
   return words.empty() ? "" : fmt::format(" {}.", fmt::join(words, "; "));
+}
+
+/// The candidate of one mechanism; null where it was not tried.
+const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
+  const auto found =
+      std::find_if(d.candidates.begin(), d.candidates.end(), [&](const CandidateResult& c) {
+        return c.candidate.added.size() == 1 && c.candidate.added.front() == id;
+      });
+  return found == d.candidates.end() ? nullptr : &*found;
+}
+
+/// What has the shape of the misfit, and why it is not believed all the same.
+std::string resembling_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  for (const std::string& id : d.resembles) {
+    if (const CandidateResult* const c = single_named(d, id)) {
+      words.push_back(
+          fmt::format("{}: {}; but {}", title_of(id), parameters_words(*c), because_words(*c)));
+    }
+  }
+  return fmt::format(
+      "Something acts that looks like {}. Nothing that is believable comes as close, and nothing "
+      "is named.",
+      fmt::join(words, ", or like "));
 }
 
 /// When two causes at once are needed: which one all the answers have in common.
@@ -288,13 +314,13 @@ std::string implausible_words(const FoundParameter& parameter) {
   if (!parameter.implausible) return "";
   switch (*parameter.implausible) {
     case Implausible::outside_range:
-      return fmt::format("{} = {:.3g}{} lies outside of {:.3g} to {:.3g}, as {}", parameter.label,
-                         parameter.value, unit_suffix(parameter.unit), parameter.lower,
+      return fmt::format("{} = {}{} lies outside of {:.3g} to {:.3g}, as {}", parameter.label,
+                         value_words(parameter), unit_suffix(parameter.unit), parameter.lower,
                          parameter.upper, parameter.range_why);
     case Implausible::beyond_limit: {
       const bool above = parameter.quantity > parameter.limit->upper;
-      return fmt::format("{} = {:.3g}{}: the {} would be {:.2g}, and is at {} {:g}, as {}",
-                         parameter.label, parameter.value, unit_suffix(parameter.unit),
+      return fmt::format("{} = {}{}: the {} would be {:.2g}, and is at {} {:g}, as {}",
+                         parameter.label, value_words(parameter), unit_suffix(parameter.unit),
                          parameter.limit->quantity, parameter.quantity, above ? "most" : "least",
                          above ? parameter.limit->upper : parameter.limit->lower,
                          parameter.limit->why);
@@ -356,7 +382,7 @@ std::string answer_words(const Diagnosis& d) {
                               ? title_of(d.named.front()) + " explains"
                               : fmt::format("{} together explain", titles_of(d.named, " and ")),
                           parameters_words(*d.extended));
-      text += gain_words(d) + rest_words(d);
+      text += gain_words(d);
       break;
     case Verdict::not_separable:
       text += d.rivals.size() == 1
@@ -370,15 +396,17 @@ std::string answer_words(const Diagnosis& d) {
       text += common_words(d) + one_size_words(d);
       text += fmt::format(" The extended model takes {}: {}.", d.extended->candidate.name(),
                           parameters_words(*d.extended));
-      text += gain_words(d) + rest_words(d) + next_words(d);
+      text += gain_words(d) + next_words(d);
       break;
     case Verdict::unexplained:
-      text += d.outdone.empty() ? "Nothing in the catalogue explains it, alone or in pairs."
-                                : fmt::format(
-                                      "{} would explain it, but so would errors that were not "
-                                      "stated, and with less: no cause is told.",
-                                      d.outdone);
-      text += dominant_point_words(d) + closest_words(d) + unexplained_words(d);
+      text += !d.resembles.empty() ? resembling_words(d)
+              : d.outdone.empty()  ? "Nothing in the catalogue explains it, alone or in pairs."
+                                   : fmt::format(
+                                         "{} would explain it, but so would errors that were not "
+                                          "stated, and with less: no cause is told.",
+                                         d.outdone);
+      text += dominant_point_words(d);
+      if (d.resembles.empty()) text += closest_words(d) + unexplained_words(d);
       break;
     case Verdict::adequate:
       break;

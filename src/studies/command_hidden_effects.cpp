@@ -89,6 +89,13 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
   command->add_option("--single", size.single, "of each effect and strength with one diameter");
   command->add_option("--careless", size.careless,
                       "of each kind of error that is not stated, and design");
+  command->add_option("--bent", size.bent,
+                      "of each effect, design and visible strength, by a law bent by 10 % (half as "
+                      "many by 20 %)");
+  command->add_option("--base-bent", size.base_bent,
+                      "with nothing hidden and the losses of the base model bent by 3 %");
+  command->add_option("--impossible", size.impossible,
+                      "of each effect and design, at three times what nature has");
   command->add_option("--only", options->only, "only orders whose key contains this");
   command->add_option("--recoil", options->binary, "the command to be judged");
   command->add_option("--at-most-minutes", options->minutes,

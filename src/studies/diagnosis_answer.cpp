@@ -56,6 +56,7 @@ void diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.p_value = answer.at("misfit").at("p_value");
   a.named = answer.at("named").get<std::vector<std::string>>();
   a.rivals = answer.at("rivals").get<std::vector<std::string>>();
+  a.resembles = answer.at("resembles").get<std::vector<std::string>>();
   a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
   if (answer.at("shared_cause").is_string()) a.shared_cause = answer["shared_cause"];
   for (const auto& errors : answer.at("unstated_errors")) {
@@ -75,6 +76,9 @@ Json json_of(const Answered& a) {
           {"wanted_signal_to_noise", a.order.signal_to_noise},
           {"index", a.order.index},
           {"seed", a.order.seed},
+          {"law_bend", a.order.law_bend},
+          {"base_bend", a.order.base_bend},
+          {"beyond", a.order.beyond},
           {"reached", a.reached},
           {"signal_to_noise", a.signal_to_noise},
           {"status", a.status},
@@ -84,6 +88,7 @@ Json json_of(const Answered& a) {
           {"p_value", a.p_value},
           {"named", a.named},
           {"rivals", a.rivals},
+          {"resembles", a.resembles},
           {"certain", a.certain},
           {"shared_cause", a.shared_cause},
           {"errors_told", a.errors_told},
@@ -94,8 +99,14 @@ Json json_of(const Answered& a) {
 
 Answered answered_of(const Json& json) {
   Answered a;
-  a.order = {json.at("design"), json.at("effects").get<std::vector<std::string>>(),
-             json.at("wanted_signal_to_noise"), json.at("index"), json.at("seed")};
+  a.order = {json.at("design"),
+             json.at("effects").get<std::vector<std::string>>(),
+             json.at("wanted_signal_to_noise"),
+             json.at("index"),
+             json.at("seed"),
+             json.at("law_bend"),
+             json.at("base_bend"),
+             json.at("beyond")};
   a.reached = json.at("reached");
   a.signal_to_noise = json.at("signal_to_noise");
   a.status = json.at("status");
@@ -105,6 +116,7 @@ Answered answered_of(const Json& json) {
   a.p_value = json.at("p_value");
   a.named = json.at("named").get<std::vector<std::string>>();
   a.rivals = json.at("rivals").get<std::vector<std::string>>();
+  a.resembles = json.at("resembles").get<std::vector<std::string>>();
   a.certain = json.at("certain").get<std::vector<std::string>>();
   a.shared_cause = json.at("shared_cause");
   a.errors_told = json.at("errors_told");
@@ -116,8 +128,12 @@ Answered answered_of(const Json& json) {
 Mark mark_of(const Answered& a) {
   if (a.status != 0) return Mark::failed;
   if (a.verdict == "adequate") return Mark::nothing;
-  if (a.verdict == "unexplained") return Mark::unexplained;
   const std::set<std::string> truth(a.order.effects.begin(), a.order.effects.end());
+  if (a.verdict == "unexplained") {
+    const bool recognised = std::any_of(a.resembles.begin(), a.resembles.end(),
+                                        [&](const auto& id) { return truth.contains(id); });
+    return recognised ? Mark::resembled : Mark::unexplained;
+  }
   const std::set<std::string> named(a.named.begin(), a.named.end());
   std::set<std::string> listed = named;
   listed.insert(a.rivals.begin(), a.rivals.end());

@@ -31,8 +31,9 @@ struct Answered {
   double p_value = 1.0;
   std::vector<std::string> named;
   std::vector<std::string> rivals;
-  std::vector<std::string> certain;  ///< of the rivals, those in every explanation
-  std::string shared_cause;          ///< of which all rivals are laws
+  std::vector<std::string> resembles;  ///< what fits best and cannot be true
+  std::vector<std::string> certain;    ///< of the rivals, those in every explanation
+  std::string shared_cause;            ///< of which all rivals are laws
   bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
   /// The best explanation by one mechanism and what comes within 30 of it; empty without one.
   std::vector<Contender> contenders;
@@ -48,6 +49,7 @@ Answered answered_of(const nlohmann::ordered_json& json);
 enum class Mark {
   nothing,      ///< `adequate`
   unexplained,  ///< `unexplained`
+  resembled,    ///< the same, but the shape of what is hidden is recognised
   named,        ///< all that is hidden is named, and nothing else
   part,         ///< one of several is named, and nothing else
   wrong,        ///< something is named that is not there
@@ -73,8 +75,9 @@ Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
 
 template <>
 struct recoil::NamesOf<hidden::Mark> {
-  static constexpr std::array<std::string_view, 8> names = {"adequate",
+  static constexpr std::array<std::string_view, 9> names = {"adequate",
                                                             "unexplained",
+                                                            "unexplained, shape recognised",
                                                             "named",
                                                             "one of several named",
                                                             "wrong cause named",

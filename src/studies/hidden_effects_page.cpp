@@ -52,6 +52,18 @@ Sentence bar_words(Bar bar) {
       return "the same, where structure is seen: told that such errors would do";
     case Bar::single_diameter:
       return "one diameter: answered by not_separable";
+    case Bar::unseen:
+      return "visible effect called adequate";
+    case Bar::bent_listed:
+      return "law bent by 10 %: among named and rivals, or its shape recognised";
+    case Bar::bent_wrong:
+      return "law bent by 10 %: wrong cause named";
+    case Bar::bent_unexplained:
+      return "law bent by 10 %: unexplained";
+    case Bar::base_alarm:
+      return "nothing hidden, losses of the base model bent by 3 %: alarms";
+    case Bar::impossible_named:
+      return "effect of impossible size: a cause named";
   }
   return "";
 }
@@ -287,6 +299,15 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
            rivals_table(tally)});
   section("The threshold", margins_blocks(tally));
   section("Power against strength, effect by effect", {power_table(tally, Arm::effect)});
+  section(
+      "Laws that are wrong by some per cent",
+      {Paragraph{"What the effect does to e² is multiplied by a smooth random factor of V and d, "
+                 "first of 10 %, then of 20 %."},
+       power_table(tally, Arm::bent), power_table(tally, Arm::bent_more)});
+  section("Effects of impossible size",
+          {Paragraph{"At three times the largest strength that nature or a careful experimenter "
+                     "still has."},
+           power_table(tally, Arm::impossible)});
   section("Confusion",
           {Paragraph{say("What was answered (several causes named count once each; {} by whether "
                          "the truth is listed).",

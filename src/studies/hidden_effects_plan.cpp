@@ -12,13 +12,32 @@ const std::vector<std::vector<std::string>> pairs_of_effects = {
     {"jkr_hysteresis", "series_offset"}, {"bulk_viscoelastic", "rebound_truncation"},
 };
 
+constexpr double some_bend = 0.1;  // of a law
+constexpr double great_bend = 0.2;
+constexpr double slight_bend = 0.03;  // of the losses of the base model
+constexpr double too_strong = 3.0;    // times what nature has
+
+CaseOrder bent_by(double law, double base) {
+  CaseOrder order;
+  order.law_bend = law;
+  order.base_bend = base;
+  return order;
+}
+
+CaseOrder times_possible(double factor) {
+  CaseOrder order;
+  order.beyond = factor;
+  return order;
+}
+
 class Plan {
  public:
   explicit Plan(std::uint64_t seed) : seed_(seed) {}
-  void add(const char* design, const std::vector<std::string>& effects, double strength,
-           int count) {
+  void add(const char* design, const std::vector<std::string>& effects, double strength, int count,
+           const CaseOrder& like = {}) {
     for (int i = 0; i < count; ++i) {
-      orders.push_back({design, effects, strength, static_cast<std::uint64_t>(i), seed_});
+      orders.push_back({design, effects, strength, static_cast<std::uint64_t>(i), seed_,
+                        like.law_bend, like.base_bend, like.beyond});
     }
   }
   std::vector<CaseOrder> orders;
@@ -31,7 +50,9 @@ class Plan {
 
 Arm arm_of(const CaseOrder& order) {
   if (!has_several_diameters(order.design)) return Arm::single;
-  if (order.effects.empty()) return Arm::correct;
+  if (order.effects.empty()) return order.base_bend > 0.0 ? Arm::base_bent : Arm::correct;
+  if (order.beyond > 0.0) return Arm::impossible;
+  if (order.law_bend > 0.0) return order.law_bend > some_bend ? Arm::bent_more : Arm::bent;
   if (order.effects.size() > 1) return Arm::pair;
   switch (find_hidden_effect(order.effects.front()).kind) {
     case EffectKind::outside:
@@ -58,6 +79,14 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
       for (const char* design : {"wall", "li"}) plan.add(design, effect, strength, count);
       if (!outside) plan.add("wall-batches", effect, strength, (count + 1) / 2);
     }
+    for (const char* design : {"wall", "li"}) {
+      if (outside) continue;
+      for (const double strength : {10.0, 20.0}) {
+        plan.add(design, effect, strength, size.bent, bent_by(some_bend, 0.0));
+        plan.add(design, effect, strength, size.bent / 2, bent_by(great_bend, 0.0));
+      }
+      plan.add(design, effect, 0.0, size.impossible, times_possible(too_strong));
+    }
     for (const double strength : {10.0, 20.0}) {
       for (const char* design : {"wall-one", "dahneke"}) {
         if (!outside) plan.add(design, effect, strength, size.single);
@@ -72,6 +101,9 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
   // Nothing hidden: half as in Wall's design, the rest shared.
   plan.add("wall", {}, 0.0, (size.correct + 1) / 2);
   plan.add("li", {}, 0.0, size.correct / 4);
+  for (const char* design : {"wall", "li"}) {
+    plan.add(design, {}, 0.0, size.base_bent / 2, bent_by(0.0, slight_bend));
+  }
   plan.add("wall-batches", {}, 0.0, size.correct - (size.correct + 1) / 2 - size.correct / 4);
   for (const char* design : {"wall-one", "dahneke"}) plan.add(design, {}, 0.0, 5 * size.single);
   // By names that say nothing.

@@ -10,12 +10,15 @@ namespace hidden {
 
 /// How many data sets of each kind.
 struct StudySize {
-  int per_cell = 4;   ///< of each effect, design and strength
-  int correct = 400;  ///< with nothing hidden, in designs of several diameters
-  int pairs = 4;      ///< of each pair and design
-  int outside = 10;   ///< of each outside effect, design and strength
-  int single = 4;     ///< of each effect and strength in designs of one diameter
-  int careless = 6;   ///< of each kind of error that is not stated, and design
+  int per_cell = 4;     ///< of each effect, design and strength
+  int correct = 400;    ///< with nothing hidden, in designs of several diameters
+  int pairs = 4;        ///< of each pair and design
+  int outside = 10;     ///< of each outside effect, design and strength
+  int single = 4;       ///< of each effect and strength in designs of one diameter
+  int careless = 6;     ///< of each kind of error that is not stated, and design
+  int bent = 2;         ///< of each effect, design and visible strength, with laws bent by 10 %
+  int base_bent = 100;  ///< with nothing hidden and the losses of the base model bent by 3 %
+  int impossible = 1;   ///< of each effect and design, at three times what nature has
   std::uint64_t seed = 20260101;
 };
 
@@ -26,7 +29,18 @@ inline const std::vector<double>& study_strengths() {
 inline constexpr double visible = 10.0;  ///< signal-to-noise from which on the bars count
 
 /// What a data set is in the study for.
-enum class Arm { effect, correct, pair, outside, single, careless };
+enum class Arm {
+  effect,
+  correct,
+  pair,
+  outside,
+  single,
+  careless,
+  bent,        ///< an effect whose law is wrong by 10 %
+  bent_more,   ///< by 20 %
+  base_bent,   ///< nothing hidden, the losses of the base model wrong by 3 %
+  impossible,  ///< an effect beyond what nature has
+};
 Arm arm_of(const CaseOrder& order);
 
 /// Shuffled, the same way for equal sizes and seeds: what is done of a study that ends early is a
@@ -37,6 +51,7 @@ std::vector<CaseOrder> plan_study(const StudySize& size);
 
 template <>
 struct recoil::NamesOf<hidden::Arm> {
-  static constexpr std::array<std::string_view, 6> names = {"effect",  "correct", "pair",
-                                                            "outside", "single",  "careless"};
+  static constexpr std::array<std::string_view, 10> names = {
+      "effect",   "correct", "pair",      "outside",   "single",
+      "careless", "bent",    "bent_more", "base_bent", "impossible"};
 };

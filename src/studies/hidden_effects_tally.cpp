@@ -57,7 +57,11 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
       those(all, [](const Answered& a) { return in(Arm::careless)(a) && a.verdict != "adequate"; });
   const Answers single =
       those(all, [](const Answered& a) { return in(Arm::single)(a) && !a.order.effects.empty(); });
+  const Answers bent = those(all, in(Arm::bent));
   const Test named = marked({Mark::named});
+  const Test wrong = [](const Answered& a) {
+    return mark_of(a) == Mark::wrong || (mark_of(a) == Mark::outside && !a.shared_cause.empty());
+  };
   return {
       {Bar::named, count(effects, named)},
       {Bar::separable_named, count(nameable, named)},
@@ -67,11 +71,7 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
                                          (mark_of(a) == Mark::inside && !a.shared_cause.empty());
                                 })},
       {Bar::listed, count(effects, marked({Mark::named, Mark::inside}))},
-      {Bar::wrong, count(effects,
-                         [](const Answered& a) {
-                           return mark_of(a) == Mark::wrong ||
-                                  (mark_of(a) == Mark::outside && !a.shared_cause.empty());
-                         })},
+      {Bar::wrong, count(effects, wrong)},
       {Bar::false_alarm, count(those(all, in(Arm::correct)),
                                [](const Answered& a) { return mark_of(a) != Mark::nothing; })},
       {Bar::outside_unexplained,
@@ -79,7 +79,15 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
       {Bar::unstated_named, count(those(all, in(Arm::careless)),
                                   [](const Answered& a) { return a.verdict == "cause_named"; })},
       {Bar::unstated_told, count(structured, [](const Answered& a) { return a.errors_told; })},
-      {Bar::single_diameter, count(single, marked({Mark::inside, Mark::outside}))}};
+      {Bar::single_diameter, count(single, marked({Mark::inside, Mark::outside}))},
+      {Bar::unseen, count(effects, marked({Mark::nothing}))},
+      {Bar::bent_listed, count(bent, marked({Mark::named, Mark::inside, Mark::resembled}))},
+      {Bar::bent_wrong, count(bent, wrong)},
+      {Bar::bent_unexplained, count(bent, marked({Mark::unexplained}))},
+      {Bar::base_alarm, count(those(all, in(Arm::base_bent)),
+                              [](const Answered& a) { return mark_of(a) != Mark::nothing; })},
+      {Bar::impossible_named, count(those(all, in(Arm::impossible)),
+                                    [](const Answered& a) { return a.verdict == "cause_named"; })}};
 }
 
 void count_missed(const std::vector<Answered>& all, StudyTally& tally) {
@@ -303,10 +311,20 @@ Wanted wanted_of(Bar bar) {
   switch (bar) {
     case Bar::listed:
       return {0.95, true};
+    case Bar::bent_listed:
+      return {0.90, true};
     case Bar::wrong:
-    case Bar::false_alarm:
+      return {0.02, false};
+    case Bar::bent_wrong:
     case Bar::unstated_named:
+    case Bar::impossible_named:
+      return {0.03, false};
+    case Bar::false_alarm:
+    case Bar::base_alarm:
+    case Bar::unseen:
       return {0.05, false};
+    case Bar::bent_unexplained:
+      return {0.10, false};
     default:
       return {0.80, true};
   }
@@ -349,8 +367,8 @@ Confusion confusion_of(const std::vector<Answered>& answers) {
   }
   c.rows.emplace_back("nothing");
   c.columns = ids;
-  const std::vector<Mark> others = {Mark::inside, Mark::outside, Mark::unexplained, Mark::nothing,
-                                    Mark::failed};
+  const std::vector<Mark> others = {Mark::inside,  Mark::outside,   Mark::unexplained,
+                                    Mark::nothing, Mark::resembled, Mark::failed};
   for (const Mark mark : others) c.columns.emplace_back(name_of(mark));
   c.counts.assign(c.rows.size(), std::vector<int>(c.columns.size(), 0));
   const auto index = [](const std::vector<std::string>& list, std::string_view word) {
@@ -358,7 +376,8 @@ Confusion confusion_of(const std::vector<Answered>& answers) {
   };
   for (const Answered& a : answers) {
     const Arm arm = arm_of(a.order);
-    if (!a.reached || arm == Arm::pair || arm == Arm::single) continue;
+    const bool exact = arm == Arm::effect || arm == Arm::correct || arm == Arm::outside;
+    if (!a.reached || !exact) continue;
     if (arm != Arm::correct && a.order.signal_to_noise < visible) continue;
     const std::size_t row =
         index(c.rows, a.order.effects.empty() ? "nothing" : a.order.effects.front());

@@ -42,7 +42,13 @@ enum class Bar {
   outside_unexplained,  ///< an effect outside the catalogue called unexplained
   unstated_named,       ///< a cause named for errors that nobody stated
   unstated_told,        ///< told that such errors would do, where structure is seen
-  single_diameter       ///< not_separable for an effect in a design of one diameter
+  single_diameter,      ///< not_separable for an effect in a design of one diameter
+  unseen,               ///< a visible effect called adequate
+  bent_listed,          ///< law bent by 10 %: named, listed, or its shape recognised
+  bent_wrong,           ///< the same: a wrong cause named
+  bent_unexplained,     ///< the same: unexplained
+  base_alarm,           ///< anything but adequate where the losses are bent by 3 %
+  impossible_named      ///< a cause named for an effect of impossible size
 };
 
 /// The share that is wanted: at least, or at most.
@@ -133,7 +139,20 @@ StudyTally read_tally(const std::filesystem::path& file);
 
 template <>
 struct recoil::NamesOf<hidden::Bar> {
-  static constexpr std::array<std::string_view, 10> names = {
-      "named",       "separable_named",     "named_or_law",   "listed",        "wrong",
-      "false_alarm", "outside_unexplained", "unstated_named", "unstated_told", "single_diameter"};
+  static constexpr std::array<std::string_view, 16> names = {"named",
+                                                             "separable_named",
+                                                             "named_or_law",
+                                                             "listed",
+                                                             "wrong",
+                                                             "false_alarm",
+                                                             "outside_unexplained",
+                                                             "unstated_named",
+                                                             "unstated_told",
+                                                             "single_diameter",
+                                                             "unseen",
+                                                             "bent_listed",
+                                                             "bent_wrong",
+                                                             "bent_unexplained",
+                                                             "base_alarm",
+                                                             "impossible_named"};
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "diagnosis/law_errors.hpp"
 #include "support/synthetic.hpp"
 
 namespace recoil {
@@ -89,7 +90,7 @@ TEST(HeldOut, AFoldIsPredictedByTheOtherPoints) {
   const Observations points = gather(data);
   const std::vector<Fold> folds = held_out_folds(points, data.size(), 2);
   for (const FoldPrediction& fold :
-       predict_folds(base, points, folds, std::vector<double>{4e-3, 0.04, 8.9}, 1)) {
+       predict_folds(base, points, {}, folds, std::vector<double>{4e-3, 0.04, 8.9}, 1)) {
     ASSERT_TRUE(fold.usable);
     for (const double error : fold.error) EXPECT_NEAR(error, 0.0, 2e-3);
   }

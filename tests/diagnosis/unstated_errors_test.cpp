@@ -8,6 +8,7 @@
 #include <string>
 
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/search.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "quick_diagnosis.hpp"
 #include "support/synthetic.hpp"

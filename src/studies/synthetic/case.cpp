@@ -45,7 +45,11 @@ double reading_of(const Case& made, const Point& p, recoil::RandomStream& random
 }  // namespace
 
 std::string CaseOrder::key() const {
-  return fmt::format("{}{}@{:g}#{}", design, joined(effects), signal_to_noise, index);
+  std::string bends;
+  if (law_bend > 0.0) bends += fmt::format("~{:g}%", 100.0 * law_bend);
+  if (base_bend > 0.0) bends += fmt::format("~base{:g}%", 100.0 * base_bend);
+  if (beyond > 0.0) bends += fmt::format("*{:g}", beyond);
+  return fmt::format("{}{}{}@{:g}#{}", design, joined(effects), bends, signal_to_noise, index);
 }
 
 std::uint64_t CaseOrder::experiment_seed() const {
@@ -80,12 +84,20 @@ Case make_case(const CaseOrder& order) {
       add_effect(effects, effect, nuisances, made.design, strength);
       return effects;
     };
+    if (order.beyond > 0.0) {
+      const double strength = order.beyond * largest_strength(effect, nuisances);
+      made.strengths.push_back(nuisances.sign * strength);
+      add_effect(made.effects, effect, nuisances, made.design, strength);
+      continue;
+    }
     const Strength found = find_strength(made.design, alone, largest_strength(effect, nuisances),
                                          order.signal_to_noise);
     made.reached = made.reached && found.reached;
     made.strengths.push_back(nuisances.sign * found.value);
     add_effect(made.effects, effect, nuisances, made.design, found.value);
   }
+  made.effects.bend_of_laws = draw_bend(order.law_bend, seed, 0);
+  made.effects.bend_of_base = draw_bend(order.base_bend, seed, 1);
   made.points = expected_points(made.design, made.effects);
   if (made.points.empty()) {
     made.reached = false;

@@ -17,8 +17,13 @@ struct CaseOrder {
   double signal_to_noise = 0.0;      ///< that each of them alone would leave
   std::uint64_t index = 0;           ///< which of the data sets of this kind
   std::uint64_t seed = 20260101;
+  double law_bend = 0.0;   ///< the effects' laws are wrong by a smooth factor of this size [1]
+  double base_bend = 0.0;  ///< the losses of the base model likewise
+  /// Above 0: the one effect at so many times the largest strength that nature has.
+  double beyond = 0.0;
 
-  /// wall+plastic_yield+probe_plane@10#3
+  /// wall+plastic_yield+probe_plane@10#3; bent by 10 % and 3 %: wall+plastic_yield~10%~base3%@20#0;
+  /// three times what is possible: wall+velocity_offset*3@0#0
   std::string key() const;
   /// The same for all strengths of one experiment, so that these differ in strength only.
   std::uint64_t experiment_seed() const;

@@ -112,10 +112,9 @@ double image_work(const Base& base, const Effects& effects, double mass, double 
   return 2.0 * energy / mass;
 }
 
-}  // namespace
-
-double square_of_restitution(const Base& base, const Effects& effects, double velocity,
-                             double diameter, double size_factor, double adhesion_factor) {
+/// By exact laws.
+double exact_square(const Base& base, const Effects& effects, double velocity, double diameter,
+                    double size_factor, double adhesion_factor) {
   const double d = diameter * (1.0 + effects.diameter_error) * size_factor;
   Sphere sphere;
   sphere.mass = base.density * pi / 6.0 * d * d * d;
@@ -184,6 +183,20 @@ double square_of_restitution(const Base& base, const Effects& effects, double ve
     square = v > 0.0 ? v * v : -1e-6;
   }
   return square / (velocity * velocity);
+}
+
+}  // namespace
+
+double square_of_restitution(const Base& base, const Effects& effects, double velocity,
+                             double diameter, double size_factor, double adhesion_factor) {
+  const double exact =
+      exact_square(base, effects, velocity, diameter, size_factor, adhesion_factor);
+  if (effects.bend_of_laws.size == 0.0 && effects.bend_of_base.size == 0.0) return exact;
+  static const Effects nothing;
+  const double plain =
+      exact_square(base, nothing, velocity, diameter, size_factor, adhesion_factor);
+  return 1.0 - effects.bend_of_base.factor(velocity, diameter) * (1.0 - plain) +
+         effects.bend_of_laws.factor(velocity, diameter) * (exact - plain);
 }
 
 double size_of(double spread, double z) {

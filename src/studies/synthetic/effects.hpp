@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "studies/synthetic/bend.hpp"
 #include "studies/synthetic/sphere.hpp"
 
 namespace hidden {
@@ -39,6 +40,8 @@ struct Effects {
   double oddity_size = 0.0;    ///< on ln e
   double oddity_centre = 1.0;  ///< [m/s]
   double oddity_width = 1.0;   ///< in ln V
+  Bend bend_of_laws;           ///< a factor on what the effects do to e^2
+  Bend bend_of_base;           ///< a factor on 1 - e^2 of the base model
 };
 
 /// (v_out / V)^2 of one sphere on its way from the measuring plane to the surface and back; below
