@@ -266,6 +266,7 @@ const std::vector<GeneratedPart>& blocks() {
        [](const CLI::App&) {
          return fit_keys_block("uncertainty") + "\n" + words_block<Scheme>("scheme");
        }},
+      {"keys of [diagnosis]", [](const CLI::App&) { return fit_keys_block("diagnosis"); }},
       {"mechanisms", mechanisms_block},
       {"mechanism details", mechanism_details_block},
       {"units", units_block},

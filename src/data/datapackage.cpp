@@ -193,6 +193,7 @@ std::vector<std::string> read_sources(const JsonNode& root) {
 Dimension dimension_of(Quantity quantity) {
   switch (quantity) {
     case Quantity::series:
+    case Quantity::setting:
       return Dimension::text;
     case Quantity::diameter:
     case Quantity::diameter_sd:

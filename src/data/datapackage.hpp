@@ -27,14 +27,16 @@ enum class Quantity {
   diameter_sd,
   events,
   captured,
+  setting,
 };
 
 /// Their names in a schema.
 template <>
 struct NamesOf<Quantity> {
-  static constexpr std::array<std::string_view, 10> names = {
+  static constexpr std::array<std::string_view, 11> names = {
       "series",         "diameter",    "incident_velocity", "restitution", "rebound_velocity",
-      "restitution_sd", "velocity_sd", "diameter_sd",       "events",      "captured"};
+      "restitution_sd", "velocity_sd", "diameter_sd",       "events",      "captured",
+      "setting"};
 };
 
 /// What a quantity measures; a series is a text.

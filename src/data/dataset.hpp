@@ -35,7 +35,10 @@ struct ImpactPoint {
   int events = 1;                        ///< impacts averaged in this point, captured ones included
   int captured = 0;                      ///< how many of them did not rebound
   bool counted = false;                  ///< `captured` is stated: 0 is a count, not a gap
-  int line = 0;                          ///< line in points.csv, for messages
+  /// Points of one setting of the apparatus share its error. Empty where no column says so: then
+  /// points of one series, diameter and incident velocity have one setting.
+  std::string setting;
+  int line = 0;  ///< line in points.csv, for messages
 
   bool all_captured() const { return captured >= events; }
 };

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "data/method.hpp"
+
 namespace recoil {
 
 /// An elastic solid, as a dataset states it.
@@ -25,6 +27,7 @@ struct ImpactSystem {
   std::optional<double> reference_diameter;  ///< [m]
   std::optional<double> ambient_pressure;    ///< of the air around [Pa]; 0: vacuum, absent: unknown
   std::optional<double> temperature;         ///< [K]
+  Method method = Method::unknown;           ///< how velocities were measured
 };
 
 }  // namespace recoil

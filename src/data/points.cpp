@@ -256,6 +256,7 @@ class PointReader {
         value(Quantity::diameter_sd,
               {limits::smallest_diameter_sd, limits::largest_diameter, " m",
                "the unit is probably um", "leave the cell empty when it is not known"});
+    if (const CsvField* const setting = cell(Quantity::setting)) point.setting = setting->text;
     remark(point);
     dataset_.points.push_back(point);
   }

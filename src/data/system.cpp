@@ -118,12 +118,21 @@ Provenance read_provenance(const JsonNode& recoil) {
 
 ImpactSystem read_system(const JsonNode& recoil) {
   recoil.allow_only({"provenance", "particle", "surface", "stiffness_K", "adhesion_energy",
-                     "adhesion_force_f0", "reference_diameter", "conditions"});
+                     "adhesion_force_f0", "reference_diameter", "conditions", "method"});
   ImpactSystem system;
   system.particle = read_material(recoil, "particle", true);
   system.surface = read_material(recoil, "surface", false);
   read_overrides(recoil, system);
   if (const auto conditions = recoil.find("conditions")) read_conditions(*conditions, system);
+  if (const auto method = recoil.find("method")) {
+    const std::string word = method->string();
+    const auto known = value_named<Method>(word);
+    if (!known) {
+      method->fail(fmt::format("unknown method {}", quote(word)),
+                   "it says how velocities were measured", did_you_mean(word, all_names<Method>()));
+    }
+    system.method = *known;
+  }
   return system;
 }
 

@@ -71,8 +71,8 @@ std::vector<const CandidateResult*> explanations(const std::vector<CandidateResu
     if (&c == &*best) continue;
     // So close to the best one, or before it, the other reasons to set something aside are as
     // doubtful as it.
-    const bool possible =
-        c.near_plausible && c.kind != MechanismKind::description && c.delta_aicc < 0.0;
+    const bool possible = c.near_plausible && c.kind != MechanismKind::description &&
+                          c.set_aside != SetAside::batch_is_size && c.delta_aicc < 0.0;
     const bool pair = c.candidate.added.size() > 1;
     if (one_size || pair ? c.explains() : possible) found.push_back(&c);
   }
@@ -236,17 +236,21 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const double margin = one_size ? margin_at_one_size : options.margin;
   judge(base, diagnosis.candidates, INFINITY, folds, base_folds);
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
+  const auto impossible =
+      std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(), cannot_be_told);
+  const auto outshone_by_it = [&] {
+    return impossible != diagnosis.candidates.end() &&
+           (found.empty() || outshone(*found.front(), *impossible, margin,
+                                      std::max(margin, options.margin_in_pairs)));
+  };
+  if (outshone_by_it()) found.clear();
   if (found.empty() && more_than_chance(diagnosis)) {
     diagnosis.pairs = try_pairs(base, diagnosis.candidates);
     const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
     judge(base, diagnosis.pairs, margin_in_pairs, folds, base_folds);
     found = explanations(diagnosis.pairs, margin_in_pairs, one_size);
   }
-  const auto impossible =
-      std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(), cannot_be_told);
-  if (impossible != diagnosis.candidates.end() &&
-      (found.empty() ||
-       outshone(*found.front(), *impossible, margin, std::max(margin, options.margin_in_pairs)))) {
+  if (outshone_by_it()) {
     found.clear();
     diagnosis.resembles = resembling(diagnosis.candidates, margin);
   }
@@ -258,6 +262,7 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   decide(found, one_size, diagnosis);
   if (diagnosis.verdict == Verdict::not_separable) {
     diagnosis.next = next_measurements(diagnosis.base, found);
+    diagnosis.experiments = next_experiments(diagnosis.base, found);
   }
   if (diagnosis.extended) extend(base, diagnosis);
 }
@@ -274,9 +279,28 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
   return diagnose(spec, datasets, fitted, options);
 }
 
-Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
-                   const FitResult& fitted, const DiagnosisOptions& options,
-                   const std::vector<IntervalSet>& base_intervals) {
+namespace {
+
+std::vector<Dataset> without(std::vector<Dataset> datasets,
+                             const std::vector<OutlyingPoint>& outlying) {
+  std::size_t index = 0;  // of the observations, which are the points of all datasets in order
+  for (Dataset& dataset : datasets) {
+    std::vector<ImpactPoint> kept;
+    for (const ImpactPoint& point : dataset.points) {
+      const bool odd = std::any_of(outlying.begin(), outlying.end(),
+                                   [&](const OutlyingPoint& o) { return o.index == index; });
+      if (!odd) kept.push_back(point);
+      ++index;
+    }
+    dataset.points = std::move(kept);
+  }
+  return datasets;
+}
+
+/// Steps 1 to 4 on all points of `datasets`.
+Diagnosis diagnose_all(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                       const FitResult& fitted, const DiagnosisOptions& options,
+                       const std::vector<IntervalSet>& base_intervals) {
   Diagnosis diagnosis;
   diagnosis.options = options;
   diagnosis.spec = spec;
@@ -299,6 +323,26 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
     search(base, diagnosis, progress);
     if (!diagnosis.extended_fit) diagnosis.base_intervals.clear();
   }
+  return diagnosis;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                   const FitResult& fitted, const DiagnosisOptions& options,
+                   const std::vector<IntervalSet>& base_intervals) {
+  const SearchBase base = search_base(spec, datasets, fitted, options);
+  const std::vector<OutlyingPoint> outlying =
+      base.refit.usable ? outlying_points(base) : std::vector<OutlyingPoint>();
+  Diagnosis for_all = diagnose_all(spec, datasets, fitted, options, base_intervals);
+  if (outlying.empty()) return for_all;
+  const std::vector<Dataset> others = without(datasets, outlying);
+  const FitResult refitted = fit(make_model(spec, others), gather(others, spec));
+  if (!refitted.usable) return for_all;
+  Diagnosis diagnosis = diagnose_all(spec, others, refitted, options, {});
+  diagnosis.outlying = outlying;
+  diagnosis.for_all =
+      AnswerForAll{for_all.verdict, for_all.named, for_all.rivals, for_all.resembles};
   return diagnosis;
 }
 

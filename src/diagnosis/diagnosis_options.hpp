@@ -7,9 +7,6 @@ namespace recoil {
 struct DiagnosisOptions {
   int simulated = 999;  ///< data sets of the base model that calibrate the tests of the residuals
   int compared = 39;    ///< of these, how many are fitted with every candidate
-  /// Relative error of the law of every mechanism, smooth in V and d [1]; the losses of the base
-  /// model carry three tenths of it. 0 takes laws as exact. See `LawErrors`.
-  double law_error = 0.1;
   /// A correct model is accused in this part of all data, if the stated deviations are right. 5 %
   /// are promised: the rest is room for what they do not cover, such as velocities that a table
   /// rounds to three digits where e is steep, close to capture.

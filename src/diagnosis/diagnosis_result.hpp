@@ -8,7 +8,9 @@
 #include "diagnosis/candidate_result.hpp"
 #include "diagnosis/diagnosis_options.hpp"
 #include "diagnosis/misfit_map.hpp"
+#include "diagnosis/next_experiment.hpp"
 #include "diagnosis/next_measurement.hpp"
+#include "diagnosis/outlying_points.hpp"
 #include "diagnosis/structure.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "uncertainty/interval_set.hpp"
@@ -29,6 +31,12 @@ struct CaptureChange {
   std::optional<double> base, extended;  ///< [m/s]; none where nothing is captured
 };
 
+/// The answer for all points, where some were set aside.
+struct AnswerForAll {
+  Verdict verdict = Verdict::adequate;
+  std::vector<std::string> named, rivals, resembles;
+};
+
 /// What `diagnose` finds.
 struct Diagnosis {
   DiagnosisOptions options;
@@ -37,6 +45,8 @@ struct Diagnosis {
   FitResult base;
   Verdict verdict = Verdict::adequate;
   Structure structure;                      ///< of the base model's residuals
+  std::vector<OutlyingPoint> outlying;      ///< set aside; all that follows is without them
+  std::optional<AnswerForAll> for_all;      ///< with them; none where there are none
   std::vector<MisfitCell> where;            ///< the map
   std::vector<double> free_form;            ///< discrepancy as residuals [points]; empty: none
   double free_form_p = 1.0;                 ///< of the scatter that it leaves
@@ -58,6 +68,7 @@ struct Diagnosis {
   std::optional<HeldOutGain> gain;
   std::vector<CaptureChange> capture;
   std::vector<NextMeasurement> next;
+  std::vector<NextExperiment> experiments;  ///< the least effort first
   std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate
   std::string outdone;  ///< the best explanation, where unstated errors do better; else empty
   /// What a reader has to know about the points: for reconstructions, what their recipe put there.

@@ -17,11 +17,11 @@ std::optional<SetAside> reason_against(const SearchBase& base, const CandidateRe
   if (c.kind == MechanismKind::description) return SetAside::description;
   if (!(c.delta_aicc < 0.0)) return SetAside::gains_too_little;
   if (c.p_value && *c.p_value > base.options.chance) return SetAside::chance;
-  if (!c.plausible) return SetAside::not_possible;
   if (c.candidate.added.size() == 1 && find_mechanism(c.candidate.added.front())->is_batch() &&
       batch_is_size(base.fitted.data, c, base.noise_scale)) {
     return SetAside::batch_is_size;
   }
+  if (!c.plausible) return SetAside::not_possible;
   if (c.remaining_p < tolerated_level) return SetAside::leaves_structure;
   return std::nullopt;
 }

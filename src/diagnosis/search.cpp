@@ -175,7 +175,7 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
                        const FitResult& fitted, const DiagnosisOptions& options) {
   SearchBase base{spec, datasets, fitted, {},     make_candidate(spec, datasets, {}),
                   {},   0.0,      1.0,    options};
-  base.laws = {options.law_error, base_part * options.law_error, smooth_functions(fitted.data)};
+  base.laws = {spec.law_error, base_part * spec.law_error, smooth_functions(fitted.data)};
   base.candidate.model.solver = fitted.model.solver;
   base.refit =
       with_law_errors(base.candidate, fitted.data,

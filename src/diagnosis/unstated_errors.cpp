@@ -2,18 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <span>
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "diagnosis/search.hpp"
+#include "estimate/residual.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr double smallest_error = 0.002;  // of a velocity, relative
 constexpr double largest_error = 0.15;
+constexpr double smallest_setting_error = 2e-4;  // of e
 constexpr int steps = 15;
 
 /// Standard deviation of the e^2 of a point that rebounded, with what the errors of V and d make of
@@ -148,13 +153,80 @@ std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
   return found;
 }
 
+/// What an error of e of size `sd`, shared by the points of each setting, adds to the residuals.
+Eigen::MatrixXd setting_columns(const SearchBase& base, double sd) {
+  const Observations& data = base.fitted.data;
+  std::map<std::size_t, Eigen::Index> place;
+  for (const Observation& point : data.points) {
+    place.try_emplace(point.setting, static_cast<Eigen::Index>(place.size()));
+  }
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data.points.size()),
+                                                  static_cast<Eigen::Index>(place.size()));
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const Observation& point = data.points[i];
+    if (point.censored) continue;
+    const double square = base.fitted.prediction_squared[i];
+    const double slope = weighted_residual(point, square, data.noise.student).slope;
+    columns(static_cast<Eigen::Index>(i), place[point.setting]) =
+        slope * 2.0 * std::sqrt(std::max(square, 0.0)) * sd;
+  }
+  return columns;
+}
+
+bool has_settings_of_several_points(const Observations& data) {
+  std::set<std::size_t> seen;
+  return std::any_of(data.points.begin(), data.points.end(),
+                     [&](const Observation& point) { return !seen.insert(point.setting).second; });
+}
+
+/// The base model refitted with what its laws and the settings share.
+Refit fit_with_settings(const SearchBase& base, double sd) {
+  const Observations& data = base.fitted.data;
+  const auto laws = law_error_columns(base.candidate, data, base.refit.theta, base.laws);
+  if (!laws) return {};
+  const Eigen::MatrixXd settings = setting_columns(base, sd);
+  Eigen::MatrixXd both(settings.rows(), laws->cols() + settings.cols());
+  both << *laws, settings;
+  return refit_candidate(base.candidate, data, base.refit.theta, 1,
+                         std::make_shared<const Discrepancy>(both));
+}
+
+std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
+  const Observations& data = base.fitted.data;
+  if (!has_settings_of_several_points(data)) return std::nullopt;
+  const int free = base.candidate.free_count;
+  const double step = std::log(largest_error / smallest_setting_error) / (steps - 1);
+  std::vector<double> criterion(steps, INFINITY);
+  parallel_over(steps, base.options.threads, [&](std::size_t k) {
+    const double sd = smallest_setting_error * std::exp(step * static_cast<double>(k));
+    const Refit refit = fit_with_settings(base, sd);
+    if (refit.usable) criterion[k] = corrected_criterion(data, refit, free + 1);
+  });
+  const auto best = static_cast<std::size_t>(std::min_element(criterion.begin(), criterion.end()) -
+                                             criterion.begin());
+  if (best == 0 || best + 1 == criterion.size()) return std::nullopt;
+  const double middle = std::log(smallest_setting_error) + step * static_cast<double>(best);
+  UnstatedErrors found;
+  found.source = ErrorSource::shared_setting;
+  found.value =
+      std::exp(vertex(middle, step, criterion[best - 1], criterion[best], criterion[best + 1]));
+  const Refit refit = fit_with_settings(base, found.value);
+  if (!refit.usable) return std::nullopt;
+  found.delta_aicc = corrected_criterion(data, refit, free + 1) - base.criterion;
+  found.remaining_p = remaining_p(base, data, refit, base.fitted.prediction_squared);
+  return found;
+}
+
 }  // namespace
 
 std::vector<UnstatedErrors> unstated_errors(const SearchBase& base) {
-  if (!base.fitted.data.sd_stated || base.spec.noise.student) return {};
+  if (base.spec.noise.student) return {};
   std::vector<UnstatedErrors> all;
-  for (const auto& found : {velocity_errors(base), larger_deviations(base)}) {
-    if (found) all.push_back(*found);
+  if (const auto found = shared_settings(base)) all.push_back(*found);
+  if (base.fitted.data.sd_stated) {
+    for (const auto& found : {velocity_errors(base), larger_deviations(base)}) {
+      if (found) all.push_back(*found);
+    }
   }
   std::sort(all.begin(), all.end(), [](const UnstatedErrors& a, const UnstatedErrors& b) {
     return a.delta_aicc < b.delta_aicc;

@@ -12,31 +12,42 @@ struct SearchBase;
 enum class ErrorSource {
   velocity_errors,    ///< every incident velocity is uncertain by the same part of itself
   larger_deviations,  ///< all standard deviations are too small by the same factor
+  shared_setting,     ///< all points of one setting of the apparatus have an error in common
 };
 template <>
 struct NamesOf<ErrorSource> {
-  static constexpr std::array<std::string_view, 2> names = {"velocity_errors", "larger_deviations"};
+  static constexpr std::array<std::string_view, 3> names = {"velocity_errors", "larger_deviations",
+                                                            "shared_setting"};
 };
 
 /// Errors of the measurement beyond the stated ones that might do in place of a cause.
 struct UnstatedErrors {
   ErrorSource source = ErrorSource::velocity_errors;
-  double value = 0.0;       ///< relative sd of every velocity [1], or factor on every deviation [1]
-  double delta_aicc = 0.0;  ///< criterion less that of the base model as stated
+  /// Relative sd of every velocity [1], factor on every deviation [1], or sd of e that the points
+  /// of a setting share [1].
+  double value = 0.0;
+  double delta_aicc = 0.0;   ///< criterion less that of the base model as stated
   double remaining_p = 0.0;  ///< of what is systematic, or of heavy tails, under them
 
   bool leave_nothing() const { return delta_aicc < 0.0 && remaining_p >= tolerated_level; }
 };
 
 /// What the stated standard deviations say of the misfit if they are not taken at their word: the
-/// base model fitted with larger errors, which is no cause but may do without one. Empty where no
-/// standard deviations are stated, as their size then follows the residuals, and under Student's t.
+/// base model fitted with larger errors, which is no cause but may do without one. Under Student's
+/// t none; where no standard deviations are stated, as their size then follows the residuals, none
+/// but shared_setting.
 ///
 /// - velocity_errors: every incident velocity is uncertain by the same part s of itself, which
 ///   counts most where e is steep, close to capture. Of a grid of s, and the parabola through the
 ///   best three, the smallest sum 2 ln sd_i + r_i^2. Only where no velocity errors are stated.
 /// - larger_deviations: all standard deviations are too small by the same factor,
 ///   sqrt(chi^2 / dof); the structure is then sought in residuals in units of their own size.
+///
+/// - shared_setting: the points of one setting (a column of the dataset; else equal series,
+/// diameter
+///   and incident velocity) share an error of e of the same size at all settings, found by the
+///   likelihood from what lies between settings beside what lies within them. Only where settings
+///   have several points.
 ///
 /// What is left is judged by the tests of the residuals and by their tails: where a few points are
 /// far off, the rest is no worse than stated.

@@ -21,6 +21,7 @@ std::vector<FitKey> all_keys() {
       {"", "parameters", "", "the table [parameters]"},
       {"", "noise", "", "the table [noise]"},
       {"", "uncertainty", "", "the table [uncertainty]"},
+      {"", "diagnosis", "", "the table [diagnosis]"},
 
       {"model", "adhesion", quoted(name_of(fit.adhesion)),
        "the law of adhesion: ring (eq. 5, with f0), jkr or dmt (with W)"},
@@ -57,6 +58,10 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "of every interval"},
       {"uncertainty", "seed", fmt::format("{}", uncertainty.seed),
        "fixes every digit of every output"},
+
+      {"diagnosis", "law_error", fmt::format("{:g}", fit.law_error),
+       "how wrong the law of a mechanism may be, relative and smooth in V and d; the losses of the "
+       "base model may be by three tenths of it; 0 takes laws as exact"},
   };
 }
 

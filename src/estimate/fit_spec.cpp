@@ -122,6 +122,7 @@ class FitReader : private TomlReader {
       }
     }
     if (const toml::table* uncertainty = table(root, "uncertainty")) read_uncertainty(*uncertainty);
+    if (const toml::table* diagnosis = table(root, "diagnosis")) read_diagnosis(*diagnosis);
     return std::move(fit_);
   }
 
@@ -377,6 +378,19 @@ class FitReader : private TomlReader {
         fail(*node, fmt::format("seed = {}", seed), "seeds count from 0", "leave out the minus");
       }
       spec.seed = static_cast<std::uint64_t>(seed);
+    }
+  }
+
+  void read_diagnosis(const toml::table& table) {
+    allow_only(table, "[diagnosis]", fit_keys_of("diagnosis"));
+    if (const toml::node* node = table.get("law_error")) {
+      const double error = number(*node, "law_error");
+      if (error < 0.0 || error > 0.5) {
+        fail(*node, fmt::format("law_error = {:g}", error), "it has to lie between 0 and 0.5",
+             error > 0.5 ? fmt::format("{:g} % is written {:g}", error, error / 100.0)
+                         : std::string("0 takes laws as exact"));
+      }
+      fit_.spec.law_error = error;
     }
   }
 

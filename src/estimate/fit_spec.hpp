@@ -53,7 +53,8 @@ struct FitSpec {
   NoiseSpec noise;
   Location variance_place;  ///< where the file names the variance function, for messages
   UncertaintySpec uncertainty;
-  std::string sha256;  ///< of the file's text
+  double law_error = 0.1;  ///< `[diagnosis]`: relative, smooth error of the law of a mechanism [1]
+  std::string sha256;      ///< of the file's text
 
   /// The entry of `parameters`, or the default where there is none.
   ParameterSpec statement_of(const Parameter& parameter) const;

@@ -65,6 +65,21 @@ std::vector<std::size_t> add_base_slots(ImpactModel& model, const ParameterSpec&
   return slots;
 }
 
+/// Without adhesion in any dataset of a slot nothing is damped by C_A: it is 0 and not fitted.
+void fix_damping_of_nothing(ImpactModel& model) {
+  for (const std::size_t damping : model.slot_C_A) {
+    bool adheres = false;
+    for (std::size_t d = 0; d < model.slot_C_A.size(); ++d) {
+      const ParameterSlot& adhesion = model.slots[model.slot_adhesion[d]];
+      adheres =
+          adheres || (model.slot_C_A[d] == damping && (adhesion.free || adhesion.initial > 0.0));
+    }
+    if (adheres) continue;
+    model.slots[damping].free = false;
+    model.slots[damping].initial = 0.0;
+  }
+}
+
 long simulate_by_reference(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                            std::span<ImpactResult> results) {
   for (std::size_t i = 0; i < groups.size(); ++i) results[i] = simulate_impact(groups[i], options);
@@ -134,6 +149,7 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
         break;
     }
   }
+  fix_damping_of_nothing(model);
   return model;
 }
 

@@ -10,6 +10,8 @@ namespace recoil {
 struct MeasuredPoint {
   std::size_t dataset = 0;
   std::size_t series = 0;
+  std::size_t setting = 0;   ///< of the apparatus: points of one setting share its error
+  int line = 0;              ///< in the dataset's file of points
   double diameter = 0.0;     ///< [m]
   double velocity = 0.0;     ///< [m/s]
   double restitution = 0.0;  ///< mean e of the impacts that rebounded [1]

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "core/error.hpp"
 
@@ -39,7 +41,23 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
   if (spec.diameter_errors) {
     point.diameter_sd = p.diameter_sd.value_or(spec.diameter_relative_sd * p.diameter);
   }
+  point.line = p.line;
   return point;
+}
+
+/// Numbers the settings of all datasets. What states none shares it with the points of its series,
+/// diameter and velocity.
+void number_settings(const std::vector<Dataset>& datasets, Observations& data) {
+  std::map<std::tuple<std::size_t, std::string, std::size_t, double, double>, std::size_t> known;
+  std::size_t i = 0;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    for (const ImpactPoint& p : datasets[d].points) {
+      const auto key = p.setting.empty()
+                           ? std::tuple(d, std::string(), p.series, p.diameter, p.incident_velocity)
+                           : std::tuple(d, p.setting, std::size_t{0}, 0.0, 0.0);
+      data.points[i++].setting = known.try_emplace(key, known.size()).first->second;
+    }
+  }
 }
 
 /// A captured point says nothing of the scatter of e: where it states none, its impacts are taken
@@ -94,6 +112,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
       }
     }
   }
+  number_settings(datasets, data);
   if (spec.variance == VarianceFunction::stated && missing > 0) {
     throw InputError(
         variance_place,

@@ -262,6 +262,10 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
   left.left_out = leave_out_contradictions(stated, own);
   if (!left.left_out.empty()) notes.push_back(left);
   put_conditions(request, stated);
+  if (request.format == ImportFormat::heights) stated["method"] = name_of(Method::drop_heights);
+  if (request.format == ImportFormat::intervals) {
+    stated["method"] = name_of(Method::bounce_intervals);
+  }
   for (const auto& [key, value] : stated.items()) {
     if (key != "provenance") block[key] = value;
   }

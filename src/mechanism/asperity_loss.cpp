@@ -33,6 +33,8 @@ Mechanism asperity_loss() {
             .plausible = {0.0, 1e-11,
                           "a contact of 0.1 um that flows by 10 nm under 1 GPa takes 3e-13 J"},
             .starts = {1e-15, 1e-13, 1e-12}}},
+      .taken_away = TakenAway{Condition::surface_rms_roughness, 1e-9,
+                              "polish the target to a roughness of 1 nm"},
   });
 }
 

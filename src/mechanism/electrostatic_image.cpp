@@ -56,6 +56,7 @@ Mechanism electrostatic_image() {
                       .plausible = {0.0, 2.0,
                                     "0 for a fixed charge, 1 to 2 for what chargers give"},
                       .free = false}},
+      .taken_away = TakenAway{Condition::neutralised, 1.0, "neutralise the spheres"},
   });
 }
 

@@ -18,6 +18,7 @@ struct Surroundings {
   double reference_diameter = 0.0;  ///< where f0 is stated [m]
   double adhesion_energy = 0.0;     ///< W_A of the two bodies, see `ContactProperties` [J/m2]
   double wave_mobility = 0.0;       ///< D of `elastic_waves`, for a half-space [m s / N]
+  Method method = Method::unknown;  ///< how velocities were measured
 };
 
 /// @param contact derived from `system`

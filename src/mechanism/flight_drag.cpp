@@ -136,6 +136,8 @@ Mechanism flight_drag() {
                                       const double v = sphere.velocity;
                                       return v * v / (2.0 * earth_gravity) / 20.0;
                                     }}}},
+      .methods = {Method::drop_heights, Method::bounce_intervals},
+      .taken_away = TakenAway{Condition::ambient_pressure, 10.0, "pump the chamber to below 10 Pa"},
   });
 }
 

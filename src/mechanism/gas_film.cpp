@@ -116,6 +116,7 @@ Mechanism gas_film() {
             .plausible = {0.0, 1e-2,
                           "laser beams cross some sphere diameters to some mm above the surface"},
             .free = false}},
+      .taken_away = TakenAway{Condition::ambient_pressure, 10.0, "pump the chamber to below 10 Pa"},
   });
 }
 

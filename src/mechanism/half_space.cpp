@@ -71,6 +71,7 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
   s.reduced_modulus = 0.75 * contact.stiffness;
   s.reference_diameter = contact.reference_diameter;
   s.adhesion_energy = contact.adhesion_energy;
+  s.method = system.method;
   // Waves run in the surface: its own density, the sphere's only where none is stated.
   const Material& surface = system.surface;
   s.wave_mobility =

@@ -68,6 +68,7 @@ Mechanism height_origin() {
             .upper = 1.0,
             .plausible = {-1.0, 1.0, "an error of both heights is of one size"},
             .free = false}},
+      .methods = {Method::drop_heights},
   });
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -7,6 +9,7 @@
 #include <vector>
 
 #include "core/names.hpp"
+#include "data/condition.hpp"
 #include "mechanism/encounter.hpp"
 #include "mechanism/parameter.hpp"
 
@@ -38,6 +41,13 @@ enum class MechanismPlace {
   batch,      ///< what all points of a series share
 };
 
+/// A change of a condition under which a mechanism does nothing.
+struct TakenAway {
+  Condition condition = Condition::ambient_pressure;
+  double value = 0.0;      ///< in the unit of the condition
+  std::string_view doing;  ///< in a laboratory: "pump the chamber"
+};
+
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;
@@ -54,6 +64,9 @@ struct MechanismInfo {
   /// Is its strength a multiple of the dataset's own work of adhesion? Where that is 0 it does
   /// nothing.
   bool needs_adhesion = false;
+  /// The ways of measuring that can have it; empty: all.
+  std::vector<Method> methods = {};
+  std::optional<TakenAway> taken_away = {};  ///< by what, where a condition does it
 };
 
 /// The law of a mechanism for one number type; null where it does nothing. `own` holds its
@@ -85,7 +98,13 @@ struct Mechanism {
     return std::get<MechanismLaw<T>>(laws);
   }
   bool acts_at(const Surroundings& at) const {
-    return !info.needs_adhesion || at.adhesion_energy > 0.0;
+    if (info.needs_adhesion && !(at.adhesion_energy > 0.0)) return false;
+    return at.method == Method::unknown || can_be_of(at.method);
+  }
+  /// Can velocities that were measured so have it?
+  bool can_be_of(Method method) const {
+    return info.methods.empty() ||
+           std::find(info.methods.begin(), info.methods.end(), method) != info.methods.end();
   }
   bool spreads() const { return law<double>().vary != nullptr; }
   /// What acts in the contact is worked out on the ring law's.

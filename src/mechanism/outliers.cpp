@@ -38,6 +38,7 @@ Mechanism outliers() {
                       .upper = 0.9,
                       .plausible = {0.0, 0.2, "more than a fifth would show in every histogram"},
                       .starts = {0.1}}},
+      .methods = {Method::velocimeter},
   });
 }
 

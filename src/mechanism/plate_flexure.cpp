@@ -37,6 +37,10 @@ Mechanism plate_flexure() {
                 {0.0, 1e3,
                  "a silicon wafer of 0.5 mm has 0.1 s/kg, a mica sheet of 10 um some 300 s/kg"},
             .starts = {1.0, 10.0, 100.0}}},
+      .taken_away =
+          TakenAway{
+              Condition::target_thickness, 0.05,
+              "take a plate so thick (5 cm) that its waves do not come back during the contact"},
   });
 }
 

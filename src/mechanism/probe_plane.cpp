@@ -38,6 +38,10 @@ Mechanism probe_plane() {
                       .upper = 1e-1,
                       .plausible = {-2e-3, 5e-3, "beams are placed within some mm"},
                       .starts = {1e-3, -1e-4}}},
+      .methods = {Method::velocimeter},
+      .taken_away = TakenAway{Condition::probe_height, 0.0,
+                              "measure at the height of the surface, or correct for the fall from "
+                              "the measuring plane"},
   });
 }
 

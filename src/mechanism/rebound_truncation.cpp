@@ -65,6 +65,7 @@ Mechanism rebound_truncation() {
             .plausible = {0.01, 0.3, "5 to 10 % is usual, more just above capture"},
             .free = false,
             .is_scatter_of_rebounds = true}},
+      .methods = {Method::velocimeter, Method::video},
   });
 }
 

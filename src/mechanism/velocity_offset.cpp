@@ -51,6 +51,7 @@ Mechanism velocity_offset() {
                       .plausible = {-1.0, 1.0, "an error of both velocities is of one size"},
                       .starts = {-1.0},
                       .free = false}},
+      .methods = {Method::velocimeter},
   });
 }
 

@@ -129,6 +129,27 @@ Json next_json(const Diagnosis& d) {
   return out;
 }
 
+Json experiments_json(const Diagnosis& d) {
+  Json out = Json::array();
+  for (const NextExperiment& next : d.experiments) {
+    Json entry = {{"kind", to_string(next.kind)}};
+    if (next.kind == ExperimentKind::condition) {
+      entry["condition"] = to_string(next.condition);
+      entry["value"] = next.value;
+      entry["doing"] = next.doing;
+    }
+    entry["dataset"] = d.datasets[next.dataset].id;
+    entry["diameter_um"] = next.diameter / units::um;
+    entry["incident_velocity"] = next.velocity;
+    entry["events"] = next.events;
+    entry["separates"] = {next.one, next.other};
+    entry["expected_difference"] = number_or_null(next.difference);
+    entry["expected_log_odds"] = number_or_null(next.log_odds);
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
 /// Each with whether it would do in place of the answer, or beside it.
 Json unstated_json(const Diagnosis& d) {
   const std::vector<UnstatedErrors> rivals = rival_errors(d);
@@ -143,6 +164,20 @@ Json unstated_json(const Diagnosis& d) {
                    {"remaining_p", errors.remaining_p},
                    {"leave_nothing", errors.leave_nothing()},
                    {"rival", rival}});
+  }
+  return out;
+}
+
+/// `row` is the line in the dataset's file of points.
+Json outlying_json(const Diagnosis& d) {
+  Json out = Json::array();
+  for (const OutlyingPoint& point : d.outlying) {
+    out.push_back({{"dataset", d.datasets[point.dataset].id},
+                   {"row", point.line},
+                   {"diameter_um", point.diameter / units::um},
+                   {"incident_velocity", point.velocity},
+                   {"restitution", point.restitution},
+                   {"residual", number_or_null(point.residual)}});
   }
   return out;
 }
@@ -178,6 +213,13 @@ std::string diagnosis_json(const Diagnosis& d) {
   out["misfit"]["where"] = Json::array();
   for (const MisfitCell& cell : d.where) out["misfit"]["where"].push_back(cell_json(d, cell));
   out["misfit"]["free_form_remaining_p"] = d.free_form_p;
+  out["outlying_points"] = outlying_json(d);
+  out["with_outlying_points"] = d.for_all ? Json{{"verdict", to_string(d.for_all->verdict)},
+                                                 {"named", d.for_all->named},
+                                                 {"rivals", d.for_all->rivals},
+                                                 {"resembles", d.for_all->resembles}}
+                                          : Json(nullptr);
+  out["law_error"] = d.spec.law_error;
   out["named"] = d.named;
   out["rivals"] = d.rivals;
   out["resembles"] = d.resembles;
@@ -192,6 +234,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       d.extended_fit ? fit_json(*d.extended_fit, d.extended_intervals) : Json(nullptr);
   out["capture_velocity"] = capture_json(d);
   out["next_measurement"] = next_json(d);
+  out["next_experiment"] = experiments_json(d);
   out["unstated_errors"] = unstated_json(d);
   out["settings"] = {
       {"level", d.options.level},       {"chance", d.options.chance},

@@ -162,6 +162,21 @@ std::string common_words(const Diagnosis& d) {
   return text + ".";
 }
 
+/// The change of a condition that would tell most for its effort, where one tells anything.
+std::string change_words(const Diagnosis& d) {
+  const auto change = std::find_if(
+      d.experiments.begin(), d.experiments.end(),
+      [](const NextExperiment& next) { return next.kind == ExperimentKind::condition; });
+  if (change == d.experiments.end()) return "";
+  return fmt::format(
+      " Or change something: {}, and repeat {} impact{} of {} at {:.3g} m/s. If it is {}, e "
+      "changes "
+      "there by {:.2g}; if it is {}, it does not.",
+      change->doing, change->events, change->events == 1 ? "" : "s",
+      diameter_words(change->diameter), change->velocity, change->one, std::abs(change->difference),
+      change->other);
+}
+
 std::string next_words(const Diagnosis& d) {
   if (d.next.empty()) return "";
   const std::string taken = d.extended->candidate.name();
@@ -232,6 +247,13 @@ std::string found_words(const Diagnosis& d) {
 }
 
 std::string errors_words(const UnstatedErrors& errors) {
+  if (errors.source == ErrorSource::shared_setting) {
+    return fmt::format(
+        "an error of {:.2g} in e that all points of one setting of the apparatus have in common "
+        "leaves nothing systematic (p = {:.2g}): what is repeated at one setting says nothing more "
+        "of it",
+        errors.value, errors.remaining_p);
+  }
   return errors.source == ErrorSource::velocity_errors
              ? fmt::format(
                    "velocities uncertain by {:.2g} % each (velocity_relative_sd = {:.2g} "
@@ -256,6 +278,54 @@ std::string rival_errors_words(const Diagnosis& d) {
                                                                behind)
                                                  : "as well",
                      fmt::join(words, "; "));
+}
+
+std::string verdict_words(const AnswerForAll& answer) {
+  const std::string verdict = to_string(answer.verdict);
+  const std::vector<std::string>& ids = !answer.named.empty()    ? answer.named
+                                        : !answer.rivals.empty() ? answer.rivals
+                                                                 : answer.resembles;
+  return ids.empty() ? verdict : fmt::format("{} ({})", verdict, fmt::join(ids, ", "));
+}
+
+/// What knowing how velocities were measured would exclude.
+std::string method_words(const Diagnosis& d) {
+  const bool unknown =
+      std::any_of(d.datasets.begin(), d.datasets.end(),
+                  [](const Dataset& dataset) { return dataset.system.method == Method::unknown; });
+  std::vector<std::string> words;
+  for (const auto* ids : {&d.named, &d.rivals, &d.resembles}) {
+    for (const std::string& id : *ids) {
+      const Mechanism* const mechanism = find_mechanism(id);
+      if (mechanism == nullptr || mechanism->info.methods.empty()) continue;
+      std::vector<std::string_view> methods;
+      for (const Method method : mechanism->info.methods) methods.push_back(name_of(method));
+      words.push_back(fmt::format("{} only with {}", id, fmt::join(methods, " or ")));
+    }
+  }
+  if (!unknown || words.empty()) return "";
+  return fmt::format(
+      " The dataset does not say how velocities were measured (recoil.method), which would decide "
+      "about some of these: {}.",
+      fmt::join(words, ", "));
+}
+
+/// Which points were set aside, and what the answer would be with them; empty where none were.
+std::string outlying_words(const Diagnosis& d) {
+  if (d.outlying.empty()) return "";
+  std::vector<std::string> rows;
+  for (const OutlyingPoint& point : d.outlying) {
+    rows.push_back(fmt::format(
+        "line {}{} ({} at {:.3g} m/s, e = {:.3g}: {:+.1f} standard deviations)", point.line,
+        d.datasets.size() > 1 ? " of " + d.datasets[point.dataset].id : "",
+        diameter_words(point.diameter), point.velocity, point.restitution, point.residual));
+  }
+  return fmt::format(
+      " {} so far from what the others predict that {} set aside: {}. With {} the answer would be "
+      "{}.",
+      rows.size() == 1 ? "One point lies" : fmt::format("{} points lie", rows.size()),
+      rows.size() == 1 ? "it was" : "they were", fmt::join(rows, "; "),
+      rows.size() == 1 ? "it" : "them", verdict_words(*d.for_all));
 }
 
 std::string unexplained_words(const Diagnosis& d) {
@@ -298,9 +368,9 @@ std::string words_of(StructureQuestion question) {
 std::string fold_words(const Fold& fold, const std::vector<Dataset>& datasets) {
   switch (fold.kind) {
     case FoldKind::size: {
-      const double lower = fold.lower / units::um, upper = fold.upper / units::um;
-      return fold.lower < fold.upper ? fmt::format("{:.3g} to {:.3g} um", lower, upper)
-                                     : fmt::format("{:.3g} um", lower);
+      return fold.lower < fold.upper
+                 ? fmt::format("{} to {}", diameter_words(fold.lower), diameter_words(fold.upper))
+                 : diameter_words(fold.lower);
     }
     case FoldKind::velocity:
       return fmt::format("{:.3g} to {:.3g} m/s", fold.lower, fold.upper);
@@ -369,7 +439,7 @@ std::string answer_words(const Diagnosis& d) {
                "The model describes these points: nothing systematic is left in its residuals ({}; "
                "of data sets that the model itself makes, so many look as systematic).",
                p) +
-           evidence_words(d);
+           evidence_words(d) + outlying_words(d);
   }
   std::string text =
       fmt::format("The fitted model leaves structure in its residuals ({}){}. ", p, found_words(d));
@@ -396,7 +466,7 @@ std::string answer_words(const Diagnosis& d) {
       text += common_words(d) + one_size_words(d);
       text += fmt::format(" The extended model takes {}: {}.", d.extended->candidate.name(),
                           parameters_words(*d.extended));
-      text += gain_words(d) + next_words(d);
+      text += gain_words(d) + next_words(d) + change_words(d);
       break;
     case Verdict::unexplained:
       text += !d.resembles.empty() ? resembling_words(d)
@@ -411,7 +481,7 @@ std::string answer_words(const Diagnosis& d) {
     case Verdict::adequate:
       break;
   }
-  return text + rival_errors_words(d) + impossible_words(d);
+  return text + rival_errors_words(d) + impossible_words(d) + method_words(d) + outlying_words(d);
 }
 
 }  // namespace recoil

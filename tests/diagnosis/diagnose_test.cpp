@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
+#include <string>
 
 #include "core/error.hpp"
 #include "diagnosis/extended_toml.hpp"
@@ -77,6 +80,59 @@ TEST(Diagnose, NamesNothingAtOneSize) {
   const Diagnosis found = diagnose(synthetic::spec(), {data}, quick());
   EXPECT_NE(found.verdict, Verdict::cause_named);
   EXPECT_EQ(found.shared_cause, "");
+}
+
+TEST(Diagnose, ALimitDoesNotPromoteAWorseCause) {
+  // A velocimeter that reads 0.35 m/s too much, both ways: more than one can be off by. Something
+  // else may come next, but is not it.
+  const Diagnosis found = diagnose(synthetic::spec(),
+                                   {noisy(3, 0.004,
+                                          [](const ImpactPoint& point, double e) {
+                                            const double V = point.incident_velocity;
+                                            return (e * (V - 0.35) + 0.35) / V;
+                                          })},
+                                   quick());
+  EXPECT_EQ(found.verdict, Verdict::unexplained);
+  EXPECT_TRUE(found.named.empty());
+  EXPECT_TRUE(found.rivals.empty());
+  EXPECT_NE(std::find(found.resembles.begin(), found.resembles.end(), "velocity_offset"),
+            found.resembles.end());
+}
+
+TEST(Diagnose, OffsetsThatRunSmoothlyWithSizeAreNoBatch) {
+  // e lower by a smooth function of the diameter that no mechanism of the catalogue makes.
+  const Diagnosis found = diagnose(synthetic::spec(),
+                                   {noisy(4, 0.004,
+                                          [](const ImpactPoint& point, double e) {
+                                            return e - 0.05 * std::log(point.diameter / 2.58e-6);
+                                          })},
+                                   quick());
+  EXPECT_NE(found.verdict, Verdict::cause_named);
+  for (const CandidateResult& c : found.candidates) {
+    if (c.candidate.name() == "series_offset") {
+      EXPECT_EQ(c.set_aside, SetAside::batch_is_size);
+    }
+  }
+}
+
+TEST(Diagnose, ConsidersOnlyErrorsThatTheMethodCanHave) {
+  Dataset data = noisy(1, 0.008, by_series);
+  const auto tried = [&](Method method) {
+    data.system.method = method;
+    std::set<std::string> ids;
+    for (const CandidateResult& c : diagnose(synthetic::spec(), {data}, quick()).candidates) {
+      ids.insert(c.candidate.name());
+    }
+    return ids;
+  };
+  const std::set<std::string> heights = tried(Method::drop_heights);
+  EXPECT_TRUE(heights.contains("height_origin"));
+  EXPECT_FALSE(heights.contains("velocity_offset"));
+  EXPECT_FALSE(heights.contains("probe_plane"));
+  EXPECT_TRUE(heights.contains("plastic_yield"));
+  const std::set<std::string> velocimeter = tried(Method::velocimeter);
+  EXPECT_FALSE(velocimeter.contains("height_origin"));
+  EXPECT_TRUE(velocimeter.contains("velocity_offset"));
 }
 
 TEST(Diagnose, PointsAtTheOnePointThatIsOff) {

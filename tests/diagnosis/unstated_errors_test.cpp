@@ -1,5 +1,6 @@
 #include "diagnosis/unstated_errors.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,6 +63,25 @@ std::vector<UnstatedErrors> asked(const Dataset& data) {
   const FitSpec spec = synthetic::spec();
   const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
   return unstated_errors(search_base(spec, datasets, fitted, quick()));
+}
+
+/// Ten drops from each of six heights, each height set wrong by `shared` in e.
+Dataset drops(unsigned seed, double shared) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Dataset data = synthetic::dataset({});
+  data.points.clear();
+  data.series = {"drops"};
+  for (const double velocity : {5.0, 8.0, 13.0, 20.0, 33.0, 50.0}) {
+    const double set_wrong = shared * normal(random);
+    for (int drop = 0; drop < 10; ++drop) {
+      ImpactPoint point = impact(4.9e-6, velocity);
+      point.series = 0;
+      point.restitution += set_wrong + stated_sd * normal(random);
+      data.points.push_back(point);
+    }
+  }
+  return data;
 }
 
 bool counts_errors(const Diagnosis& found) { return !rival_errors(found).empty(); }
@@ -139,6 +159,39 @@ TEST(UnstatedErrors, VelocityErrorsAreNotAskedForWhereTheyAreStated) {
   ASSERT_NE(find(asked(data), ErrorSource::velocity_errors), nullptr);
   for (ImpactPoint& point : data.points) point.velocity_sd = 0.002 * point.incident_velocity;
   EXPECT_EQ(find(asked(data), ErrorSource::velocity_errors), nullptr);
+}
+
+TEST(UnstatedErrors, OfASettingAreSharedByItsPoints) {
+  const std::vector<UnstatedErrors> all = asked(drops(1, 0.02));
+  const UnstatedErrors* const shared = find(all, ErrorSource::shared_setting);
+  ASSERT_NE(shared, nullptr);
+  EXPECT_TRUE(shared->leave_nothing());
+  // Of six draws, two of them taken by C_H and C_A: within a factor of 2.2 nearly always.
+  EXPECT_GT(shared->value, 0.02 / 2.2);
+  EXPECT_LT(shared->value, 0.02 * 2.2);
+}
+
+TEST(UnstatedErrors, OfASettingAreNotSeenWhereThereAreNone) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const std::vector<UnstatedErrors> all = asked(drops(seed, 0.0));
+    const UnstatedErrors* const shared = find(all, ErrorSource::shared_setting);
+    EXPECT_LT(shared == nullptr ? 0.0 : shared->value, stated_sd) << seed;
+  }
+}
+
+TEST(UnstatedErrors, AColumnSaysWhichPointsShareASetting) {
+  // The same heights measured on two days: by the column the day is the setting, and its points,
+  // off together at all heights, share an error that no setting of one height knows.
+  Dataset data = drops(2, 0.0);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    data.points[i].setting = fmt::format("day {}", i % 6);
+    data.points[i].restitution += i % 2 == 0 ? 0.02 : -0.02;
+  }
+  const std::vector<UnstatedErrors> all = asked(data);
+  const UnstatedErrors* const shared = find(all, ErrorSource::shared_setting);
+  ASSERT_NE(shared, nullptr);
+  EXPECT_NEAR(shared->value, 0.02, 0.01);
+  EXPECT_LT(shared->delta_aicc, -100.0);
 }
 
 }  // namespace

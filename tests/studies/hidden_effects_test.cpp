@@ -81,6 +81,38 @@ std::vector<Question> nothing_hidden() {
   return all;
 }
 
+/// Laws that are wrong by a smooth factor of 10 %: right, or listed, or its shape recognised.
+std::vector<Question> bent_laws() {
+  std::vector<Question> all;
+  for (const char* effect : {"plastic_yield", "gas_film", "asperity_loss"}) {
+    all.push_back({{"wall", {effect}, 20.0, 0}, {Mark::named, Mark::inside, Mark::resembled}});
+    all.back().order.law_bend = 0.1;
+  }
+  return all;
+}
+
+/// Losses of the base model that are wrong by 3 % are no alarm.
+std::vector<Question> bent_base() {
+  std::vector<Question> all;
+  for (const char* design : {"wall", "li"}) {
+    for (std::uint64_t i = 0; i < 2; ++i) {
+      all.push_back({{design, {}, 0.0, i}, {Mark::nothing}});
+      all.back().order.base_bend = 0.03;
+    }
+  }
+  return all;
+}
+
+/// What cannot be is not named, and neither is something else in its place.
+std::vector<Question> impossible_sizes() {
+  std::vector<Question> all;
+  for (const char* effect : {"velocity_offset", "probe_plane"}) {
+    all.push_back({{"wall", {effect}, 0.0, 0}, {Mark::resembled, Mark::unexplained, Mark::inside}});
+    all.back().order.beyond = 3.0;
+  }
+  return all;
+}
+
 std::vector<Question> outside_the_catalogue() {
   return {{{"wall", {"dip"}, 20.0, 0}, {Mark::unexplained}},
           {{"wall", {"wave"}, 20.0, 0}, {Mark::unexplained}}};
@@ -106,6 +138,9 @@ TEST(CarelessBar, ErrorsThatNobodyStatedAreToldAndNoCauseIs) {
 INSTANTIATE_TEST_SUITE_P(ClearCause, Bar, testing::ValuesIn(clear_causes()), test_name);
 INSTANTIATE_TEST_SUITE_P(CloseCause, Bar, testing::ValuesIn(close_causes()), test_name);
 INSTANTIATE_TEST_SUITE_P(NothingHidden, Bar, testing::ValuesIn(nothing_hidden()), test_name);
+INSTANTIATE_TEST_SUITE_P(BentLaw, Bar, testing::ValuesIn(bent_laws()), test_name);
+INSTANTIATE_TEST_SUITE_P(BentBase, Bar, testing::ValuesIn(bent_base()), test_name);
+INSTANTIATE_TEST_SUITE_P(Impossible, Bar, testing::ValuesIn(impossible_sizes()), test_name);
 INSTANTIATE_TEST_SUITE_P(Outside, Bar, testing::ValuesIn(outside_the_catalogue()), test_name);
 INSTANTIATE_TEST_SUITE_P(OneDiameter, Bar, testing::ValuesIn(one_diameter()), test_name);
 
