@@ -29,6 +29,11 @@ struct CaptureChange {
   std::optional<double> base, extended;  ///< [m/s]; none where nothing is captured
 };
 
+/// Exact materials would leave structure where those within their errors leave none.
+struct MaterialsExplain {
+  double p_value_exact = 1.0;  ///< of the structure that exact materials leave
+};
+
 /// What `diagnose` finds.
 struct Diagnosis {
   DiagnosisOptions options;
@@ -56,6 +61,7 @@ struct Diagnosis {
   std::vector<CaptureChange> capture;
   std::vector<NextMeasurement> next;
   std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate
+  std::optional<MaterialsExplain> materials;  ///< of an adequate model, where its constants matter
   std::string outdone;  ///< the best explanation, where unstated errors do better; else empty
   /// What a reader has to know about the points: for reconstructions, what their recipe put there.
   std::vector<std::string> remarks;

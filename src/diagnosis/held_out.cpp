@@ -117,8 +117,9 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
     const Refit refit = refit_candidate(candidate, seen, near, 2);
     if (!refit.usable) return;
     const LeastSquaresProblem problem = impact_problem(candidate.model, unseen);
-    std::vector<double> residuals(unseen.points.size());
+    std::vector<double> residuals(problem.residual_count);
     if (!problem.evaluate(refit.theta, residuals, {})) return;
+    residuals.resize(unseen.points.size());
     std::vector<PointConditions> conditions;
     for (const Observation& point : unseen.points) {
       conditions.push_back({point.dataset, point.diameter, point.velocity, point.series});
