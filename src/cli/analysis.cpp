@@ -33,6 +33,7 @@ UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOption
       options.replicates_auto || (spec.uncertainty.replicates_auto && !options.replicates);
   assess.scheme = options.scheme.value_or(spec.uncertainty.scheme);
   assess.level = spec.uncertainty.level;
+  assess.posterior = spec.uncertainty.posterior;
   assess.seed = options.seed.value_or(spec.uncertainty.seed);
   assess.threads = options.threads;
   assess.keep = replicates_file(options.folder);

@@ -7,6 +7,7 @@
 #include "cli/common_options.hpp"
 #include "core/files.hpp"
 #include "report/json_report.hpp"
+#include "report/posterior_report.hpp"
 
 namespace recoil {
 
@@ -31,7 +32,10 @@ void add_fit(CLI::App& program) {
     resolved.folder = *out;
     const Analysis analysis = analyse(load_inputs(*fit_file), resolved);
     if (!out->empty()) {
-      write_whole_file(std::filesystem::path(*out) / "fit.json", json_report(analysis));
+      const std::filesystem::path folder = *out;
+      write_whole_file(folder / "fit.json", json_report(analysis));
+      const std::string draws = posterior_csv(analysis);
+      if (!draws.empty()) write_whole_file(folder / "posterior.csv", draws);
       forget_replicates(*out);
     }
     fmt::print("{}", text_report(analysis));

@@ -38,6 +38,8 @@ void predict_sizes(const PredictOptions& options) {
   assess.profile = false;
   assess.curves = false;
   assess.two_point = false;
+  assess.budget = false;
+  assess.posterior = false;
   analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
 
   PolydisperseOptions mix;

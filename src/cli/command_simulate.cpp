@@ -38,15 +38,17 @@ struct SimulateOptions {
 /// Replaces the fit file's initial values by the values of a fit.json.
 void take_fitted_values(ImpactModel& model, const std::string& path) {
   const std::string text = read_text_file(path);
-  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("parameters")) {
     throw InputError({path}, "there are no fitted parameters in this file",
                      "--parameters reads a fit.json", "make one with recoil fit FIT --out DIR");
   }
   for (ParameterSlot& slot : model.slots) {
-    const auto found = json["parameters"].find(slot.label());
-    if (found == json["parameters"].end() || !found->contains("value") ||
-        !(*found)["value"].is_number()) {
+    // An adhesion that follows the materials does so from what is stated of them.
+    if (slot.derived && !slot.free && !model.constants.empty()) continue;
+    const nlohmann::json& table = slot.is_constant() ? json["constants"] : json["parameters"];
+    const auto found = table.find(slot.label());
+    if (found == table.end() || !found->contains("value") || !(*found)["value"].is_number()) {
       throw InputError({path}, fmt::format("the parameter {} is missing", slot.label()),
                        "this is the result of another fit", "use the fit.json of this fit file");
     }

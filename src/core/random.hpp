@@ -12,6 +12,8 @@ enum class RandomPurpose : std::uint32_t {
   two_point_pairs = 4,
   diagnosis = 5,
   held_out = 6,
+  constants = 7,
+  posterior = 8,
 };
 
 /// A reproducible stream of random numbers that is a pure function of (seed, purpose, replicate):

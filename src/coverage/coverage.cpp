@@ -18,6 +18,7 @@ namespace {
 /// One data set's intervals, kept only as long as it takes to count them.
 struct Trial {
   bool usable = false;
+  CoverageTruth::At truth;
   int refits_failed = 0;
   std::vector<IntervalSet> intervals;
   std::vector<ParameterIdentifiability> identifiable;
@@ -34,9 +35,12 @@ Trial run_trial(const FitSpec& spec, const CoverageTruth& truth, const Uncertain
   own.seed = options.seed + index;
   own.threads = 1;  // the data sets themselves run in parallel
   own.curves = false;
+  own.budget = false;
+  own.posterior = false;
   own.two_point = false;
   const UncertaintyResult result = assess_uncertainty(fitted, datasets, own);
   trial.usable = true;
+  trial.truth = truth.at ? truth.at(index) : CoverageTruth::At{truth.theta, truth.capture};
   trial.refits_failed = result.bootstrap.failed;
   trial.intervals = result.intervals;
   trial.identifiable = result.identifiability.parameter;
@@ -45,8 +49,8 @@ Trial run_trial(const FitSpec& spec, const CoverageTruth& truth, const Uncertain
 }
 
 /// Counts over the usable trials; `interval_of` and `identifiable` look into one of them.
-template <class IntervalOf, class Identifiable>
-CoverageCell count(const std::vector<Trial>& trials, std::string_view name, double truth,
+template <class TruthOf, class IntervalOf, class Identifiable>
+CoverageCell count(const std::vector<Trial>& trials, std::string_view name, const TruthOf& truth_of,
                    const IntervalOf& interval_of, const Identifiable& identifiable) {
   CoverageCell cell;
   cell.interval = name;
@@ -55,7 +59,7 @@ CoverageCell count(const std::vector<Trial>& trials, std::string_view name, doub
     if (!trial.usable) continue;
     const Interval& interval = interval_of(trial);
     if (!interval.available()) continue;
-    const int held = interval.contains(truth) ? 1 : 0;
+    const int held = interval.contains(truth_of(trial)) ? 1 : 0;
     ++cell.offered;
     cell.held += held;
     if (identifiable(trial)) {
@@ -103,7 +107,7 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
     }
     const auto add = [&](std::string_view name, const auto& of) {
       row.cells.push_back(count(
-          trials, name, row.truth,
+          trials, name, [j](const Trial& t) { return t.truth.theta[j]; },
           [&](const Trial& t) -> const Interval& { return of(t.intervals[j]); },
           [&](const Trial& t) { return t.identifiable[j].identifiable; }));
     };
@@ -120,7 +124,7 @@ CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
     row.truth = truth.capture[k].velocity;
     const auto add = [&](std::string_view name, const auto& of) {
       row.cells.push_back(count(
-          trials, name, row.truth,
+          trials, name, [k](const Trial& t) { return t.truth.capture[k].velocity; },
           [&](const Trial& t) -> const Interval& { return of(t.capture[k]); },
           // V* has no verdict of its own but what stands beside its interval.
           [&](const Trial& t) { return !t.capture[k].interval.note; }));

@@ -62,9 +62,16 @@ struct CoverageTruth {
     double diameter = 0.0;  ///< [m]
     double velocity = 0.0;  ///< V* [m/s]
   };
+  struct At {
+    std::vector<double> theta;     ///< [slots]
+    std::vector<Capture> capture;  ///< in the order of UncertaintyResult::capture
+  };
   TruthOrigin origin = TruthOrigin::estimate;
-  std::vector<double> theta;     ///< [slots]
+  std::vector<double> theta;     ///< [slots]; the constants of the materials as stated
   std::vector<Capture> capture;  ///< in the order of UncertaintyResult::capture
+  /// Where constants of the materials are uncertain every simulation has a truth of its own, drawn
+  /// from their errors: that of simulation number `index`. Empty: all have the one above.
+  std::function<At(std::uint64_t index)> at;
   /// The data sets of simulation number `index`; called from any thread.
   std::function<std::vector<Dataset>(std::uint64_t index)> simulate;
 };

@@ -43,6 +43,52 @@ void add_capture_velocities(CoverageTruth& truth, const std::vector<Dataset>& da
   }
 }
 
+Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::size_t dataset) {
+  const ContactProperties& contact = model.contacts[dataset];
+  const MaterialState materials = materials_under(model, theta, dataset);
+  RingAdhesionTruth truth;
+  truth.density = materials.density;
+  truth.stiffness = materials.stiffness;
+  truth.adhesion_force = adhesion_force_under(model, theta, dataset);
+  truth.reference_diameter = contact.reference_diameter;
+  truth.C_H = theta[model.slot_C_H[dataset]];
+  truth.C_A = theta[model.slot_C_A[dataset]];
+  truth.damped_in_both_phases = model.phase == AdhesionDampingPhase::both;
+  return truth;
+}
+
+/// theta with the constants of the materials drawn from their errors about what is stated.
+std::vector<double> with_drawn_constants(const ImpactModel& model, std::vector<double> theta,
+                                         std::uint64_t seed, std::uint64_t index) {
+  RandomStream random(seed, RandomPurpose::constants, ~index);
+  for (std::size_t k = 0; k < model.constants.size(); ++k) {
+    const UncertainConstant& constant = model.constants[k];
+    const double by = constant.sd * random.normal();
+    const std::size_t slot = model.first_constant() + k;
+    const double value =
+        is_positive(constant.constant) ? constant.stated * std::exp(by) : constant.stated + by;
+    theta[slot] = std::clamp(value, model.slots[slot].lower, model.slots[slot].upper);
+  }
+  return theta;
+}
+
+std::vector<Truth> truths_at(const ImpactModel& model, std::span<const double> theta) {
+  std::vector<Truth> truths;
+  for (std::size_t d = 0; d < model.contacts.size(); ++d) {
+    truths.push_back(truth_at(model, theta, d));
+  }
+  return truths;
+}
+
+CoverageTruth::At drawn_truth(const ImpactModel& model, const std::vector<double>& theta,
+                              const std::vector<Dataset>& datasets, std::uint64_t seed,
+                              std::uint64_t index) {
+  CoverageTruth drawn;
+  drawn.theta = with_drawn_constants(model, theta, seed, index);
+  add_capture_velocities(drawn, datasets, truths_at(model, drawn.theta));
+  return {drawn.theta, drawn.capture};
+}
+
 CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& datasets,
                            std::vector<KnownRecipe> recipes, std::uint64_t seed) {
   CoverageTruth truth;
@@ -58,26 +104,24 @@ CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& data
   }
   add_capture_velocities(truth, datasets, truths);
   const auto shared = std::make_shared<const std::vector<KnownRecipe>>(std::move(recipes));
-  truth.simulate = [datasets, shared, seed](std::uint64_t index) {
+  truth.simulate = [datasets, shared, seed, model, theta = truth.theta](std::uint64_t index) {
+    std::vector<Truth> drawn;
+    if (!model.constants.empty()) {
+      drawn = truths_at(model, with_drawn_constants(model, theta, seed, index));
+    }
     std::vector<Dataset> made;
     for (std::size_t d = 0; d < datasets.size(); ++d) {
-      made.push_back(regenerate(datasets[d], (*shared)[d].recipe, seed + 1 + index));
+      Recipe recipe = (*shared)[d].recipe;
+      if (!drawn.empty()) recipe.truth = drawn[d];
+      made.push_back(regenerate(datasets[d], recipe, seed + 1 + index));
     }
     return made;
   };
-  return truth;
-}
-
-Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::size_t dataset) {
-  const ContactProperties& contact = model.contacts[dataset];
-  RingAdhesionTruth truth;
-  truth.density = contact.particle_density;
-  truth.stiffness = contact.stiffness;
-  truth.adhesion_force = theta[model.slot_adhesion[dataset]];
-  truth.reference_diameter = contact.reference_diameter;
-  truth.C_H = theta[model.slot_C_H[dataset]];
-  truth.C_A = theta[model.slot_C_A[dataset]];
-  truth.damped_in_both_phases = model.phase == AdhesionDampingPhase::both;
+  if (!model.constants.empty()) {
+    truth.at = [datasets, model, seed, theta = truth.theta](std::uint64_t index) {
+      return drawn_truth(model, theta, datasets, seed, index);
+    };
+  }
   return truth;
 }
 
@@ -139,9 +183,17 @@ std::vector<DesignPoint> design_points(const FitResult& fitted, const std::vecto
 }
 
 /// The point as an experiment at the truth would find it another time.
-void simulate_point(const DesignPoint& design, double spread, RandomStream& random,
-                    ImpactPoint& point) {
+/// @param other_truth whether spheres may be captured here that were not, and the other way round
+void simulate_point(const DesignPoint& design, double spread, bool other_truth, bool sd_stated,
+                    RandomStream& random, ImpactPoint& point) {
   const double noise = random.normal();
+  if (!design.curve && other_truth) {
+    const bool back = design.restitution > 0.0;
+    point.captured = back ? 0 : point.events;
+    point.restitution = back ? std::max(0.0, design.restitution + design.sd * noise) : 0.0;
+    if (back && sd_stated) point.restitution_sd = design.sd;
+    return;
+  }
   if (!design.curve) {
     if (!point.all_captured()) {
       point.restitution = std::max(0.0, design.restitution + design.sd * noise);
@@ -171,16 +223,31 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
   add_capture_velocities(truth, datasets, truths);
   RandomStream random(seed, RandomPurpose::coverage, ~std::uint64_t{0});
   const double spread = fitted.data.noise.event_spread;
-  truth.simulate = [datasets, seed, spread,
-                    design = design_points(fitted, truths, random)](std::uint64_t index) {
+  const auto known =
+      std::make_shared<const std::vector<DesignPoint>>(design_points(fitted, truths, random));
+  truth.simulate = [datasets, seed, spread, known, fit = fitted](std::uint64_t index) {
+    std::vector<DesignPoint> design = *known;
+    const bool other_truth = !fit.model.constants.empty();
+    if (other_truth) {
+      const auto theta = with_drawn_constants(fit.model, fit.theta, seed, index);
+      RandomStream own(seed, RandomPurpose::coverage, ~index);
+      design = design_points(fit, truths_at(fit.model, theta), own);
+    }
     auto next = design.begin();
     RandomStream noise(seed, RandomPurpose::coverage, index);
     std::vector<Dataset> made = datasets;
     for (Dataset& dataset : made) {
-      for (ImpactPoint& point : dataset.points) simulate_point(*next++, spread, noise, point);
+      for (ImpactPoint& point : dataset.points) {
+        simulate_point(*next++, spread, other_truth, fit.data.sd_stated, noise, point);
+      }
     }
     return made;
   };
+  if (!fitted.model.constants.empty()) {
+    truth.at = [datasets, seed, fit = fitted](std::uint64_t index) {
+      return drawn_truth(fit.model, fit.theta, datasets, seed, index);
+    };
+  }
   return truth;
 }
 
@@ -212,9 +279,7 @@ EstimatedTruth truth_at_estimate(const FitSpec& spec, const std::vector<Dataset>
   if (!found.fitted.usable) {
     throw ComputationError("no truth to simulate: " + found.fitted.failure);
   }
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    found.truths.push_back(truth_at(found.fitted.model, found.fitted.theta, d));
-  }
+  found.truths = truths_at(found.fitted.model, found.fitted.theta);
   return found;
 }
 

@@ -40,6 +40,8 @@ class JsonNode {
   /// All items of a list. @throws InputError when this is not a list.
   std::vector<JsonNode> items() const;
 
+  bool is_object() const { return value_->is_object(); }
+
   /// @throws InputError when this is not a string (a number).
   std::string string() const;
   double number() const;

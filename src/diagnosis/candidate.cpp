@@ -201,7 +201,7 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
   std::vector<double> carried = to.initial();
   for (std::size_t j = 0; j < carried.size(); ++j) {
     const auto found = values.find(to.slots[j].label());
-    if (found != values.end() && to.slots[j].free) carried[j] = found->second;
+    if (found != values.end() && to.slots[j].moves()) carried[j] = found->second;
   }
   return carried;
 }
@@ -209,7 +209,14 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 Refit refit_candidate(const Candidate& candidate, const Observations& data,
                       std::span<const double> near, int tries,
                       std::shared_ptr<const Discrepancy> discrepancy) {
-  const LeastSquaresProblem problem = whitened(impact_problem(candidate.model, data), *discrepancy);
+  // Models are compared under the errors that are stated, of the points and of the constants.
+  Observations stated;
+  if (data.constants_weight != 1.0) {
+    stated = data;
+    stated.constants_weight = 1.0;
+  }
+  const LeastSquaresProblem problem = whitened(
+      impact_problem(candidate.model, data.constants_weight != 1.0 ? stated : data), *discrepancy);
   const std::vector<double> first(near.begin(), near.end());
   const auto most = static_cast<std::size_t>(tries);
   std::vector<std::vector<double>> starts =
@@ -232,10 +239,22 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
     best.theta = std::move(run.theta);
     best.chi2 = run.sum_of_squares;
     best.residuals = std::move(run.residuals);
+    best.residuals.resize(data.points.size());
     best.jacobian = std::move(run.jacobian);
     best.moving.assign(best.theta.size(), false);
     for (std::size_t j = 0; j < best.theta.size(); ++j) {
       best.moving[j] = candidate.model.slots[j].free && !run.at_bound[j];
+    }
+    // A constant of the materials moves where the points say more of it than what is stated.
+    const std::size_t p = best.theta.size();
+    for (std::size_t k = 0; k < candidate.model.constants.size(); ++k) {
+      const std::size_t j = candidate.model.first_constant() + k;
+      double information = 0.0;
+      for (std::size_t i = 0; i < data.points.size(); ++i) {
+        information += best.jacobian[i * p + j] * best.jacobian[i * p + j];
+      }
+      const double stated_alone = best.jacobian[(data.points.size() + k) * p + j];
+      best.moving[j] = information > stated_alone * stated_alone && !run.at_bound[j];
     }
   }
   return best;

@@ -150,6 +150,7 @@ std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const Diagnos
   options.capture = false;
   options.two_point = false;
   options.pair_simulations = 0;
+  options.budget = false;
   return assess_uncertainty(fitted, diagnosis.datasets, options).intervals;
 }
 
@@ -267,6 +268,23 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   if (diagnosis.extended) extend(base, diagnosis);
 }
 
+/// Is it the errors of the materials that make the model adequate?
+std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
+  if (diagnosis.base.model.constants.empty()) return std::nullopt;
+  FitSpec exact = diagnosis.spec;
+  exact.uncertainty.materials = false;
+  const FitResult fitted =
+      fit(make_model(exact, diagnosis.datasets), gather(diagnosis.datasets, exact.noise));
+  if (!fitted.usable) return std::nullopt;
+  const SearchBase base = search_base(exact, diagnosis.datasets, fitted, diagnosis.options);
+  if (!base.refit.usable) return std::nullopt;
+  const double p_value = quick_structure(fitted.data, base.refit, fitted.prediction_squared,
+                                         quick_samples, diagnosis.options.seed)
+                             .p_value;
+  if (p_value > diagnosis.options.level) return std::nullopt;
+  return MaterialsExplain{p_value};
+}
+
 }  // namespace
 
 Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
@@ -317,6 +335,7 @@ Diagnosis diagnose_all(const FitSpec& spec, const std::vector<Dataset>& datasets
   diagnosis.where = misfit_map(diagnosis.base);
   if (diagnosis.structure.p_value > options.level) {
     diagnosis.verdict = Verdict::adequate;
+    diagnosis.materials = materials_explain(diagnosis);
     progress.advance(static_cast<std::size_t>(options.compared));
   } else {
     diagnosis.base_intervals = base_intervals;

@@ -37,6 +37,11 @@ struct AnswerForAll {
   std::vector<std::string> named, rivals, resembles;
 };
 
+/// Exact materials would leave structure where those within their errors leave none.
+struct MaterialsExplain {
+  double p_value_exact = 1.0;  ///< of the structure that exact materials leave
+};
+
 /// What `diagnose` finds.
 struct Diagnosis {
   DiagnosisOptions options;
@@ -70,6 +75,7 @@ struct Diagnosis {
   std::vector<NextMeasurement> next;
   std::vector<NextExperiment> experiments;  ///< the least effort first
   std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate
+  std::optional<MaterialsExplain> materials;  ///< of an adequate model, where its constants matter
   std::string outdone;  ///< the best explanation, where unstated errors do better; else empty
   /// What a reader has to know about the points: for reconstructions, what their recipe put there.
   std::vector<std::string> remarks;

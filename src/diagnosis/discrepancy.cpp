@@ -76,20 +76,19 @@ Discrepancy::Discrepancy(const Eigen::MatrixXd& shared) {
 
 void Discrepancy::whiten(std::span<double> residuals) const {
   if (shares_nothing()) return;
-  Eigen::Map<Eigen::VectorXd> r(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+  Eigen::Map<Eigen::VectorXd> r(residuals.data(), directions_.rows());
   scale_along(directions_, whiter_, r);
 }
 
 void Discrepancy::unwhiten(std::span<double> residuals) const {
   if (shares_nothing()) return;
-  Eigen::Map<Eigen::VectorXd> r(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+  Eigen::Map<Eigen::VectorXd> r(residuals.data(), directions_.rows());
   scale_along(directions_, rougher_, r);
 }
 
 void Discrepancy::whiten(std::span<double> jacobian, std::size_t p) const {
   if (shares_nothing() || p == 0) return;
-  Eigen::Map<RowMajor> J(jacobian.data(), static_cast<Eigen::Index>(jacobian.size() / p),
-                         static_cast<Eigen::Index>(p));
+  Eigen::Map<RowMajor> J(jacobian.data(), directions_.rows(), static_cast<Eigen::Index>(p));
   scale_along(directions_, whiter_, J);
 }
 

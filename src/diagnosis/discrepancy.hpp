@@ -18,7 +18,8 @@ namespace recoil {
 Eigen::MatrixXd smooth_functions(const Observations& data);
 
 /// The covariance I + U U' of weighted residuals: beside their own noise, of unit size, they share
-/// errors, of which U has one column for each. Whitening takes r to (I + U U')^(-1/2) r.
+/// errors, of which U has one column for each. Whitening takes r to (I + U U')^(-1/2) r. Residuals
+/// that follow those of the points (of constants known with an error) stay as they are.
 class Discrepancy {
  public:
   Discrepancy() = default;  ///< nothing shared

@@ -145,8 +145,9 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
         with_law_errors(candidate, seen, refit_candidate(candidate, seen, near, 2), of_seen);
     if (!refit.usable) return;
     const LeastSquaresProblem problem = impact_problem(candidate.model, unseen);
-    std::vector<double> residuals(unseen.points.size());
+    std::vector<double> residuals(problem.residual_count);
     if (!problem.evaluate(refit.theta, residuals, {})) return;
+    residuals.resize(unseen.points.size());
     double log_determinant = 0.0;
     if (!laws.none()) {
       const auto U_seen = law_error_columns(candidate, seen, refit.theta, of_seen);

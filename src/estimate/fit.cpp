@@ -97,8 +97,11 @@ void record_predictions(FitResult& result) {
 
 void record_leverage(FitResult& result, const std::vector<double>& jacobian,
                      const std::vector<double>& unscaled_covariance) {
-  result.leverage = unscaled_covariance.empty() ? std::vector<double>(result.residuals.size(), 0.0)
-                                                : leverages(jacobian, unscaled_covariance);
+  const std::size_t n = result.residuals.size();
+  result.leverage =
+      unscaled_covariance.empty()
+          ? std::vector<double>(n, 0.0)
+          : leverages(std::span(jacobian).first(n * result.theta.size()), unscaled_covariance);
 }
 
 /// Decides what the standard deviations are worth.
@@ -116,6 +119,52 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
       result.noise_verdict == NoiseVerdict::exceeded) {
     result.noise_scale = misfit.scale();
   }
+  if (result.noise_verdict == NoiseVerdict::estimated) {
+    // What the points say of the constants they do not say of their noise.
+    result.dof = std::max(1, result.dof - static_cast<int>(std::lround(misfit.learned)));
+  }
+}
+
+/// Everything at the end of a descent.
+void take_over(FitResult& result, const LeastSquaresResult& run) {
+  const std::size_t n = result.data.points.size();
+  result.theta = run.theta;
+  result.at_bound = run.at_bound;
+  result.residuals.assign(run.residuals.begin(),
+                          run.residuals.begin() + static_cast<std::ptrdiff_t>(n));
+  result.least = run.sum_of_squares;
+  result.constants_moved = constant_deviations(result.model, result.data, result.theta);
+  result.prediction.clear();
+  result.prediction_squared.clear();
+  record_predictions(result);
+  record_leverage(result, run.jacobian, run.covariance);
+}
+
+Misfit misfit_of(const FitResult& result, const LeastSquaresResult& run) {
+  return misfit(result.data, result.residuals, result.prediction_squared, result.model.free_count(),
+                constants_in_fit(run, result.model.constants.size(), result.data.constants_weight));
+}
+
+/// The points' standard deviations are too small by noise_scale, those of the constants are not:
+/// against wider points the constants weigh more. In turns until neither moves.
+bool keep_errors_of_constants(FitResult& result, LeastSquaresResult& run,
+                              const LeastSquaresOptions& options) {
+  constexpr int most_rounds = 20;
+  constexpr double at_rest = 1e-4;  // of the scale
+  for (int round = 0; round < most_rounds; ++round) {
+    result.data.constants_weight = result.noise_scale;
+    ReweightedFit again =
+        reweighted_fit(result.model, result.data, result.theta, {.minimiser = options});
+    run = std::move(again.run);
+    if (!run.converged) return false;
+    result.data = std::move(again.data);
+    take_over(result, run);
+    const double scale = misfit_of(result, run).scale();
+    const bool done = std::abs(scale / result.noise_scale - 1.0) < at_rest;
+    result.noise_scale = scale;
+    if (done) break;
+  }
+  return true;
 }
 
 /// Where the errors of V and d are too large for an effective variance of first order.
@@ -186,6 +235,7 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
   FitResult result;
   result.model = model;
   result.data = observed;
+  result.data.constants_weight = 1.0;
   leave_counts_to_mechanism(model, result);
   const Observations& data = result.data;  // until `reweighted_fit` has weighed them
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
@@ -230,13 +280,15 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
     result.data = std::move(reweighted.data);
   }
   result.usable = true;
-  result.theta = best.theta;
-  result.at_bound = best.at_bound;
-  result.residuals = best.residuals;
+  take_over(result, best);
   result.chi2 = best.sum_of_squares;
-  record_predictions(result);
-  record_leverage(result, best.jacobian, best.covariance);
-  judge_noise(result, misfit(result.data, result.residuals, result.prediction_squared, free_count));
+  judge_noise(result, misfit_of(result, best));
+  if (result.noise_verdict == NoiseVerdict::exceeded && !model.constants.empty() &&
+      !keep_errors_of_constants(result, best, options.minimiser)) {
+    result.usable = false;
+    result.failure = "no fit with the points' errors widened: " + best.message;
+    return result;
+  }
   result.strained_points = count_strained(result.data.points);
   result.covariance = scaled_covariance(result.data, best.covariance, result.noise_scale);
   result.spread_covariance =

@@ -72,10 +72,16 @@ struct FitResult {
   std::vector<double> prediction;          ///< e at each point [1]
   std::vector<double> prediction_squared;  ///< e^2, continued below zero
   std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
-  double chi2 = 0.0;
-  int dof = 0;           ///< see Misfit
+  double chi2 = 0.0;                       ///< sum of squares under the weights as stated, with the
+                                           ///< deviations of uncertain constants
+  double least = 0.0;                      ///< the minimum of the problem that `data` poses now:
+                                           ///< other than chi2 where those have another weight
+  int dof = 0;                             ///< see Misfit
   double p_value = 0.0;  ///< of the misfit; NaN-free: 0 or 1 at the ends; meaningless if !sd_stated
-  double rmse = 0.0;     ///< of e over all points that rebounded [1]
+  /// How far the uncertain constants of the materials went from what is stated, in standard
+  /// deviations [ImpactModel::constants].
+  std::vector<double> constants_moved;
+  double rmse = 0.0;         ///< of e over all points that rebounded [1]
   double noise_scale = 1.0;  ///< what the standard deviations of `data` are multiplied by in every
                              ///< interval: 1 where they hold, or were estimated by this fit
   NoiseVerdict noise_verdict = NoiseVerdict::unchecked;

@@ -56,6 +56,11 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "scheme", quoted(name_of(uncertainty.scheme)),
        "how the bootstrap draws new data sets"},
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "of every interval"},
+      {"uncertainty", "materials", truth_value(uncertainty.materials),
+       "use the errors that the datasets state of their material constants; false takes them as "
+       "exact"},
+      {"uncertainty", "posterior", truth_value(uncertainty.posterior),
+       "sample the posterior: another interval, and joint draws in posterior.csv"},
       {"uncertainty", "seed", fmt::format("{}", uncertainty.seed),
        "fixes every digit of every output"},
 

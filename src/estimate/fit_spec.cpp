@@ -372,6 +372,12 @@ class FitReader : private TomlReader {
                  : std::string("0.95 is usual"));
       }
     }
+    if (const toml::node* node = table.get("posterior")) {
+      spec.posterior = boolean(*node, "posterior");
+    }
+    if (const toml::node* node = table.get("materials")) {
+      spec.materials = boolean(*node, "materials");
+    }
     if (const toml::node* node = table.get("seed")) {
       const std::int64_t seed = integer(*node, "seed");
       if (seed < 0) {

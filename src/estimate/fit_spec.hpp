@@ -38,6 +38,8 @@ struct UncertaintySpec {
   Scheme scheme = Scheme::automatic;
   double level = 0.95;  ///< of every interval, in (0, 1)
   std::uint64_t seed = 20260101;
+  bool posterior = false;  ///< sample the posterior, too
+  bool materials = true;   ///< use the errors that datasets state of their material constants
 };
 
 /// A fit file, validated. Every key but `dataset` has its default here or in the catalogue.

@@ -1,30 +1,66 @@
 #include "estimate/impact_problem.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 
 namespace recoil {
+namespace {
+
+double stated_constant(const ImpactModel& model, const Observations& data, std::size_t k) {
+  return data.constants.empty() ? model.constants[k].stated : data.constants[k];
+}
+
+/// The last rows of residuals and Jacobian.
+void add_constants_rows(const ImpactModel& model, const Observations& data,
+                        std::span<const double> theta, std::span<double> residuals,
+                        std::span<double> jacobian) {
+  const std::size_t p = theta.size();
+  for (std::size_t k = 0; k < model.constants.size(); ++k) {
+    const std::size_t row = data.points.size() + k;
+    const std::size_t slot = model.first_constant() + k;
+    const UncertainConstant& constant = model.constants[k];
+    residuals[row] =
+        data.constants_weight * constant.deviation(theta[slot], stated_constant(model, data, k));
+    if (jacobian.empty()) continue;
+    const std::span<double> slopes = jacobian.subspan(row * p, p);
+    std::fill(slopes.begin(), slopes.end(), 0.0);
+    slopes[slot] = data.constants_weight * constant.deviation_slope(theta[slot]);
+  }
+}
+
+}  // namespace
+
+std::vector<double> constant_deviations(const ImpactModel& model, const Observations& data,
+                                        std::span<const double> theta) {
+  std::vector<double> deviations;
+  for (std::size_t k = 0; k < model.constants.size(); ++k) {
+    deviations.push_back(model.constants[k].deviation(theta[model.first_constant() + k],
+                                                      stated_constant(model, data, k)));
+  }
+  return deviations;
+}
 
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
                                    long* handovers) {
   LeastSquaresProblem problem;
-  problem.residual_count = data.points.size();
+  problem.residual_count = data.points.size() + model.constants.size();
   for (const ParameterSlot& slot : model.slots) {
     problem.lower.push_back(slot.lower);
     problem.upper.push_back(slot.upper);
     problem.log_scale.push_back(slot.log_scale);
-    problem.fixed.push_back(!slot.free);
+    problem.fixed.push_back(!slot.moves());
   }
   std::vector<PointConditions> points;
   for (const Observation& point : data.points) {
     points.push_back(point.conditions());
   }
   const auto predictor = std::make_shared<PointPredictor>(model, std::move(points));
-  problem.evaluate = [predictor, &data, handovers](std::span<const double> theta,
-                                                   std::span<double> residuals,
-                                                   std::span<double> jacobian) {
+  problem.evaluate = [predictor, &model, &data, handovers](std::span<const double> theta,
+                                                           std::span<double> residuals,
+                                                           std::span<double> jacobian) {
     const std::size_t p = theta.size();
     const long handed_over = predictor->evaluate(theta, !jacobian.empty());
     if (handovers != nullptr) *handovers += handed_over;
@@ -35,6 +71,7 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
       residuals[i] = r.value;
       if (!jacobian.empty()) predictor->gradient_row(i, r.slope, jacobian.subspan(i * p, p));
     }
+    if (!model.constants.empty()) add_constants_rows(model, data, theta, residuals, jacobian);
     return true;
   };
   return problem;

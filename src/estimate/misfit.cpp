@@ -2,16 +2,38 @@
 
 #include <gsl/gsl_cdf.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "estimate/residual.hpp"
 
 namespace recoil {
 
-double Misfit::scale() const { return dof > 0 ? std::sqrt(square / dof) : 1.0; }
+double Misfit::scale() const {
+  if (dof <= 0) return 1.0;
+  // A few points that leave nearly all they know to the constants say little of their noise.
+  const double left = std::max(dof - learned, 0.25 * dof);
+  return std::sqrt(point_square / left);
+}
+
+ConstantsInFit constants_in_fit(const LeastSquaresResult& run, std::size_t count, double weight) {
+  ConstantsInFit constants;
+  const std::size_t n = run.residuals.size() - count;
+  const std::size_t p = run.theta.size();
+  for (std::size_t k = n; k < run.residuals.size(); ++k) {
+    constants.square += std::pow(run.residuals[k] / weight, 2);
+  }
+  if (run.covariance.empty() || count == 0) return constants;
+  constants.learned = static_cast<double>(count);
+  for (const double h : leverages(std::span(run.jacobian).subspan(n * p), run.covariance)) {
+    constants.learned -= h;
+  }
+  constants.learned = std::max(0.0, constants.learned);
+  return constants;
+}
 
 Misfit misfit(const Observations& data, std::span<const double> residuals,
-              std::span<const double> predicted, int free_count) {
+              std::span<const double> predicted, int free_count, const ConstantsInFit& constants) {
   Misfit result;
   const std::optional<StudentNoise>& student = data.noise.student;
   int informative = 0;
@@ -29,6 +51,9 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
     result.square += r * r;
   }
   if (student) result.square /= student->mean_square;
+  result.point_square = result.square;
+  result.learned = constants.learned;
+  if (data.sd_stated) result.square += constants.square;
   result.dof = informative - free_count;
   if (result.dof <= 0) return result;
   // psi^2 scatters less than the square of a normal: a chi-squared with more degrees of freedom,

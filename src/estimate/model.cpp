@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "impact/fast_solver.hpp"
 #include "impact/reference_solver.hpp"
@@ -11,6 +12,10 @@
 
 namespace recoil {
 namespace {
+
+// Short of where an isotropic solid would be unstable (-1) or incompressible (1/2).
+constexpr double least_poisson_ratio = -0.99;
+constexpr double largest_poisson_ratio = 0.5;
 
 /// The diameter at which f0 is stated: the dataset's own, else the middle one of its points.
 double reference_diameter_of(const Dataset& dataset) {
@@ -22,7 +27,8 @@ double reference_diameter_of(const Dataset& dataset) {
 std::size_t add_slot(ImpactModel& model, const ParameterSpec& spec, const std::string& dataset,
                      const std::string& series, double initial) {
   model.slots.push_back({spec.parameter, dataset, series, initial, spec.lower, spec.upper,
-                         spec.free, spec.parameter->log_scale && spec.lower > 0.0});
+                         spec.free, spec.parameter->log_scale && spec.lower > 0.0,
+                         spec.is_derived()});
   return model.slots.size() - 1;
 }
 
@@ -78,6 +84,64 @@ void fix_damping_of_nothing(ImpactModel& model) {
     model.slots[damping].free = false;
     model.slots[damping].initial = 0.0;
   }
+}
+
+/// How far a constant may go, in standard deviations.
+constexpr double widest = 8.0;
+
+void add_constant(ImpactModel& model, const UncertainConstant& constant,
+                  const std::vector<Dataset>& datasets) {
+  const double reach = widest * constant.sd;
+  const bool positive = is_positive(constant.constant);
+  std::string where;
+  if (constant.datasets.size() < datasets.size()) {
+    for (const std::size_t d : constant.datasets) {
+      where += (where.empty() ? "" : ", ") + datasets[d].id;
+    }
+  }
+  ParameterSlot slot;
+  slot.parameter = &parameter_of(constant.body, constant.constant);
+  slot.dataset = where;
+  slot.initial = constant.stated;
+  slot.lower = positive ? constant.stated * std::exp(-reach)
+                        : std::max(constant.stated - reach, least_poisson_ratio);
+  slot.upper = positive ? constant.stated * std::exp(reach)
+                        : std::min(constant.stated + reach, largest_poisson_ratio);
+  slot.free = false;
+  slot.log_scale = positive;
+  model.slots.push_back(std::move(slot));
+  model.constants.push_back(constant);
+}
+
+/// The constants of which anything in the model depends.
+void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
+  const std::vector<UncertainConstant> all = uncertain_constants(datasets);
+  std::vector<double> stated;
+  for (const UncertainConstant& constant : all) stated.push_back(constant.stated);
+  std::vector<bool> acts(all.size(), false);
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    const MaterialLaw law(datasets[d].system, model.contacts[d].reference_diameter, all, d);
+    const ParameterSlot& adhesion = model.slots[model.slot_adhesion[d]];
+    const bool follows = adhesion.derived && !adhesion.free && adhesion.initial > 0.0;
+    for (const MaterialSlope& slope : law.slopes(stated)) {
+      const double by_force = !follows                              ? 0.0
+                              : model.adhesion == AdhesionLaw::ring ? slope.adhesion_force
+                                                                    : slope.adhesion_energy;
+      const bool in_chain =
+          !model.chain.empty() && (slope.adhesion_energy != 0.0 || slope.wave_mobility != 0.0);
+      if (slope.density != 0.0 || slope.stiffness != 0.0 || by_force != 0.0 || in_chain) {
+        acts[slope.index] = true;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (acts[k]) add_constant(model, all[k], datasets);
+  }
+}
+
+/// Are the materials of the dataset without error? (Those who build a model by hand state none.)
+bool is_exact(const ImpactModel& model, std::size_t dataset) {
+  return model.constants.empty() || model.materials[dataset].exact();
 }
 
 long simulate_by_reference(std::span<const ImpactGroups> groups, const ImpactOptions& options,
@@ -147,9 +211,16 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
       case ParameterRole::of_mechanism:
         model.slot_own.push_back(add_own_slots(model, stated, datasets));
         break;
+      case ParameterRole::material_constant:
+        break;  // no parameter of a fit file
     }
   }
   fix_damping_of_nothing(model);
+  if (spec.uncertainty.materials) add_constants(model, datasets);
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    model.materials.emplace_back(datasets[d].system, model.contacts[d].reference_diameter,
+                                 model.constants, d);
+  }
   return model;
 }
 
@@ -160,15 +231,87 @@ double derived_adhesion(const ImpactModel& model, std::size_t dataset) {
 
 double adhesion_force_under(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset) {
-  const double value = theta[model.slot_adhesion[dataset]];
-  if (model.adhesion == AdhesionLaw::ring) return value;
+  const std::size_t slot = model.slot_adhesion[dataset];
+  const double value = theta[slot];
+  const bool ring = model.adhesion == AdhesionLaw::ring;
   const ContactProperties& contact = model.contacts[dataset];
+  if (!is_exact(model, dataset)) {
+    const MaterialState now = materials_under(model, theta, dataset);
+    const bool follows = follows_materials(model, dataset);
+    if (ring) return follows ? value * now.adhesion_force / contact.adhesion_force : value;
+    return adhesion_force_for(
+        follows ? value * now.adhesion_energy / contact.adhesion_energy : value,
+        contact.reference_diameter / 2.0, now.stiffness);
+  }
+  if (ring) return value;
   return adhesion_force_for(value, contact.reference_diameter / 2.0, contact.stiffness);
+}
+
+bool follows_materials(const ImpactModel& model, std::size_t dataset) {
+  const ParameterSlot& slot = model.slots[model.slot_adhesion[dataset]];
+  return !is_exact(model, dataset) && slot.derived && !slot.free && slot.initial > 0.0;
+}
+
+double adhesion_value_under(const ImpactModel& model, std::span<const double> theta,
+                            std::size_t dataset) {
+  const double value = theta[model.slot_adhesion[dataset]];
+  if (!follows_materials(model, dataset)) return value;
+  if (model.adhesion == AdhesionLaw::ring) return adhesion_force_under(model, theta, dataset);
+  return value * materials_under(model, theta, dataset).adhesion_energy /
+         model.contacts[dataset].adhesion_energy;
+}
+
+ImpactModel with_exact_materials(ImpactModel model) {
+  model.slots.resize(model.first_constant());
+  model.constants.clear();
+  return model;
+}
+
+MaterialState materials_under(const ImpactModel& model, std::span<const double> theta,
+                              std::size_t dataset) {
+  if (!is_exact(model, dataset)) return model.materials[dataset].at(model.constants_of(theta));
+  const ContactProperties& contact = model.contacts[dataset];
+  return {contact.particle_density, contact.stiffness, contact.adhesion_force,
+          contact.adhesion_energy, model.surroundings[dataset].wave_mobility};
+}
+
+std::vector<MaterialSlope> material_slopes(const ImpactModel& model, std::span<const double> theta,
+                                           std::size_t dataset) {
+  if (is_exact(model, dataset)) return {};
+  std::vector<MaterialSlope> slopes = model.materials[dataset].slopes(model.constants_of(theta));
+  const bool follows = follows_materials(model, dataset);
+  for (MaterialSlope& slope : slopes) {
+    if (model.adhesion != AdhesionLaw::ring) {
+      slope.adhesion_force =
+          slope.stiffness / 3.0 + (follows ? 2.0 / 3.0 * slope.adhesion_energy : 0.0);
+    } else if (!follows) {
+      slope.adhesion_force = 0.0;
+    }
+  }
+  return slopes;
+}
+
+Surroundings surroundings_under(const ImpactModel& model, std::span<const double> theta,
+                                std::size_t dataset) {
+  Surroundings at = model.surroundings[dataset];
+  if (is_exact(model, dataset)) return at;
+  const MaterialState now = materials_under(model, theta, dataset);
+  at.density = now.density;
+  at.stiffness = now.stiffness;
+  at.reduced_modulus = 0.75 * now.stiffness;
+  at.adhesion_energy = now.adhesion_energy;
+  at.wave_mobility = now.wave_mobility;
+  return at;
 }
 
 double adhesion_force_slope(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset) {
-  if (model.adhesion == AdhesionLaw::ring) return 1.0;
+  if (model.adhesion == AdhesionLaw::ring) {
+    const double value = theta[model.slot_adhesion[dataset]];
+    return is_exact(model, dataset) || value == 0.0
+               ? 1.0
+               : adhesion_force_under(model, theta, dataset) / value;
+  }
   const double energy = theta[model.slot_adhesion[dataset]];
   return energy > 0.0 ? 2.0 / 3.0 * adhesion_force_under(model, theta, dataset) / energy : 0.0;
 }
@@ -185,10 +328,11 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
                                std::size_t dataset, double diameter, double velocity) {
   assert(theta.size() == model.slots.size());
   const ContactProperties& contact = model.contacts[dataset];
+  const MaterialState now = materials_under(model, theta, dataset);
   return {diameter,
           velocity,
-          contact.particle_density,
-          contact.stiffness,
+          now.density,
+          now.stiffness,
           adhesion_force_at(adhesion_force_under(model, theta, dataset), contact.reference_diameter,
                             diameter),
           theta[model.slot_C_H[dataset]],

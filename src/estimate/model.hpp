@@ -8,6 +8,7 @@
 #include "data/contact.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
+#include "estimate/material_constants.hpp"
 #include "estimate/solver_settings.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/extended_impacts.hpp"
@@ -25,7 +26,12 @@ struct ParameterSlot {
   double upper = 0.0;
   bool free = true;
   bool log_scale = false;
+  bool derived = false;  ///< its value is what the materials give; while it is not free it follows
+                         ///< their constants
 
+  /// A constant of the materials: not free, but moved by every fit as far as its error allows.
+  bool is_constant() const { return parameter->role == ParameterRole::material_constant; }
+  bool moves() const { return free || is_constant(); }
   /// That to which the parameter belongs; null for the base model.
   const Mechanism* mechanism() const { return parameter->mechanism; }
   /// "C_A", "C_A[wall1990-mica]", "o[monday]", "o[wall1990-mica/monday]".
@@ -47,8 +53,17 @@ struct ImpactModel {
   /// [parameter of the chain][dataset]: index into `slots`, one or one per series.
   std::vector<std::vector<std::vector<std::size_t>>> slot_own;
 
+  /// The constants that are known with an error. They are the last slots, in this order.
+  std::vector<UncertainConstant> constants;
+  std::vector<MaterialLaw> materials;  ///< per dataset
+
+  /// The slot of constants[0]; how many slots there are without the constants.
+  std::size_t first_constant() const { return slots.size() - constants.size(); }
+  std::span<const double> constants_of(std::span<const double> theta) const {
+    return theta.subspan(first_constant());
+  }
   std::vector<double> initial() const;
-  int free_count() const;
+  int free_count() const;  ///< without the constants of the materials
   /// The options of its impacts.
   ImpactOptions impact_options(bool gradient) const;
   /// What solves them.
@@ -59,13 +74,36 @@ struct ImpactModel {
 double derived_adhesion(const ImpactModel& model, std::size_t dataset);
 
 /// f0 at the reference diameter of `dataset` [N/m]; from W by eqs 9 and 10 where W is the
-/// parameter.
+/// parameter. Where it is derived and not free it follows the constants of the materials.
 double adhesion_force_under(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset);
+
+/// Does the adhesion of `dataset` follow the constants of its materials?
+bool follows_materials(const ImpactModel& model, std::size_t dataset);
+
+/// The parameter of adhesion at the reference diameter, f0 [N/m] or W [J/m2], as it acts.
+double adhesion_value_under(const ImpactModel& model, std::span<const double> theta,
+                            std::size_t dataset);
+
+/// The model with all constants of the materials exact, as stated.
+ImpactModel with_exact_materials(ImpactModel model);
 
 /// d f0 / d (its parameter): 1, or (2/3) f0 / W.
 double adhesion_force_slope(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset);
+
+/// The materials of `dataset` under `theta`.
+MaterialState materials_under(const ImpactModel& model, std::span<const double> theta,
+                              std::size_t dataset);
+
+/// Their slopes in the constants; `adhesion_force` is that of `adhesion_force_under`. Empty where
+/// they are exact.
+std::vector<MaterialSlope> material_slopes(const ImpactModel& model, std::span<const double> theta,
+                                           std::size_t dataset);
+
+/// The surroundings of `dataset` under `theta`.
+Surroundings surroundings_under(const ImpactModel& model, std::span<const double> theta,
+                                std::size_t dataset);
 
 /// theta with every mechanism at its null value: the base model.
 std::vector<double> without_mechanisms(const ImpactModel& model, std::vector<double> theta);

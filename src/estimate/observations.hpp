@@ -38,6 +38,12 @@ struct Observations {
   /// Points whose stated standard deviation is not used, and points that state none.
   int sd_set_aside = 0;
   int sd_missing = 0;
+  /// The stated values of ImpactModel::constants, which are observations, too: empty for those of
+  /// the model, others in a bootstrap replicate.
+  std::vector<double> constants;
+  /// What their deviations weigh beside the residuals of the points: noise_scale of the fit, so
+  /// that they keep their own errors when those of the points are widened.
+  double constants_weight = 1.0;
 
   /// Must the weights be found together with the parameters?
   bool weights_depend_on_fit() const;

@@ -21,6 +21,9 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       beta_per_f0_(points_.size()),
       force_(model.contacts.size()),
       force_slope_(model.contacts.size()),
+      beta_scale_(model.contacts.size(), 1.0),
+      material_slopes_(model.contacts.size()),
+      surroundings_(model.surroundings),
       groups_(points_.size()),
       results_(points_.size()) {
   const std::vector<double> initial = model.initial();
@@ -51,7 +54,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
   if (chain.empty()) return;
   std::vector<ExtendedPoint> extended;
   for (const PointConditions& p : points_) {
-    extended.push_back({&model.surroundings[p.dataset], p.diameter, p.velocity});
+    extended.push_back({&surroundings_[p.dataset], p.diameter, p.velocity});
     for (const auto* base : {&model.slot_C_H, &model.slot_C_A, &model.slot_adhesion}) {
       slots_.push_back((*base)[p.dataset]);
       nulls_.push_back(0.0);
@@ -64,7 +67,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       nulls_.push_back(own_parameters[k]->null_value);
     }
   }
-  extended_.emplace(std::move(chain), std::move(extended));
+  extended_.emplace(std::move(chain), std::move(extended), !model.constants.empty());
   values_.resize(slots_.size());
 }
 
@@ -75,14 +78,27 @@ long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
     force_[d] = adhesion_force_under(model_, theta, d);
     force_slope_[d] = adhesion_force_slope(model_, theta, d);
   }
+  if (!model_.constants.empty()) take_materials(theta, gradient);
   if (extended_) return evaluate_extended(theta, options);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointConditions& p = points_[i];
     groups_[i] = {theta[model_.slot_C_H[p.dataset]] * p.velocity,
-                  force_[p.dataset] * beta_per_f0_[i],
+                  force_[p.dataset] * beta_per_f0_[i] * beta_scale_[p.dataset],
                   theta[model_.slot_C_A[p.dataset]] * p.velocity};
   }
   return model_.simulator()(groups_, options, results_);
+}
+
+void PointPredictor::take_materials(std::span<const double> theta, bool gradient) {
+  for (std::size_t d = 0; d < force_.size(); ++d) {
+    const ContactProperties& stated = model_.contacts[d];
+    const MaterialState now = materials_under(model_, theta, d);
+    // beta ~ f0 K^(-3/5) rho^(-2/5).
+    beta_scale_[d] = std::pow(now.stiffness / stated.stiffness, -0.6) *
+                     std::pow(now.density / stated.particle_density, -0.4);
+    surroundings_[d] = surroundings_under(model_, theta, d);
+    if (gradient) material_slopes_[d] = material_slopes(model_, theta, d);
+  }
 }
 
 long PointPredictor::evaluate_extended(std::span<const double> theta,
@@ -108,8 +124,18 @@ void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double>
   std::fill(row.begin(), row.end(), 0.0);
   if (extended_) {
     const std::span<const double> slopes = extended_->slopes(i).subspan(2);
-    for (std::size_t k = 0; k < slopes.size(); ++k) {
-      const std::size_t slot = slots_[i * slopes.size() + k];
+    const std::size_t count = extended_->value_count();
+    for (const MaterialSlope& material : material_slopes_[p.dataset]) {
+      const Surroundings& at = surroundings_[p.dataset];
+      row[model_.first_constant() + material.index] +=
+          scale * (slopes[place_of_force] * force_[p.dataset] * material.adhesion_force +
+                   slopes[count] * at.density * material.density +
+                   slopes[count + 1] * at.stiffness * material.stiffness +
+                   slopes[count + 2] * at.adhesion_energy * material.adhesion_energy +
+                   slopes[count + 3] * at.wave_mobility * material.wave_mobility);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t slot = slots_[i * count + k];
       const double own = k == place_of_force ? force_slope_[p.dataset] : 1.0;
       if (slot != no_slot) row[slot] += scale * own * slopes[k];
     }
@@ -117,8 +143,13 @@ void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double>
   }
   row[model_.slot_C_H[p.dataset]] += scale * p.velocity * by_group[0];
   row[model_.slot_adhesion[p.dataset]] +=
-      scale * beta_per_f0_[i] * force_slope_[p.dataset] * by_group[1];
+      scale * beta_per_f0_[i] * beta_scale_[p.dataset] * force_slope_[p.dataset] * by_group[1];
   row[model_.slot_C_A[p.dataset]] += scale * p.velocity * by_group[2];
+  for (const MaterialSlope& material : material_slopes_[p.dataset]) {
+    row[model_.first_constant() + material.index] +=
+        scale * groups_[i].beta * by_group[1] *
+        (material.adhesion_force - 0.6 * material.stiffness - 0.4 * material.density);
+  }
 }
 
 double PointPredictor::velocity_slope(std::size_t i) const {
@@ -168,8 +199,10 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
       values.push_back(known ? theta[slots[p.per_series ? point.series : 0]] : p.null_value);
     }
   }
-  return view_contact(model.chain,
-                      {&model.surroundings[point.dataset], point.diameter, point.velocity}, values);
+  const Surroundings now = surroundings_under(model, theta, point.dataset);
+  ContactView view = view_contact(model.chain, {&now, point.diameter, point.velocity}, values);
+  view.encounter.at = &model.surroundings[point.dataset];
+  return view;
 }
 
 }  // namespace recoil

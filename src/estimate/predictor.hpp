@@ -53,15 +53,19 @@ class PointPredictor {
   double diameter_slope(std::size_t i) const;
 
  private:
+  void take_materials(std::span<const double> theta, bool gradient);
   long evaluate_extended(std::span<const double> theta, const ImpactOptions& options);
 
   const ImpactModel& model_;
   std::vector<PointConditions> points_;
   std::vector<double> beta_per_f0_;          // beta is proportional to f0
   std::vector<double> force_, force_slope_;  // per dataset: f0, and its slope in its parameter
-  std::optional<ExtendedImpacts> extended_;  // when mechanisms act
-  std::vector<std::size_t> slots_;           // of the values of every point, with extended_
-  std::vector<double> nulls_;                // of these values where there is no slot
+  std::vector<double> beta_scale_;           // per dataset: beta over that of the stated materials
+  std::vector<std::vector<MaterialSlope>> material_slopes_;  // per dataset, where uncertain
+  std::vector<Surroundings> surroundings_;                   // per dataset, under the last theta
+  std::optional<ExtendedImpacts> extended_;                  // when mechanisms act
+  std::vector<std::size_t> slots_;  // of the values of every point, with extended_
+  std::vector<double> nulls_;       // of these values where there is no slot
   std::vector<double> values_;
   std::vector<ImpactGroups> groups_;
   std::vector<ImpactResult> results_;

@@ -88,7 +88,10 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
     if (!result.run.converged) return result;
     double scale = 1.0;
     if (!result.data.sd_stated) {
-      scale = misfit(result.data, result.run.residuals, *predicted, model.free_count()).scale();
+      const ConstantsInFit constants =
+          constants_in_fit(result.run, model.constants.size(), result.data.constants_weight);
+      scale = misfit(result.data, result.run.residuals, *predicted, model.free_count(), constants)
+                  .scale();
       // Data without noise would let the scale shrink for ever.
       result.at_rest = noise_scale * scale < least_scale;
       if (result.at_rest) break;
@@ -119,11 +122,11 @@ double restricted_criterion(const ImpactModel& model, const ReweightedFit& resul
   const std::size_t p = run.theta.size();
   std::vector<std::size_t> free;
   for (std::size_t j = 0; j < p; ++j) {
-    if (model.slots[j].free) free.push_back(j);
+    if (model.slots[j].moves()) free.push_back(j);
   }
-  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(points.size()),
+  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(run.residuals.size()),
                            static_cast<Eigen::Index>(free.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < run.residuals.size(); ++i) {
     for (std::size_t k = 0; k < free.size(); ++k) {
       jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
           run.jacobian[i * p + free[k]];

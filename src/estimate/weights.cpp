@@ -285,9 +285,10 @@ std::vector<double> event_spread_covariance(const ImpactModel& model, std::span<
   std::vector<std::vector<double>> slopes;  // half of dT / d theta there
   for (const double by : {-step, 0.0, step}) {
     const Observations there = renewal.with_spread(answers, std::exp(by));
-    std::vector<double> residuals(n);
-    std::vector<double> jacobian(n * p);
-    if (!impact_problem(model, there).evaluate(theta, residuals, jacobian)) return {};
+    const LeastSquaresProblem problem = impact_problem(model, there);
+    std::vector<double> residuals(problem.residual_count);
+    std::vector<double> jacobian(problem.residual_count * p);
+    if (!problem.evaluate(theta, residuals, jacobian)) return {};
     deviance.push_back(event_spread_offset(there));
     slopes.emplace_back(p, 0.0);
     for (std::size_t i = 0; i < n; ++i) {

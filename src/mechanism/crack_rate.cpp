@@ -52,7 +52,7 @@ struct CrackRate {
     // `undamped_square` at n = s deepest, its two terms as numbers times s^(3/2) and s^(5/2).
     const T root = deepest * sqrt(e.contact_radius * deepest) / e.mass();
     const T adhesion = root * e.adhesion_force * (8.0 / 3.0 * std::numbers::pi);
-    const T stored = root * deepest * (0.8 * e.at->stiffness);
+    const T stored = root * deepest * (e.stiffness * 0.8);
     const T shape = 0.5 * logarithm(0.25 * e.contact_radius / deepest);
     T sum(0.0);
     for (const Node& node : nodes()) {
@@ -61,7 +61,7 @@ struct CrackRate {
       const T log_crack = shape + 0.5 * (logarithm(square) - node.log_s);
       sum += node.weight * exponential(k * log_crack);
     }
-    const T work = own[0] * e.at->adhesion_energy;
+    const T work = own[0] * e.adhesion_energy;
     e.lose(std::numbers::pi * e.contact_radius * deepest * work * sum);
   }
 };

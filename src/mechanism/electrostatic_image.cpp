@@ -12,7 +12,7 @@ struct ElectrostaticImage {
   static T gained(const Encounter<T>& e, std::span<const T> own) {
     const T growth =
         exponential((2.0 * own[1] - 4.0) * logarithm(e.diameter / e.at->reference_diameter));
-    return 1.5 * vacuum_permittivity / e.at->density * own[0] * own[0] * growth;
+    return 1.5 * vacuum_permittivity / e.density * own[0] * own[0] * growth;
   }
 };
 

@@ -33,6 +33,10 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
 template <class T>
 struct Encounter {
   const Surroundings* at = nullptr;
+  T density;            ///< of the sphere [kg/m3]
+  T stiffness;          ///< K [Pa]
+  T adhesion_energy;    ///< W_A of the two bodies [J/m2]
+  T wave_mobility;      ///< D of `elastic_waves` [m s / N]
   T measured_velocity;  ///< as the dataset has it [m/s]
   T diameter;           ///< of the sphere: its mass [m]
   T contact_radius;     ///< of the curvature that unloads the contact [m]
@@ -44,10 +48,18 @@ struct Encounter {
   T square;             ///< on the way out [m2/s2]
 
   T radius() const { return diameter * 0.5; }
-  T mass() const { return diameter * diameter * diameter * (at->density * std::numbers::pi / 6.0); }
+  T mass() const { return diameter * diameter * diameter * (density * (std::numbers::pi / 6.0)); }
+  T reduced_modulus() const { return stiffness * 0.75; }
+  /// Takes the constants of the materials from `at`, without derivatives.
+  void take_materials() {
+    density = T(at->density);
+    stiffness = T(at->stiffness);
+    adhesion_energy = T(at->adhesion_energy);
+    wave_mobility = T(at->wave_mobility);
+  }
   /// n_c = (m V^2 / (K sqrt(R)))^(2/5), see ImpactScales [m].
   T scale() const {
-    return power(mass() * velocity * velocity / (sqrt(contact_radius) * at->stiffness), 0.4);
+    return power(mass() * velocity * velocity / (sqrt(contact_radius) * stiffness), 0.4);
   }
   /// How long an elastic sphere without adhesion touches, 2 sqrt(pi) Gamma(7/5) / Gamma(9/10) n_max
   /// / V [s] (Hertz).
@@ -59,20 +71,22 @@ struct Encounter {
   T undamped_square(const T& n) const {
     const T root = sqrt(contact_radius * n) / mass();
     return velocity * velocity + n * root * adhesion_force * (8.0 / 3.0 * std::numbers::pi) -
-           n * n * root * (0.8 * at->stiffness);
+           n * n * root * (stiffness * 0.8);
   }
   /// Largest penetration of an undamped sphere [m]: where `undamped_square` vanishes. Damping on
   /// the way in makes it smaller by about C_H V / 5 of itself.
   T deepest() const {
     Encounter<double> plain;
     plain.at = at;
+    plain.density = value_of(density);
+    plain.stiffness = value_of(stiffness);
     plain.diameter = value_of(diameter);
     plain.contact_radius = value_of(contact_radius);
     plain.velocity = value_of(velocity);
     plain.adhesion_force = value_of(adhesion_force);
     // From above, where the function is concave, Newton's steps cannot overshoot.
     double n = plain.hertz_penetration() +
-               10.0 / 3.0 * std::numbers::pi * plain.adhesion_force / at->stiffness;
+               10.0 / 3.0 * std::numbers::pi * plain.adhesion_force / plain.stiffness;
     for (int step = 0; step < 30; ++step) {
       const double next = n - plain.undamped_square(n) / plain.square_slope(n);
       const bool done = std::abs(next - n) <= 1e-14 * n;
@@ -85,7 +99,7 @@ struct Encounter {
   /// d undamped_square / d n.
   T square_slope(const T& n) const {
     const T root = sqrt(contact_radius * n) / mass();
-    return root * adhesion_force * (4.0 * std::numbers::pi) - n * root * (2.0 * at->stiffness);
+    return root * adhesion_force * (4.0 * std::numbers::pi) - n * root * (stiffness * 2.0);
   }
   /// Takes `energy` [J] from the sphere.
   void lose(const T& energy) { square -= 2.0 * energy / mass(); }

@@ -29,6 +29,7 @@ Encounter<T> approaching(const ExtendedPoint& point, std::span<const T> values, 
                          const T& diameter) {
   Encounter<T> e;
   e.at = point.at;
+  e.take_materials();
   e.measured_velocity = velocity;
   e.diameter = diameter;
   e.contact_radius = diameter * 0.5;
@@ -46,7 +47,7 @@ Groups<T> groups_at_contact(const Encounter<T>& e) {
   // beta = B A^(-3/5) V^(-4/5) = B / (A n_c), and B / A = 2 pi f0 / K.
   const T scale = e.scale();
   return {e.hertz_damping * e.velocity,
-          e.adhesion_force / scale * (2.0 * std::numbers::pi / e.at->stiffness),
+          e.adhesion_force / (scale * e.stiffness) * (2.0 * std::numbers::pi),
           e.adhesion_damping * e.velocity, 1.5 * e.relaxation * e.velocity / scale};
 }
 
@@ -109,8 +110,8 @@ struct ExtendedImpacts::Workspace {
 };
 
 ExtendedImpacts::ExtendedImpacts(std::vector<const Mechanism*> chain,
-                                 std::vector<ExtendedPoint> points)
-    : chain_(std::move(chain)), points_(std::move(points)) {
+                                 std::vector<ExtendedPoint> points, bool materials)
+    : chain_(std::move(chain)), points_(std::move(points)), materials_(materials) {
   for (const Mechanism* mechanism : chain_) {
     own_count_ += mechanism->info.parameters.size();
     if (mechanism->spreads()) nodes_ *= spread_nodes;
@@ -135,11 +136,10 @@ long ExtendedImpacts::evaluate(std::span<const double> values, ImpactOptions opt
     return evaluate_with(*work, values, options, simulate);
   };
   if (!options.gradient) return with(plain_);
-  slopes_.resize(points_.size() * (base_directions + own_count_));
-  const std::size_t directions = base_directions + own_count_;
-  if (directions <= FewDirections().slope.size()) return with(few_);
-  if (directions <= SomeDirections().slope.size()) return with(some_);
-  assert(directions <= ManyDirections().slope.size());
+  slopes_.resize(points_.size() * directions());
+  if (directions() <= FewDirections().slope.size()) return with(few_);
+  if (directions() <= SomeDirections().slope.size()) return with(some_);
+  assert(directions() <= ManyDirections().slope.size());
   return with(many_);
 }
 
@@ -167,9 +167,15 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
 
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const std::span<const T> own = take_values(i);
-    const Encounter<T> start =
-        approaching<T>(points_[i], work.values, variable(points_[i].velocity, 0),
-                       variable(points_[i].diameter, 1));
+    Encounter<T> start = approaching<T>(points_[i], work.values, variable(points_[i].velocity, 0),
+                                        variable(points_[i].diameter, 1));
+    if (materials_) {
+      std::size_t direction = base_directions + own_count_;
+      for (T* constant :
+           {&start.density, &start.stiffness, &start.adhesion_energy, &start.wave_mobility}) {
+        *constant = variable(value_of(*constant), direction++);
+      }
+    }
     for (std::size_t node = 0; node < nodes_; ++node) {
       const std::size_t at = i * nodes_ + node;
       Encounter<T>& e = work.encounters[at];
@@ -223,13 +229,13 @@ template <class T>
 void ExtendedImpacts::keep_slopes([[maybe_unused]] std::size_t i,
                                   [[maybe_unused]] const T& square) {
   if constexpr (!std::is_same_v<T, double>) {
-    const std::size_t count = base_directions + own_count_;
+    const std::size_t count = directions();
     std::copy_n(square.slope.begin(), count, slopes_.begin() + static_cast<long>(i * count));
   }
 }
 
 std::span<const double> ExtendedImpacts::slopes(std::size_t i) const {
-  const std::size_t count = base_directions + own_count_;
+  const std::size_t count = directions();
   return std::span<const double>(slopes_).subspan(i * count, count);
 }
 

@@ -40,7 +40,9 @@ struct ExtendedAnswer {
 /// numbers. Nothing is allocated after the first evaluation with and without them.
 class ExtendedImpacts {
  public:
-  ExtendedImpacts(std::vector<const Mechanism*> chain, std::vector<ExtendedPoint> points);
+  /// @param materials whether derivatives in the constants of the materials are wanted, too
+  ExtendedImpacts(std::vector<const Mechanism*> chain, std::vector<ExtendedPoint> points,
+                  bool materials = false);
   ~ExtendedImpacts();
   ExtendedImpacts(ExtendedImpacts&&) noexcept;
   ExtendedImpacts& operator=(ExtendedImpacts&&) noexcept;
@@ -57,11 +59,14 @@ class ExtendedImpacts {
 
   std::size_t size() const { return points_.size(); }
   const ExtendedAnswer& at(std::size_t i) const { return answers_[i]; }
-  /// d e^2 / d (V, D, values...) at point i, [2 + value_count()]; after an evaluation with
-  /// gradient.
+  /// d e^2 / d (V, D, values...) at point i, [2 + value_count()], and then with `materials` in the
+  /// density, K, W_A and the mobility of its Surroundings; after an evaluation with gradient.
   std::span<const double> slopes(std::size_t i) const;
 
  private:
+  std::size_t directions() const {
+    return base_directions + own_count_ + (materials_ ? material_directions : 0);
+  }
   template <class T>
   struct Workspace;
   template <class T>
@@ -73,6 +78,7 @@ class ExtendedImpacts {
   std::vector<const Mechanism*> chain_;
   std::vector<ExtendedPoint> points_;
   std::size_t own_count_ = 0;
+  bool materials_ = false;
   std::size_t nodes_ = 1;  ///< impacts per point
   bool dashpot_ = false;
   std::vector<ImpactGroups> groups_;

@@ -27,8 +27,8 @@ class Flight {
     const T inverse_knudsen = pressure * e.radius() / Air::free_path;
     const T slip =
         inverse_knudsen / (inverse_knudsen + 1.257 + 0.4 * exponential(-1.1 * inverse_knudsen));
-    stokes_ = slip / (e.diameter * e.diameter) *
-              (18.0 * Air::viscosity / (e.at->density * earth_gravity));
+    stokes_ =
+        slip / (e.diameter * e.diameter) * (18.0 * Air::viscosity / (e.density * earth_gravity));
   }
   T drag(const T& speed) const {
     constexpr double still = 1e-9;  // keeps slopes finite where there is no gas

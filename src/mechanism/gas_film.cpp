@@ -48,7 +48,7 @@ struct GasFilm {
     // Stokes drag with the slip correction 1 + Kn (1.257 + 0.4 exp(-1.1 / Kn)), small Re.
     const T slip =
         inverse_knudsen / (inverse_knudsen + 1.257 + 0.4 * exponential(-1.1 * inverse_knudsen));
-    return 4.5 * viscosity / e.at->density * (film + (own[1] / r + wall) * slip) / r;
+    return 4.5 * viscosity / e.density * (film + (own[1] / r + wall) * slip) / r;
   }
 
   template <class T>

@@ -9,7 +9,7 @@ struct HystereticLoss {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
     const T deepest = e.deepest();
-    e.lose(own[0] * (0.4 * e.at->stiffness) * deepest * deepest * sqrt(e.contact_radius * deepest));
+    e.lose(own[0] * (e.stiffness * 0.4) * deepest * deepest * sqrt(e.contact_radius * deepest));
   }
 };
 

@@ -12,16 +12,15 @@ constexpr double force_range = 0.4e-9;
 
 /// mu = (R W^2 / (E*^2 z0^3))^(1/3).
 double tabor_parameter(const Encounter<double>& sphere, std::span<const double> own) {
-  const double ratio = own[0] * sphere.at->adhesion_energy / sphere.at->reduced_modulus;
+  const double ratio = own[0] * sphere.adhesion_energy / sphere.reduced_modulus();
   return std::cbrt(0.5 * sphere.diameter * ratio * ratio) / force_range;
 }
 
 struct JkrHysteresis {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    const double E = e.at->reduced_modulus;
-    const T work = own[0] * e.at->adhesion_energy;
-    e.lose(parting_work * std::cbrt(1.0 / (E * E)) * power(work, 5.0 / 3.0) *
+    const T work = own[0] * e.adhesion_energy;
+    e.lose(parting_work * power(e.reduced_modulus(), -2.0 / 3.0) * power(work, 5.0 / 3.0) *
            power(e.contact_radius, 4.0 / 3.0));
   }
 };

@@ -82,6 +82,8 @@ struct MechanismLaw {
 
 /// Directions that a dual number carries: V, D, C_H, C_A, f0, then the mechanisms' parameters.
 inline constexpr std::size_t base_directions = 5;
+/// And where the materials are uncertain, last of all: density, K, W_A and mobility.
+inline constexpr std::size_t material_directions = 4;
 using FewDirections = Dual<8>;    ///< up to three parameters
 using SomeDirections = Dual<12>;  ///< up to seven: two or three mechanisms
 using ManyDirections = Dual<40>;  ///< more than the whole catalogue has

@@ -1,5 +1,8 @@
 #include "mechanism/parameter.hpp"
 
+#include <cassert>
+#include <utility>
+
 #include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
 
@@ -50,6 +53,54 @@ const std::vector<Parameter>& base_parameters(AdhesionLaw law) {
        .role = ParameterRole::adhesion_energy},
   };
   return law == AdhesionLaw::ring ? all : by_energy;
+}
+
+const Parameter& parameter_of(Body body, Constant constant) {
+  struct Entry {
+    Body body;
+    Constant constant;
+    Parameter parameter;
+  };
+  const auto entry = [](Body of, Constant which, std::string_view name, std::string_view unit,
+                        std::string_view meaning) {
+    Parameter parameter;
+    parameter.name = name;
+    parameter.unit = unit;
+    parameter.meaning = meaning;
+    parameter.free = false;
+    parameter.log_scale = is_positive(which);
+    parameter.role = ParameterRole::material_constant;
+    return Entry{of, which, std::move(parameter)};
+  };
+  using enum Constant;
+  static const std::vector<Entry> all = {
+      entry(Body::particle, density, "particle.density", "kg/m3", "density of the sphere"),
+      entry(Body::particle, youngs_modulus, "particle.youngs_modulus", "Pa",
+            "Young's modulus of the sphere"),
+      entry(Body::particle, poisson_ratio, "particle.poisson_ratio", "1",
+            "Poisson's ratio of the sphere"),
+      entry(Body::particle, surface_energy, "particle.surface_energy", "J/m2",
+            "surface energy of the sphere"),
+      entry(Body::particle, gilman_factor, "particle.gilman_factor", "1",
+            "surface energy of the sphere over Gilman's estimate"),
+      entry(Body::surface, density, "surface.density", "kg/m3", "density of the surface"),
+      entry(Body::surface, youngs_modulus, "surface.youngs_modulus", "Pa",
+            "Young's modulus of the surface"),
+      entry(Body::surface, poisson_ratio, "surface.poisson_ratio", "1",
+            "Poisson's ratio of the surface"),
+      entry(Body::surface, surface_energy, "surface.surface_energy", "J/m2",
+            "surface energy of the surface"),
+      entry(Body::surface, gilman_factor, "surface.gilman_factor", "1",
+            "surface energy of the surface over Gilman's estimate"),
+      entry(Body::pair, stiffness_K, "stiffness_K", "Pa", "stiffness of the contact"),
+      entry(Body::pair, adhesion_energy, "adhesion_energy", "J/m2", "work of adhesion"),
+      entry(Body::pair, adhesion_force_f0, "adhesion_force_f0", "N/m",
+            "adhesion force per length of the contact's edge")};
+  for (const Entry& candidate : all) {
+    if (candidate.body == body && candidate.constant == constant) return candidate.parameter;
+  }
+  assert(false && "no such constant of this body");
+  return all.front().parameter;
 }
 
 std::vector<const Parameter*> parameters_with(const std::vector<std::string>& ids,

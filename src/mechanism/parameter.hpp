@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/material.hpp"
 #include "impact/impact.hpp"
 
 namespace recoil {
@@ -37,11 +38,12 @@ struct PlausibleLimit {
 
 /// What a parameter is to the base model.
 enum class ParameterRole {
-  of_mechanism,      ///< nothing: it belongs to a mechanism
-  hertz_damping,     ///< C_H
-  adhesion_damping,  ///< C_A
-  adhesion_force,    ///< f0: follows from the materials (eq. 12) unless a fit says otherwise
-  adhesion_energy,   ///< W, in the place of f0 under another adhesion law than the ring's
+  of_mechanism,       ///< nothing: it belongs to a mechanism
+  hertz_damping,      ///< C_H
+  adhesion_damping,   ///< C_A
+  adhesion_force,     ///< f0: follows from the materials (eq. 12) unless a fit says otherwise
+  adhesion_energy,    ///< W, in the place of f0 under another adhesion law than the ring's
+  material_constant,  ///< a constant of the bodies that is known with an error
 };
 
 /// One parameter that a fit may have, of the base model or of a mechanism. It is described here and
@@ -76,6 +78,9 @@ struct Parameter {
 
 /// C_H, C_A and f0, in this order; under another law than the ring's W stands for f0.
 const std::vector<Parameter>& base_parameters(AdhesionLaw law = AdhesionLaw::ring);
+
+/// A constant of the materials as a parameter: "particle.youngs_modulus".
+const Parameter& parameter_of(Body body, Constant constant);
 
 /// Those and the parameters of the mechanisms `ids`, in the order in which the mechanisms act.
 std::vector<const Parameter*> parameters_with(const std::vector<std::string>& ids,

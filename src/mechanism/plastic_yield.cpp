@@ -16,11 +16,10 @@ namespace {
 struct PlasticYield {
   template <class T>
   static void before(Encounter<T>& e, std::span<const T> own) {
-    const double E = e.at->reduced_modulus;
+    const T E = e.reduced_modulus();
     const double pi = std::numbers::pi;
     const T pressure = own[0] * exponential(own[1] * logarithm(e.velocity));
-    const T yield_velocity =
-        power(pressure, 2.5) * (pi * pi / (std::sqrt(40.0 * e.at->density) * E * E));
+    const T yield_velocity = power(pressure, 2.5) * (pi * pi / (sqrt(e.density * 40.0) * E * E));
     if (!(value_of(e.velocity) > value_of(yield_velocity))) return;
     const T y = yield_velocity / e.velocity;
     const T s = y * y;
@@ -76,7 +75,7 @@ Mechanism plastic_yield() {
                       .sharp = true,
                       .of =
                           [](const Encounter<double>& sphere, std::span<const double> own) {
-                            return own[0] / sphere.at->reduced_modulus;
+                            return own[0] / sphere.reduced_modulus();
                           }}},
            {.name = "yield_rate_exponent",
             .unit = "1",

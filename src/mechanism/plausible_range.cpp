@@ -33,6 +33,7 @@ double largest_of(const PlausibleLimit& limit, std::span<const double> own,
 Encounter<double> plain_sphere(const Surroundings& at, double diameter, double velocity) {
   Encounter<double> e{};
   e.at = &at;
+  e.take_materials();
   e.measured_velocity = velocity;
   e.diameter = diameter;
   e.contact_radius = 0.5 * diameter;

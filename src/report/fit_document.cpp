@@ -11,6 +11,7 @@
 #include "plot/draw.hpp"
 #include "report/corrections_document.hpp"
 #include "report/figures.hpp"
+#include "report/figures_budget.hpp"
 #include "report/figures_corner.hpp"
 #include "report/figures_intervals.hpp"
 #include "report/figures_overview.hpp"
@@ -20,11 +21,14 @@
 #include "report/figures_two_point.hpp"
 #include "report/fit_tables.hpp"
 #include "report/format.hpp"
+#include "report/materials_tables.hpp"
 #include "report/pair_words.hpp"
+#include "report/posterior_report.hpp"
 #include "report/prediction_document.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_identifiability.hpp"
 #include "report/words_intervals.hpp"
+#include "report/words_materials.hpp"
 #include "report/words_two_point.hpp"
 #include "report/words_validity.hpp"
 
@@ -177,6 +181,28 @@ Section parameters_section(const Analysis& a, bool every_interval) {
   if (!every_interval) return section;
   section.blocks.emplace_back(intervals_table(a));
   section.blocks.emplace_back(Details{"Why some intervals are missing", {missing_intervals(a)}});
+  return section;
+}
+
+/// What the errors of the materials make of the fit; without blocks where there are none.
+Section materials_section(const Analysis& a) {
+  Section section{"materials", "Errors of the Materials"};
+  if (a.fitted.model.constants.empty()) return section;
+  section.blocks = {constants_table(a)};
+  add_paragraphs(section.blocks, {moved_words(a)});
+  section.blocks.emplace_back(conditional_table(a));
+  add_paragraphs(section.blocks, {conditional_words(a)});
+  section.blocks.emplace_back(budget_table(a));
+  section.blocks.emplace_back(list_of_sentences(budget_sentences(a)));
+  return section;
+}
+
+/// The sampled posterior; without blocks where it was not asked for.
+Section posterior_section(const Analysis& a) {
+  Section section{"posterior", "Posterior"};
+  if (!a.uncertainty.posterior) return section;
+  section.blocks = {posterior_table(a)};
+  add_paragraphs(section.blocks, {no_posterior_words(*a.uncertainty.posterior)});
   return section;
 }
 
@@ -378,6 +404,8 @@ std::vector<Section> fit_sections(const Analysis& a) {
   if (a.fitted.usable) {
     sections.push_back(statistics_section(a));
     sections.push_back(parameters_section(a, false));
+    if (!a.fitted.model.constants.empty()) sections.push_back(materials_section(a));
+    if (a.uncertainty.posterior) sections.push_back(posterior_section(a));
     sections.push_back({"correlations", "Correlations", {}, {correlations_table(a)}});
     sections.push_back({"capture", "Capture Velocity", {}, {capture_table(a)}});
     sections.push_back(two_point_section(a, true));
@@ -412,6 +440,12 @@ Document fit_document(const Analysis& a, std::vector<Block> diagnosis) {
   parameters.blocks.emplace_back(correlations_table(a));
   parameters.title = "Parameters";
   page.sections.push_back(std::move(parameters));
+  if (Section materials = materials_section(a); !materials.blocks.empty()) {
+    materials.title = "Errors of the materials";
+    materials.blocks.emplace_back(together({budget_figures(a)}));
+    page.sections.push_back(std::move(materials));
+  }
+  if (a.uncertainty.posterior) page.sections.push_back(posterior_section(a));
   Section statistics = statistics_section(a);
   statistics.title = "Fit statistics";
   page.sections.push_back(std::move(statistics));

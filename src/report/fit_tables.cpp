@@ -61,6 +61,26 @@ Sentence eq_12_words(const ContactProperties& contact) {
              number(contact.adhesion_force_materials));
 }
 
+/// The row of a parameter that is not fitted; an adhesion that follows the materials moves with
+/// their constants.
+std::vector<Cell> fixed_row(const Analysis& a, std::size_t s) {
+  const FitResult& f = a.fitted;
+  const ParameterSlot& slot = f.model.slots[s];
+  const Sentence name = symbol(slot.label());
+  for (std::size_t d = 0; d < f.model.contacts.size(); ++d) {
+    if (f.model.slot_adhesion[d] != s || !follows_materials(f.model, d)) continue;
+    const double error = s < a.uncertainty.budgets.size() ? a.uncertainty.budgets[s].sd : 0.0;
+    return {name,
+            Number{adhesion_value_under(f.model, f.theta, d), significant(4), error},
+            {},
+            unit(slot.parameter->unit),
+            {},
+            "follows the materials",
+            Number{f.theta[s]}};
+  }
+  return {name, Number{f.theta[s]}, {}, unit(slot.parameter->unit), {}, "fixed"};
+}
+
 }  // namespace
 
 Sentence labelled(const ParameterSlot& slot) {
@@ -96,9 +116,9 @@ Table parameters_table(const Analysis& a) {
                    {"start"}};
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
+    if (slot.is_constant()) continue;
     if (!slot.free) {
-      table.rows.push_back(
-          {symbol(slot.label()), Number{f.theta[s]}, {}, unit(slot.parameter->unit), {}, "fixed"});
+      table.rows.push_back(fixed_row(a, s));
       continue;
     }
     const double error =

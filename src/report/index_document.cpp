@@ -163,6 +163,7 @@ FitSummary summary_of(const Analysis& a) {
   summary.provenances = provenances(a.datasets);
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
+    if (slot.is_constant()) continue;
     ParameterSummary parameter{
         slot.label(), std::string(slot.parameter->unit), f.theta[s], slot.free, {}, {}};
     const Interval interval = recommended_interval(intervals_of(a, s));

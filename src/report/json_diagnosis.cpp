@@ -101,6 +101,7 @@ Json fit_json(const FitResult& fitted, const std::vector<IntervalSet>& intervals
   Json parameters = Json::object();
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
+    if (slot.is_constant()) continue;
     parameters[slot.label()] = {{"value", number_or_null(fitted.theta[j])},
                                 {"unit", slot.parameter->unit},
                                 {"free", slot.free},
@@ -221,7 +222,9 @@ std::string diagnosis_json(const Diagnosis& d) {
                                           : Json(nullptr);
   out["law_error"] = d.spec.law_error;
   out["named"] = d.named;
-  out["rivals"] = d.rivals;
+  std::vector<std::string> rivals = d.rivals;
+  if (d.materials) rivals.emplace_back("materials_within_errors");
+  out["rivals"] = rivals;
   out["resembles"] = d.resembles;
   out["in_every_explanation"] = d.common;
   out["shared_cause"] = d.shared_cause.empty() ? Json(nullptr) : Json(d.shared_cause);

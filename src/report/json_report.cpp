@@ -7,9 +7,11 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
+#include "report/json_materials.hpp"
 #include "report/json_noise.hpp"
 #include "report/json_resampling.hpp"
 #include "report/json_values.hpp"
+#include "report/posterior_report.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_identifiability.hpp"
 #include "report/words_intervals.hpp"
@@ -66,6 +68,7 @@ Json options_json(const Analysis& a) {
   const UncertaintyOptions& options = a.uncertainty.options;
   Json parameters = Json::object();
   for (const ParameterSlot& slot : a.fitted.model.slots) {
+    if (slot.is_constant()) continue;
     Json entry = {{"initial", number_or_null(slot.initial)}, {"free", slot.free}};
     entry["bounds"] = Json::array({number_or_null(slot.lower), number_or_null(slot.upper)});
     parameters[slot.label()] = entry;
@@ -78,14 +81,24 @@ Json options_json(const Analysis& a) {
           {"scheme", to_string(options.scheme)},
           {"level", number_or_null(options.level)},
           {"seed", options.seed},
+          {"materials", a.spec.uncertainty.materials},
           {"parameters", parameters}};
+}
+
+/// The value of a parameter as it acts: an adhesion that follows the materials does so in a fit
+/// that moves their constants.
+double acting_value(const FitResult& f, std::size_t s) {
+  for (std::size_t d = 0; d < f.model.contacts.size(); ++d) {
+    if (f.model.slot_adhesion[d] == s) return adhesion_value_under(f.model, f.theta, d);
+  }
+  return f.theta[s];
 }
 
 Json parameter_json(const Analysis& a, std::size_t s) {
   const FitResult& f = a.fitted;
   const ParameterSlot& slot = f.model.slots[s];
   Json out;
-  put(out, "value", f.theta[s], "the estimate is not finite");
+  put(out, "value", acting_value(f, s), "the estimate is not finite");
   out["unit"] = slot.parameter->unit;
   out["free"] = slot.free;
   const bool at_bound = s < f.at_bound.size() && f.at_bound[s];
@@ -94,7 +107,9 @@ Json parameter_json(const Analysis& a, std::size_t s) {
   const std::string why = !slot.free ? "the parameter is fixed"
                           : at_bound ? "the estimate rests on a bound"
                                      : "the covariance is not available";
-  put(out, "std_error", error > 0.0 ? error : NAN, why);
+  const bool follows = s < a.uncertainty.budgets.size() && !slot.free;
+  const double own = follows ? a.uncertainty.budgets[s].sd : error;
+  put(out, "std_error", own > 0.0 ? own : NAN, why);
 
   const IntervalSet set = intervals_of(a, s);
   Json intervals;
@@ -110,11 +125,15 @@ Json parameter_json(const Analysis& a, std::size_t s) {
   recommended["interval"] = quoted.available() ? Json(to_string(set.recommended)) : Json(nullptr);
   recommended["why"] = quoted.available() ? recommended_words(set) : why_none(quoted);
   intervals["recommended"] = recommended;
+  const std::optional<PosteriorResult>& posterior = a.uncertainty.posterior;
+  put_posterior(intervals, a, posterior ? &posterior->parameters[s] : nullptr);
   out["intervals"] = intervals;
   out["recommended"] = recommended;
   const std::optional<ProfileShape> shape = set[IntervalKind::profile].shape;
   out["profile_shape"] = shape ? Json(to_string(*shape)) : Json(nullptr);
   put_resampling(out, a, s);
+  if (s < a.uncertainty.budgets.size()) put_budget(out, a.uncertainty.budgets[s], f.model);
+  put_conditional(out, a, s);
   return out;
 }
 
@@ -206,6 +225,13 @@ Json capture_json(const Analysis& a) {
         {"interval", capture.because ? Json(to_string(capture.recommended)) : Json(nullptr)},
         {"why", recommended_words(capture)}};
     if (entry["interval"].is_null()) entry["why"] = why_none(capture.interval);
+    if (const auto& posterior = a.uncertainty.posterior; posterior && posterior->available()) {
+      entry["intervals"]["posterior"] = interval_json(posterior->capture[list.size()].interval);
+    }
+    const std::size_t k = list.size();
+    if (k < a.uncertainty.capture_budgets.size()) {
+      put_budget(entry, a.uncertainty.capture_budgets[k], a.fitted.model);
+    }
     list.push_back(entry);
   }
   return list;
@@ -307,9 +333,11 @@ std::string json_report(const Analysis& analysis) {
   out["model"] = model_json(analysis);
   Json parameters = Json::object();
   for (std::size_t s = 0; s < analysis.fitted.model.slots.size(); ++s) {
+    if (analysis.fitted.model.slots[s].is_constant()) continue;
     parameters[analysis.fitted.model.slots[s].label()] = parameter_json(analysis, s);
   }
   out["parameters"] = parameters;
+  out["constants"] = constants_json(analysis);
   out["covariance"] = matrix_json(analysis, false);
   out["correlation"] = matrix_json(analysis, true);
   out["derived"] = {{"capture_velocity", capture_json(analysis)}};
@@ -320,6 +348,7 @@ std::string json_report(const Analysis& analysis) {
   out["identifiability"] = identifiability_json(analysis);
   out["validity"] = validity_json(analysis);
   out["bootstrap"] = bootstrap_json(analysis);
+  out["posterior"] = posterior_json(analysis);
   put_two_point(out, analysis);
   out["starts"] = starts_json(analysis);
   std::vector<std::string> warnings = all_warnings(analysis);

@@ -432,6 +432,27 @@ std::string where_words(const Diagnosis& d) {
       std::abs(worst->standardised), std::abs(worst->energy));
 }
 
+namespace {
+
+/// That the errors of the materials make the model adequate, and which of them; empty when not.
+std::string materials_words(const Diagnosis& d) {
+  if (!d.materials) return "";
+  std::string moved;
+  for (std::size_t k = 0; k < d.base.constants_moved.size(); ++k) {
+    const double by = d.base.constants_moved[k];
+    constexpr double worth_a_word = 0.5;  // standard deviations
+    if (std::abs(by) < worth_a_word) continue;
+    moved += fmt::format("{}{} by {:+.1f}", moved.empty() ? ": " : ", ",
+                         d.base.model.slots[d.base.model.first_constant() + k].label(), by);
+  }
+  return fmt::format(
+      " It does so within the errors of the materials{}{}; with exact materials structure would be "
+      "left (p = {:.2g}).",
+      moved, moved.empty() ? "" : " standard deviations", d.materials->p_value_exact);
+}
+
+}  // namespace
+
 std::string answer_words(const Diagnosis& d) {
   const std::string p = p_words(d.structure.p_value, d.structure.simulated);
   if (d.verdict == Verdict::adequate) {
@@ -439,7 +460,7 @@ std::string answer_words(const Diagnosis& d) {
                "The model describes these points: nothing systematic is left in its residuals ({}; "
                "of data sets that the model itself makes, so many look as systematic).",
                p) +
-           evidence_words(d) + outlying_words(d);
+           evidence_words(d) + materials_words(d) + outlying_words(d);
   }
   std::string text =
       fmt::format("The fitted model leaves structure in its residuals ({}){}. ", p, found_words(d));

@@ -96,6 +96,10 @@ std::string bootstrap_key(const FitResult& fitted, const ResamplingPlan& plan,
                                  to_string(fitted.model.solver.kind), fitted.noise_scale);
   if (fitted.model.adhesion != AdhesionLaw::ring) text += to_string(fitted.model.adhesion) + "|";
   text += noise_key(fitted.data);
+  if (!fitted.model.constants.empty()) text += fmt::format("{:a}|", fitted.data.constants_weight);
+  for (const UncertainConstant& constant : fitted.model.constants) {
+    text += fmt::format("{:a} {:a}|", constant.stated, constant.sd);
+  }
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     text += fmt::format("{} {:a} {:a} {:a} {} {}|", slot.label(), fitted.theta[j], slot.lower,

@@ -25,16 +25,44 @@ std::vector<std::size_t> inner_slots(const FitResult& fitted) {
   return inner;
 }
 
+/// Those of the uncertain constants of the materials.
+std::vector<std::size_t> constant_slots(const FitResult& fitted) {
+  std::vector<std::size_t> slots;
+  for (std::size_t j = fitted.model.first_constant(); j < fitted.theta.size(); ++j) {
+    slots.push_back(j);
+  }
+  return slots;
+}
+
+std::vector<std::size_t> joined(std::vector<std::size_t> one,
+                                const std::vector<std::size_t>& other) {
+  one.insert(one.end(), other.begin(), other.end());
+  return one;
+}
+
+/// What is left of the information about the first `count` when the others are not known: the
+/// Schur complement.
+Eigen::MatrixXd without_constants(const Eigen::MatrixXd& fisher, std::size_t count) {
+  const auto p = static_cast<Eigen::Index>(count);
+  const Eigen::Index k = fisher.rows() - p;
+  if (k == 0) return fisher;
+  return fisher.topLeftCorner(p, p) -
+         fisher.topRightCorner(p, k) *
+             fisher.bottomRightCorner(k, k).ldlt().solve(fisher.bottomLeftCorner(k, p));
+}
+
 /// Derivatives of the weighted residuals of `data` by ln theta of `inner`, at the estimate [n x p].
+/// @param constants whether those of the materials' constants come after them
 Eigen::MatrixXd logarithmic_jacobian(const FitResult& fitted, const Observations& data,
-                                     const std::vector<std::size_t>& inner) {
-  const std::size_t n = data.points.size();
+                                     const std::vector<std::size_t>& inner, bool constants) {
+  const LeastSquaresProblem problem = impact_problem(fitted.model, data);
+  const std::size_t n = constants ? problem.residual_count : data.points.size();
   const std::size_t p = fitted.theta.size();
-  std::vector<double> residuals(n);
-  std::vector<double> full(n * p);
+  std::vector<double> residuals(problem.residual_count);
+  std::vector<double> full(problem.residual_count * p);
   Eigen::MatrixXd jacobian =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(inner.size()));
-  if (!impact_problem(fitted.model, data).evaluate(fitted.theta, residuals, full)) return jacobian;
+  if (!problem.evaluate(fitted.theta, residuals, full)) return jacobian;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < inner.size(); ++k) {
       jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
@@ -171,8 +199,10 @@ std::vector<PlannedPoints> plans_for(const FitResult& fitted,
       more.points.front().restitution =
           predict(fitted.model, fitted.theta, place.dataset, place.diameter, velocity, false)
               .restitution();
-      const Eigen::MatrixXd row = logarithmic_jacobian(fitted, more, inner);
-      const Eigen::MatrixXd then = fisher + planned_points * row.transpose() * row;
+      const Eigen::MatrixXd row =
+          logarithmic_jacobian(fitted, more, joined(inner, constant_slots(fitted)), false);
+      const Eigen::MatrixXd then =
+          without_constants(fisher + planned_points * row.transpose() * row, inner.size());
       plans.push_back({place.dataset, place.diameter, velocity, place.velocity, planned_points,
                        relative_deviations(then, fitted.theta.size(), inner)});
     }
@@ -199,14 +229,16 @@ Information information_at(const FitResult& fitted, const std::vector<CapturePla
   const std::vector<std::size_t> inner = inner_slots(fitted);
   information.relative_sd.assign(fitted.theta.size(), 0.0);
   if (inner.empty() || fitted.data.points.empty()) return information;
-  const Eigen::MatrixXd jacobian = logarithmic_jacobian(fitted, fitted.data, inner);
-  const Eigen::MatrixXd fisher = jacobian.transpose() * jacobian;
+  const Eigen::MatrixXd jacobian =
+      logarithmic_jacobian(fitted, fitted.data, joined(inner, constant_slots(fitted)), true);
+  const Eigen::MatrixXd full = jacobian.transpose() * jacobian;
+  const Eigen::MatrixXd fisher = without_constants(full, inner.size());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fisher);
   information.directions = directions_of(eigen, fitted, inner);
   const double smallest = eigen.eigenvalues().minCoeff();
   information.condition = smallest > 0.0 ? eigen.eigenvalues().maxCoeff() / smallest : INFINITY;
   information.relative_sd = relative_deviations(fisher, fitted.theta.size(), inner);
-  information.plans = plans_for(fitted, capture, fisher, inner);
+  information.plans = plans_for(fitted, capture, full, inner);
   const auto worst =
       std::max_element(information.relative_sd.begin(), information.relative_sd.end()) -
       information.relative_sd.begin();

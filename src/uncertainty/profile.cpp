@@ -26,7 +26,7 @@ class Profile {
     problem_.fixed[slot] = true;
     options_.covariance = false;
     options_.function_tolerance = 1e-10;
-    least_ = fitted.chi2 + event_spread_offset(fitted.data);
+    least_ = fitted.least + event_spread_offset(fitted.data);
   }
 
   /// chi2 minimised over the others (and the spread of the impacts) with the slot at `value`, above

@@ -1,6 +1,7 @@
 #include "uncertainty/replicate_errors.hpp"
 
 #include <cmath>
+#include <span>
 
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
@@ -16,6 +17,29 @@ bool uses_sandwich(Scheme scheme) {
   return scheme == Scheme::wild || scheme == Scheme::cases || scheme == Scheme::cluster;
 }
 
+/// That of the points from their residuals, that of the constants from their errors, which are
+/// known.
+std::vector<double> sandwich_of(const LeastSquaresResult& run, const Observations& data) {
+  const std::vector<double> C = scaled_covariance(data, run.covariance, 1.0);
+  const std::size_t p = run.theta.size();
+  const std::size_t n = data.points.size();
+  const std::span<const double> jacobian(run.jacobian);
+  std::vector<double> covariance =
+      sandwich_covariance(std::span(run.residuals).first(n), jacobian.first(n * p), C);
+  std::vector<double> step(p);
+  for (std::size_t k = n; k < run.residuals.size(); ++k) {
+    for (std::size_t a = 0; a < p; ++a) {
+      step[a] = 0.0;
+      for (std::size_t b = 0; b < p; ++b) step[a] += C[a * p + b] * jacobian[k * p + b];
+    }
+    const double square = data.constants_weight * data.constants_weight;
+    for (std::size_t a = 0; a < p; ++a) {
+      for (std::size_t b = 0; b < p; ++b) covariance[a * p + b] += square * step[a] * step[b];
+    }
+  }
+  return covariance;
+}
+
 }  // namespace
 
 std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Observations& data,
@@ -23,10 +47,9 @@ std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Ob
   if (run.covariance.empty()) return {};
   // Where the noise is estimated, it was so again with the parameters of this run.
   const double scale = data.sd_stated ? fitted.noise_scale : 1.0;
-  std::vector<double> covariance =
-      uses_sandwich(plan.scheme) ? sandwich_covariance(run.residuals, run.jacobian,
-                                                       scaled_covariance(data, run.covariance, 1.0))
-                                 : scaled_covariance(data, run.covariance, scale);
+  std::vector<double> covariance = uses_sandwich(plan.scheme)
+                                       ? sandwich_of(run, data)
+                                       : scaled_covariance(data, run.covariance, scale);
   const auto added = event_spread_covariance(fitted.model, run.theta, data, run.covariance);
   for (std::size_t k = 0; k < added.size(); ++k) covariance[k] += added[k];
   return covariance;

@@ -148,8 +148,23 @@ void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observa
   }
 }
 
+void resample_constants(const FitResult& fitted, std::uint64_t seed, std::uint64_t index,
+                        Observations& sample) {
+  const std::vector<UncertainConstant>& constants = fitted.model.constants;
+  const std::size_t first = fitted.model.first_constant();
+  RandomStream random(seed, RandomPurpose::constants, index);
+  sample.constants.clear();
+  for (std::size_t k = 0; k < constants.size(); ++k) {
+    const double shift = constants[k].sd * random.normal();
+    const double value = fitted.theta[first + k];
+    sample.constants.push_back(is_positive(constants[k].constant) ? value * std::exp(shift)
+                                                                  : value + shift);
+  }
+}
+
 void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t index,
               Observations& sample) {
+  resample_constants(*plan.fitted, seed, index, sample);
   RandomStream random(seed, RandomPurpose::bootstrap, index);
   switch (plan.scheme) {
     case Scheme::parametric:

@@ -80,6 +80,11 @@ void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observatio
 /// other.
 void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
 
+/// The stated values of the uncertain constants of the materials, drawn anew about those of the
+/// fit: they are observations like the points.
+void resample_constants(const FitResult& fitted, std::uint64_t seed, std::uint64_t index,
+                        Observations& sample);
+
 /// The sample of replicate `index`: a pure function of (plan, seed, index). `sample` has been
 /// copied from the plan's data once; its memory is used again.
 void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t index,

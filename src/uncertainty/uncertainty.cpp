@@ -190,6 +190,18 @@ void add_spread(UncertaintyResult& result, std::size_t slots) {
   }
 }
 
+/// The fit and its intervals with exact materials; none where they are, or without an answer.
+std::optional<ConditionalFit> conditional_fit(const FitResult& fitted,
+                                              const UncertaintyOptions& options) {
+  if (fitted.model.constants.empty()) return std::nullopt;
+  FitResult exact = fit(with_exact_materials(fitted.model), fitted.data);
+  if (!exact.usable) return std::nullopt;
+  UncertaintyOptions plain = options;
+  plain.curves = false;
+  const std::vector<NoiseAlternative> alternatives = noise_alternatives(exact);
+  return ConditionalFit{std::move(exact), likelihood_intervals(alternatives, plain)};
+}
+
 }  // namespace
 
 UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<Dataset>& datasets,
@@ -226,6 +238,18 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
                              options.seed, options.threads});
   result.identifiability =
       judge_identifiability(fitted, result.intervals, result.capture, alternatives);
+  if (options.posterior) {
+    PosteriorOptions sampling;
+    sampling.level = options.level;
+    sampling.seed = options.seed;
+    sampling.threads = options.threads;
+    result.posterior = sample_posterior(fitted, result.capture, sampling);
+  }
+  if (options.budget) {
+    result.budgets = parameter_budgets(fitted);
+    result.capture_budgets = capture_budgets(fitted, result.capture);
+    result.conditional = conditional_fit(fitted, options);
+  }
   if (options.curves) {
     result.curves = restitution_curves(fitted, datasets, result.capture, result.two_point,
                                        {result.bootstrap.theta, options.level, options.threads});

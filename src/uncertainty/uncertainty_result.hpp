@@ -1,17 +1,26 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "uncertainty/bootstrap_result.hpp"
+#include "uncertainty/budget.hpp"
 #include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/interval_set.hpp"
+#include "uncertainty/posterior.hpp"
 #include "uncertainty/two_point_comparison.hpp"
 #include "uncertainty/two_point_pairs.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
+
+/// The same fit with the constants of the materials taken as exact.
+struct ConditionalFit {
+  FitResult fitted;
+  std::vector<IntervalSet> intervals;  ///< [its slots]: Wald and profile alone
+};
 
 /// What `assess_uncertainty` finds.
 struct UncertaintyResult {
@@ -23,6 +32,10 @@ struct UncertaintyResult {
   std::vector<TwoPointComparison> two_point;  ///< one per dataset, unless it was not asked for
   std::vector<PairStudy> pairs;  ///< one per dataset with a pair of points, unless not asked for
   Identifiability identifiability;
+  std::optional<PosteriorResult> posterior;   ///< where it was asked for
+  std::vector<ErrorBudget> budgets;           ///< [slots]; empty unless asked for
+  std::vector<ErrorBudget> capture_budgets;   ///< in the order of `capture`
+  std::optional<ConditionalFit> conditional;  ///< where constants are uncertain
 };
 
 }  // namespace recoil

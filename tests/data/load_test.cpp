@@ -215,5 +215,21 @@ TEST(LoadDataset, TextsWithoutFilesGiveTheSame) {
   EXPECT_THROW(parse_dataset(example::package, "", "no/such/folder"), InputError);
 }
 
+TEST(LoadDataset, ReadsTheErrorsOfConstants) {
+  using recoil::Body;
+  using recoil::Constant;
+  const DatasetFolder folder(support::changed(
+      support::changed(example::package, "1050", R"({ "value": 1050, "sd": 10 })"), "0.17",
+      R"({ "value": 0.17, "sd": 0.01 }, "surface_energy": { "value": 0.3, "relative_sd": 0.5 })"));
+  const recoil::ImpactSystem system = recoil::load_dataset(folder.path()).system;
+  EXPECT_EQ(system.particle.density, 1050.0);
+  EXPECT_EQ(system.error_of(Body::particle, Constant::density), 10.0);
+  EXPECT_EQ(system.surface.poisson_ratio, 0.17);
+  EXPECT_EQ(system.error_of(Body::surface, Constant::poisson_ratio), 0.01);
+  EXPECT_EQ(system.surface.surface_energy, 0.3);
+  EXPECT_EQ(system.error_of(Body::surface, Constant::surface_energy), 0.15);
+  EXPECT_EQ(system.error_of(Body::surface, Constant::youngs_modulus), 0.0);
+}
+
 }  // namespace
 }  // namespace recoil

@@ -116,7 +116,7 @@ bool has_names_as_keys(const std::string& path) {
       "parameters",      "covariance",       "correlation",    "spread",
       "exponents",       "relative_sd",      "ended",          "two_point_by_dataset",
       "full_by_dataset", "two_point_failed", "intervals_note", "covariance.NAME",
-      "correlation.NAME"};
+      "correlation.NAME", "constants"};
   for (const std::string& name : last) {
     if (path == name ||
         (path.size() > name.size() &&
@@ -215,7 +215,8 @@ constexpr const char* its_package = R"({
     { "name": "events", "type": "integer" },
     { "name": "captured", "type": "integer" } ] } }],
   "recoil": { "provenance": "synthetic",
-    "particle": { "density": 1050, "youngs_modulus": 2.56e9, "poisson_ratio": 0.35 },
+    "particle": { "density": 1050, "youngs_modulus": { "value": 2.56e9, "sd": 0.5e9 },
+      "poisson_ratio": 0.35, "surface_energy": { "value": 0.04, "relative_sd": 0.3 } },
     "surface": { "youngs_modulus": 131e9, "poisson_ratio": 0.28 } } }
 )";
 

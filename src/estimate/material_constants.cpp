@@ -1,0 +1,245 @@
+#include "estimate/material_constants.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "mechanism/half_space.hpp"
+
+namespace recoil {
+namespace {
+
+// Standard deviation of ln(surface energy / Gilman's estimate of it) [1]: 0, it is taken as exact.
+constexpr double gilman_log_sd = 0.0;
+
+const Material& material_of(const ImpactSystem& system, Body body) {
+  return body == Body::surface ? system.surface : system.particle;
+}
+
+/// Its stated value; none where it is derived.
+std::optional<double> stated_value(const ImpactSystem& system, Body body, Constant constant) {
+  const Material& material = material_of(system, body);
+  switch (constant) {
+    case Constant::density:
+      return material.density;
+    case Constant::youngs_modulus:
+      return material.youngs_modulus;
+    case Constant::poisson_ratio:
+      return material.poisson_ratio;
+    case Constant::surface_energy:
+      return material.surface_energy;
+    case Constant::gilman_factor:
+      return 1.0;
+    case Constant::stiffness_K:
+      return system.stiffness_K;
+    case Constant::adhesion_energy:
+      return system.adhesion_energy;
+    case Constant::adhesion_force_f0:
+      return system.adhesion_force_f0;
+  }
+  return std::nullopt;
+}
+
+/// Do two datasets mean the same thing by a constant of this body?
+bool same_body(const ImpactSystem& a, const ImpactSystem& b, Body body) {
+  const auto same = [](const Material& one, const Material& other) {
+    return !one.name.empty() && one.name == other.name;
+  };
+  if (body == Body::pair) {
+    return same(a.particle, b.particle) && same(a.surface, b.surface) &&
+           a.reference_diameter == b.reference_diameter;
+  }
+  return same(material_of(a, body), material_of(b, body));
+}
+
+}  // namespace
+
+double logarithmic_sd(double value, double sd) {
+  return std::sqrt(std::log1p(std::pow(sd / value, 2)));
+}
+
+double UncertainConstant::deviation(double value, double stated_value_of_it) const {
+  return is_positive(constant) ? std::log(value / stated_value_of_it) / sd
+                               : (value - stated_value_of_it) / sd;
+}
+
+double UncertainConstant::deviation_slope(double value) const {
+  return is_positive(constant) ? 1.0 / (value * sd) : 1.0 / sd;
+}
+
+std::vector<UncertainConstant> uncertain_constants(const std::vector<Dataset>& datasets) {
+  std::vector<UncertainConstant> all;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    const ImpactSystem& system = datasets[d].system;
+    const auto add = [&](Body body, Constant constant, double sd) {
+      const double value = *stated_value(system, body, constant);
+      if (!(sd > 0.0)) return;
+      for (UncertainConstant& known : all) {
+        const ImpactSystem& other = datasets[known.datasets.front()].system;
+        if (known.body != body || known.constant != constant || known.stated != value ||
+            known.sd != sd || !same_body(system, other, body)) {
+          continue;
+        }
+        known.datasets.push_back(d);
+        return;
+      }
+      all.push_back({body, constant, value, sd, {d}});
+    };
+    for (const ConstantError& error : system.errors) {
+      const double value = *stated_value(system, error.body, error.constant);
+      add(error.body, error.constant,
+          is_positive(error.constant) ? logarithmic_sd(value, error.sd) : error.sd);
+    }
+    for (const Body body : {Body::particle, Body::surface}) {
+      if (material_of(system, body).surface_energy) continue;
+      add(body, Constant::gilman_factor, gilman_log_sd);
+    }
+  }
+  return all;
+}
+
+MaterialLaw::MaterialLaw(const ImpactSystem& system, double reference_diameter,
+                         const std::vector<UncertainConstant>& all, std::size_t dataset)
+    : system_(system), reference_diameter_(reference_diameter) {
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto& its = all[k].datasets;
+    if (std::find(its.begin(), its.end(), dataset) == its.end()) continue;
+    acting_.push_back({k, all[k].body, all[k].constant});
+  }
+  if (acting_.empty()) return;
+  const Material& surface = system.surface;
+  const double nu = surface.poisson_ratio;
+  const double density = surface.density > 0.0 ? surface.density : system.particle.density;
+  mobility_ = half_space_mobility(surface.youngs_modulus, nu, density);
+  // c(nu) costs a thousand times as much as all the rest; a parabola of its logarithm is good to
+  // 1e-4 over 0.1 of nu.
+  constexpr double step = 0.01;
+  const double middle = std::clamp(nu, -0.9, 0.48);
+  const double low = std::log(half_space_radiation(middle - step));
+  const double here = std::log(half_space_radiation(middle));
+  const double high = std::log(half_space_radiation(middle + step));
+  radiation_ = {(high - low) / (2.0 * step), (high - 2.0 * here + low) / (step * step)};
+}
+
+ImpactSystem MaterialLaw::with(std::span<const double> values,
+                               std::array<double, 2>& gilman) const {
+  ImpactSystem system = system_;
+  gilman = {1.0, 1.0};
+  for (const Acting& acting : acting_) {
+    const double value = values[acting.index];
+    Material& material = acting.body == Body::surface ? system.surface : system.particle;
+    switch (acting.constant) {
+      case Constant::density:
+        material.density = value;
+        break;
+      case Constant::youngs_modulus:
+        material.youngs_modulus = value;
+        break;
+      case Constant::poisson_ratio:
+        material.poisson_ratio = value;
+        break;
+      case Constant::surface_energy:
+        material.surface_energy = value;
+        break;
+      case Constant::gilman_factor:
+        gilman[acting.body == Body::surface ? 1 : 0] = value;
+        break;
+      case Constant::stiffness_K:
+        system.stiffness_K = value;
+        break;
+      case Constant::adhesion_energy:
+        system.adhesion_energy = value;
+        break;
+      case Constant::adhesion_force_f0:
+        system.adhesion_force_f0 = value;
+        break;
+    }
+  }
+  return system;
+}
+
+MaterialState MaterialLaw::at(std::span<const double> values) const {
+  std::array<double, 2> gilman;
+  const ImpactSystem s = with(values, gilman);
+  MaterialState state;
+  state.density = s.particle.density;
+  state.stiffness = s.stiffness_K.value_or(
+      hertzian_stiffness(compliance(s.particle.youngs_modulus, s.particle.poisson_ratio),
+                         compliance(s.surface.youngs_modulus, s.surface.poisson_ratio)));
+  const auto energy = [&](const Material& material, double factor) {
+    return material.surface_energy.value_or(factor *
+                                            gilman_surface_energy(material.youngs_modulus));
+  };
+  state.adhesion_energy = s.adhesion_energy.value_or(
+      2.0 * std::sqrt(energy(s.particle, gilman[0]) * energy(s.surface, gilman[1])));
+  state.adhesion_force = s.adhesion_force_f0.value_or(
+      adhesion_force_for(state.adhesion_energy, reference_diameter_ / 2.0, state.stiffness));
+  const auto waves_in = [](const ImpactSystem& system) {
+    return system.surface.density > 0.0 ? system.surface.density : system.particle.density;
+  };
+  const double nu = s.surface.poisson_ratio;
+  const double by = nu - system_.surface.poisson_ratio;
+  state.wave_mobility = mobility_ * std::exp(by * (radiation_[0] + 0.5 * by * radiation_[1])) *
+                        std::pow((1.0 + nu) / (1.0 + system_.surface.poisson_ratio) *
+                                     system_.surface.youngs_modulus / s.surface.youngs_modulus,
+                                 1.5) *
+                        std::sqrt(waves_in(s) / waves_in(system_));
+  return state;
+}
+
+std::vector<MaterialSlope> MaterialLaw::slopes(std::span<const double> values) const {
+  std::array<double, 2> gilman;
+  const ImpactSystem s = with(values, gilman);
+  const std::array<double, 2> k = {compliance(s.particle.youngs_modulus, s.particle.poisson_ratio),
+                                   compliance(s.surface.youngs_modulus, s.surface.poisson_ratio)};
+  const bool derived_stiffness = !s.stiffness_K;
+  const bool derived_energy = !s.adhesion_energy;
+  std::vector<MaterialSlope> all;
+  for (const Acting& acting : acting_) {
+    MaterialSlope slope;
+    slope.index = acting.index;
+    const double value = values[acting.index];
+    const bool of_surface = acting.body == Body::surface;
+    const Material& material = of_surface ? s.surface : s.particle;
+    const double share = k[of_surface ? 1 : 0] / (k[0] + k[1]);
+    switch (acting.constant) {
+      case Constant::density:
+        if (!of_surface) slope.density = 1.0 / value;
+        if (of_surface || !(s.surface.density > 0.0)) slope.wave_mobility = 0.5 / value;
+        break;
+      case Constant::youngs_modulus:
+        if (derived_stiffness) slope.stiffness = share / value;
+        if (derived_energy && !material.surface_energy) slope.adhesion_energy = 0.5 / value;
+        if (of_surface) slope.wave_mobility = -1.5 / value;
+        break;
+      case Constant::poisson_ratio:
+        if (derived_stiffness) slope.stiffness = share * 2.0 * value / (1.0 - value * value);
+        if (of_surface) {
+          slope.wave_mobility = radiation_[0] +
+                                (value - system_.surface.poisson_ratio) * radiation_[1] +
+                                1.5 / (1.0 + value);
+        }
+        break;
+      case Constant::surface_energy:
+      case Constant::gilman_factor:
+        if (derived_energy) slope.adhesion_energy = 0.5 / value;
+        break;
+      case Constant::stiffness_K:
+        slope.stiffness = 1.0 / value;
+        break;
+      case Constant::adhesion_energy:
+        slope.adhesion_energy = 1.0 / value;
+        break;
+      case Constant::adhesion_force_f0:
+        slope.adhesion_force = 1.0 / value;
+        break;
+    }
+    if (!s.adhesion_force_f0) {
+      slope.adhesion_force = 2.0 / 3.0 * slope.adhesion_energy + slope.stiffness / 3.0;
+    }
+    all.push_back(slope);
+  }
+  return all;
+}
+
+}  // namespace recoil

@@ -1,0 +1,237 @@
+#include "uncertainty/budget.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "estimate/capture_velocity.hpp"
+#include "estimate/impact_problem.hpp"
+#include "estimate/misfit.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
+#include "uncertainty/refit.hpp"
+
+namespace recoil {
+namespace {
+
+// The certified error of e^2, see simulate_impacts_fast.
+constexpr double solver_error = 1e-9;
+// Below this share of the variance nobody asks whether a constant acts linearly.
+constexpr double worth_a_refit = 0.02;
+// How far a move may be from the sd that the linear law gives.
+constexpr double linear_within = 0.25;
+
+/// A quantity of a fit: its value and gradient under any theta; nothing where it has none.
+struct Quantity {
+  struct At {
+    double value = 0.0;
+    std::vector<double> gradient;
+  };
+  std::function<std::optional<At>(std::span<const double> theta)> at;
+};
+
+/// What all budgets of a fit share.
+class BudgetMaker {
+ public:
+  explicit BudgetMaker(const FitResult& fitted) : fitted_(fitted) {
+    const LeastSquaresProblem problem = impact_problem(fitted.model, fitted.data);
+    const std::size_t p = fitted.theta.size();
+    std::vector<double> residuals(problem.residual_count);
+    jacobian_.resize(problem.residual_count * p);
+    usable_ = !fitted.covariance.empty() && problem.evaluate(fitted.theta, residuals, jacobian_);
+    if (!usable_) return;
+    covariance_ = fitted.covariance;
+    for (std::size_t k = 0; k < fitted.spread_covariance.size(); ++k) {
+      covariance_[k] -= fitted.spread_covariance[k];
+    }
+    scale_ = std::sqrt(scaled_covariance(fitted.data, {1.0}, fitted.noise_scale).front());
+    find_input_shares();
+  }
+
+  ErrorBudget operator()(const Quantity& quantity) const {
+    ErrorBudget budget;
+    if (!usable_) return budget;
+    const auto here = quantity.at(fitted_.theta);
+    if (!here) return budget;
+    budget.value = here->value;
+    const std::vector<double>& g = here->gradient;
+    const std::size_t p = g.size();
+    const std::size_t n = fitted_.data.points.size();
+    std::vector<double> reach(p, 0.0);  // C g
+    for (std::size_t a = 0; a < p; ++a) {
+      for (std::size_t b = 0; b < p; ++b) reach[a] += covariance_[a * p + b] * g[b];
+    }
+    const auto part = [&](std::size_t row) {
+      double sum = 0.0;
+      for (std::size_t a = 0; a < p; ++a) sum += reach[a] * jacobian_[row * p + a];
+      return sum / scale_;
+    };
+    double scatter = 0.0, velocity = 0.0, diameter = 0.0, numerics = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double square = part(i) * part(i);
+      velocity += square * velocity_share_[i];
+      diameter += square * diameter_share_[i];
+      scatter += square * (1.0 - velocity_share_[i] - diameter_share_[i]);
+      numerics += square * std::pow(residual_slope_[i] * solver_error / scale_, 2);
+    }
+    double spread = 0.0;
+    for (std::size_t a = 0; a < p && !fitted_.spread_covariance.empty(); ++a) {
+      for (std::size_t b = 0; b < p; ++b) {
+        spread += g[a] * fitted_.spread_covariance[a * p + b] * g[b];
+      }
+    }
+    add(budget, BudgetSource::scatter, scatter);
+    add(budget, BudgetSource::velocity, velocity);
+    add(budget, BudgetSource::diameter, diameter);
+    add(budget, BudgetSource::spread, spread);
+    add(budget, BudgetSource::numerics, numerics);
+    for (std::size_t k = 0; k < fitted_.model.constants.size(); ++k) {
+      const double own = part(n + k);
+      add(budget, BudgetSource::constant, own * own, k);
+    }
+    double variance = 0.0;
+    for (const BudgetEntry& entry : budget.entries) variance += entry.sd * entry.sd;
+    budget.sd = std::sqrt(variance);
+    if (!budget.available()) return budget;
+    for (BudgetEntry& entry : budget.entries) entry.share = entry.sd * entry.sd / variance;
+    std::stable_sort(budget.entries.begin(), budget.entries.end(),
+                     [](const BudgetEntry& a, const BudgetEntry& b) { return a.sd > b.sd; });
+    for (BudgetEntry& entry : budget.entries) {
+      if (entry.source != BudgetSource::constant) continue;
+      if (!budget.sd_without_first_constant) {
+        // The variance given a constant: less the square of the covariance over its variance.
+        const std::size_t j = fitted_.model.first_constant() + entry.constant;
+        const double given = variance - reach[j] * reach[j] / covariance_[j * p + j];
+        budget.sd_without_first_constant = std::sqrt(std::max(0.0, given));
+      }
+      if (entry.share >= worth_a_refit) move(quantity, entry, budget);
+    }
+    return budget;
+  }
+
+ private:
+  void add(ErrorBudget& budget, BudgetSource source, double square,
+           std::size_t constant = 0) const {
+    if (!(square > 0.0)) return;
+    budget.entries.push_back({source, constant, std::sqrt(square), 0.0, {}, {}});
+  }
+
+  /// The quantity when the constant is stated one standard deviation off.
+  void move(const Quantity& quantity, BudgetEntry& entry, ErrorBudget& budget) const {
+    for (const double by : {-1.0, 1.0}) {
+      Observations data = fitted_.data;
+      const auto& constants = fitted_.model.constants;
+      data.constants.clear();
+      for (const UncertainConstant& constant : constants) data.constants.push_back(constant.stated);
+      double& stated = data.constants[entry.constant];
+      const UncertainConstant& own = constants[entry.constant];
+      stated = is_positive(own.constant) ? stated * std::exp(by * own.sd) : stated + by * own.sd;
+      const LeastSquaresResult run =
+          minimise(impact_problem(fitted_.model, data), fitted_.theta, refit_options());
+      if (!run.converged) return;
+      const auto there = quantity.at(run.theta);
+      if (!there) return;
+      (by < 0.0 ? entry.lower : entry.upper) = there->value - budget.value;
+    }
+    const double low = std::abs(*entry.lower);
+    const double high = std::abs(*entry.upper);
+    const bool opposite = *entry.lower * *entry.upper < 0.0;
+    if (!opposite || std::abs(low - entry.sd) > linear_within * entry.sd ||
+        std::abs(high - entry.sd) > linear_within * entry.sd) {
+      budget.linear = false;
+    }
+  }
+
+  /// What the errors of V and d are of the variance of each point, see `reweighted_fit`.
+  void find_input_shares() {
+    const std::vector<Observation>& points = fitted_.data.points;
+    std::vector<PointConditions> conditions;
+    for (const Observation& point : points) conditions.push_back(point.conditions());
+    PointPredictor predictor(fitted_.model, std::move(conditions));
+    predictor.evaluate(fitted_.theta, true);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Observation& point = points[i];
+      const double m = predictor.at(i).restitution_squared;
+      residual_slope_.push_back(weighted_residual(point, m, fitted_.data.noise.student).slope);
+      const double of_ratio =
+          point.rebound_measured ? 2.0 * std::max(m, 0.0) / point.velocity : 0.0;
+      const double v = (predictor.velocity_slope(i) + of_ratio) * point.velocity_sd;
+      const double d = predictor.diameter_slope(i) * point.diameter_sd;
+      const double both = v * v + d * d;
+      const double variance = 1.0 / std::pow(residual_slope_[i], 2);
+      const double share =
+          both > 0.0 && std::isfinite(variance)
+              ? std::min(1.0, point.weights.input_sd * point.weights.input_sd / variance)
+              : 0.0;
+      velocity_share_.push_back(both > 0.0 ? share * v * v / both : 0.0);
+      diameter_share_.push_back(both > 0.0 ? share * d * d / both : 0.0);
+    }
+  }
+
+  const FitResult& fitted_;
+  bool usable_ = false;
+  double scale_ = 1.0;
+  std::vector<double> jacobian_, covariance_;
+  std::vector<double> residual_slope_, velocity_share_, diameter_share_;  // [points]
+};
+
+Quantity slot_quantity(std::size_t slot) {
+  return {[slot](std::span<const double> theta) -> std::optional<Quantity::At> {
+    std::vector<double> gradient(theta.size(), 0.0);
+    gradient[slot] = 1.0;
+    return Quantity::At{theta[slot], std::move(gradient)};
+  }};
+}
+
+/// f0 or W of a dataset whose adhesion follows its materials.
+Quantity adhesion_quantity(const ImpactModel& model, std::size_t dataset) {
+  return {[&model, dataset](std::span<const double> theta) -> std::optional<Quantity::At> {
+    Quantity::At at{adhesion_value_under(model, theta, dataset),
+                    std::vector<double>(theta.size(), 0.0)};
+    for (const MaterialSlope& slope : material_slopes(model, theta, dataset)) {
+      const bool ring = model.adhesion == AdhesionLaw::ring;
+      at.gradient[model.first_constant() + slope.index] =
+          at.value * (ring ? slope.adhesion_force : slope.adhesion_energy);
+    }
+    return at;
+  }};
+}
+
+Quantity capture_quantity(const ImpactModel& model, const CaptureEstimate& estimate) {
+  return {[&model, &estimate](std::span<const double> theta) -> std::optional<Quantity::At> {
+    CaptureVelocity found =
+        capture_velocity(model, theta, estimate.dataset, estimate.diameter, estimate.value);
+    if (!found.found || !(found.value > 0.0)) return std::nullopt;
+    return Quantity::At{found.value, std::move(found.gradient)};
+  }};
+}
+
+}  // namespace
+
+std::vector<ErrorBudget> parameter_budgets(const FitResult& fitted) {
+  const BudgetMaker make(fitted);
+  const ImpactModel& model = fitted.model;
+  std::vector<ErrorBudget> budgets(model.slots.size());
+  for (std::size_t j = 0; j < budgets.size(); ++j) {
+    if (model.slots[j].free) budgets[j] = make(slot_quantity(j));
+  }
+  for (std::size_t d = 0; d < model.contacts.size() && !model.constants.empty(); ++d) {
+    if (!follows_materials(model, d)) continue;
+    budgets[model.slot_adhesion[d]] = make(adhesion_quantity(model, d));
+  }
+  return budgets;
+}
+
+std::vector<ErrorBudget> capture_budgets(const FitResult& fitted,
+                                         const std::vector<CaptureEstimate>& capture) {
+  const BudgetMaker make(fitted);
+  std::vector<ErrorBudget> budgets;
+  for (const CaptureEstimate& estimate : capture) {
+    budgets.push_back(estimate.found && estimate.value > 0.0
+                          ? make(capture_quantity(fitted.model, estimate))
+                          : ErrorBudget{});
+  }
+  return budgets;
+}
+
+}  // namespace recoil

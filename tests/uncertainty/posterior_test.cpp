@@ -1,0 +1,136 @@
+// The posterior of a fit, against integrals on a grid with another simulator.
+#include "uncertainty/posterior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/noisy_case.hpp"
+
+namespace recoil {
+namespace {
+
+/// Marginal quantiles of C_A by brute force: e from the reconstructions' simulator, the likelihood
+/// of points with sd 0.01 far from capture written out again, flat priors, one sum over a grid.
+struct GridAnswer {
+  double mean = 0.0, sd = 0.0;
+};
+GridAnswer damping_on_a_grid(const Dataset& data, bool scale_known, double centre_H, double sd_H,
+                             double centre_A, double sd_A) {
+  constexpr int half = 14;
+  constexpr double reach = 4.5;
+  double total = 0.0, sum = 0.0, square = 0.0, most = -INFINITY;
+  std::vector<std::pair<double, double>> weighed;  // C_A, ln density
+  for (int i = -half; i <= half; ++i) {
+    for (int k = -half; k <= half; ++k) {
+      synthetic::Design design;
+      design.C_H = centre_H + reach * sd_H * i / half;
+      design.C_A = centre_A + reach * sd_A * k / half;
+      if (design.C_H < 0.0 || design.C_A < 0.0) continue;
+      const RingAdhesionTruth truth = synthetic::truth_of(design);
+      double chi2 = 0.0;
+      int n = 0;
+      for (const ImpactPoint& point : data.points) {
+        const double e = true_restitution(truth, point.diameter, point.incident_velocity);
+        if (point.all_captured()) continue;
+        chi2 += std::pow((point.restitution - e) / *point.restitution_sd, 2);
+        ++n;
+      }
+      const double ln = scale_known ? -0.5 * chi2 : -0.5 * n * std::log(chi2);
+      weighed.emplace_back(design.C_A, ln);
+      most = std::max(most, ln);
+    }
+  }
+  for (const auto& [C_A, ln] : weighed) {
+    const double w = std::exp(ln - most);
+    total += w;
+    sum += w * C_A;
+    square += w * C_A * C_A;
+  }
+  return {sum / total, std::sqrt(square / total - std::pow(sum / total, 2))};
+}
+
+TEST(Posterior, AgreesWithSumsOnAGrid) {
+  synthetic::Design design;
+  design.velocities = {6.5, 9.0, 12.0, 18.0, 25.0, 50.0, 90.0};  // far from capture
+  Dataset data = synthetic::dataset(design);
+  RandomStream random(7, RandomPurpose::coverage, 0);
+  for (ImpactPoint& point : data.points) point.restitution += 0.01 * random.normal();
+  for (const bool stated : {true, false}) {
+    Dataset used = data;
+    if (!stated) {
+      for (ImpactPoint& point : used.points) point.restitution_sd.reset();
+    }
+    NoiseSpec noise;
+    if (!stated) noise.variance = VarianceFunction::constant;
+    const FitResult fitted = fit(make_model(synthetic::spec(), {used}), gather({used}, noise));
+    ASSERT_TRUE(fitted.usable);
+    const PosteriorResult found = sample_posterior(fitted, {}, {});
+    ASSERT_TRUE(found.available());
+    const GridAnswer grid = damping_on_a_grid(data, stated, fitted.theta[0], fitted.std_error[0],
+                                              fitted.theta[1], fitted.std_error[1]);
+    const PosteriorMarginal& C_A = found.parameters[1];
+    EXPECT_LE(C_A.r_hat, 1.01);
+    EXPECT_GE(C_A.effective, 1000.0);
+    EXPECT_NEAR(C_A.mean, grid.mean, 0.08 * grid.sd) << stated;
+    EXPECT_NEAR(C_A.sd / grid.sd, 1.0, 0.06) << stated;
+    EXPECT_TRUE(C_A.interval.contains(grid.mean));
+    EXPECT_FALSE(found.parameters[2].interval.available());  // f0 is fixed
+  }
+}
+
+TEST(Posterior, ConstantsOfWhichThePointsSayNothingKeepTheirPrior) {
+  // With f0 free the points say nothing of the density: its posterior is what is stated, a
+  // lognormal with median 1350 and ln sd 0.0997513, and f0 takes up 2/5 of it.
+  Dataset data = synthetic::noisy_case().datasets.front();
+  data.system.errors = {{Body::particle, Constant::density, 135.0}};
+  const FitResult fitted = fit(make_model(synthetic::spec(true), {data}), gather({data}));
+  ASSERT_TRUE(fitted.usable);
+  const PosteriorResult found = sample_posterior(fitted, {}, {});
+  ASSERT_TRUE(found.available());
+  const double sd = std::sqrt(std::log1p(0.01));
+  const PosteriorMarginal& density = found.parameters[fitted.model.first_constant()];
+  EXPECT_NEAR(std::log(*density.interval.upper / 1350.0) / (1.959964 * sd), 1.0, 0.1);
+  EXPECT_NEAR(std::log(*density.interval.lower / 1350.0) / (-1.959964 * sd), 1.0, 0.1);
+  double product = 0.0, square = 0.0, mean_f = 0.0, mean_d = 0.0;
+  const auto n = static_cast<double>(found.draws.size());
+  for (const auto& draw : found.draws) {
+    mean_f += std::log(draw[2]) / n;
+    mean_d += std::log(draw[3]) / n;
+  }
+  for (const auto& draw : found.draws) {
+    product += (std::log(draw[2]) - mean_f) * (std::log(draw[3]) - mean_d) / n;
+    square += std::pow(std::log(draw[3]) - mean_d, 2) / n;
+  }
+  EXPECT_NEAR(product / square, 0.4, 0.12);
+}
+
+TEST(Posterior, SameDigitsAtAnyThreadsAndOthersForAnotherSeed) {
+  const synthetic::Case c = synthetic::noisy_case();
+  PosteriorOptions one;
+  one.threads = 1;
+  PosteriorOptions three;
+  three.threads = 3;
+  PosteriorOptions other;
+  other.seed = 4;
+  const PosteriorResult a = sample_posterior(c.fitted, {}, one);
+  const PosteriorResult b = sample_posterior(c.fitted, {}, three);
+  EXPECT_EQ(a.draws, b.draws);
+  EXPECT_EQ(a.parameters[1].interval.lower, b.parameters[1].interval.lower);
+  EXPECT_NE(a.draws, sample_posterior(c.fitted, {}, other).draws);
+}
+
+TEST(Posterior, RefusesWhatHasNotSettled) {
+  const synthetic::Case c = synthetic::noisy_case();
+  PosteriorOptions options;
+  options.fewest_steps = 20;
+  options.most_steps = 20;
+  const PosteriorResult found = sample_posterior(c.fitted, {}, options);
+  ASSERT_FALSE(found.available());
+  EXPECT_EQ(*found.missing, NoPosterior::not_settled);
+  EXPECT_FALSE(found.parameters[0].interval.available());
+  EXPECT_TRUE(found.draws.empty());
+}
+
+}  // namespace
+}  // namespace recoil
