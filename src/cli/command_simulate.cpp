@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
+#include "cli/fitted_values.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
@@ -34,38 +34,6 @@ struct SimulateOptions {
   std::string parameters;
   std::string history;
 };
-
-/// Replaces the fit file's initial values by the values of a fit.json.
-void take_fitted_values(ImpactModel& model, const std::string& path) {
-  const std::string text = read_text_file(path);
-  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("parameters")) {
-    throw InputError({path}, "there are no fitted parameters in this file",
-                     "--parameters reads a fit.json", "make one with recoil fit FIT --out DIR");
-  }
-  for (ParameterSlot& slot : model.slots) {
-    // An adhesion that follows the materials does so from what is stated of them.
-    if (slot.derived && !slot.free && !model.constants.empty()) continue;
-    const nlohmann::json& table = slot.is_constant() ? json["constants"] : json["parameters"];
-    const auto found = table.find(slot.label());
-    if (found == table.end() || !found->contains("value") || !(*found)["value"].is_number()) {
-      throw InputError({path}, fmt::format("the parameter {} is missing", slot.label()),
-                       "this is the result of another fit", "use the fit.json of this fit file");
-    }
-    slot.initial = (*found)["value"].get<double>();
-  }
-}
-
-/// A number in [low, high]; CLI11's own range check lets NaN through.
-CLI::Validator positive(const std::string& what, double low, double high) {
-  return {[=](const std::string& text) -> std::string {
-            double value = 0.0;
-            const bool number = CLI::detail::lexical_cast(text, value);
-            if (number && value >= low && value <= high) return {};
-            return fmt::format("{} is not a {} between {:g} and {:g}", text, what, low, high);
-          },
-          what};
-}
 
 std::string history_csv(const std::vector<ImpactMoment>& history, const ImpactScales& scales,
                         bool dashpot) {
@@ -280,10 +248,10 @@ void add_simulate(CLI::App& program) {
   command->add_option("FIT", options->fit_file, "a fit file")->required();
   command->add_option("--velocity", options->velocity, "incident velocity [m/s]")
       ->required()
-      ->check(positive("velocity", 1e-7, 1e4));
+      ->check(positive_number("velocity", 1e-7, 1e4));
   command->add_option("--diameter", options->diameter, "sphere diameter [um]")
       ->required()
-      ->check(positive("diameter", 1e-3, 1e6));
+      ->check(positive_number("diameter", 1e-3, 1e6));
   command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
       ->type_name("ID");
   command->add_option("--parameters", options->parameters, "take the values from this fit.json")

@@ -14,6 +14,7 @@ void add_coverage(CLI::App& program);
 void add_reconstruct(CLI::App& program);
 void add_import(CLI::App& program);
 void add_predict(CLI::App& program);
+void add_export(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_report(CLI::App& program);
 void add_pair(CLI::App& program);

@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
   recoil::add_reconstruct(program);
   recoil::add_import(program);
   recoil::add_predict(program);
+  recoil::add_export(program);
   recoil::add_compare(program);
   recoil::add_report(program);
   recoil::add_pair(program);

@@ -354,7 +354,11 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
   const std::vector<OutlyingPoint> outlying =
       base.refit.usable ? outlying_points(base) : std::vector<OutlyingPoint>();
   Diagnosis for_all = diagnose_all(spec, datasets, fitted, options, base_intervals);
-  if (outlying.empty()) return for_all;
+  // Errors that all points have make odd points, too, and are the plainer answer.
+  const bool errors_do =
+      std::any_of(for_all.unstated.begin(), for_all.unstated.end(),
+                  [](const UnstatedErrors& errors) { return errors.leave_nothing(); });
+  if (outlying.empty() || errors_do) return for_all;
   const std::vector<Dataset> others = without(datasets, outlying);
   const FitResult refitted = fit(make_model(spec, others), gather(others, spec));
   if (!refitted.usable) return for_all;

@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The folders of src in pipeline order. The last two are programs: recoil and recoil_study.
-const std::vector<std::string> kStages = {"core",     "data",      "experiment", "reconstruction",
-                                          "impact",   "mechanism", "estimate",   "uncertainty",
-                                          "coverage", "predict",   "diagnosis",  "plot",
-                                          "document", "report",    "studies",    "cli"};
+const std::vector<std::string> kStages = {
+    "core",     "data",        "experiment", "reconstruction", "impact",    "mechanism",
+    "estimate", "uncertainty", "coverage",   "predict",        "diagnosis", "export",
+    "plot",     "document",    "report",     "studies",        "cli"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -
@@ -60,14 +60,43 @@ struct Include {
   std::string target;
 };
 
+/// Follows raw strings from line to line: what stands in one is a program for somebody else.
+class RawStrings {
+ public:
+  /// Does `line` begin within one?
+  bool begins_within(const std::string& line) {
+    static const std::regex opening(R"re(R"([a-z]*)\()re");
+    const bool within = !closing_.empty();
+    std::size_t at = 0;
+    if (within) {
+      at = line.find(closing_);
+      if (at == std::string::npos) return true;
+      closing_.clear();
+    }
+    const std::string rest = line.substr(at);
+    for (auto it = std::sregex_iterator(rest.begin(), rest.end(), opening);
+         it != std::sregex_iterator(); ++it) {
+      const std::string closing = ")" + (*it)[1].str() + "\"";
+      const auto after = static_cast<std::size_t>(it->position() + it->length());
+      closing_ = rest.find(closing, after) == std::string::npos ? closing : "";
+    }
+    return within;
+  }
+
+ private:
+  std::string closing_;  // of the string that is open
+};
+
 /// Every #include "..." below src.
 std::vector<Include> quoted_includes() {
   static const std::regex pattern(R"re(^\s*#\s*include\s*"([^"]+)")re");
   std::vector<Include> includes;
   for (const fs::path& file : tree::cpp_files(tree::root() / "src")) {
     const std::vector<std::string> lines = tree::lines_of(tree::text_of(file));
+    RawStrings strings;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       std::smatch match;
+      if (strings.begins_within(lines[i])) continue;
       if (std::regex_search(lines[i], match, pattern)) includes.push_back({file, i + 1, match[1]});
     }
   }
@@ -76,6 +105,16 @@ std::vector<Include> quoted_includes() {
 
 std::string path_from_src(const fs::path& file) {
   return fs::relative(file, tree::root() / "src").generic_string();
+}
+
+TEST(Layering, RawStringsAreNoIncludes) {
+  RawStrings strings;
+  EXPECT_FALSE(strings.begins_within("const char* text = R\"cc(one"));
+  EXPECT_TRUE(strings.begins_within("#include \"udf.h\""));
+  EXPECT_TRUE(strings.begins_within(")cc\";"));
+  EXPECT_FALSE(strings.begins_within("#include \"core/error.hpp\""));
+  EXPECT_FALSE(strings.begins_within("f(R\"(a whole one)\");"));
+  EXPECT_FALSE(strings.begins_within("#include \"core/error.hpp\""));
 }
 
 TEST(Layering, TheRuleItself) {

@@ -1,0 +1,244 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/analysis.hpp"
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/fitted_values.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/units.hpp"
+#include "document/terminal.hpp"
+#include "export/fluent.hpp"
+#include "export/lammps.hpp"
+#include "export/liggghts.hpp"
+#include "export/openfoam.hpp"
+#include "export/simbody.hpp"
+#include "export/table.hpp"
+#include "export/yade.hpp"
+#include "report/words_export.hpp"
+#include "uncertainty/uncertainty.hpp"
+
+namespace recoil {
+namespace {
+
+struct ExportOptions {
+  std::string fit_file;
+  std::string to;
+  double diameter = 0.0;         // [um]; 0: not stated
+  std::vector<double> velocity;  // [m/s]
+  std::string dataset;
+  std::string parameters;
+  std::string out;
+  AnalysisFlags analysis;
+};
+
+/// A model with its values, and what is known of them.
+struct Fitted {
+  ImpactModel model;
+  std::vector<double> theta;
+  std::vector<Dataset> datasets;
+  std::vector<std::vector<double>> replicates;
+  double level = 0.95;
+  ExportSource source;
+};
+
+Fitted fitted_now(const ExportOptions& options, bool bands) {
+  const AnalysisOptions resolved = options.analysis.resolved();
+  Analysis analysis = analyse_fit(load_inputs(options.fit_file), resolved);
+  Fitted out;
+  if (bands) {
+    UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
+    assess.profile = assess.curves = assess.two_point = false;
+    out.level = assess.level;
+    out.replicates = assess_uncertainty(analysis.fitted, analysis.datasets, assess).bootstrap.theta;
+  }
+  out.model = analysis.fitted.model;
+  out.theta = analysis.fitted.theta;
+  out.source.parameters = "fitted by all of its points";
+  for (std::size_t s = 0; s < out.theta.size(); ++s) {
+    const ParameterSlot& slot = out.model.slots[s];
+    ExportedParameter value = {slot.label(), std::string(slot.parameter->unit), out.theta[s],
+                               slot.free, std::nullopt};
+    if (analysis.fitted.std_error[s] > 0.0) value.std_error = analysis.fitted.std_error[s];
+    out.source.values.push_back(std::move(value));
+  }
+  out.datasets = std::move(analysis.datasets);
+  return out;
+}
+
+Fitted fitted_before(const ExportOptions& options) {
+  FitInputs inputs = load_inputs(options.fit_file);
+  Fitted out;
+  out.model = make_model(inputs.spec, inputs.datasets);
+  const std::vector<FittedValue> values = take_fitted_values(out.model, options.parameters);
+  out.theta = out.model.initial();
+  out.source.parameters = "from " + options.parameters;
+  for (std::size_t s = 0; s < out.theta.size(); ++s) {
+    const ParameterSlot& slot = out.model.slots[s];
+    out.source.values.push_back({slot.label(), std::string(slot.parameter->unit), out.theta[s],
+                                 slot.free, values[s].std_error});
+  }
+  out.datasets = std::move(inputs.datasets);
+  return out;
+}
+
+/// The stated range, or that of the points.
+ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, std::size_t index) {
+  ExportRequest request;
+  request.dataset = index;
+  if (options.velocity.empty()) {
+    const auto [least, most] =
+        std::minmax_element(dataset.points.begin(), dataset.points.end(),
+                            [](const ImpactPoint& a, const ImpactPoint& b) {
+                              return a.incident_velocity < b.incident_velocity;
+                            });
+    request.slowest = least->incident_velocity;
+    request.fastest = most->incident_velocity;
+    if (request.slowest == request.fastest) {
+      throw InputError({}, "all points have one velocity", "a range is needed",
+                       "state one: --velocity MIN,MAX");
+    }
+  } else {
+    request.slowest = options.velocity[0];
+    request.fastest = options.velocity[1];
+    if (!(request.slowest < request.fastest)) {
+      throw InputError(
+          {}, fmt::format("--velocity {:g},{:g} is no range", request.slowest, request.fastest),
+          "the first has to be the smaller one", "for example --velocity 1,50");
+    }
+  }
+  const std::vector<double> sizes = distinct_diameters(dataset);
+  request.diameter =
+      options.diameter > 0.0 ? options.diameter * units::um : sizes[sizes.size() / 2];
+  return request;
+}
+
+bool holds_all_sizes(ExportTarget target) {
+  return target == ExportTarget::openfoam || target == ExportTarget::fluent ||
+         target == ExportTarget::table;
+}
+
+std::vector<ExportedFile> files_for(ExportTarget target, const ExportJob& job) {
+  switch (target) {
+    case ExportTarget::lammps:
+      return lammps_files(job);
+    case ExportTarget::liggghts:
+      return liggghts_files(job);
+    case ExportTarget::yade:
+      return yade_files(job);
+    case ExportTarget::simbody:
+      return simbody_files(job);
+    case ExportTarget::openfoam:
+      return openfoam_files(job);
+    case ExportTarget::fluent:
+      return fluent_files(job);
+    case ExportTarget::table:
+      break;
+  }
+  return {};
+}
+
+std::vector<ExportedFile> table_files(const Fitted& fitted, const ExportRequest& request,
+                                      const std::vector<double>& sizes, int threads) {
+  const std::vector<TabulatedSize> table =
+      restitution_table(fitted.model, fitted.theta,
+                        {request.dataset, sizes, request.slowest, request.fastest,
+                         fitted.replicates, fitted.level, threads});
+  return {{"restitution.csv", csv_restitution(table)}, {"capture.csv", csv_captures(table)}};
+}
+
+void print_line(const std::string& words) { fmt::print("{}\n", wrap(words, terminal_columns, 2)); }
+
+void run_export(const ExportOptions& options) {
+  require_writable_folder(options.out);
+  const ExportTarget target = *value_named<ExportTarget>(options.to);
+  Fitted fitted = options.parameters.empty() ? fitted_now(options, target == ExportTarget::table)
+                                             : fitted_before(options);
+  const std::size_t d = choose_dataset(fitted.datasets, options.dataset);
+  const Dataset& dataset = fitted.datasets[d];
+  const ExportRequest request = request_of(options, dataset, d);
+  fitted.source.fit = options.fit_file;
+  fitted.source.dataset = dataset.id;
+  fitted.source.provenance = dataset.provenance;
+
+  std::vector<double> sizes = distinct_diameters(dataset);
+  if (options.diameter > 0.0) sizes = {request.diameter};
+  ExportJob job;
+  job.impact = exported_impact(fitted.model, fitted.theta, request);
+  job.form = form_for(target, job.impact);
+  if (job.form == ExportForm::approximation) job.stock = nearest(stock_model(target), job.impact);
+  if (job.form == ExportForm::lookup && target != ExportTarget::table) {
+    job.lookup =
+        restitution_lookup(fitted.model, fitted.theta,
+                           {d, {sizes.front(), sizes.back()}, request.slowest, request.fastest});
+  }
+  job.heading = export_heading(target, fitted.source, job);
+  const std::vector<ExportedFile> files =
+      target == ExportTarget::table ? table_files(fitted, request, sizes, options.analysis.threads)
+                                    : files_for(target, job);
+  for (const ExportedFile& file : files) {
+    write_whole_file(std::filesystem::path(options.out) / file.name, file.text);
+  }
+
+  if (target == ExportTarget::table) {
+    for (const std::string& line : job.heading) fmt::print("{}\n", line);
+  } else {
+    for (const std::string& sentence : job.heading) fmt::print("{}\n", sentence);
+  }
+  if (!holds_all_sizes(target) && options.diameter <= 0.0 && sizes.size() > 1) {
+    print_line(fmt::format("note: no --diameter was given; {:g} um is the middle one of {} sizes",
+                           request.diameter / units::um, sizes.size()));
+  }
+  if (target == ExportTarget::table && fitted.replicates.empty()) {
+    print_line("note: without bands, which need the bootstrap: leave --parameters out");
+  }
+  for (const ExportedFile& file : files) {
+    fmt::print("written: {}\n", (std::filesystem::path(options.out) / file.name).string());
+  }
+  fmt::print("use: {}\n", export_use(target));
+}
+
+}  // namespace
+
+void add_export(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "export", "a fitted impact as the input of another program, or as a table");
+  command->footer(
+      "Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. Where the\n"
+      "program can hold the force law (lammps, yade, simbody) the export is exact; where it has\n"
+      "only contact models of its own (liggghts) it gets the nearest, with its error; openfoam,\n"
+      "fluent and table get e(V, d) with captures. The file says what is lost.\n\n"
+      "  recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps\n"
+      "  lmp -in my-lammps/impact.lammps -var V 2.4");
+  const auto options = std::make_shared<ExportOptions>();
+  command->add_option("FIT", options->fit_file, "a fit file")->required();
+  command->add_option("--to", options->to, "the program")
+      ->required()
+      ->check(CLI::IsMember(all_names<ExportTarget>()));
+  command
+      ->add_option("--diameter", options->diameter,
+                   "sphere diameter [um] (default: the middle one of the dataset; openfoam, fluent "
+                   "and table: all)")
+      ->check(positive_number("diameter", 1e-3, 1e6));
+  command
+      ->add_option("--velocity", options->velocity,
+                   "range of incident velocities MIN,MAX [m/s], for errors, tables and time steps "
+                   "(default: that of the points)")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("MIN,MAX")
+      ->check(positive_number("velocity", 1e-7, 1e4));
+  command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
+      ->type_name("ID");
+  command->add_option("--parameters", options->parameters, "take the values from this fit.json")
+      ->type_name("FILE");
+  command->add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
+  add_analysis_flags(*command, options->analysis);
+  command->callback([options] { run_export(*options); });
+}
+
+}  // namespace recoil

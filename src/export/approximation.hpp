@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+
+#include "export/exported_impact.hpp"
+
+namespace recoil {
+
+/// The contact models that other programs have, as far as they are used here. Each has one number
+/// to choose, and none of them captures.
+enum class StockModel {
+  constant_restitution,  ///< e, whatever the velocity
+  hertz_dashpot,         ///< Hertz with a damping -D n^(1/2) n': 1 - e^2 ~ V^(1/5)
+  hunt_crossley          ///< Hertz with the damping C_H n^(3/2) n': 1 - e^2 ~ V
+};
+
+template <>
+struct NamesOf<StockModel> {
+  static constexpr std::array<std::string_view, 3> names = {"constant_restitution", "hertz_dashpot",
+                                                            "hunt_crossley"};
+};
+
+/// How far e(V) of an approximation is from the exported one over the range of velocities, a
+/// captured sphere counting with e = 0.
+struct RestitutionError {
+  double largest = 0.0;     ///< max |delta e| [1]
+  double at = 0.0;          ///< where [m/s]
+  double rms = 0.0;         ///< over velocities evenly spaced in log V [1]
+  double rebounding = 0.0;  ///< max |delta e| among spheres that rebound in the fit [1]
+};
+RestitutionError restitution_error(const ExportedImpact& impact, std::span<const double> other);
+
+struct Approximation {
+  StockModel model = StockModel::constant_restitution;
+  double value = 0.0;  ///< e [1], D [N s m^(-3/2)] or C_H [s/m]
+  RestitutionError error;
+};
+
+/// The value that makes `model` nearest: the smallest rms of delta e over velocities evenly spaced
+/// in log V.
+Approximation nearest(StockModel model, const ExportedImpact& impact);
+
+/// The force of an approximation that has one.
+ContactForce force_of(const Approximation& approximation, const ExportedImpact& impact);
+
+/// What a program is given for an impact.
+enum class ExportForm {
+  force,          ///< the law itself: exact but for the time step
+  approximation,  ///< a stock model
+  lookup          ///< e(V, d) as a table, captures included
+};
+
+/// What `target` can hold of this impact.
+ExportForm form_for(ExportTarget target, const ExportedImpact& impact);
+
+/// The stock model of `target`.
+StockModel stock_model(ExportTarget target);
+
+}  // namespace recoil

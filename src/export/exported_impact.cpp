@@ -1,0 +1,188 @@
+#include "export/exported_impact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "data/contact.hpp"
+#include "estimate/capture_velocity.hpp"
+#include "estimate/predictor.hpp"
+#include "impact/fast_solver.hpp"
+#include "impact/reference_solver.hpp"
+
+namespace recoil {
+namespace {
+
+ImpactGroups groups_under(const ContactForce& force, double velocity, ImpactScales& scales) {
+  const ImpactConditions conditions = {2.0 * force.radius,    velocity,
+                                       force.density,         force.stiffness,
+                                       force.adhesion_force,  force.hertz_damping,
+                                       force.adhesion_damping};
+  scales = impact_scales(conditions);
+  ImpactGroups groups = impact_groups(conditions);
+  groups.kappa =
+      force.dashpot * scales.length * std::sqrt(scales.length) / (force.mass() * velocity);
+  return groups;
+}
+
+ImpactOptions options_under(const ContactForce& force) {
+  ImpactOptions options;
+  options.adhesion = force.adhesion;
+  options.phase = force.phase;
+  options.dashpot = force.dashpot > 0.0;
+  return options;
+}
+
+void require_answer(const ImpactResult& impact, double diameter, double velocity) {
+  if (impact.usable()) return;
+  throw ComputationError(fmt::format("the impact at V = {:.6g} m/s, d = {:.6g} um: {}", velocity,
+                                     diameter / units::um, to_string(impact.outcome)));
+}
+
+std::vector<double> log_spaced(double first, double last, std::size_t count) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < count; ++k) {
+    values.push_back(
+        first * std::pow(last / first, static_cast<double>(k) / static_cast<double>(count - 1)));
+  }
+  return values;
+}
+
+// "No adhesion" is a lower bound in a fit, not zero: where V_a, or V*, is below this part of the
+// slowest velocity it is none. It changes e^2 by 1e-8 there.
+constexpr double no_adhesion = 1e-6;
+
+/// Do two e(V) agree to `same_square`?
+bool same(std::span<const double> one, std::span<const double> other) {
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    if (!(std::abs(one[k] * one[k] - other[k] * other[k]) <= same_square)) return false;
+  }
+  return true;
+}
+
+/// The laws of adhesion that ContactForce has.
+bool knows(AdhesionLaw law) {
+  return law == AdhesionLaw::ring || law == AdhesionLaw::jkr || law == AdhesionLaw::dmt;
+}
+
+/// The force that the chain leaves to the equation of motion, as a sphere in the middle of the
+/// range meets it.
+ContactForce force_at(const ImpactModel& model, std::span<const double> theta,
+                      const ExportRequest& request) {
+  const double middle = std::sqrt(request.slowest * request.fastest);
+  const ImpactConditions c = conditions_at(model, theta, request.dataset, request.diameter, middle);
+  const AdhesionLaw law = knows(model.adhesion) ? model.adhesion : AdhesionLaw::ring;
+  ContactForce force = {law,       model.phase,     0.5 * c.diameter,
+                        c.density, c.stiffness,     c.adhesion_force,
+                        0.0,       c.hertz_damping, c.adhesion_damping};
+  if (!model.chain.empty()) {
+    const Encounter<double> e =
+        contact_view(model, theta, {request.dataset, request.diameter, middle}).encounter;
+    force.adhesion_force = e.adhesion_force;
+    force.hertz_damping = e.hertz_damping;
+    force.adhesion_damping = e.adhesion_damping;
+    force.dashpot = 1.5 * e.relaxation * c.stiffness * std::sqrt(force.radius);
+  }
+  ImpactConditions touched = c;
+  touched.adhesion_force = force.adhesion_force;
+  if (!(adhesion_velocity(touched) > no_adhesion * request.slowest)) {
+    force.adhesion = AdhesionLaw::ring;  // Hertz's contact, which every law becomes
+    force.adhesion_force = 0.0;
+  }
+  force.adhesion_energy = adhesion_energy_for(force.adhesion_force, force.radius, force.stiffness);
+  return force;
+}
+
+}  // namespace
+
+double ContactForce::mass() const { return sphere_mass(2.0 * radius, density); }
+
+double ContactForce::jkr_length() const {
+  const double parting =
+      std::cbrt(std::numbers::pi * adhesion_energy * radius * radius / (6.0 * stiffness));
+  return parting * parting / radius;
+}
+
+std::vector<double> restitution_under(const ContactForce& force, std::span<const double> velocity) {
+  std::vector<ImpactGroups> groups;
+  ImpactScales scales;
+  for (const double v : velocity) groups.push_back(groups_under(force, v, scales));
+  std::vector<ImpactResult> results(groups.size());
+  simulate_impacts_fast(groups, options_under(force), results);
+  std::vector<double> e;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    require_answer(results[k], 2.0 * force.radius, velocity[k]);
+    e.push_back(std::sqrt(std::max(results[k].restitution_squared, 0.0)));
+  }
+  return e;
+}
+
+double contact_time_under(const ContactForce& force, double velocity) {
+  ImpactScales scales;
+  const ImpactGroups groups = groups_under(force, velocity, scales);
+  ImpactOptions options = options_under(force);
+  options.budget = true;
+  const ImpactResult impact = simulate_impact(groups, options);
+  require_answer(impact, 2.0 * force.radius, velocity);
+  return impact.contact_time * scales.time;
+}
+
+std::vector<double> of_nature(const ImpactModel& model, std::vector<double> theta) {
+  for (std::size_t s = 0; s < theta.size(); ++s) {
+    const Mechanism* mechanism = model.slots[s].mechanism();
+    if (mechanism != nullptr && mechanism->info.kind == MechanismKind::measurement) {
+      theta[s] = model.slots[s].parameter->null_value;
+    }
+  }
+  return theta;
+}
+
+std::vector<double> squares_of_nature(const ImpactModel& model, std::span<const double> theta,
+                                      std::size_t dataset, double diameter,
+                                      std::span<const double> velocity) {
+  std::vector<PointConditions> points;
+  for (const double v : velocity) points.push_back({dataset, diameter, v});
+  PointPredictor predictor(model, std::move(points), Effects::of_nature);
+  predictor.evaluate(theta, false);
+  std::vector<double> squares;
+  for (std::size_t k = 0; k < velocity.size(); ++k) {
+    require_answer(predictor.at(k), diameter, velocity[k]);
+    squares.push_back(predictor.at(k).restitution_squared);
+  }
+  return squares;
+}
+
+ExportedImpact exported_impact(const ImpactModel& model, std::span<const double> theta,
+                               const ExportRequest& request) {
+  ExportedImpact out;
+  out.request = request;
+  for (const Mechanism* mechanism : model.chain) {
+    const bool measured = mechanism->info.kind == MechanismKind::measurement;
+    (measured ? out.of_measurement : out.of_nature).push_back(mechanism);
+  }
+  const std::vector<double> values = of_nature(model, {theta.begin(), theta.end()});
+  out.velocity = log_spaced(request.slowest, request.fastest, error_velocities);
+  const std::vector<double> squares =
+      squares_of_nature(model, values, request.dataset, request.diameter, out.velocity);
+  for (const double square : squares) out.restitution.push_back(std::sqrt(std::max(square, 0.0)));
+  const CaptureVelocity capture =
+      capture_velocity(model, values, request.dataset, request.diameter);
+  out.captures = capture.found && capture.value > no_adhesion * request.slowest;
+  out.capture_velocity = out.captures ? capture.value : 0.0;
+  out.force = force_at(model, values, request);
+  const std::vector<double> alone = restitution_under(out.force, out.velocity);
+  out.force_is_all = knows(model.adhesion) && same(alone, out.restitution);
+  out.shortest_contact = contact_time_under(out.force, request.fastest);
+  out.longest_contact = 0.0;
+  for (std::size_t k = 0; k < out.velocity.size(); k += 20) {
+    out.longest_contact =
+        std::max(out.longest_contact, contact_time_under(out.force, out.velocity[k]));
+  }
+  return out;
+}
+
+}  // namespace recoil

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "export/exported_impact.hpp"
+
+namespace recoil {
+
+/// What a table of e(V, d) is made of.
+struct TableRequest {
+  std::size_t dataset = 0;
+  std::vector<double> sizes;  ///< diameters [m]
+  double slowest = 0.0;       ///< [m/s]
+  double fastest = 0.0;
+  std::vector<std::vector<double>> replicates;  ///< theta of each, for the bands; may be empty
+  double level = 0.95;
+  int threads = 0;
+};
+
+struct BandedNumber {
+  double value = 0.0;
+  bool banded = false;  ///< are there bands?
+  double lower = 0.0, upper = 0.0;
+};
+
+/// e(V) of one size; below V* it is 0.
+struct TabulatedSize {
+  double diameter = 0.0;  ///< [m]
+  bool captures = false;
+  BandedNumber capture_velocity;  ///< [m/s]; where `captures`
+  std::vector<double> velocity;   ///< [m/s], log-spaced, and V* and what follows it closely
+  std::vector<BandedNumber> restitution;
+};
+
+/// With the pointwise percentile band of the replicates.
+std::vector<TabulatedSize> restitution_table(const ImpactModel& model,
+                                             std::span<const double> theta,
+                                             const TableRequest& request);
+
+/// `diameter_um,incident_velocity_m_s,restitution_1,lower_1,upper_1`; empty bands without
+/// replicates.
+std::string csv_restitution(const std::vector<TabulatedSize>& table);
+
+/// `diameter_um,capture_velocity_m_s,lower_m_s,upper_m_s`, the sizes that are captured.
+std::string csv_captures(const std::vector<TabulatedSize>& table);
+
+}  // namespace recoil

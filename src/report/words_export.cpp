@@ -1,0 +1,165 @@
+#include "report/words_export.hpp"
+
+#include <fmt/format.h>
+
+#include "core/units.hpp"
+#include "document/terminal.hpp"
+#include "report/format.hpp"
+#include "report/report.hpp"
+#include "report/words_dataset.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t comment_columns = 90;
+
+std::string stock_words(const Approximation& stock) {
+  switch (stock.model) {
+    case StockModel::constant_restitution:
+      return fmt::format("the constant restitution e = {:.4f}", stock.value);
+    case StockModel::hertz_dashpot:
+      return fmt::format("Hertz with the damping -D n^(1/2) n', D = {:.5g} N s m^(-3/2)",
+                         stock.value);
+    case StockModel::hunt_crossley:
+      return fmt::format("Hertz with the damping of Hunt & Crossley, C_H = {:.5g} s/m",
+                         stock.value);
+  }
+  return "";
+}
+
+std::string why_no_force(ExportTarget target, const ExportedImpact& impact) {
+  if (target == ExportTarget::liggghts) {
+    return "LIGGGHTS has no way to state a force law in its input";
+  }
+  if (impact.of_nature.empty()) return "this law of adhesion is not one that the program can hold";
+  std::vector<std::string> ids;
+  for (const Mechanism* mechanism : impact.of_nature) ids.emplace_back(mechanism->info.id);
+  return fmt::format("{} {} no force in the equation of motion", fmt::join(ids, " and "),
+                     ids.size() == 1 ? "is" : "are");
+}
+
+std::string range_words(const ExportRequest& request) {
+  return fmt::format("V from {:.4g} to {:.4g} m/s", request.slowest, request.fastest);
+}
+
+std::string capture_lost(const ExportedImpact& impact) {
+  if (!impact.captures) return "The fit captures nothing at this size, and neither does this.";
+  return fmt::format(
+      "The capture velocity is LOST: in the fit a sphere slower than V* = {:.4g} m/s stays, here "
+      "it bounces.",
+      impact.capture_velocity);
+}
+
+void wrap_into(std::vector<std::string>& lines, const std::string& text) {
+  const std::string wrapped = wrap(text, comment_columns, 0);
+  for (std::size_t at = 0; at <= wrapped.size();) {
+    const std::size_t end = std::min(wrapped.find('\n', at), wrapped.size());
+    lines.push_back(wrapped.substr(at, end - at));
+    at = end + 1;
+  }
+}
+
+std::string parameter_words(const ExportedParameter& p) {
+  const std::string unit = p.unit.empty() || p.unit == "1" ? "" : " " + p.unit;
+  if (p.std_error) {
+    return fmt::format("  {} = {:.6g} +/- {:.2g}{}", p.label, p.value, *p.std_error, unit);
+  }
+  return fmt::format("  {} = {:.6g}{} ({})", p.label, p.value, unit,
+                     p.free ? "no standard error" : "fixed");
+}
+
+}  // namespace
+
+std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job) {
+  std::vector<std::string> out;
+  const ExportedImpact& impact = job.impact;
+  if (job.form == ExportForm::force) {
+    out.push_back(
+        target == ExportTarget::simbody
+            ? "The force law is the model's own: e differs by what the integrator's accuracy "
+              "leaves."
+            : fmt::format(
+                  "The force law is the model's own: e differs by what the time step of {:.2g} "
+                  "ns leaves, less than 1e-4 from 5 % above capture, and in proportion to it.",
+                  time_step(impact) / units::ns));
+    out.push_back(
+        impact.captures
+            ? fmt::format("The capture velocity is kept: V* = {:.4g} m/s.", impact.capture_velocity)
+            : "The fit captures nothing at this size, and neither does this.");
+  } else if (job.form == ExportForm::approximation) {
+    const RestitutionError& error = job.stock->error;
+    out.push_back(fmt::format("An approximation, as {}: {}.", why_no_force(target, impact),
+                              stock_words(*job.stock)));
+    out.push_back(fmt::format(
+        "Of all its values this has the smallest rms error of e over {}, evenly spaced in log V: "
+        "{:.4f}; the largest is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds).",
+        range_words(impact.request), error.rms, error.largest, error.at, error.rebounding));
+    out.push_back(capture_lost(impact));
+  } else if (target != ExportTarget::table) {
+    out.push_back(
+        fmt::format("e(V, d) is looked up in a table: e is within {:.1g} of the fit between its "
+                    "nodes{}, for {}.",
+                    job.lookup->error, job.lookup->captures ? " from 1 % above capture" : "",
+                    range_words(impact.request)));
+    if (!job.lookup->captures) {
+      out.push_back("Below the range of velocities the table's first value holds.");
+    } else if (job.lookup->diameter.size() > 1) {
+      out.push_back(
+          fmt::format("Captures are kept; V* is within {:.1g} of itself between the sizes.",
+                      job.lookup->capture_error));
+    } else {
+      out.push_back(fmt::format("Captures are kept: V* = {:.4g} m/s.", job.lookup->scale.front()));
+    }
+    out.push_back("Normal impact: what the tangential velocity does is not part of the model.");
+  }
+  for (const Mechanism* mechanism : impact.of_measurement) {
+    out.push_back(
+        fmt::format("{} is an error of the measurement, and left out.", mechanism->info.id));
+  }
+  return out;
+}
+
+std::vector<std::string> export_heading(ExportTarget target, const ExportSource& source,
+                                        const ExportJob& job) {
+  std::vector<std::string> lines;
+  const ExportedImpact& impact = job.impact;
+  wrap_into(lines, fmt::format("recoil {}: the impact of {} for {}", version(), source.fit,
+                               to_string(target)));
+  wrap_into(lines,
+            fmt::format("Fitted to {} ({}). {}", source.dataset, to_string(source.provenance),
+                        provenance_sentence(source.provenance)));
+  wrap_into(lines, fmt::format("Parameters, {}:", source.parameters));
+  for (const ExportedParameter& value : source.values) lines.push_back(parameter_words(value));
+  if (job.form != ExportForm::lookup) {
+    wrap_into(lines,
+              fmt::format("A sphere of {:.6g} um, {:.6g} kg/m3; K = {:.6g} GPa. Adhesion: {}, "
+                          "its damping acts in phase \"{}\".",
+                          2.0 * impact.force.radius / units::um, impact.force.density,
+                          impact.force.stiffness / units::GPa, to_string(impact.force.adhesion),
+                          to_string(impact.force.phase)));
+  }
+  for (const std::string& sentence : export_losses(target, job)) wrap_into(lines, sentence);
+  return lines;
+}
+
+std::string export_use(ExportTarget target) {
+  switch (target) {
+    case ExportTarget::lammps:
+      return "lmp -in impact.lammps -var V 2.4";
+    case ExportTarget::liggghts:
+      return "liggghts -in impact.liggghts -var V 2.4";
+    case ExportTarget::yade:
+      return "yade -n -x impact.py 2.4";
+    case ExportTarget::simbody:
+      return "g++ -O1 impact.cpp -o impact $(pkg-config --cflags --libs simbody) && ./impact 2.4";
+    case ExportTarget::openfoam:
+      return "wmake in recoilRebound, then libs (\"librecoilRebound.so\"); in controlDict";
+    case ExportTarget::fluent:
+      return "compile recoil_rebound.c as a user-defined function of the wall";
+    case ExportTarget::table:
+      break;
+  }
+  return "restitution.csv has e(V, d), capture.csv V*(d)";
+}
+
+}  // namespace recoil

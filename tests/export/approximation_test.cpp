@@ -1,0 +1,80 @@
+// Is the value that an approximation takes the best one, and is its error the true one?
+#include "export/approximation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/synthetic.hpp"
+
+namespace {
+
+using namespace recoil;
+
+ExportedImpact example(const std::vector<std::string>& mechanisms = {}) {
+  FitSpec spec = synthetic::spec();
+  spec.mechanisms = mechanisms;
+  if (!mechanisms.empty()) {
+    spec.parameters.clear();
+    for (const Parameter* parameter : parameters_with(mechanisms)) {
+      spec.parameters.push_back(default_of(*parameter));
+    }
+  }
+  const ImpactModel model = make_model(spec, {synthetic::dataset({})});
+  return exported_impact(model, model.initial(), {0, 4.9e-6, 1.5, 60.0});
+}
+
+TEST(Approximation, TheConstantRestitutionIsTheMeanOverLogVelocity) {
+  const ExportedImpact impact = example();
+  ASSERT_EQ(impact.velocity.size(), error_velocities);
+  EXPECT_NEAR(impact.velocity[1] / impact.velocity[0], impact.velocity[150] / impact.velocity[149],
+              1e-12);
+  double mean = 0.0;
+  for (const double e : impact.restitution) mean += e / error_velocities;
+  double square = 0.0;
+  double largest = 0.0;
+  for (const double e : impact.restitution) {
+    square += (e - mean) * (e - mean) / error_velocities;
+    largest = std::max(largest, std::abs(e - mean));
+  }
+  const Approximation found = nearest(StockModel::constant_restitution, impact);
+  EXPECT_NEAR(found.value, mean, 1e-12);
+  EXPECT_NEAR(found.error.rms, std::sqrt(square), 1e-12);
+  EXPECT_NEAR(found.error.largest, largest, 1e-12);
+}
+
+TEST(Approximation, NoOtherValueIsNearer) {
+  const ExportedImpact impact = example();
+  for (const StockModel model : {StockModel::hertz_dashpot, StockModel::hunt_crossley}) {
+    const Approximation found = nearest(model, impact);
+    for (const double factor : {0.9, 0.99, 1.01, 1.1}) {
+      Approximation other = found;
+      other.value *= factor;
+      const auto e = restitution_under(force_of(other, impact), impact.velocity);
+      EXPECT_GE(restitution_error(impact, e).rms, found.error.rms - 1e-9) << to_string(model);
+    }
+  }
+}
+
+TEST(Approximation, AForceIsExactAndAnEnergyIsNot) {
+  EXPECT_TRUE(example().force_is_all);
+  EXPECT_TRUE(example({"bulk_viscoelastic"}).force_is_all);
+  EXPECT_TRUE(example({"size_law"}).force_is_all);
+  EXPECT_FALSE(example({"elastic_waves"}).force_is_all);
+  EXPECT_EQ(form_for(ExportTarget::lammps, example({"elastic_waves"})), ExportForm::approximation);
+  EXPECT_EQ(form_for(ExportTarget::lammps, example()), ExportForm::force);
+  EXPECT_EQ(form_for(ExportTarget::liggghts, example()), ExportForm::approximation);
+  EXPECT_EQ(form_for(ExportTarget::openfoam, example()), ExportForm::lookup);
+}
+
+TEST(Approximation, ErrorsOfTheMeasurementAreLeftOut) {
+  const ExportedImpact plain = example();
+  const ExportedImpact offset = example({"velocity_offset"});
+  ASSERT_EQ(offset.of_measurement.size(), 1U);
+  EXPECT_TRUE(offset.of_nature.empty());
+  for (std::size_t k = 0; k < error_velocities; ++k) {
+    EXPECT_NEAR(offset.restitution[k], plain.restitution[k], 1e-9);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,146 @@
+// recoil export as people script against it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "support/workplace.hpp"
+
+namespace {
+
+using support::Outcome;
+using support::Workplace;
+
+Outcome export_to(const Workplace& place, const std::string& target,
+                  std::vector<std::string> more = {}) {
+  std::vector<std::string> words = {"export", "fit.toml", "--to", target, "--out", "out"};
+  words.insert(words.end(), more.begin(), more.end());
+  return place.run(words);
+}
+
+struct Row {
+  double diameter, velocity, e;
+  std::string lower, upper;
+};
+
+std::vector<Row> rows_of(const std::string& csv) {
+  std::vector<Row> rows;
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    std::vector<std::string> cell(5);
+    for (std::string& c : cell) std::getline(cells, c, ',');
+    rows.push_back({std::stod(cell[0]), std::stod(cell[1]), std::stod(cell[2]), cell[3], cell[4]});
+  }
+  return rows;
+}
+
+TEST(Export, ATableHasEverySizeWithBandsAndItsCaptureVelocity) {
+  const Workplace place;
+  const Outcome run =
+      export_to(place, "table", {"--replicates", "39", "--threads", "2", "--velocity", "0.5,25"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string csv = place.read("out/restitution.csv");
+  EXPECT_EQ(csv.rfind("diameter_um,incident_velocity_m_s,restitution_1,lower_1,upper_1\n", 0), 0U);
+  EXPECT_EQ(csv.find("nan"), std::string::npos);
+  const std::vector<Row> rows = rows_of(csv);
+  const std::string captures = place.read("out/capture.csv");
+  EXPECT_EQ(captures.rfind("diameter_um,capture_velocity_m_s,lower_m_s,upper_m_s\n", 0), 0U);
+  EXPECT_EQ(std::count(captures.begin(), captures.end(), '\n'), 3);
+  const std::vector<Row> found = rows_of(captures);
+  for (const double size : {2.0, 4.0}) {
+    const Row& capture = size == 2.0 ? found[0] : found[1];
+    EXPECT_EQ(capture.diameter, size);
+    EXPECT_LT(capture.e, capture.velocity * 1.2);  // the lower end of V*
+    int below = 0;
+    int above = 0;
+    for (const Row& row : rows) {
+      if (row.diameter != size) continue;
+      ASSERT_FALSE(row.lower.empty());
+      EXPECT_LE(std::stod(row.lower), row.e + 1e-9);
+      EXPECT_GE(std::stod(row.upper), row.e - 1e-9);
+      const bool stays = row.velocity <= capture.velocity;  // V* stands in the second column
+      EXPECT_EQ(row.e == 0.0, stays) << row.velocity;
+      (stays ? below : above) += 1;
+    }
+    EXPECT_GE(above, 40);
+    EXPECT_GE(below, 1);
+  }
+}
+
+TEST(Export, ATableAnswersAsSimulateDoes) {
+  const Workplace place;
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--replicates", "0", "--out", "fitted"}).status, 0);
+  const Outcome run = export_to(
+      place, "table", {"--parameters", "fitted/fit.json", "--diameter", "3", "--velocity", "2,8"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("without bands"), std::string::npos) << run.out;
+  const std::vector<Row> rows = rows_of(place.read("out/restitution.csv"));
+  EXPECT_EQ(rows.front().velocity, 2.0);
+  EXPECT_NEAR(rows.back().velocity, 8.0, 1e-8);
+  for (const Row& row : {rows.front(), rows.back()}) {
+    EXPECT_TRUE(row.lower.empty());
+    const Outcome one = place.run({"simulate", "fit.toml", "--parameters", "fitted/fit.json",
+                                   "--diameter", "3", "--velocity", std::to_string(row.velocity)});
+    const std::size_t at = one.out.find("restitution: ");
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_NEAR(row.e, std::stod(one.out.substr(at + 13)), 1e-8);
+  }
+}
+
+TEST(Export, SaysWhatTheNumbersAreInTheFileItself) {
+  const Workplace place;
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--replicates", "0", "--out", "fitted"}).status, 0);
+  for (const auto& [target, file] : std::vector<std::pair<std::string, std::string>>{
+           {"lammps", "impact.lammps"},
+           {"liggghts", "impact.liggghts"},
+           {"yade", "impact.py"},
+           {"simbody", "impact.cpp"},
+           {"openfoam", "recoilRebound/recoilRebound.C"},
+           {"fluent", "recoil_rebound.c"}}) {
+    const Outcome run = export_to(place, target, {"--parameters", "fitted/fit.json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const std::string text = place.read("out/" + file);
+    for (const char* words : {"fit.toml", "example (synthetic)", "C_A = ", "+/-", "f0 = "}) {
+      EXPECT_NE(text.find(words), std::string::npos) << target << " lacks " << words;
+    }
+    EXPECT_EQ(text.find('@'), std::string::npos) << target;
+    EXPECT_EQ(text.find("nan"), std::string::npos) << target;
+  }
+}
+
+TEST(Export, TheSameBytesAtAnyThreadCount) {
+  const Workplace place;
+  std::string first;
+  for (const char* threads : {"1", "3"}) {
+    ASSERT_EQ(export_to(place, "table", {"--threads", threads}).status, 0);
+    const std::string csv = place.read("out/restitution.csv") + place.read("out/capture.csv");
+    if (first.empty()) first = csv;
+    EXPECT_EQ(csv, first);
+  }
+}
+
+TEST(Export, MistakesAreOneLineAndWriteNothing) {
+  const Workplace place;
+  place.write("taken", "a file");
+  const auto before = place.listing();
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"export", "fit.toml", "--to", "abaqus", "--out", "out"},
+           {"export", "fit.toml", "--to", "lammps"},
+           {"export", "fit.toml", "--to", "lammps", "--out", "taken"},
+           {"export", "fit.toml", "--to", "lammps", "--out", "out", "--velocity", "5,2"},
+           {"export", "fit.toml", "--to", "lammps", "--out", "out", "--velocity", "nan,2"},
+           {"export", "fit.toml", "--to", "lammps", "--out", "out", "--diameter", "-4"},
+           {"export", "fit.toml", "--to", "lammps", "--out", "out", "--dataset", "other"},
+           {"export", "fit.toml", "--to", "lammps", "--out", "out", "--parameters", "fit.toml"}}) {
+    const Outcome run = place.run(words);
+    EXPECT_EQ(run.status, 2) << run.out;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(place.listing(), before);
+  }
+}
+
+}  // namespace

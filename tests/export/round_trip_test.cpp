@@ -1,0 +1,147 @@
+// From a fit to the same restitution in programs that share no code with recoil. A program that is
+// not installed fails these tests; ./run test installs them.
+#include "round_trip.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+const std::string kRing = R"(dataset = "data"
+[parameters]
+C_H = { initial = 3e-3, bounds = [0, 1] }
+C_A = { initial = 3e-2, bounds = [0, 10] }
+f0 = { free = false }
+)";
+
+/// Nothing is fitted: these values.
+std::string fixed(const std::string& law, const std::string& phase, const std::string& c_a,
+                  const std::string& adhesion) {
+  return "dataset = \"data\"\n[model]\nadhesion = \"" + law + "\"\nadhesion_damping_phase = \"" +
+         phase +
+         "\"\n[parameters]\nC_H = { initial = 4e-3, free = true }\nC_A = { initial = " + c_a +
+         ", free = false }\n" + adhesion + "\n";
+}
+
+/// Where the two differ by more than `allowed` is a failure.
+template <class Engine>
+void expect_the_same(const RoundTrip& trip, double allowed, const Engine& engine) {
+  for (const double v : RoundTrip::velocities) {
+    EXPECT_NEAR(engine(v), trip.expected(v), allowed) << "at " << v << " m/s";
+  }
+}
+
+TEST(RoundTrip, LammpsHoldsTheRingLawAndItsCapture) {
+  const RoundTrip trip(kRing);
+  const std::string said = trip.write("lammps", "out");
+  EXPECT_NE(said.find("capture velocity is kept"), std::string::npos) << said;
+  ASSERT_EQ(trip.expected(RoundTrip::velocities.front()), 0.0);
+  expect_the_same(trip, 1e-4, [&](double v) { return trip.lammps("out", v); });
+}
+
+TEST(RoundTrip, HalfTheTimeStepHalvesTheErrorInLammps) {
+  const RoundTrip trip(kRing);
+  trip.write("lammps", "out");
+  const double dt = number_after(trip.place().read("out/impact.lammps"), "variable dt index ");
+  // A step that begins or ends outside the contact adds a little of its own: the mean over some
+  // velocities has less of it.
+  const auto error_at = [&](double step) {
+    double sum = 0.0;
+    for (const double v : {1.7, 2.4, 5.0, 8.0, 12.0, 25.0}) {
+      sum += trip.lammps("out", v, fmt::format("{}", step)) - trip.expected(v);
+    }
+    return sum / 6.0;
+  };
+  const double coarse = error_at(4.0 * dt);
+  const double middle = error_at(2.0 * dt);
+  const double stated = error_at(dt);
+  EXPECT_GT(std::abs(stated), 1e-7);  // far above the last of the nine digits
+  EXPECT_NEAR(coarse / middle, 2.0, 0.4);
+  EXPECT_NEAR(middle / stated, 2.0, 0.4);
+}
+
+TEST(RoundTrip, LammpsHoldsTheOtherLawsOfAdhesionAndBothPhases) {
+  for (const char* phase : {"rebound", "both"}) {
+    const RoundTrip jkr(fixed("jkr", phase, "0.03", "W = { free = false }"));
+    jkr.write("lammps", "out");
+    expect_the_same(jkr, 1e-4, [&](double v) { return jkr.lammps("out", v); });
+    const RoundTrip dmt(fixed("dmt", phase, "0.2", "W = { free = false }"));
+    dmt.write("lammps", "out");
+    expect_the_same(dmt, 1e-4, [&](double v) { return dmt.lammps("out", v); });
+  }
+}
+
+TEST(RoundTrip, LammpsHoldsADashpotOfTheBulk) {
+  const RoundTrip trip(R"(dataset = "data"
+[model]
+mechanisms = ["bulk_viscoelastic"]
+[parameters]
+C_H = { initial = 3e-3, bounds = [0, 1] }
+C_A = { initial = 0.01, free = false }
+f0 = { free = false }
+bulk_relaxation = { initial = 1e-10, free = false }
+)");
+  const std::string said = trip.write("lammps", "out");
+  EXPECT_NE(said.find("force law is the model's own"), std::string::npos) << said;
+  expect_the_same(trip, 1e-4, [&](double v) { return trip.lammps("out", v); });
+}
+
+TEST(RoundTrip, SimbodyHoldsTheRingAndTheJkrLaw) {
+  const RoundTrip ring(kRing);
+  ring.write("simbody", "out");
+  expect_the_same(ring, 1e-6, [&](double v) { return ring.simbody("out", v); });
+  const RoundTrip jkr(fixed("jkr", "rebound", "0.03", "W = { free = false }"));
+  jkr.write("simbody", "out");
+  expect_the_same(jkr, 1e-6, [&](double v) { return jkr.simbody("out", v); });
+}
+
+TEST(RoundTrip, SimbodysOwnHuntCrossleyForceIsTheLawWithoutAdhesion) {
+  const RoundTrip trip(R"(dataset = "data"
+[parameters]
+C_H = { initial = 4e-3, bounds = [0, 0.02] }
+C_A = { initial = 0, free = false }
+f0 = { free = false }
+)",
+                       false);
+  const std::string said = trip.write("simbody", "out");
+  EXPECT_NE(trip.place().read("out/impact.cpp").find("HuntCrossleyForce contact"),
+            std::string::npos)
+      << said;
+  const double c_h = number_after(trip.place().read("out/impact.cpp"), "double C_H = ");
+  ASSERT_GT(c_h, 1e-4);
+  for (const double v : RoundTrip::velocities) {
+    const double e = trip.simbody("out", v);
+    EXPECT_NEAR(e, trip.expected(v), 1e-6);
+    // From dv/dn = -(K r^(1/2) / m) n^(3/2) (1 + C_H v) / v, integrated from V to 0 and from 0 to
+    // -e V to the same depth: C_H V (1 + e) = ln[(1 + C_H V) / (1 - e C_H V)].
+    const double x = c_h * v;
+    EXPECT_NEAR(x * (1.0 + e), std::log((1.0 + x) / (1.0 - e * x)), 1e-8);
+  }
+}
+
+/// The largest |delta e| that the export printed holds, to what the time step leaves.
+template <class Engine>
+void expect_the_stated_error(const RoundTrip& trip, const std::string& said, const Engine& engine) {
+  const double largest = number_after(said, "the largest is ");
+  double found = 0.0;
+  for (const double v : RoundTrip::velocities) {
+    found = std::max(found, std::abs(engine(v) - trip.expected(v)));
+  }
+  EXPECT_LE(found, largest + 2e-3) << said;
+  EXPECT_GT(found, 0.5 * largest) << said;
+}
+
+TEST(RoundTrip, LiggghtsHasTheConstantRestitutionAndItsStatedError) {
+  const RoundTrip trip(kRing);
+  const std::string said = trip.write("liggghts", "out");
+  EXPECT_NE(said.find("capture velocity is LOST"), std::string::npos) << said;
+  const double constant = number_after(said, "restitution e = ");
+  for (const double v : RoundTrip::velocities) {
+    EXPECT_NEAR(trip.liggghts("out", v), constant, 1e-3);
+  }
+  expect_the_stated_error(trip, said, [&](double v) { return trip.liggghts("out", v); });
+}
+
+}  // namespace
