@@ -70,6 +70,15 @@ CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& data
 
 Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::size_t dataset) {
   const ContactProperties& contact = model.contacts[dataset];
+  if (model.adhesion != AdhesionLaw::ring) {
+    return AdhesiveTruth{model.adhesion == AdhesionLaw::jkr,
+                         contact.particle_density,
+                         contact.stiffness,
+                         theta[model.slot_adhesion[dataset]],
+                         theta[model.slot_C_H[dataset]],
+                         theta[model.slot_C_A[dataset]],
+                         model.phase == AdhesionDampingPhase::both};
+  }
   RingAdhesionTruth truth;
   truth.density = contact.particle_density;
   truth.stiffness = contact.stiffness;
@@ -188,19 +197,20 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
 
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed) {
-  if (spec.adhesion != AdhesionLaw::ring) {
+  if (spec.adhesion == AdhesionLaw::maugis) {
     throw InputError({spec.file.string()},
-                     fmt::format("coverage can simulate no truth with adhesion = \"{}\"",
-                                 to_string(spec.adhesion)),
-                     "its independent simulator knows the ring law alone",
-                     "set adhesion = \"ring\"");
+                     "coverage can simulate no truth with adhesion = \"maugis\"",
+                     "its independent simulator knows the ring law, jkr and dmt",
+                     "take the one of jkr and dmt to which your Tabor parameter is closer");
   }
   if (!spec.mechanisms.empty()) {
     throw InputError({spec.file.string()}, "coverage can simulate no truth with mechanisms",
                      "its simulator, which shares no code with the fitter, has the base model only",
                      "leave 'mechanisms' out");
   }
-  std::vector<KnownRecipe> recipes = known_recipes(datasets);
+  // Recipes have the ring law's truth.
+  std::vector<KnownRecipe> recipes;
+  if (spec.adhesion == AdhesionLaw::ring) recipes = known_recipes(datasets);
   if (!recipes.empty()) return from_recipes(spec, datasets, std::move(recipes), seed);
   return from_fit(spec, datasets, seed);
 }

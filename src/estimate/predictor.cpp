@@ -19,6 +19,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     : model_(model),
       points_(std::move(points)),
       beta_per_f0_(points_.size()),
+      range_per_f0_(points_.size()),
       force_(model.contacts.size()),
       force_slope_(model.contacts.size()),
       groups_(points_.size()),
@@ -29,7 +30,9 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     ImpactConditions unit = conditions_at(model, initial, p.dataset, p.diameter, p.velocity);
     unit.adhesion_force =
         adhesion_force_at(1.0, model.contacts[p.dataset].reference_diameter, p.diameter);
-    beta_per_f0_[i] = impact_groups(unit).beta;
+    const ImpactGroups groups = impact_groups(unit);
+    beta_per_f0_[i] = groups.beta;
+    range_per_f0_[i] = groups.range;
   }
 
   std::vector<const Mechanism*> chain;
@@ -78,9 +81,9 @@ long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   if (extended_) return evaluate_extended(theta, options);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointConditions& p = points_[i];
-    groups_[i] = {theta[model_.slot_C_H[p.dataset]] * p.velocity,
-                  force_[p.dataset] * beta_per_f0_[i],
-                  theta[model_.slot_C_A[p.dataset]] * p.velocity};
+    groups_[i] = {
+        theta[model_.slot_C_H[p.dataset]] * p.velocity, force_[p.dataset] * beta_per_f0_[i],
+        theta[model_.slot_C_A[p.dataset]] * p.velocity, 0.0, force_[p.dataset] * range_per_f0_[i]};
   }
   return model_.simulator()(groups_, options, results_);
 }
@@ -117,7 +120,8 @@ void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double>
   }
   row[model_.slot_C_H[p.dataset]] += scale * p.velocity * by_group[0];
   row[model_.slot_adhesion[p.dataset]] +=
-      scale * beta_per_f0_[i] * force_slope_[p.dataset] * by_group[1];
+      scale * force_slope_[p.dataset] *
+      (beta_per_f0_[i] * by_group[1] + range_per_f0_[i] * by_group[4]);
   row[model_.slot_C_A[p.dataset]] += scale * p.velocity * by_group[2];
 }
 
@@ -131,8 +135,10 @@ double PointPredictor::velocity_slope(std::size_t i) const {
 
 double PointPredictor::diameter_slope(std::size_t i) const {
   if (extended_) return extended_->slopes(i)[1];
-  // beta ~ f0 / D with f0 ~ D^(1/3) (eq. 12).
-  return -2.0 / 3.0 * groups_[i].beta * results_[i].gradient[1] / points_[i].diameter;
+  // beta ~ f0 / D with f0 ~ D^(1/3) (eq. 12); lambda ~ f0.
+  const auto& by_group = results_[i].gradient;
+  return (groups_[i].range * by_group[4] - 2.0 * groups_[i].beta * by_group[1]) /
+         (3.0 * points_[i].diameter);
 }
 
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,

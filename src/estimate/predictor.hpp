@@ -57,7 +57,8 @@ class PointPredictor {
 
   const ImpactModel& model_;
   std::vector<PointConditions> points_;
-  std::vector<double> beta_per_f0_;          // beta is proportional to f0
+  std::vector<double> beta_per_f0_;          // beta is proportional to f0,
+  std::vector<double> range_per_f0_;         // and so is Maugis's lambda
   std::vector<double> force_, force_slope_;  // per dataset: f0, and its slope in its parameter
   std::optional<ExtendedImpacts> extended_;  // when mechanisms act
   std::vector<std::size_t> slots_;           // of the values of every point, with extended_

@@ -38,6 +38,12 @@ enum class MechanismPlace {
   batch,      ///< what all points of a series share
 };
 
+/// A law of adhesion beside which a mechanism makes no sense, and why.
+struct RefusedBeside {
+  AdhesionLaw law;
+  std::string_view why;
+};
+
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;
@@ -54,6 +60,7 @@ struct MechanismInfo {
   /// Is its strength a multiple of the dataset's own work of adhesion? Where that is 0 it does
   /// nothing.
   bool needs_adhesion = false;
+  std::vector<RefusedBeside> refused = {};
 };
 
 /// The law of a mechanism for one number type; null where it does nothing. `own` holds its
@@ -88,10 +95,14 @@ struct Mechanism {
     return !info.needs_adhesion || at.adhesion_energy > 0.0;
   }
   bool spreads() const { return law<double>().vary != nullptr; }
-  /// What acts in the contact is worked out on the ring law's.
-  bool works_with(AdhesionLaw adhesion) const {
-    return adhesion == AdhesionLaw::ring || info.place != MechanismPlace::contact;
+  /// Why it cannot stand beside this law of adhesion; empty when it can.
+  std::string_view refusal(AdhesionLaw adhesion) const {
+    for (const RefusedBeside& refused : info.refused) {
+      if (refused.law == adhesion) return refused.why;
+    }
+    return {};
   }
+  bool works_with(AdhesionLaw adhesion) const { return refusal(adhesion).empty(); }
   bool is_batch() const { return info.place == MechanismPlace::batch; }
 };
 
