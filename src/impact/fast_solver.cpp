@@ -90,7 +90,7 @@ long fly_some(std::span<const ImpactGroups> groups, const ImpactOptions& options
   // optimiser that would take seconds is a failure, and the optimiser takes another.
   ImpactOptions patient = options;
   if (options.adhesion == AdhesionLaw::maugis)
-    patient.max_steps = std::min(20000L, patient.max_steps);
+    patient.max_steps = std::min(3000L, patient.max_steps);
   long handed_over = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (results[i].usable() && std::isfinite(results[i].restitution_squared)) continue;
