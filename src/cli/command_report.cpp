@@ -16,6 +16,7 @@
 #include "report/index_document.hpp"
 #include "report/json_diagnosis.hpp"
 #include "report/json_report.hpp"
+#include "report/law_comparison.hpp"
 
 namespace recoil {
 namespace {
@@ -90,14 +91,17 @@ void report(const ReportOptions& options) {
     const fs::path text = out / id / "fit.txt";
     const fs::path picture = out / id / "picture.svg";
     const fs::path diagnosed = out / id / "diagnosis.json";
+    const fs::path laws = out / id / "laws.json";
     const fs::path stamp = out / id / "inputs.sha256";
     FitInputs inputs = load_inputs(fit_file);
     const std::string expected = fingerprint(inputs, options.analysis);
     IndexEntry entry;
     entry.page = id + ".html";
     entry.diagnosis_page = id + "/diagnosis.html";
-    if (!options.force && is_current(stamp, expected, {page, json, text, picture, diagnosed})) {
+    if (!options.force &&
+        is_current(stamp, expected, {page, json, text, picture, diagnosed, laws})) {
       entry.fit = read_summary(entry.page, read_text_file(json), read_text_file(diagnosed));
+      entry.fit.laws = read_laws(entry.page, read_text_file(laws));
       entry.picture = read_text_file(picture);
       fmt::print("{}: current\n", page.string());
     } else {
@@ -106,6 +110,7 @@ void report(const ReportOptions& options) {
       Analysis analysis = analyse(std::move(inputs), resolved);
       add_predictions(analysis);
       add_corrections(analysis);
+      analysis.laws = fit_under_every_law(analysis.spec, analysis.datasets, analysis.fitted);
       const Diagnosis diagnosis = diagnose_for_report(analysis, options.analysis);
       entry.fit = summary_of(analysis, diagnosis);
       entry.picture = thumbnail(analysis);
@@ -115,6 +120,7 @@ void report(const ReportOptions& options) {
       write_whole_file(diagnosed, diagnosis_json(diagnosis));
       write_whole_file(out / id / "extended.toml", extended_toml(diagnosis, out / id));
       write_whole_file(text, text_report(analysis));
+      write_whole_file(laws, laws_json(entry.fit.laws));
       write_whole_file(picture, entry.picture);
       write_whole_file(json, json_report(analysis));
       write_whole_file(stamp, expected);

@@ -46,6 +46,17 @@ void add_capture_velocities(CoverageTruth& truth, const std::vector<Dataset>& da
 Truth truth_at(const ImpactModel& model, std::span<const double> theta, std::size_t dataset) {
   const ContactProperties& contact = model.contacts[dataset];
   const MaterialState materials = materials_under(model, theta, dataset);
+  if (model.adhesion != AdhesionLaw::ring) {
+    const ParameterSlot& energy = model.slots[model.slot_adhesion[dataset]];
+    const bool follows = energy.derived && !energy.free && !model.constants.empty();
+    return AdhesiveTruth{model.adhesion == AdhesionLaw::jkr,
+                         materials.density,
+                         materials.stiffness,
+                         follows ? materials.adhesion_energy : theta[model.slot_adhesion[dataset]],
+                         theta[model.slot_C_H[dataset]],
+                         theta[model.slot_C_A[dataset]],
+                         model.phase == AdhesionDampingPhase::both};
+  }
   RingAdhesionTruth truth;
   truth.density = materials.density;
   truth.stiffness = materials.stiffness;
@@ -255,19 +266,20 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
 
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,
                              std::uint64_t seed) {
-  if (spec.adhesion != AdhesionLaw::ring) {
+  if (spec.adhesion == AdhesionLaw::maugis) {
     throw InputError({spec.file.string()},
-                     fmt::format("coverage can simulate no truth with adhesion = \"{}\"",
-                                 to_string(spec.adhesion)),
-                     "its independent simulator knows the ring law alone",
-                     "set adhesion = \"ring\"");
+                     "coverage can simulate no truth with adhesion = \"maugis\"",
+                     "its independent simulator knows the ring law, jkr and dmt",
+                     "take the one of jkr and dmt to which your Tabor parameter is closer");
   }
   if (!spec.mechanisms.empty()) {
     throw InputError({spec.file.string()}, "coverage can simulate no truth with mechanisms",
                      "its simulator, which shares no code with the fitter, has the base model only",
                      "leave 'mechanisms' out");
   }
-  std::vector<KnownRecipe> recipes = known_recipes(datasets);
+  // Recipes have the ring law's truth.
+  std::vector<KnownRecipe> recipes;
+  if (spec.adhesion == AdhesionLaw::ring) recipes = known_recipes(datasets);
   if (!recipes.empty()) return from_recipes(spec, datasets, std::move(recipes), seed);
   return from_fit(spec, datasets, seed);
 }

@@ -24,7 +24,9 @@ std::vector<FitKey> all_keys() {
       {"", "diagnosis", "", "the table [diagnosis]"},
 
       {"model", "adhesion", quoted(name_of(fit.adhesion)),
-       "the law of adhesion: ring (eq. 5, with f0), jkr or dmt (with W)"},
+       "the law of adhesion: ring (eq. 5, with f0), jkr, dmt, or maugis between the two (with W)"},
+      {"model", "separation", fmt::format("{:g}", fit.separation),
+       "z_0 [m], the distance of the surfaces at rest, over which maugis lets adhesion reach"},
       {"model", "adhesion_damping_phase", quoted(name_of(fit.phase)),
        "when the damping of the adhesion acts: while the sphere moves outward (rebound), or in "
        "both "

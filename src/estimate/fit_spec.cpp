@@ -27,6 +27,9 @@ constexpr int most_replicates = 1000000;
 constexpr double largest_relative_sd = 0.5;
 // Beyond it Student's t is the normal distribution for every practical purpose.
 constexpr double largest_student_dof = 1000.0;
+// From less than an atom to more than the range of any force between dry surfaces [m].
+constexpr double least_separation = 5e-11;
+constexpr double largest_separation = 1e-7;
 
 void read_variance(const TomlReader& reader, const toml::node& node, NoiseSpec& spec) {
   const std::string word = reader.string(node, "variance", "variance = \"auto\"");
@@ -173,6 +176,7 @@ class FitReader : private TomlReader {
       }
       fit_.spec.adhesion = *law;
     }
+    if (const toml::node* node = model.get("separation")) read_separation(*node);
     if (const toml::node* node = model.get("adhesion_damping_phase")) {
       const std::string word = string(*node, "adhesion_damping_phase", "\"rebound\"");
       const auto phase = value_named<AdhesionDampingPhase>(word);
@@ -188,6 +192,23 @@ class FitReader : private TomlReader {
     for (const toml::node& item : *mechanisms->as_array()) add_mechanism(item);
   }
 
+  void read_separation(const toml::node& node) {
+    if (fit_.spec.adhesion != AdhesionLaw::maugis) {
+      fail(node,
+           fmt::format("'separation' is stated beside adhesion = \"{}\"",
+                       name_of(fit_.spec.adhesion)),
+           "that law has no range", "leave it out, or set adhesion = \"maugis\"");
+    }
+    const double separation = number(node, "separation");
+    if (!(separation >= least_separation && separation <= largest_separation)) {
+      fail(node, fmt::format("'separation' is {:g} m", separation),
+           fmt::format("it has to lie between {:g} and {:g} m", least_separation,
+                       largest_separation),
+           "the distance of two surfaces at rest is 0.2 to 0.5 nm: 4e-10 is usual");
+    }
+    fit_.spec.separation = separation;
+  }
+
   void add_mechanism(const toml::node& item) {
     const std::string id =
         string(item, "mechanisms",
@@ -197,12 +218,12 @@ class FitReader : private TomlReader {
     if (find_mechanism(id) == nullptr) {
       fail(item, fmt::format("unknown mechanism {}", quote(id)), "", did_you_mean(id, known));
     }
-    if (!find_mechanism(id)->works_with(fit_.spec.adhesion)) {
+    if (const std::string_view why = find_mechanism(id)->refusal(fit_.spec.adhesion);
+        !why.empty()) {
       fail(item,
            fmt::format("the mechanism {} cannot stand beside adhesion = \"{}\"", quote(id),
                        name_of(fit_.spec.adhesion)),
-           "its loss is worked out on the contact of the ring law",
-           "leave the mechanism out, or choose adhesion = \"ring\"");
+           std::string(why), "leave the mechanism out, or choose adhesion = \"ring\"");
     }
     std::vector<std::string>& mechanisms = fit_.spec.mechanisms;
     if (std::find(mechanisms.begin(), mechanisms.end(), id) != mechanisms.end()) {

@@ -48,6 +48,7 @@ struct FitSpec {
   std::filesystem::path file;
   std::vector<std::filesystem::path> datasets;  ///< folders, as seen from here
   AdhesionLaw adhesion = AdhesionLaw::ring;
+  double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   std::vector<std::string> mechanisms;  ///< ids from the catalogue of mechanisms
   std::vector<ParameterSpec>

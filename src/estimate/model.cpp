@@ -189,10 +189,13 @@ SimulateImpacts ImpactModel::simulator() const {
 ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets) {
   ImpactModel model;
   model.adhesion = spec.adhesion;
+  model.separation = spec.separation;
   model.phase = spec.phase;
   for (const Dataset& dataset : datasets) {
     model.contacts.push_back(derive_contact(dataset.system, reference_diameter_of(dataset)));
     model.surroundings.push_back(surroundings_of(dataset.system, model.contacts.back()));
+    model.surroundings.back().adhesion = spec.adhesion;
+    model.surroundings.back().separation = spec.separation;
   }
   model.chain = chain_of(spec.mechanisms);
   for (const Parameter* parameter : parameters_with(spec.mechanisms, spec.adhesion)) {
@@ -336,7 +339,8 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
           adhesion_force_at(adhesion_force_under(model, theta, dataset), contact.reference_diameter,
                             diameter),
           theta[model.slot_C_H[dataset]],
-          theta[model.slot_C_A[dataset]]};
+          theta[model.slot_C_A[dataset]],
+          model.separation};
 }
 
 }  // namespace recoil

@@ -41,6 +41,7 @@ struct ParameterSlot {
 /// The model applied to the datasets of one fit: what the parameters are and how they enter.
 struct ImpactModel {
   AdhesionLaw adhesion = AdhesionLaw::ring;
+  double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   SolverSettings solver;
   std::vector<ParameterSlot> slots;

@@ -19,9 +19,11 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     : model_(model),
       points_(std::move(points)),
       beta_per_f0_(points_.size()),
+      range_per_f0_(points_.size()),
       force_(model.contacts.size()),
       force_slope_(model.contacts.size()),
       beta_scale_(model.contacts.size(), 1.0),
+      range_scale_(model.contacts.size(), 1.0),
       material_slopes_(model.contacts.size()),
       surroundings_(model.surroundings),
       groups_(points_.size()),
@@ -32,7 +34,9 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     ImpactConditions unit = conditions_at(model, initial, p.dataset, p.diameter, p.velocity);
     unit.adhesion_force =
         adhesion_force_at(1.0, model.contacts[p.dataset].reference_diameter, p.diameter);
-    beta_per_f0_[i] = impact_groups(unit).beta;
+    const ImpactGroups groups = impact_groups(unit);
+    beta_per_f0_[i] = groups.beta;
+    range_per_f0_[i] = groups.range;
   }
 
   std::vector<const Mechanism*> chain;
@@ -84,7 +88,8 @@ long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
     const PointConditions& p = points_[i];
     groups_[i] = {theta[model_.slot_C_H[p.dataset]] * p.velocity,
                   force_[p.dataset] * beta_per_f0_[i] * beta_scale_[p.dataset],
-                  theta[model_.slot_C_A[p.dataset]] * p.velocity};
+                  theta[model_.slot_C_A[p.dataset]] * p.velocity, 0.0,
+                  force_[p.dataset] * range_per_f0_[i] * range_scale_[p.dataset]};
   }
   return model_.simulator()(groups_, options, results_);
 }
@@ -96,6 +101,7 @@ void PointPredictor::take_materials(std::span<const double> theta, bool gradient
     // beta ~ f0 K^(-3/5) rho^(-2/5).
     beta_scale_[d] = std::pow(now.stiffness / stated.stiffness, -0.6) *
                      std::pow(now.density / stated.particle_density, -0.4);
+    range_scale_[d] = stated.stiffness / now.stiffness;  // lambda ~ f0 / K
     surroundings_[d] = surroundings_under(model_, theta, d);
     if (gradient) material_slopes_[d] = material_slopes(model_, theta, d);
   }
@@ -143,12 +149,15 @@ void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double>
   }
   row[model_.slot_C_H[p.dataset]] += scale * p.velocity * by_group[0];
   row[model_.slot_adhesion[p.dataset]] +=
-      scale * beta_per_f0_[i] * beta_scale_[p.dataset] * force_slope_[p.dataset] * by_group[1];
+      scale * force_slope_[p.dataset] *
+      (beta_per_f0_[i] * beta_scale_[p.dataset] * by_group[1] +
+       range_per_f0_[i] * range_scale_[p.dataset] * by_group[4]);
   row[model_.slot_C_A[p.dataset]] += scale * p.velocity * by_group[2];
   for (const MaterialSlope& material : material_slopes_[p.dataset]) {
     row[model_.first_constant() + material.index] +=
-        scale * groups_[i].beta * by_group[1] *
-        (material.adhesion_force - 0.6 * material.stiffness - 0.4 * material.density);
+        scale * (groups_[i].beta * by_group[1] *
+                     (material.adhesion_force - 0.6 * material.stiffness - 0.4 * material.density) +
+                 groups_[i].range * by_group[4] * (material.adhesion_force - material.stiffness));
   }
 }
 
@@ -162,8 +171,10 @@ double PointPredictor::velocity_slope(std::size_t i) const {
 
 double PointPredictor::diameter_slope(std::size_t i) const {
   if (extended_) return extended_->slopes(i)[1];
-  // beta ~ f0 / D with f0 ~ D^(1/3) (eq. 12).
-  return -2.0 / 3.0 * groups_[i].beta * results_[i].gradient[1] / points_[i].diameter;
+  // beta ~ f0 / D with f0 ~ D^(1/3) (eq. 12); lambda ~ f0.
+  const auto& by_group = results_[i].gradient;
+  return (groups_[i].range * by_group[4] - 2.0 * groups_[i].beta * by_group[1]) /
+         (3.0 * points_[i].diameter);
 }
 
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,

@@ -58,9 +58,11 @@ class PointPredictor {
 
   const ImpactModel& model_;
   std::vector<PointConditions> points_;
-  std::vector<double> beta_per_f0_;          // beta is proportional to f0
+  std::vector<double> beta_per_f0_;          // beta is proportional to f0,
+  std::vector<double> range_per_f0_;         // and so is Maugis's lambda
   std::vector<double> force_, force_slope_;  // per dataset: f0, and its slope in its parameter
   std::vector<double> beta_scale_;           // per dataset: beta over that of the stated materials
+  std::vector<double> range_scale_;          // and lambda
   std::vector<std::vector<MaterialSlope>> material_slopes_;  // per dataset, where uncertain
   std::vector<Surroundings> surroundings_;                   // per dataset, under the last theta
   std::optional<ExtendedImpacts> extended_;                  // when mechanisms act

@@ -17,7 +17,8 @@ namespace recoil {
 /// for this W: all laws depend on the same three groups.
 struct DmtLaw {
   static constexpr unsigned groups = 3;  ///< alpha, p, gamma
-  static constexpr double start = 0.0;
+  static constexpr unsigned constants = 0;
+  static constexpr std::array<std::size_t, groups> places = {0, 1, 2};
   static constexpr double tolerance_share = 1.0;  ///< of the fast solver, per step
 
   static double strength(const ImpactGroups& g) { return g.beta * std::sqrt(g.beta) / 3.0; }
@@ -26,6 +27,8 @@ struct DmtLaw {
   static std::array<double, groups> groups_of(const ImpactGroups& g) {
     return {g.alpha, strength(g), g.gamma};
   }
+  static std::array<double, constants> constants_of(const ImpactGroups&) { return {}; }
+  static LawPath path_of(const ImpactGroups& g) { return {.resting = std::cbrt(strength(g))}; }
 
   template <class Q, class U, class Alpha, class P, class Gamma, class Acts>
   static constexpr auto acceleration(const Q& q, const U& u, const Acts& acts, const Alpha& alpha,
@@ -41,29 +44,32 @@ struct DmtLaw {
     const Q hertz = 0.4 * (x * x * q);
     return hertz + (-x) * p;
   }
-  static double resting_place(const ImpactGroups& g) { return std::cbrt(strength(g)); }
-
   /// Damping that is critical about the bottom does not hold a fast sphere here, as it does not
   /// grow with the contact: whether one creeps into the well has to be followed.
-  static bool creeps(const ImpactGroups&) { return false; }
   static double depth(const ImpactGroups& g) { return -0.6 * std::pow(strength(g), 5.0 / 3.0); }
 
+  template <class Q, class... Values>
+  static constexpr auto dashpot_weight(const Q& q, const Values&...) {
+    return (q + q) * q;
+  }
+  static double dashpot_unit(const ImpactGroups&) { return 1.0; }
+  static constexpr double dashpot_power = 0.0;
+
   /// x [n_c], dx / dq and the four forces [m V^2 / n_c].
-  static double penetration(double q, double) { return q * q; }
-  static double clock(double q, double) { return 2.0 * q; }
-  static ContactForces<double, double, double, double> forces(double q, double u, double alpha,
-                                                              double p, double gamma, double acts) {
+  static double penetration(double q, double, double, double) { return q * q; }
+  static double clock(double q, double, double, double) { return 2.0 * q; }
+  static ContactForces<double, double, double, double> forces(double q, double u, double acts,
+                                                              double alpha, double p,
+                                                              double gamma) {
     const double hertz = -q * q * q;
     return {hertz, hertz * alpha * u, p, -p * acts * gamma * u};
   }
-  static double largest_energy(double q, double p) {
+  static double largest_energy(double q, double, double p, double) {
     return std::max(0.4 * std::pow(q, 5), p * q * q);
   }
-  static double cusp_radius(double p, double energy) {
-    return std::sqrt(energy / std::max(p, 0.5));
+  static double cusp_radius(const ImpactGroups& g, double energy) {
+    return std::sqrt(energy / std::max(strength(g), 0.5));
   }
-
-  static constexpr double least_beta = 0.0;  ///< without adhesion it is Hertz's contact
 };
 
 }  // namespace recoil

@@ -6,11 +6,12 @@
 
 #include <experimental/simd>
 
-#include "impact/bulk_dashpot_law.hpp"
 #include "impact/dmt_law.hpp"
 #include "impact/flights.hpp"
 #include "impact/force_law.hpp"
 #include "impact/jkr_law.hpp"
+#include "impact/maugis_law.hpp"
+#include "impact/with_dashpot.hpp"
 
 namespace recoil::RECOIL_KERNEL {
 namespace {
@@ -19,14 +20,21 @@ using Pack = std::experimental::fixed_size_simd<double, RECOIL_LANES>;
 
 /// The law decides what a step may err: the path of JKR is longer, out to where the contact parts.
 template <class Law>
-void fly_by(std::span<const ImpactGroups> groups, ImpactOptions options,
-            std::span<ImpactResult> results) {
+void fly_under(std::span<const ImpactGroups> groups, ImpactOptions options,
+               std::span<ImpactResult> results) {
   options.fast_tolerance *= Law::tolerance_share;
   if (options.gradient) {
     Flights<Law, Pack, true>(groups, options, results).fly();
   } else {
     Flights<Law, Pack, false>(groups, options, results).fly();
   }
+}
+
+template <class Law>
+void fly_by(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+            std::span<ImpactResult> results) {
+  if (options.dashpot) return fly_under<WithDashpot<Law>>(groups, options, results);
+  fly_under<Law>(groups, options, results);
 }
 
 }  // namespace
@@ -37,12 +45,13 @@ void fly(std::span<const ImpactGroups> groups, const ImpactOptions& options,
          std::span<ImpactResult> results) {
   switch (options.adhesion) {
     case AdhesionLaw::ring:
-      if (options.dashpot) return fly_by<BulkDashpotLaw>(groups, options, results);
       return fly_by<RingAdhesionLaw>(groups, options, results);
     case AdhesionLaw::jkr:
       return fly_by<JkrLaw>(groups, options, results);
     case AdhesionLaw::dmt:
       return fly_by<DmtLaw>(groups, options, results);
+    case AdhesionLaw::maugis:
+      return fly_by<MaugisLaw>(groups, options, results);
   }
 }
 

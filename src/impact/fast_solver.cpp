@@ -6,9 +6,10 @@
 #include <cassert>
 #include <cmath>
 
-#include "impact/dmt_law.hpp"
+#include "impact/admissible.hpp"
 #include "impact/fast_kernel.hpp"
 #include "impact/force_law.hpp"
+#include "impact/impact.hpp"
 #include "impact/jkr_law.hpp"
 #include "impact/reference_solver.hpp"
 
@@ -21,8 +22,9 @@ std::atomic<long> handovers{0};
 /// A rebound, a capture and a strongly damped impact come out as by `baseline`, to the last digit:
 /// a compiler that has its difficulties with wide registers shall not give wrong answers.
 bool gives_the_digits_of(const FastKernel& baseline, const FastKernel& kernel) {
-  std::array<ImpactGroups, 3> impacts = {
-      ImpactGroups{0.01, 0.1, 0.4}, ImpactGroups{0.02, 3.0, 0.02}, ImpactGroups{2.0, 0.4, 1.5}};
+  std::array<ImpactGroups, 3> impacts = {ImpactGroups{0.01, 0.1, 0.4, 0.0, 0.4},
+                                         ImpactGroups{0.02, 3.0, 0.02, 0.0, 2.0},
+                                         ImpactGroups{2.0, 0.4, 1.5, 0.0, 20.0}};
   const auto same = [](const ImpactResult& a, const ImpactResult& b) {
     return a.outcome == b.outcome && a.restitution_squared == b.restitution_squared &&
            a.gradient == b.gradient;
@@ -35,22 +37,15 @@ bool gives_the_digits_of(const FastKernel& baseline, const FastKernel& kernel) {
     kernel.fly(impacts, options, found);
     return std::equal(expected.begin(), expected.end(), found.begin(), same);
   };
-  for (const AdhesionLaw law : values_of<AdhesionLaw>()) {
-    options.adhesion = law;
-    if (!agrees()) return false;
+  for (const double kappa : {0.0, 0.1}) {
+    options.dashpot = kappa > 0.0;
+    for (ImpactGroups& impact : impacts) impact.kappa = kappa;
+    for (const AdhesionLaw law : values_of<AdhesionLaw>()) {
+      options.adhesion = law;
+      if (!agrees()) return false;
+    }
   }
-  options.adhesion = AdhesionLaw::ring;
-  options.dashpot = true;
-  for (ImpactGroups& impact : impacts) impact.kappa = 0.1;
-  return agrees();
-}
-
-bool admissible(const ImpactGroups& g, const ImpactOptions& options) {
-  return std::isfinite(g.alpha) && std::isfinite(g.beta) && std::isfinite(g.gamma) &&
-         g.alpha >= 0.0 && g.beta >= 0.0 && g.gamma >= 0.0 &&
-         (options.dashpot
-              ? options.adhesion == AdhesionLaw::ring && std::isfinite(g.kappa) && g.kappa >= 0.0
-              : g.kappa == 0.0);
+  return true;
 }
 
 /// The floor of e^2 for a sphere that creeps into the well of `Law`: 2 depth, which goes with
@@ -67,36 +62,40 @@ bool rests_at_once(const ImpactGroups& groups, ImpactResult& result) {
 /// What is known without flying: true when `result` holds the answer.
 bool answer_at_once(const ImpactGroups& groups, const ImpactOptions& options,
                     ImpactResult& result) {
-  if (!admissible(groups, options)) {
+  if (!is_admissible(groups, options)) {
     result.outcome = ImpactOutcome::integration_failure;
+    return true;
+  }
+  if (const auto simpler = without_adhesion(groups, options)) {
+    result = simulate_impact_fast(simpler->first, simpler->second);
+    result.gradient[1] = 0.0;
     return true;
   }
   switch (options.adhesion) {
     case AdhesionLaw::ring:
       return rests_at_once<RingAdhesionLaw>(groups, result);
-    case AdhesionLaw::dmt:
-      return rests_at_once<DmtLaw>(groups, result);
     case AdhesionLaw::jkr:
-      break;
+      return groups.kappa == 0.0 && rests_at_once<JkrLaw>(groups, result);
+    case AdhesionLaw::dmt:
+    case AdhesionLaw::maugis:
+      return false;  // where damping is critical is not known
   }
-  if (groups.beta >= JkrLaw::least_beta) return rests_at_once<JkrLaw>(groups, result);
-  ImpactOptions elastic = options;
-  elastic.adhesion = AdhesionLaw::ring;
-  ImpactGroups without = groups;
-  without.beta = 0.0;
-  result = simulate_impact_fast(without, elastic);
-  result.gradient[1] = 0.0;
-  return true;
+  return false;
 }
 
 long fly_some(std::span<const ImpactGroups> groups, const ImpactOptions& options,
               std::span<ImpactResult> results) {
   fast_kernels().front().fly(groups, options, results);
+  // Where a slow creep is not known in advance it is not followed to its end: a trial point of an
+  // optimiser that would take seconds is a failure, and the optimiser takes another.
+  ImpactOptions patient = options;
+  if (options.adhesion == AdhesionLaw::maugis)
+    patient.max_steps = std::min(3000L, patient.max_steps);
   long handed_over = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (results[i].usable() && std::isfinite(results[i].restitution_squared)) continue;
     ++handed_over;
-    results[i] = simulate_impact(groups[i], options);
+    results[i] = simulate_impact(groups[i], patient);
   }
   handovers += handed_over;
   return handed_over;

@@ -11,6 +11,7 @@
 #include "impact/force_law.hpp"
 #include "impact/impact.hpp"
 #include "impact/partial.hpp"
+#include "impact/with_dashpot.hpp"
 
 namespace recoil {
 
@@ -18,15 +19,16 @@ namespace recoil {
 /// its own end; a lane that has landed takes the next impact of the queue.
 ///
 /// Every lane integrates dq/dsigma = u, du/dsigma = f(q, u; p) by DOP853, f from `Law`, from the
-/// law's q at touch, which depends on none of the groups, to the release at q = 0. Its last
-/// step before an event takes u (turning point) or q (release) as the independent variable and so
-/// lands on zero exactly (Henon 1982, Physica D 5, 412-414).
+/// law's q at touch to that at the release, where f = 0. Its last step before an event takes u
+/// (turning point) or q (release) as the independent variable and so lands on it exactly (Henon
+/// 1982, Physica D 5, 412-414).
 ///
 /// The gradient uses that a planar flow has only one direction in which neighbouring paths can
 /// part: with F = (u, f), the area D_p = F x (d state / d p) obeys
-///   D_p' = (df/du) D_p + u df/dp,   D_p = 0 at touch,
+///   D_p' = (df/du) D_p + u df/dp,   D_p = -f dq/dp at touch,
 /// whatever the parametrisation of the path (Melnikov 1963 uses the same area). So
-///   D_p = (1/mu) integral mu u (df/dp) dsigma,   mu' = -(df/du) mu,  mu = 1 at touch:
+///   D_p = (1/mu) [D_p(touch) + integral mu u (df/dp) dsigma],   mu' = -(df/du) mu,  mu = 1 at
+///   touch:
 /// one more component and one integral per parameter instead of two components per parameter. At
 /// both ends d(e^2)/dp = 2 D_p + 2 dP/dp at constant q, P = potential energy; at the inner turning
 /// point D_p passes on unchanged, as f does not jump there.
@@ -53,6 +55,9 @@ class Flights {
   static constexpr std::size_t lanes = Pack::size();
   using Mask = typename Pack::mask_type;
   static constexpr unsigned parameters = Law::groups;
+  static constexpr std::size_t place_of_range = 4;  // in ImpactResult::gradient
+  /// A law of several hundred operations is better called than copied into each of the stages.
+  static constexpr bool is_long = Law::constants > 0;
 
   // Error of mu per step, relative to mu, in units of the tolerance of q and u: the gradient needs
   // fewer digits than e^2.
@@ -93,7 +98,9 @@ class Flights {
   template <bool some_land>
   [[gnu::flatten]] Step make_step() const {
     const Pack length =
-        some_land ? select(landing_, fraction_ * select(to_turning_, -u_, -q_), length_) : length_;
+        some_land
+            ? select(landing_, fraction_ * select(to_turning_, -u_, landing_place() - q_), length_)
+            : length_;
     std::array<Pack, dop853::stages> rate_q, rate_u, rate_mu;
     Step to;
     to.areas.fill(Pack(0.0));
@@ -155,24 +162,40 @@ class Flights {
 
   /// f with its derivatives: variable 0 is u, variable k + 1 is group k.
   auto field(const Pack& q, const Pack& u) const {
-    return [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
+    if constexpr (is_long) {
+      return field_apart(q, u);
+    } else {
+      return field_here(q, u);
+    }
+  }
+  [[gnu::noinline, gnu::flatten]] auto field_apart(const Pack& q, const Pack& u) const {
+    return field_here(q, u);
+  }
+  [[gnu::always_inline]] auto field_here(const Pack& q, const Pack& u) const {
+    return [&]<unsigned... k, unsigned... c>(std::integer_sequence<unsigned, k...>,
+                                             std::integer_sequence<unsigned, c...>) {
       if constexpr (with_gradient) {
-        return Law::acceleration(q, variable<0>(u), acts_, variable<k + 1>(groups_[k])...);
+        return Law::acceleration(q, variable<0>(u), acts_, variable<k + 1>(groups_[k])...,
+                                 constants_[c]...);
       } else {
-        return Partial<Pack, 0U>{Law::acceleration(q, u, acts_, groups_[k]...), {}};
+        return Partial<Pack, 0U>{Law::acceleration(q, u, acts_, groups_[k]..., constants_[c]...),
+                                 {}};
       }
     }
-    (std::make_integer_sequence<unsigned, parameters>{});
+    (std::make_integer_sequence<unsigned, parameters>{},
+     std::make_integer_sequence<unsigned, Law::constants>{});
   }
 
   /// Accepts, repeats or turns into a landing the step of every lane.
   [[gnu::flatten]] void take(const Step& to) {
     steps_ += 1.0;
     const Mask good = to.error <= 1.0;  // false for NaN
-    const Mask event = turned_ && (to.q <= 0.0 || to.u >= 0.0);
-    const Mask crosses = good && !landing_ && (event || (!turned_ && to.u <= 0.0));
+    const Mask event = turned_ && (to.q <= release_ || to.u >= 0.0);
+    const Mask seam = crosses_seam(to.q);
+    const Mask crosses = good && !landing_ && (seam || event || (!turned_ && to.u <= 0.0));
     const Mask accepted = good && !crosses;
-    where(crosses, to_turning_) = !(turned_ && to.q <= 0.0);
+    where(crosses, to_turning_) = !(seam || (turned_ && to.q <= release_));
+    if constexpr (is_long) where(crosses, to_seam_) = seam;
     where(accepted, q_) = to.q;
     where(accepted, u_) = to.u;
     if constexpr (with_gradient) {
@@ -181,15 +204,41 @@ class Flights {
     }
     const Mask landed = landing_ && good && fraction_ == 1.0;
     where(landed && to_turning_, u_) = 0.0;
-    where(landed && !to_turning_, q_) = 0.0;
+    where(landed && !to_turning_, q_) = landing_place();
     adapt(to.error, good, crosses);
     landing_ = (landing_ || crosses) && !landed;
-    ended_ = landed && turned_;
-    const Mask turns = landed && !turned_;
+    Mask at_end = landed;
+    if constexpr (is_long) {
+      Pack& side = constants_.back();
+      where(landed && to_seam_, side) = 1.0 - side;
+      at_end = landed && !to_seam_;
+      where(landed, to_seam_) = false;
+    }
+    ended_ = at_end && turned_;
+    const Mask turns = at_end && !turned_;
     turned_ = turned_ || turns;
     where(turns, acts_) = 1.0;
     settled_ = turned_ && !landing_ && !ended_ && energy(q_, u_) < settle_below_;
     lost_ = steps_ >= most_steps || length_ < smallest_step || fraction_ < smallest_fraction;
+  }
+
+  /// Where a landing that is no turning point has its q.
+  Pack landing_place() const {
+    if constexpr (is_long) {
+      return select(to_seam_, Pack(0.0), release_);
+    } else {
+      return release_;
+    }
+  }
+
+  /// Does the law change between q_ and `q`, on the way towards q = 0? Then that comes before any
+  /// other event of the step. A lane that moves away from it has to turn first.
+  Mask crosses_seam([[maybe_unused]] const Pack& q) const {
+    if constexpr (is_long) {
+      return seam_ && q_ * q < 0.0 && q_ * u_ < 0.0;
+    } else {
+      return Mask(false);
+    }
   }
 
   /// The next step of every lane, for a method of order 8.
@@ -208,10 +257,22 @@ class Flights {
   }
 
   Pack energy(const Pack& q, const Pack& u) const {
-    return 0.5 * u * u + [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
-      return Law::potential(q, groups_[k]...);
+    if constexpr (is_long) {
+      return energy_apart(q, u);
+    } else {
+      return energy_here(q, u);
     }
-    (std::make_integer_sequence<unsigned, parameters>{});
+  }
+  [[gnu::noinline, gnu::flatten]] Pack energy_apart(const Pack& q, const Pack& u) const {
+    return energy_here(q, u);
+  }
+  [[gnu::always_inline]] Pack energy_here(const Pack& q, const Pack& u) const {
+    return 0.5 * u * u + [&]<unsigned... k, unsigned... c>(std::integer_sequence<unsigned, k...>,
+                                                           std::integer_sequence<unsigned, c...>) {
+      return Law::potential(q, groups_[k]..., constants_[c]...);
+    }
+    (std::make_integer_sequence<unsigned, parameters>{},
+     std::make_integer_sequence<unsigned, Law::constants>{});
   }
 
   void finish_lanes() {
@@ -234,19 +295,23 @@ class Flights {
     // At rest in the well the path no longer matters, only the depth.
     const double q = settled_[lane] ? resting_q_[lane] : q_[lane];
     const double u = settled_[lane] ? 0.0 : double(u_[lane]);
-    [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
+    [&]<unsigned... k, unsigned... c>(std::integer_sequence<unsigned, k...>,
+                                      std::integer_sequence<unsigned, c...>) {
       const Partial<double, (1U << parameters) - 1U> none{};
-      const auto potential = Law::potential(q, variable<k>(double(groups_[k][lane]))...) + none;
+      const auto potential = Law::potential(q, variable<k>(double(groups_[k][lane]))...,
+                                            double(constants_[c][lane])...) +
+                             none;
       result.restitution_squared = u * u + 2.0 * potential.value;
       if constexpr (with_gradient) {
         const auto area = [&](unsigned p) {
           return settled_[lane] ? 0.0 : areas_[p][lane] / mu_[lane];
         };
-        ((result.gradient[k] = 2.0 * (area(k) + potential.template derivative<k>())), ...);
-        result.gradient[1] *= Law::strength_slope(queue_[impact_[lane]]);
+        result.gradient = impact_gradient<Law>(
+            queue_[impact_[lane]], {2.0 * (area(k) + potential.template derivative<k>())...});
       }
     }
-    (std::make_integer_sequence<unsigned, parameters>{});
+    (std::make_integer_sequence<unsigned, parameters>{},
+     std::make_integer_sequence<unsigned, Law::constants>{});
     result.outcome =
         result.restitution_squared > 0.0 ? ImpactOutcome::rebound : ImpactOutcome::captured;
   }
@@ -264,16 +329,34 @@ class Flights {
       groups_[k][lane] = values[k];
       areas_[k][lane] = 0.0;
     }
+    const std::array<double, Law::constants> constants = Law::constants_of(groups);
+    for (unsigned c = 0; c < Law::constants; ++c) constants_[c][lane] = constants[c];
+    const LawPath path = Law::path_of(groups);
+    release_[lane] = path.release;
     acts_[lane] = phase_ == AdhesionDampingPhase::both ? 1.0 : 0.0;
-    q_[lane] = Law::start;
+    q_[lane] = path.start;
     u_[lane] = 1.0;
     mu_[lane] = 1.0;
     // A first guess; the error estimate corrects it at once.
     length_[lane] = 0.3 / (1.0 + __builtin_sqrt(groups.beta) + groups.alpha);
     fraction_[lane] = 1.0;
     steps_[lane] = 0.0;
-    resting_q_[lane] = Law::resting_place(groups);
-    settle_below_[lane] = (1.0 - settled_part) * energy(resting_q_, Pack(0.0))[lane];
+    resting_q_[lane] = path.resting;
+    if constexpr (is_long) {
+      settle_below_[lane] = (1.0 - settled_part) * Law::depth(groups);
+      seam_[lane] = path.seam;
+      to_seam_[lane] = false;
+    } else {
+      settle_below_[lane] = (1.0 - settled_part) * energy(resting_q_, Pack(0.0))[lane];
+    }
+    if constexpr (with_gradient && Law::constants > 0) {
+      constexpr auto moving = [] {
+        unsigned k = 0;
+        while (Law::places[k] != place_of_range) ++k;
+        return k;
+      }();
+      areas_[moving][lane] = -field(q_, u_).value[lane] * path.range_slope;
+    }
     turned_[lane] = landing_[lane] = to_turning_[lane] = false;
     ended_[lane] = settled_[lane] = lost_[lane] = false;
   }
@@ -286,7 +369,9 @@ class Flights {
   std::array<std::size_t, lanes> impact_ = {};  // which one flies in each lane
 
   std::array<Pack, parameters> groups_ = {};
-  Pack acts_ = 0.0;  // whether the adhesion damping acts: 0 or 1
+  std::array<Pack, Law::constants> constants_ = {};
+  Pack release_ = 0.0;  // its q
+  Pack acts_ = 0.0;     // whether the adhesion damping acts: 0 or 1
   Pack q_ = 0.0, u_ = 0.0, mu_ = 0.0;
   std::array<Pack, parameters> areas_ = {};  // integral of mu u df/dp
   Pack length_ = 0.0;                        // of the next step, in arc length
@@ -296,6 +381,8 @@ class Flights {
   Mask busy_{false};
   Mask turned_{false};      // past the inner turning point
   Mask landing_{false};     // the next step is on the event's own clock:
+  Mask seam_{false};        // the law is another where q < 0
+  Mask to_seam_{false};     // the landing is on q = 0, where that begins
   Mask to_turning_{false};  // u towards a turning point, else q towards the release
   Mask ended_{false}, settled_{false}, lost_{false};
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "impact/impact.hpp"
 
@@ -40,13 +41,6 @@ constexpr auto regularised_acceleration(const Q& q, const U& u, const Alpha& alp
   return twice_q * (f.hertz + f.hertz_damping + f.adhesion + f.adhesion_damping);
 }
 
-/// What a dashpot along the contact radius, the force -kappa x^(1/2) u, adds to du/dsigma.
-template <class Q, class U, class Kappa>
-constexpr auto dashpot_acceleration(const Q& q, const U& u, const Kappa& kappa) {
-  const Q twice_x = (q + q) * q;
-  return -(twice_x * (kappa * u));
-}
-
 /// Potential energy (2/5) x^(5/2) - (2/3) beta x^(3/2) [m V^2].
 template <class Q, class Beta>
 constexpr auto potential_energy(const Q& q, const Beta& beta) {
@@ -75,11 +69,24 @@ inline bool creeps_into_the_well(const ImpactGroups& groups) {
   return damping + groups.kappa * std::pow(groups.beta, 0.25) >= critical_damping;
 }
 
+/// Where an impact begins and ends, in the q of its law.
+struct LawPath {
+  double start = 0.0;        ///< at touch
+  double release = 0.0;      ///< du/dsigma = 0 here, and the potential energy
+  double resting = 0.0;      ///< the bottom of the well, where a sphere that stays comes to rest
+  double range_slope = 0.0;  ///< d start / d (the group `range`)
+  /// Is the law another on either side of q = 0? It is smooth on each, and the last of its
+  /// constants is 1 where q < 0 and else 0.
+  bool seam = false;
+};
+
 /// The model as a solver of any number type sees it: another law is another struct like this one.
-/// `start` is q at touch, the release is q = 0, `strength` the law's own measure of the adhesion.
+/// After q and u its functions take `groups` numbers, in which the gradient is asked for, and
+/// `constants`, in which it is not. `strength` is the law's own measure of the adhesion.
 struct RingAdhesionLaw {
   static constexpr unsigned groups = 3;  ///< alpha, beta, gamma
-  static constexpr double start = 0.0;
+  static constexpr unsigned constants = 0;
+  static constexpr std::array<std::size_t, groups> places = {0, 1, 2};  ///< in ImpactResult
   static constexpr double tolerance_share = 1.0;  ///< of the fast solver, per step
 
   static double strength(const ImpactGroups& g) { return g.beta; }
@@ -87,6 +94,9 @@ struct RingAdhesionLaw {
   static std::array<double, groups> groups_of(const ImpactGroups& g) {
     return {g.alpha, g.beta, g.gamma};
   }
+  static std::array<double, constants> constants_of(const ImpactGroups&) { return {}; }
+  static LawPath path_of(const ImpactGroups& g) { return {.resting = std::sqrt(g.beta)}; }
+
   template <class Q, class U, class Alpha, class Beta, class Gamma, class Acts>
   static constexpr auto acceleration(const Q& q, const U& u, const Acts& acts, const Alpha& alpha,
                                      const Beta& beta, const Gamma& gamma) {
@@ -96,29 +106,35 @@ struct RingAdhesionLaw {
   static constexpr auto potential(const Q& q, const Alpha&, const Beta& beta, const Gamma&) {
     return potential_energy(q, beta);
   }
-  /// q at the bottom of the well, where a sphere that stays comes to rest.
-  static double resting_place(const ImpactGroups& g) { return std::sqrt(g.beta); }
   static bool creeps(const ImpactGroups& g) { return creeps_into_the_well(g); }
   static double depth(const ImpactGroups& g) { return well_depth(g.beta); }
 
+  /// A dashpot along the contact radius, the force -kappa x^(1/2) u, adds -kappa u times this to
+  /// du/dsigma; kappa in units of `dashpot_unit`, which goes with this power of beta.
+  template <class Q, class... Values>
+  static constexpr auto dashpot_weight(const Q& q, const Values&...) {
+    return (q + q) * q;
+  }
+  static double dashpot_unit(const ImpactGroups&) { return 1.0; }
+  static constexpr double dashpot_power = 0.0;
+
   /// x [n_c], dx / dq and the four forces [m V^2 / n_c].
-  static double penetration(double q, double) { return q * q; }
-  static double clock(double q, double) { return 2.0 * q; }
-  static ContactForces<double, double, double, double> forces(double q, double u, double alpha,
-                                                              double beta, double gamma,
-                                                              double acts) {
+  static double penetration(double q, double, double, double) { return q * q; }
+  static double clock(double q, double, double, double) { return 2.0 * q; }
+  static ContactForces<double, double, double, double> forces(double q, double u, double acts,
+                                                              double alpha, double beta,
+                                                              double gamma) {
     return contact_forces(q, u, alpha, beta, gamma, acts);
   }
   /// The largest energy on the way [m V^2].
-  static double largest_energy(double q, double beta) {
+  static double largest_energy(double q, double, double beta, double) {
     return std::max(0.4 * std::pow(q, 5), 2.0 / 3.0 * beta * q * q * q);
   }
-  /// Where potential (2/3) beta q^3 and kinetic energy, u ~ q^(3/2), are below `energy`, about
-  /// q = u = 0.
-  static double cusp_radius(double beta, double energy) {
-    return std::cbrt(energy / std::max(beta, 1.0));
+  /// Where potential (2/3) beta q^3 and kinetic energy, u ~ q^(3/2), are below `energy`, about the
+  /// release and u = 0.
+  static double cusp_radius(const ImpactGroups& g, double energy) {
+    return std::cbrt(energy / std::max(g.beta, 1.0));
   }
-  static constexpr double least_beta = 0.0;
 };
 
 }  // namespace recoil

@@ -26,7 +26,8 @@ ForceCoefficients coefficients(const ImpactConditions& c) {
 ImpactGroups impact_groups(const ImpactConditions& c) {
   const auto [A, B] = coefficients(c);
   return {c.hertz_damping * c.velocity, B * std::pow(A, -0.6) * std::pow(c.velocity, -0.8),
-          c.adhesion_damping * c.velocity};
+          c.adhesion_damping * c.velocity, 0.0,
+          maugis_parameter(c.adhesion_force, c.stiffness, c.separation)};
 }
 
 ImpactScales impact_scales(const ImpactConditions& c) {
@@ -38,6 +39,18 @@ ImpactScales impact_scales(const ImpactConditions& c) {
 double adhesion_velocity(const ImpactConditions& c) {
   const auto [A, B] = coefficients(c);
   return std::pow(B, 1.25) * std::pow(A, -0.75);
+}
+
+double maugis_parameter_per_force(double stiffness, double separation) {
+  // With d = (pi^2 W^2 r / K^2)^(1/3) = 6^(-2/3) n_eq, n_eq = 2 pi f0 / K: lambda = (2 / pi) d /
+  // h0, h0 = W / s0.
+  static const double stress = 16.0 / (9.0 * std::sqrt(3.0));  // s0 z_0 / W
+  static const double per_length = 4.0 * std::pow(6.0, -2.0 / 3.0) * stress;
+  return per_length / (stiffness * separation);
+}
+
+double maugis_parameter(double adhesion_force, double stiffness, double separation) {
+  return maugis_parameter_per_force(stiffness, separation) * adhesion_force;
 }
 
 }  // namespace recoil

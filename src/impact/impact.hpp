@@ -21,14 +21,15 @@ struct NamesOf<AdhesionDampingPhase> {
 
 /// What holds sphere and surface together; the elastic part is Hertz's or, in JKR, its own.
 enum class AdhesionLaw {
-  ring,  ///< the paper's: a force 2 pi a f0 along the edge of the contact (RingAdhesionLaw)
-  jkr,   ///< JkrLaw
-  dmt    ///< DmtLaw
+  ring,   ///< the paper's: a force 2 pi a f0 along the edge of the contact (RingAdhesionLaw)
+  jkr,    ///< JkrLaw
+  dmt,    ///< DmtLaw
+  maugis  ///< MaugisLaw, between the two
 };
 
 template <>
 struct NamesOf<AdhesionLaw> {
-  static constexpr std::array<std::string_view, 3> names = {"ring", "jkr", "dmt"};
+  static constexpr std::array<std::string_view, 4> names = {"ring", "jkr", "dmt", "maugis"};
 };
 
 /// How an impact ended. The last two carry no answer and are never turned into numbers.
@@ -56,7 +57,7 @@ struct EnergyBudget {
 /// The result of one dimensionless impact.
 ///
 /// `restitution_squared` is e^2 after a rebound (the text speaks of the ring law; under the others
-/// the depth of the well is JkrLaw::depth or DmtLaw::depth). After a capture it is continued below
+/// the depth of the well is that of their struct). After a capture it is continued below
 /// zero as 2 H / (m V^2), H = mechanical energy at the first outer turning point: C1 across the
 /// capture velocity, never below the depth of the adhesive well, -(8/15) beta^(5/2) = -(8/15) (V /
 /// V_a)^-2, so that a fit has gradients there. A sphere so strongly damped that it creeps into the
@@ -64,7 +65,7 @@ struct EnergyBudget {
 struct ImpactResult {
   ImpactOutcome outcome = ImpactOutcome::integration_failure;
   double restitution_squared = 0.0;
-  std::array<double, 4> gradient = {};  ///< d e^2 / d (alpha, beta, gamma, kappa)
+  std::array<double, 5> gradient = {};  ///< d e^2 / d (alpha, beta, gamma, kappa, range)
   EnergyBudget energy;                  ///< when asked for
   double contact_time = 0.0;            ///< until release or the outer turning point [n_c / V]
   double penetration_max = 0.0;         ///< [n_c]
@@ -83,7 +84,7 @@ struct ImpactOptions {
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   bool gradient = false;          ///< forward sensitivities
   bool budget = false;            ///< energy budget, contact time and peak forces
-  bool dashpot = false;           ///< the ring law with kappa; without, kappa has to be 0
+  bool dashpot = false;           ///< the law with kappa; without, kappa has to be 0
   double tolerance = 1e-11;       ///< relative, per step, of the reference
   long max_steps = 200000;        ///< of the reference
   double fast_tolerance = 1e-10;  ///< absolute error of q and u per step of the fast solver

@@ -24,9 +24,10 @@ namespace recoil {
 /// 5000 V_a) the slope in beta goes with beta^(-1/4), and the solvers agree on it to 1e-4 of
 /// itself.
 struct JkrLaw {
-  static constexpr unsigned groups = 3;                    ///< alpha, lambda, gamma
-  static constexpr double start = 0.58740105196819947475;  ///< 4^(1/3) - 1
-  static constexpr double tolerance_share = 0.1;           ///< of the fast solver, per step
+  static constexpr unsigned groups = 3;  ///< alpha, lambda, gamma
+  static constexpr unsigned constants = 0;
+  static constexpr std::array<std::size_t, groups> places = {0, 1, 2};
+  static constexpr double tolerance_share = 0.1;  ///< of the fast solver, per step
 
   static double strength(const ImpactGroups& g) {
     return 4.0 * std::pow(6.0, -10.0 / 3.0) * g.beta * g.beta * std::sqrt(g.beta);
@@ -37,6 +38,11 @@ struct JkrLaw {
   }
   static std::array<double, groups> groups_of(const ImpactGroups& g) {
     return {g.alpha, strength(g), g.gamma};
+  }
+  static std::array<double, constants> constants_of(const ImpactGroups&) { return {}; }
+  /// From 4^(1/3) - 1; it rests at 6^(1/3) - 1.
+  static LawPath path_of(const ImpactGroups&) {
+    return {.start = 0.58740105196819947475, .resting = 0.81712059283213965889};
   }
 
   template <class Q, class U, class Alpha, class Lambda, class Gamma, class Acts>
@@ -60,30 +66,40 @@ struct JkrLaw {
         (q * q);
     return polynomial * lambda;
   }
-  static double resting_place(const ImpactGroups&) {
-    return 0.81712059283213965889;
-  }  // 6^(1/3) - 1
-
   /// Of the small motions about the bottom of the well, where n'' = -(9/10) b^(2/3) (n - n_0) -
   /// (alpha + gamma) b^2 n', b = beta^(3/4).
   static bool creeps(const ImpactGroups& g) {
     return (g.alpha + g.gamma) * std::pow(g.beta, 1.25) >= 2.0 * std::sqrt(0.9);
   }
   static double depth(const ImpactGroups& g) {
-    return potential(resting_place(g), 0.0, strength(g), 0.0);
+    return potential(path_of(g).resting, 0.0, strength(g), 0.0);
   }
 
+  /// The elastic force as it was the relaxation time ago: the force -A d(K a^3 / r) / dt, the
+  /// -(3/2) A K (r n)^(1/2) n' of Hertz's contact. It grows without limit as the contact parts, but
+  /// takes a finite energy.
+  template <class Q, class... Values>
+  static constexpr auto dashpot_weight(const Q& q, const Values&...) {
+    const Q z = q + 1.0;
+    const Q square = z * z;
+    return square * square * z;
+  }
+  static double dashpot_unit(const ImpactGroups& g) {
+    return 4.0 * std::pow(0.25 * strength(g), 0.6);
+  }
+  static constexpr double dashpot_power = 1.5;
+
   /// n [n_c] and the four forces [m V^2 / n_c]; dn / dz is the clock.
-  static double penetration(double q, double lambda) {
+  static double penetration(double q, double, double lambda, double) {
     const double z = q + 1.0;
     return std::pow(0.25 * lambda, 0.4) * (z * z * z - 4.0) * z;
   }
-  static double clock(double q, double lambda) {
+  static double clock(double q, double, double lambda, double) {
     return 4.0 * std::pow(0.25 * lambda, 0.4) * q * (q * (q + 3.0) + 3.0);
   }
-  static ContactForces<double, double, double, double> forces(double q, double u, double alpha,
-                                                              double lambda, double gamma,
-                                                              double acts) {
+  static ContactForces<double, double, double, double> forces(double q, double u, double acts,
+                                                              double alpha, double lambda,
+                                                              double gamma) {
     const double cube = (q + 1.0) * (q + 1.0) * (q + 1.0);
     const double unit = std::pow(0.25 * lambda, 0.6);
     const double hertz = -unit * cube * cube;
@@ -91,13 +107,13 @@ struct JkrLaw {
     return {hertz, hertz * alpha * u, adhesion, -adhesion * acts * gamma * u};
   }
   /// The largest energy on the way [m V^2].
-  static double largest_energy(double q, double lambda) {
+  static double largest_energy(double q, double, double lambda, double) {
     const double z = q + 1.0;
     return lambda * std::pow(z, 7) * std::max(0.1 * z * z * z, 1.0);
   }
   /// Where potential and kinetic energy are below `energy`, about q = u = 0.
-  static double cusp_radius(double lambda, double energy) {
-    return std::sqrt(energy / std::max(7.5 * lambda, 0.5));
+  static double cusp_radius(const ImpactGroups& g, double energy) {
+    return std::sqrt(energy / std::max(7.5 * strength(g), 0.5));
   }
 
   /// Below, adhesion changes e by less than 1e-10 at any damping that lets a sphere come back.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -123,6 +124,30 @@ constexpr Partial<T, A> operator+(const std::type_identity_t<T>& term, const Par
 template <class T, unsigned A>
 constexpr Partial<T, A> operator+(const Partial<T, A>& a, const std::type_identity_t<T>& term) {
   return {a.value + term, a.derivatives};
+}
+
+/// numerator / b, the numerator depending on none of the variables.
+template <class T, unsigned B>
+constexpr Partial<T, B> operator/(const std::type_identity_t<T>& numerator,
+                                  const Partial<T, B>& b) {
+  const T reciprocal = T(1.0) / b.value;
+  Partial<T, B> quotient{numerator * reciprocal, {}};
+  const T slope = -(quotient.value * reciprocal);
+  for (std::size_t i = 0; i < b.derivatives.size(); ++i) {
+    quotient.derivatives[i] = slope * b.derivatives[i];
+  }
+  return quotient;
+}
+
+template <class T, unsigned A>
+Partial<T, A> sqrt(const Partial<T, A>& a) {
+  using std::sqrt;
+  Partial<T, A> root{sqrt(a.value), {}};
+  const T slope = T(0.5) * (T(1.0) / root.value);
+  for (std::size_t i = 0; i < a.derivatives.size(); ++i) {
+    root.derivatives[i] = slope * a.derivatives[i];
+  }
+  return root;
 }
 
 }  // namespace recoil

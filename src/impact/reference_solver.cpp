@@ -10,29 +10,37 @@
 #include <cmath>
 #include <memory>
 #include <sundials/sundials_context.hpp>
+#include <utility>
 
+#include "impact/admissible.hpp"
 #include "impact/dmt_law.hpp"
 #include "impact/force_law.hpp"
 #include "impact/impact.hpp"
 #include "impact/jkr_law.hpp"
+#include "impact/maugis_law.hpp"
+#include "impact/with_dashpot.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr int most_groups = 4;       // three, and kappa where there is a dashpot
 constexpr int anderson_depth = 0;    // the field is not stiff: plain functional iteration
 constexpr double longest_arc = 1e9;  // "until an event": no impact is this long in sigma
 // At the separatrix q falls like sigma^-2 and release is never reached. Inside this circle about
-// q = u = 0 the energy that is left is below 1e-15 m V^2 (`cusp_radius` of the law) and decides.
+// the release and u = 0 the energy that is left is below 1e-15 m V^2 (`cusp_radius` of the law) and
+// decides.
 constexpr double undecided_energy = 1e-15;
 
 enum class Stage { compression, restitution };
 
+/// What an integration under `Law` is about.
+template <class Law>
 struct Field {
-  double alpha, strength, gamma, kappa;
+  std::array<double, Law::groups> groups;
+  std::array<double, Law::constants> constants;
+  LawPath path;
   AdhesionDampingPhase phase;
+  double cusp_radius_squared;
   Stage stage = Stage::compression;
-  double cusp_radius_squared = 0.0;
 
   /// Whether the adhesion damping acts: 0 or 1.
   double acts() const {
@@ -40,28 +48,45 @@ struct Field {
   }
 };
 
-const Field& field_of(void* user_data) { return *static_cast<const Field*>(user_data); }
+template <class Law>
+const Field<Law>& field_of(void* user_data) {
+  return *static_cast<const Field<Law>*>(user_data);
+}
 
-/// du/dsigma under `Law`; only the ring law knows a dashpot.
-template <class Law, class Q, class U, class Alpha, class Strength, class Gamma, class Kappa>
-auto acceleration_of(const Q& q, const U& u, double acts, const Alpha& alpha,
-                     const Strength& strength, const Gamma& gamma,
-                     [[maybe_unused]] const Kappa& kappa) {
-  if constexpr (std::is_same_v<Law, RingAdhesionLaw>) {
-    return Law::acceleration(q, u, acts, alpha, strength, gamma) +
-           dashpot_acceleration(q, u, kappa);
-  } else {
-    return Law::acceleration(q, u, acts, alpha, strength, gamma);
+/// act(groups..., constants...) with the groups as `Number(value, direction)` makes them.
+template <class Law, class Number, class Act>
+auto with_values(const Field<Law>& f, Number number, Act act) {
+  return [&]<std::size_t... k, std::size_t... c>(std::index_sequence<k...>,
+                                                 std::index_sequence<c...>) {
+    return act(number(f.groups[k], static_cast<int>(k))..., f.constants[c]...);
   }
+  (std::make_index_sequence<Law::groups>{}, std::make_index_sequence<Law::constants>{});
+}
+
+template <class Law, class Act>
+auto with_values(const Field<Law>& f, Act act) {
+  return with_values(
+      f, [](double value, int) { return value; }, act);
+}
+
+template <class Law>
+constexpr bool has_dashpot = Law::places.back() == 3;
+
+/// The dashpot's power over u^2.
+template <class Law>
+double dashpot_power(const Field<Law>& f, double q) {
+  const double weight = with_values(f, [&](auto... v) { return Law::dashpot_weight(q, v...); });
+  return f.groups.back() * weight;
 }
 
 template <class Law>
 int right_hand_side(realtype, N_Vector y, N_Vector y_dot, void* user_data) {
-  const Field& f = field_of(user_data);
+  const Field<Law>& f = field_of<Law>(user_data);
   const double q = NV_Ith_S(y, 0);
   const double u = NV_Ith_S(y, 1);
   NV_Ith_S(y_dot, 0) = u;
-  NV_Ith_S(y_dot, 1) = acceleration_of<Law>(q, u, f.acts(), f.alpha, f.strength, f.gamma, f.kappa);
+  NV_Ith_S(y_dot, 1) =
+      with_values(f, [&](auto... v) { return Law::acceleration(q, u, f.acts(), v...); });
   return 0;
 }
 
@@ -69,12 +94,13 @@ int right_hand_side(realtype, N_Vector y, N_Vector y_dot, void* user_data) {
 template <class Law>
 int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vector* s,
                                 N_Vector* s_dot, void* user_data, N_Vector, N_Vector) {
-  const Field& f = field_of(user_data);
-  using Dual = ceres::Jet<double, 2 + most_groups>;
+  const Field<Law>& f = field_of<Law>(user_data);
+  using Dual = ceres::Jet<double, 2 + static_cast<int>(Law::groups)>;
   const Dual q(NV_Ith_S(y, 0), 0);
   const Dual u(NV_Ith_S(y, 1), 1);
-  const Dual acceleration = acceleration_of<Law>(
-      q, u, f.acts(), Dual(f.alpha, 2), Dual(f.strength, 3), Dual(f.gamma, 4), Dual(f.kappa, 5));
+  const Dual acceleration = with_values(
+      f, [](double value, int k) { return Dual(value, 2 + k); },
+      [&](auto... v) -> Dual { return Law::acceleration(q, u, f.acts(), v...); });
   for (int i = 0; i < count; ++i) {
     const double s_q = NV_Ith_S(s[i], 0);
     const double s_u = NV_Ith_S(s[i], 1);
@@ -88,29 +114,34 @@ int sensitivity_right_hand_side(int count, realtype, N_Vector y, N_Vector, N_Vec
 /// Time and the losses: dt = (dx / dq) dsigma, power = -force times u.
 template <class Law>
 int quadrature_right_hand_side(realtype, N_Vector y, N_Vector rates, void* user_data) {
-  const Field& f = field_of(user_data);
+  const Field<Law>& f = field_of<Law>(user_data);
   const double q = NV_Ith_S(y, 0);
   const double u = NV_Ith_S(y, 1);
-  const auto forces = Law::forces(q, u, f.alpha, f.strength, f.gamma, f.acts());
-  const double clock = Law::clock(q, f.strength);
+  const auto forces = with_values(f, [&](auto... v) { return Law::forces(q, u, f.acts(), v...); });
+  const double clock = with_values(f, [&](auto... v) { return Law::clock(q, v...); });
   NV_Ith_S(rates, 0) = clock;
   NV_Ith_S(rates, 1) = -clock * forces.hertz_damping * u;
   NV_Ith_S(rates, 2) = -clock * forces.adhesion_damping * u;
-  if (NV_LENGTH_S(rates) > 3) NV_Ith_S(rates, 3) = -dashpot_acceleration(q, u, f.kappa) * u;
+  if constexpr (has_dashpot<Law>) NV_Ith_S(rates, 3) = dashpot_power(f, q) * u * u;
   return 0;
 }
 
-int turning_event(realtype, N_Vector y, realtype* value, void*) {
+template <class Law>
+int turning_event(realtype, N_Vector y, realtype* value, void* user_data) {
   value[0] = NV_Ith_S(y, 1);
+  value[1] = field_of<Law>(user_data).path.seam ? NV_Ith_S(y, 0) : 1.0;
   return 0;
 }
 
+template <class Law>
 int end_events(realtype, N_Vector y, realtype* value, void* user_data) {
-  const double q = NV_Ith_S(y, 0);
+  const Field<Law>& f = field_of<Law>(user_data);
+  const double way = NV_Ith_S(y, 0) - f.path.release;
   const double u = NV_Ith_S(y, 1);
-  value[0] = q;                                                        // release
-  value[1] = u;                                                        // outer turning point
-  value[2] = q * q + u * u - field_of(user_data).cusp_radius_squared;  // separatrix
+  value[0] = way;                                        // release
+  value[1] = u;                                          // outer turning point
+  value[2] = way * way + u * u - f.cusp_radius_squared;  // separatrix
+  value[3] = f.path.seam ? NV_Ith_S(y, 0) : 1.0;
   return 0;
 }
 
@@ -134,16 +165,13 @@ class Integration {
  public:
   Integration(const ImpactGroups& groups, const ImpactOptions& options)
       : options_(options),
-        groups_count_(options.dashpot ? most_groups : most_groups - 1),
-        strength_slope_(Law::strength_slope(groups)),
-        resting_place_(Law::resting_place(groups)),
+        impact_(groups),
         depth_(Law::depth(groups)),
-        field_{groups.alpha, Law::strength(groups), groups.gamma, groups.kappa, options.phase},
+        field_{Law::groups_of(groups), Law::constants_of(groups), Law::path_of(groups),
+               options.phase, std::pow(Law::cusp_radius(groups, undecided_energy), 2)},
         state_(N_VNew_Serial(2, context_)),
-        quadratures_(N_VNew_Serial(groups_count_, context_)) {
-    const double radius = Law::cusp_radius(field_.strength, undecided_energy);
-    field_.cusp_radius_squared = radius * radius;
-    NV_Ith_S(state_.get(), 0) = Law::start;
+        quadratures_(N_VNew_Serial(quadratures, context_)) {
+    NV_Ith_S(state_.get(), 0) = field_.path.start;
     NV_Ith_S(state_.get(), 1) = 1.0;
     N_VConst(0.0, quadratures_.get());
     memory_.reset(CVodeCreate(CV_ADAMS, context_));
@@ -152,10 +180,12 @@ class Integration {
 
   bool ready() const { return ready_; }
   void* memory() const { return memory_.get(); }
-  const Field& field() const { return field_; }
+  const Field<Law>& field() const { return field_; }
   double q() const { return NV_Ith_S(state_.get(), 0); }
   double u() const { return NV_Ith_S(state_.get(), 1); }
-  double potential() const { return Law::potential(q(), 0.0, field_.strength, 0.0); }
+  double potential() const {
+    return with_values(field_, [&](auto... v) { return Law::potential(q(), v...); });
+  }
   double quadrature(int i) const { return NV_Ith_S(quadratures_.get(), i); }
 
   /// One internal step, or to the next event if that comes first; CVODES's return code.
@@ -169,8 +199,80 @@ class Integration {
   /// the events to look for become those of the restitution.
   bool turn() {
     field_.stage = Stage::restitution;
-    if (options_.gradient && CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
+    return restart(1, 0.0);
+  }
+
+  /// True when the last root was the seam of the law, which is not an end.
+  bool at_seam() const {
+    std::array<int, 4> found = {};
+    CVodeGetRootInfo(memory_.get(), found.data());
+    const bool first = field_.stage == Stage::compression;
+    return field_.path.seam && found[first ? 1 : 3] != 0 && found[0] == 0 &&
+           (first || (found[1] == 0 && found[2] == 0));
+  }
+
+  /// Goes on with the law of the other side.
+  bool pass_seam() {
+    if constexpr (Law::constants > 0) {
+      double& side = field_.constants.back();
+      side = 1.0 - side;
+    }
+    return restart(0, 0.0);
+  }
+
+  /// Puts a sphere that has all but settled to rest at the bottom of the well; true when it did.
+  bool settles() {
+    const double energy = 0.5 * u() * u() + potential();
+    if (!(energy < (1.0 - settled_part) * depth_)) return false;
+    NV_Ith_S(state_.get(), 0) = field_.path.resting;
     NV_Ith_S(state_.get(), 1) = 0.0;
+    return true;
+  }
+
+  /// d (2 H) / d group at the end of the impact. Both ends need no correction for the change of the
+  /// arc length: H' = 0 at a turning point (u = 0), and so it is at a release (u' = 0) unless a
+  /// dashpot acts there, which the sensitivity of u at the same q allows for.
+  bool energy_gradient(std::array<double, 5>& gradient) {
+    if (CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
+    using Dual = ceres::Jet<double, 1 + static_cast<int>(Law::groups)>;
+    const Dual potential = with_values(
+        field_, [](double value, int k) { return Dual(value, 1 + k); },
+        [&](auto... v) -> Dual { return Law::potential(Dual(q(), 0), v...); });
+    // At the release q is the same for all neighbours: they have moved on by -s_q / u in sigma.
+    const bool released = u() < 0.0;
+    const double pull =
+        released ? with_values(
+                       field_,
+                       [&](auto... v) { return Law::acceleration(q(), u(), field_.acts(), v...); })
+                 : 0.0;
+    std::array<double, Law::groups> by = {};
+    for (std::size_t i = 0; i < Law::groups; ++i) {
+      const double s_q = NV_Ith_S(sensitivity_[i], 0);
+      const double s_u = NV_Ith_S(sensitivity_[i], 1);
+      const double at_end = u() * s_u + (released ? -pull : potential.v[0]) * s_q;
+      by[i] = 2.0 * (at_end + potential.v[1 + static_cast<int>(i)]);
+    }
+    gradient = impact_gradient<Law>(impact_, by);
+    return true;
+  }
+
+ private:
+  bool look_for_events() {
+    void* memory = memory_.get();
+    if (field_.stage == Stage::compression) {
+      std::array<int, 2> directions = {-1, 0};
+      return CVodeRootInit(memory, 2, turning_event<Law>) == CV_SUCCESS &&
+             CVodeSetRootDirection(memory, directions.data()) == CV_SUCCESS;
+    }
+    std::array<int, 4> directions = {-1, 1, -1, 0};
+    return CVodeRootInit(memory, 4, end_events<Law>) == CV_SUCCESS &&
+           CVodeSetRootDirection(memory, directions.data()) == CV_SUCCESS;
+  }
+
+  /// Begins anew from here, with component `which` of the state at `value`.
+  bool restart(int which, double value) {
+    if (options_.gradient && CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
+    NV_Ith_S(state_.get(), which) = value;
     bool good = CVodeReInit(memory_.get(), sigma_, state_.get()) == CV_SUCCESS;
     if (options_.gradient) {
       good = good && CVodeSensReInit(memory_.get(), CV_SIMULTANEOUS, sensitivity_) == CV_SUCCESS;
@@ -178,47 +280,16 @@ class Integration {
     if (options_.budget) {
       good = good && CVodeQuadReInit(memory_.get(), quadratures_.get()) == CV_SUCCESS;
     }
-    std::array<int, 3> directions = {-1, 1, -1};
-    return good && CVodeRootInit(memory_.get(), 3, end_events) == CV_SUCCESS &&
-           CVodeSetRootDirection(memory_.get(), directions.data()) == CV_SUCCESS;
+    return good && look_for_events();
   }
 
-  /// Puts a sphere that has all but settled to rest at the bottom of the well; true when it did.
-  bool settles() {
-    const double energy = 0.5 * u() * u() + potential();
-    if (!(energy < (1.0 - settled_part) * depth_)) return false;
-    NV_Ith_S(state_.get(), 0) = resting_place_;
-    NV_Ith_S(state_.get(), 1) = 0.0;
-    return true;
-  }
-
-  /// d (2 H) / d group at the end of the impact. Both ends need no correction for the change of the
-  /// arc length: u' = 0 at a release (q = 0) and H' = 0 at a turning point (u = 0).
-  bool energy_gradient(std::array<double, most_groups>& gradient) {
-    if (CVodeGetSens(memory_.get(), &sigma_, sensitivity_) < 0) return false;
-    using Dual = ceres::Jet<double, 2>;
-    const Dual potential = Law::potential(Dual(q(), 0), 0.0, Dual(field_.strength, 1), 0.0);
-    for (int i = 0; i < groups_count_; ++i) {
-      const double s_q = NV_Ith_S(sensitivity_[i], 0);
-      const double s_u = NV_Ith_S(sensitivity_[i], 1);
-      const double direct = i == 1 ? potential.v[1] : 0.0;
-      gradient[static_cast<std::size_t>(i)] = 2.0 * (u() * s_u + potential.v[0] * s_q + direct);
-    }
-    gradient[1] *= strength_slope_;
-    return true;
-  }
-
- private:
   bool set_up() {
     void* memory = memory_.get();
     const double absolute = 1e-2 * options_.tolerance;
-    std::array<int, 1> falling = {-1};
     CVodeSetErrFile(memory, nullptr);
     bool good = CVodeInit(memory, right_hand_side<Law>, 0.0, state_.get()) == CV_SUCCESS &&
                 CVodeSStolerances(memory, options_.tolerance, absolute) == CV_SUCCESS &&
-                CVodeSetUserData(memory, &field_) == CV_SUCCESS &&
-                CVodeRootInit(memory, 1, turning_event) == CV_SUCCESS &&
-                CVodeSetRootDirection(memory, falling.data()) == CV_SUCCESS;
+                CVodeSetUserData(memory, &field_) == CV_SUCCESS && look_for_events();
     solver_.reset(SUNNonlinSol_FixedPoint(state_.get(), anderson_depth, context_));
     good = good && CVodeSetNonlinearSolver(memory, solver_.get()) == CV_SUCCESS;
     if (good && options_.gradient) good = set_up_sensitivities(absolute);
@@ -233,32 +304,36 @@ class Integration {
 
   bool set_up_sensitivities(double absolute) {
     void* memory = memory_.get();
-    for (int i = 0; i < groups_count_; ++i) {
-      sensitivity_owner_[static_cast<std::size_t>(i)].reset(N_VNew_Serial(2, context_));
-      sensitivity_[i] = sensitivity_owner_[static_cast<std::size_t>(i)].get();
+    for (std::size_t i = 0; i < Law::groups; ++i) {
+      sensitivity_owner_[i].reset(N_VNew_Serial(2, context_));
+      sensitivity_[i] = sensitivity_owner_[i].get();
       N_VConst(0.0, sensitivity_[i]);
+      if (Law::places[i] == 4) NV_Ith_S(sensitivity_[i], 0) = field_.path.range_slope;
     }
-    std::array<double, most_groups> absolutes = {};
+    std::array<double, Law::groups> absolutes = {};
     absolutes.fill(absolute);
     sensitivity_solver_.reset(
-        SUNNonlinSol_FixedPointSens(groups_count_ + 1, state_.get(), anderson_depth, context_));
-    return CVodeSensInit(memory, groups_count_, CV_SIMULTANEOUS, sensitivity_right_hand_side<Law>,
+        SUNNonlinSol_FixedPointSens(groups_count + 1, state_.get(), anderson_depth, context_));
+    return CVodeSensInit(memory, groups_count, CV_SIMULTANEOUS, sensitivity_right_hand_side<Law>,
                          sensitivity_) == CV_SUCCESS &&
            CVodeSensSStolerances(memory, options_.tolerance, absolutes.data()) == CV_SUCCESS &&
            CVodeSetSensErrCon(memory, SUNTRUE) == CV_SUCCESS &&
            CVodeSetNonlinearSolverSensSim(memory, sensitivity_solver_.get()) == CV_SUCCESS;
   }
 
+  static constexpr int groups_count = static_cast<int>(Law::groups);
+  static constexpr int quadratures = has_dashpot<Law> ? 4 : 3;  // time and the losses
+
   // Declared in the order of dependence: everything below lives in the context.
   sundials::Context context_;
   ImpactOptions options_;
-  int groups_count_;
-  double strength_slope_, resting_place_, depth_;
-  Field field_;
+  ImpactGroups impact_;
+  double depth_;
+  Field<Law> field_;
   Vector state_;
   Vector quadratures_;
-  std::array<Vector, most_groups> sensitivity_owner_;
-  N_Vector sensitivity_[most_groups] = {};
+  std::array<Vector, Law::groups> sensitivity_owner_;
+  N_Vector sensitivity_[Law::groups] = {};
   NonlinearSolver solver_;
   NonlinearSolver sensitivity_solver_;
   std::unique_ptr<void, FreeMemory> memory_;
@@ -270,21 +345,28 @@ class Integration {
 template <class Law>
 void observe(const Integration<Law>& run, const ImpactOptions& options, ImpactResult& result,
              std::vector<ImpactMoment>* history) {
-  const Field& f = run.field();
-  const double q = std::max(run.q(), 0.0);
-  const double x = Law::penetration(q, f.strength);
-  const auto forces = Law::forces(q, run.u(), f.alpha, f.strength, f.gamma, f.acts());
+  const Field<Law>& f = run.field();
+  const double q = std::max(run.q(), f.path.release);
+  const double x = with_values(f, [&](auto... v) { return Law::penetration(q, v...); });
+  const auto forces =
+      with_values(f, [&](auto... v) { return Law::forces(q, run.u(), f.acts(), v...); });
+  double dashpot = 0.0;
+  if constexpr (has_dashpot<Law>) {
+    // Under JKR it grows without limit towards the parting, where it is left out.
+    const double clock = with_values(f, [&](auto... v) { return Law::clock(q, v...); });
+    dashpot = clock > 0.0 && q > f.path.release ? dashpot_power(f, q) * run.u() / clock : 0.0;
+  }
   const double push =
-      -(forces.hertz + forces.hertz_damping + forces.adhesion + forces.adhesion_damping) +
-      q * f.kappa * run.u();
+      -(forces.hertz + forces.hertz_damping + forces.adhesion + forces.adhesion_damping) + dashpot;
   result.penetration_max = std::max(result.penetration_max, x);
   result.force_compression = std::max(result.force_compression, push);
   result.force_tension = std::max(result.force_tension, -push);
-  result.energy.largest = std::max(
-      {result.energy.largest, run.u() * run.u() / 2.0, Law::largest_energy(q, f.strength)});
+  result.energy.largest =
+      std::max({result.energy.largest, run.u() * run.u() / 2.0,
+                with_values(f, [&](auto... v) { return Law::largest_energy(q, v...); })});
   if (history != nullptr && options.budget) {
     history->push_back({run.quadrature(0), x, run.u(), -forces.hertz, -forces.hertz_damping,
-                        -forces.adhesion, -forces.adhesion_damping, q * f.kappa * run.u()});
+                        -forces.adhesion, -forces.adhesion_damping, dashpot});
   }
 }
 
@@ -306,7 +388,7 @@ void finish(Integration<Law>& run, const ImpactOptions& options, ImpactResult& r
     result.contact_time = run.quadrature(0);
     result.energy.hertz_loss = run.quadrature(1);
     result.energy.adhesion_loss = run.quadrature(2);
-    if (options.dashpot) result.energy.dashpot_loss = run.quadrature(3);
+    if constexpr (has_dashpot<Law>) result.energy.dashpot_loss = run.quadrature(3);
   }
   result.energy.kinetic = kinetic;
   result.energy.potential = potential;
@@ -331,6 +413,10 @@ ImpactResult simulate(const ImpactGroups& groups, const ImpactOptions& options,
     observe(run, options, result, history);
     if (turned && run.settles()) break;
     if (code != CV_ROOT_RETURN) continue;
+    if (run.at_seam()) {
+      if (!run.pass_seam()) return result;
+      continue;
+    }
     if (turned) break;
     turned = true;
     if (!run.turn()) return result;
@@ -339,13 +425,11 @@ ImpactResult simulate(const ImpactGroups& groups, const ImpactOptions& options,
   return result;
 }
 
-/// Hertz's contact, which every law becomes, with the slope that JKR has there.
-ImpactResult without_adhesion(ImpactGroups groups, const ImpactOptions& options,
-                              std::vector<ImpactMoment>* history) {
-  groups.beta = 0.0;
-  ImpactResult result = simulate<RingAdhesionLaw>(groups, options, history);
-  result.gradient[1] = 0.0;
-  return result;
+template <class Law>
+ImpactResult simulate_by(const ImpactGroups& groups, const ImpactOptions& options,
+                         std::vector<ImpactMoment>* history) {
+  return options.dashpot ? simulate<WithDashpot<Law>>(groups, options, history)
+                         : simulate<Law>(groups, options, history);
 }
 
 }  // namespace
@@ -358,21 +442,21 @@ double EnergyBudget::audit() const {
 ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& options,
                              std::vector<ImpactMoment>* history) {
   ImpactResult result;
-  if (!(std::isfinite(groups.alpha) && std::isfinite(groups.beta) && std::isfinite(groups.gamma) &&
-        groups.alpha >= 0.0 && groups.beta >= 0.0 && groups.gamma >= 0.0 &&
-        (options.dashpot ? options.adhesion == AdhesionLaw::ring && std::isfinite(groups.kappa) &&
-                               groups.kappa >= 0.0
-                         : groups.kappa == 0.0))) {
-    return result;  // an inadmissible trial point of an optimiser is a failure, not a crash
+  if (!is_admissible(groups, options)) return result;
+  if (const auto simpler = without_adhesion(groups, options)) {
+    result = simulate_impact(simpler->first, simpler->second, history);
+    result.gradient[1] = 0.0;
+    return result;
   }
   switch (options.adhesion) {
     case AdhesionLaw::ring:
-      return simulate<RingAdhesionLaw>(groups, options, history);
+      return simulate_by<RingAdhesionLaw>(groups, options, history);
     case AdhesionLaw::dmt:
-      return simulate<DmtLaw>(groups, options, history);
+      return simulate_by<DmtLaw>(groups, options, history);
     case AdhesionLaw::jkr:
-      return groups.beta < JkrLaw::least_beta ? without_adhesion(groups, options, history)
-                                              : simulate<JkrLaw>(groups, options, history);
+      return simulate_by<JkrLaw>(groups, options, history);
+    case AdhesionLaw::maugis:
+      return simulate_by<MaugisLaw>(groups, options, history);
   }
   return result;
 }

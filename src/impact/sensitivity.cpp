@@ -7,7 +7,7 @@
 namespace recoil {
 
 ImpactSensitivity impact_sensitivity(const ImpactConditions& c, const ImpactResult& impact) {
-  const auto [by_alpha, by_beta, by_gamma, by_kappa] = impact.gradient;
+  const auto [by_alpha, by_beta, by_gamma, by_kappa, by_range] = impact.gradient;
   assert(by_kappa == 0.0);  // the base model only
   static_cast<void>(by_kappa);
   const ImpactGroups groups = impact_groups(c);
@@ -15,11 +15,14 @@ ImpactSensitivity impact_sensitivity(const ImpactConditions& c, const ImpactResu
   unit_adhesion.adhesion_force = 1.0;
   const double along_beta = groups.beta * by_beta;
   ImpactSensitivity s;
+  // lambda ~ f0 / K
+  const double along_range = groups.range * by_range;
   s.diameter = -along_beta / c.diameter;
   s.velocity = (groups.alpha * by_alpha - 0.8 * along_beta + groups.gamma * by_gamma) / c.velocity;
   s.density = -0.4 * along_beta / c.density;
-  s.stiffness = -0.6 * along_beta / c.stiffness;
-  s.adhesion_force = impact_groups(unit_adhesion).beta * by_beta;
+  s.stiffness = -(0.6 * along_beta + along_range) / c.stiffness;
+  s.adhesion_force = impact_groups(unit_adhesion).beta * by_beta +
+                     maugis_parameter_per_force(c.stiffness, c.separation) * by_range;
   s.hertz_damping = c.velocity * by_alpha;
   s.adhesion_damping = c.velocity * by_gamma;
   return s;

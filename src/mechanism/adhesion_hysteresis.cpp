@@ -6,8 +6,7 @@ namespace {
 struct AdhesionHysteresis {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    // a_max^2 = R n_max
-    e.lose(std::numbers::pi * e.adhesion_energy * e.contact_radius * e.deepest() * own[0]);
+    e.lose(std::numbers::pi * e.adhesion_energy * e.contact_square() * own[0]);
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include "data/contact.hpp"
 #include "data/material.hpp"
+#include "impact/deepest_contact.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/dual.hpp"
 
@@ -19,6 +20,8 @@ struct Surroundings {
   double adhesion_energy = 0.0;     ///< W_A of the two bodies, see `ContactProperties` [J/m2]
   double wave_mobility = 0.0;       ///< D of `elastic_waves`, for a half-space [m s / N]
   Method method = Method::unknown;  ///< how velocities were measured
+  AdhesionLaw adhesion = AdhesionLaw::ring;
+  double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]
 };
 
 /// @param contact derived from `system`
@@ -61,6 +64,25 @@ struct Encounter {
   T scale() const {
     return power(mass() * velocity * velocity / (sqrt(contact_radius) * stiffness), 0.4);
   }
+  /// The group beta = B A^(-3/5) V^(-4/5) = B / (A n_c), where B / A = 2 pi f0 / K.
+  T beta() const { return adhesion_force / (scale() * stiffness) * (2.0 * std::numbers::pi); }
+  /// Maugis's lambda.
+  T range() const {
+    return adhesion_force / stiffness * maugis_parameter_per_force(1.0, at->separation);
+  }
+  /// a^2 of the contact at the deepest point of the undamped impact [m2].
+  T contact_square() const {
+    if (at->adhesion == AdhesionLaw::ring) return contact_radius * deepest();
+    return contact_radius * scale() * under_law(&DeepestContact::square);
+  }
+  /// Elastic energy at the deepest point of the undamped impact [J].
+  T stored_energy() const {
+    if (at->adhesion == AdhesionLaw::ring) {
+      const T n = deepest();
+      return stiffness * 0.4 * n * n * sqrt(contact_radius * n);
+    }
+    return mass() * velocity * velocity * under_law(&DeepestContact::stored);
+  }
   /// How long an elastic sphere without adhesion touches, 2 sqrt(pi) Gamma(7/5) / Gamma(9/10) n_max
   /// / V [s] (Hertz).
   T hertz_contact_time() const { return 2.943275 * hertz_penetration() / velocity; }
@@ -73,8 +95,8 @@ struct Encounter {
     return velocity * velocity + n * root * adhesion_force * (8.0 / 3.0 * std::numbers::pi) -
            n * n * root * (stiffness * 0.8);
   }
-  /// Largest penetration of an undamped sphere [m]: where `undamped_square` vanishes. Damping on
-  /// the way in makes it smaller by about C_H V / 5 of itself.
+  /// Largest penetration of an undamped sphere under the ring law [m]: where `undamped_square`
+  /// vanishes. Damping on the way in makes it smaller by about C_H V / 5 of itself.
   T deepest() const {
     Encounter<double> plain;
     plain.at = at;
@@ -103,6 +125,19 @@ struct Encounter {
   }
   /// Takes `energy` [J] from the sphere.
   void lose(const T& energy) { square -= 2.0 * energy / mass(); }
+
+ private:
+  /// What another law than the ring's says of the deepest point, with its derivatives.
+  T under_law(DeepestContact::Quantity DeepestContact::*which) const {
+    const T b = beta();
+    const T r = range();
+    const DeepestContact contact = deepest_contact(at->adhesion, value_of(b), value_of(r));
+    const DeepestContact::Quantity& quantity = contact.*which;
+    T sum(quantity.value);
+    add_slopes(sum, quantity.by_beta, b);
+    add_slopes(sum, quantity.by_range, r);
+    return sum;
+  }
 };
 
 /// What one point shows, when all that happened to its spheres is done.

@@ -15,12 +15,12 @@ constexpr double overdamped = 12.0;
 /// The groups of the base impact, carrying derivatives.
 template <class T>
 struct Groups {
-  T alpha, beta, gamma, kappa;
+  T alpha, beta, gamma, kappa, range;
 
   bool stops() const { return value_of(kappa) > overdamped; }
   ImpactGroups values() const {
     return {value_of(alpha), value_of(beta), value_of(gamma),
-            stops() ? overdamped : value_of(kappa)};
+            stops() ? overdamped : value_of(kappa), value_of(range)};
   }
 };
 
@@ -44,11 +44,8 @@ Encounter<T> approaching(const ExtendedPoint& point, std::span<const T> values, 
 
 template <class T>
 Groups<T> groups_at_contact(const Encounter<T>& e) {
-  // beta = B A^(-3/5) V^(-4/5) = B / (A n_c), and B / A = 2 pi f0 / K.
-  const T scale = e.scale();
-  return {e.hertz_damping * e.velocity,
-          e.adhesion_force / (scale * e.stiffness) * (2.0 * std::numbers::pi),
-          e.adhesion_damping * e.velocity, 1.5 * e.relaxation * e.velocity / scale};
+  return {e.hertz_damping * e.velocity, e.beta(), e.adhesion_damping * e.velocity,
+          1.5 * e.relaxation * e.velocity / e.scale(), e.range()};
 }
 
 template <class T>
@@ -58,6 +55,7 @@ T base_square(const Groups<T>& groups, const ImpactResult& impact) {
   add_slopes(square, impact.gradient[1], groups.beta);
   add_slopes(square, impact.gradient[2], groups.gamma);
   if (!groups.stops()) add_slopes(square, impact.gradient[3], groups.kappa);
+  add_slopes(square, impact.gradient[4], groups.range);
   return square;
 }
 

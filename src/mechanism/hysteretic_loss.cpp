@@ -4,12 +4,10 @@ namespace recoil {
 namespace {
 
 struct HystereticLoss {
-  /// eta (2/5) K R^(1/2) n_max^(5/2): of the elastic energy at the deepest point, which is m V^2 /
-  /// 2 without adhesion.
+  /// Of the elastic energy at the deepest point, which is m V^2 / 2 without adhesion.
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    const T deepest = e.deepest();
-    e.lose(own[0] * (e.stiffness * 0.4) * deepest * deepest * sqrt(e.contact_radius * deepest));
+    e.lose(own[0] * e.stored_energy());
   }
 };
 

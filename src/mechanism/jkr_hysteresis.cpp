@@ -7,13 +7,10 @@ namespace {
 /// (W^5 R^4 / E*^2)^(1/3): the integral of the JKR curve; Thornton & Ning (1998) print 7.09.
 constexpr double parting_work = 7.0922;
 
-/// Range of the adhesive forces, the equilibrium distance of two surfaces [m].
-constexpr double force_range = 0.4e-9;
-
 /// mu = (R W^2 / (E*^2 z0^3))^(1/3).
 double tabor_parameter(const Encounter<double>& sphere, std::span<const double> own) {
   const double ratio = own[0] * sphere.adhesion_energy / sphere.reduced_modulus();
-  return std::cbrt(0.5 * sphere.diameter * ratio * ratio) / force_range;
+  return std::cbrt(0.5 * sphere.diameter * ratio * ratio) / equilibrium_separation;
 }
 
 struct JkrHysteresis {
@@ -64,6 +61,9 @@ Mechanism jkr_hysteresis() {
                              "expected",
                       .of = tabor_parameter}}},
       .needs_adhesion = true,
+      .refused = {{AdhesionLaw::jkr, "that law loses this work by itself: it would count twice"},
+                  {AdhesionLaw::maugis, "that law loses this work by itself: it would count twice"},
+                  {AdhesionLaw::dmt, "a contact of DMT parts as it met, without a tear"}},
   });
 }
 

@@ -48,6 +48,12 @@ struct TakenAway {
   std::string_view doing;  ///< in a laboratory: "pump the chamber"
 };
 
+/// A law of adhesion beside which a mechanism makes no sense, and why.
+struct RefusedBeside {
+  AdhesionLaw law;
+  std::string_view why;
+};
+
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;
@@ -67,6 +73,7 @@ struct MechanismInfo {
   /// The ways of measuring that can have it; empty: all.
   std::vector<Method> methods = {};
   std::optional<TakenAway> taken_away = {};  ///< by what, where a condition does it
+  std::vector<RefusedBeside> refused = {};
 };
 
 /// The law of a mechanism for one number type; null where it does nothing. `own` holds its
@@ -109,10 +116,14 @@ struct Mechanism {
            std::find(info.methods.begin(), info.methods.end(), method) != info.methods.end();
   }
   bool spreads() const { return law<double>().vary != nullptr; }
-  /// What acts in the contact is worked out on the ring law's.
-  bool works_with(AdhesionLaw adhesion) const {
-    return adhesion == AdhesionLaw::ring || info.place != MechanismPlace::contact;
+  /// Why it cannot stand beside this law of adhesion; empty when it can.
+  std::string_view refusal(AdhesionLaw adhesion) const {
+    for (const RefusedBeside& refused : info.refused) {
+      if (refused.law == adhesion) return refused.why;
+    }
+    return {};
   }
+  bool works_with(AdhesionLaw adhesion) const { return refusal(adhesion).empty(); }
   bool is_batch() const { return info.place == MechanismPlace::batch; }
 };
 

@@ -19,7 +19,6 @@ constexpr double largest_pressure = 0.3;  // p_0 / E*
 constexpr double yield_share = 0.03;      // yield pressure over E of the softer body
 constexpr double least_tabor = 5.0;
 constexpr double least_transits = 5.0;
-constexpr double atomic_distance = 0.4e-9;  // z_0 [m]
 
 /// Does a mechanism of the fit have a pressure at which the contact gives way?
 bool yields(const ImpactModel& model) {
@@ -100,10 +99,12 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
     add(ValidityQuantity::pressure_yield, pressure / yield, 1.0).yield_pressure = yield;
   }
   const double f0 = view.encounter.adhesion_force;
-  if (f0 > 0.0) {
+  // Maugis's law holds at any.
+  if (f0 > 0.0 && model.adhesion != AdhesionLaw::maugis) {
     // eq. 12: f0^3 = 9 W^2 K r / (2 pi)
     const double work = std::sqrt(2.0 * pi * f0 * f0 * f0 / (9.0 * contact.stiffness * radius));
-    const double tabor = std::cbrt(radius * work * work / (modulus * modulus)) / atomic_distance;
+    const double tabor =
+        std::cbrt(radius * work * work / (modulus * modulus)) / equilibrium_separation;
     add(ValidityQuantity::tabor, tabor, least_tabor);
   }
   const double wave = std::sqrt(system.particle.youngs_modulus / system.particle.density);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "reconstruction/adhesive_truth.hpp"
 #include "reconstruction/elastoplastic_truth.hpp"
 #include "reconstruction/ring_adhesion_truth.hpp"
 
@@ -43,6 +44,13 @@ ElastoplasticImpact impact_of(const ElastoplasticTruth& truth, double diameter, 
 
 double restitution(const ElastoplasticTruth& truth, double diameter, double velocity) {
   return impact_of(truth, diameter, velocity).restitution;
+}
+
+double restitution(const AdhesiveTruth& truth, double diameter, double velocity) {
+  return adhesive_restitution(
+      {truth.jkr, truth.stiffness, truth.work, 0.5 * diameter, mass_of(truth.density, diameter),
+       truth.C_H, truth.C_A, truth.damped_in_both_phases},
+      velocity);
 }
 
 /// Eq. 7 [1/Pa].
@@ -87,6 +95,7 @@ Truth without_adhesion(Truth truth) {
     plastic->adhesion_energy = 0.0;
     plastic->adhesion_hysteresis = 0.0;
   }
+  if (auto* adhesive = std::get_if<AdhesiveTruth>(&truth)) adhesive->work = 0.0;
   return truth;
 }
 

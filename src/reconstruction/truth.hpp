@@ -33,7 +33,18 @@ struct ElastoplasticTruth {
   double rate_exponent = 0.0;          ///< q [1]
 };
 
-using Truth = std::variant<RingAdhesionTruth, ElastoplasticTruth>;
+/// A truth made by another law of adhesion, see `AdhesiveContact`.
+struct AdhesiveTruth {
+  bool jkr = true;         ///< else DMT
+  double density = 0.0;    ///< of the sphere [kg/m3]
+  double stiffness = 0.0;  ///< K [Pa]
+  double work = 0.0;       ///< W [J/m2]
+  double C_H = 0.0;        ///< [s/m]
+  double C_A = 0.0;        ///< [s/m]
+  bool damped_in_both_phases = false;
+};
+
+using Truth = std::variant<RingAdhesionTruth, ElastoplasticTruth, AdhesiveTruth>;
 
 /// Noiseless restitution e [1] of one sphere of `diameter` [m] at `velocity` [m/s]; 0 when
 /// captured.

@@ -21,6 +21,7 @@
 #include "report/figures_two_point.hpp"
 #include "report/fit_tables.hpp"
 #include "report/format.hpp"
+#include "report/law_comparison.hpp"
 #include "report/materials_tables.hpp"
 #include "report/pair_words.hpp"
 #include "report/posterior_report.hpp"
@@ -143,6 +144,11 @@ Sentence equation_words(AdhesionLaw law) {
       return say(
           "Hertz contact under the constant pull 2 pi {W} r of Derjaguin, Muller & Toporov "
           "(1975); damping {C_H} on its elastic part, {C_A} on its adhesive part");
+    case AdhesionLaw::maugis:
+      return say(
+          "Contact of Maugis (1992) between the two, with the work of adhesion {W} over a range "
+          "that follows from the separation; damping {C_H} on its elastic part, {C_A} on its "
+          "adhesive part");
   }
   return {};
 }
@@ -452,6 +458,9 @@ Document fit_document(const Analysis& a, std::vector<Block> diagnosis) {
   Table capture = capture_table(a);
   capture.caption = "Capture velocity: slower spheres stay on the surface";
   page.sections.push_back({"capture", "Capture velocity", {}, {std::move(capture)}});
+  if (!a.laws.empty()) {
+    page.sections.push_back(laws_section(compared_laws(a.laws, a.datasets)));
+  }
   page.sections.push_back(identifiability_section(a));
   page.sections.push_back(validity_section(a, "Where the points pass the limits of the model"));
   page.sections.push_back(two_point_section(a, false));

@@ -14,6 +14,7 @@
 #include "report/diagnosis_headline.hpp"
 #include "report/format.hpp"
 #include "report/json_diagnosis.hpp"
+#include "report/law_comparison.hpp"
 
 namespace recoil {
 namespace {
@@ -145,6 +146,7 @@ Section card_of(const IndexEntry& entry) {
     card.blocks.emplace_back(Figures{{{"picture", "", {}, entry.picture}}});
   }
   card.blocks.emplace_back(summary_table(fit));
+  for (Block& block : laws_card(fit.laws)) card.blocks.push_back(std::move(block));
   card.blocks.emplace_back(Paragraph{link("All plots and numbers", entry.page)});
   return card;
 }
@@ -184,6 +186,7 @@ FitSummary summary_of(const Analysis& a) {
   summary.chi2 = f.chi2;
   summary.dof = f.dof;
   if (f.data.sd_stated && f.dof > 0) summary.p_value = f.p_value;
+  summary.laws = compared_laws(a.laws, a.datasets);
   return summary;
 }
 

@@ -6,6 +6,7 @@
 
 #include "diagnosis/diagnosis_result.hpp"
 #include "document/document.hpp"
+#include "report/comparison_document.hpp"
 #include "report/report.hpp"
 
 namespace recoil {
@@ -41,6 +42,7 @@ struct FitSummary {
   std::optional<double> p_value;
   std::optional<Verdict> verdict;  ///< of the diagnosis, where there is one
   std::string headline;
+  std::vector<ComparedFit> laws = {};  ///< the fit under every law of adhesion; may be empty
 };
 
 FitSummary summary_of(const Analysis& analysis);

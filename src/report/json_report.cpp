@@ -162,6 +162,20 @@ Json matrix_json(const Analysis& a, bool as_correlation) {
   return rows;
 }
 
+std::string equation_of(AdhesionLaw law) {
+  switch (law) {
+    case AdhesionLaw::ring:
+      return "Li, Dunn & Brach (1999), eq. 5";
+    case AdhesionLaw::jkr:
+      return "Johnson, Kendall & Roberts (1971), damped";
+    case AdhesionLaw::dmt:
+      return "Derjaguin, Muller & Toporov (1975), damped";
+    case AdhesionLaw::maugis:
+      return "Maugis (1992), damped";
+  }
+  return {};
+}
+
 Json model_json(const Analysis& a) {
   Json contacts = Json::array();
   for (std::size_t k = 0; k < a.datasets.size(); ++k) {
@@ -183,12 +197,12 @@ Json model_json(const Analysis& a) {
          {"contradictions", contact.contradictions}});
   }
   const AdhesionLaw law = a.fitted.model.adhesion;
-  return {{"equation", law == AdhesionLaw::ring  ? "Li, Dunn & Brach (1999), eq. 5"
-                       : law == AdhesionLaw::jkr ? "Johnson, Kendall & Roberts (1971), damped"
-                                                 : "Derjaguin, Muller & Toporov (1975), damped"},
-          {"adhesion", to_string(a.fitted.model.adhesion)},
-          {"adhesion_damping_phase", to_string(a.fitted.model.phase)},
-          {"contacts", contacts}};
+  Json model = {{"equation", equation_of(law)},
+                {"adhesion", to_string(law)},
+                {"adhesion_damping_phase", to_string(a.fitted.model.phase)},
+                {"contacts", contacts}};
+  if (law == AdhesionLaw::maugis) model["separation_m"] = a.fitted.model.separation;
+  return model;
 }
 
 Json goodness_json(const Analysis& a) {

@@ -8,6 +8,7 @@
 #include "estimate/fit.hpp"
 #include "experiment/correction_study.hpp"
 #include "predict/capture_comparison.hpp"
+#include "predict/law_choice.hpp"
 #include "predict/polydisperse.hpp"
 #include "predict/validity.hpp"
 #include "uncertainty/uncertainty_result.hpp"
@@ -23,6 +24,7 @@ struct Analysis {
   UncertaintyResult uncertainty;
   std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
   std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
+  std::vector<LawFit> laws;                      ///< the fit under every law; may be empty
   std::vector<CorrectionStudy> corrections;      ///< of a reconstruction that goes by way of events
   bool corrections_outdated = false;  ///< they were made from another fit, dataset or recipe
 };

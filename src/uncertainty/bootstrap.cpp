@@ -95,6 +95,9 @@ std::string bootstrap_key(const FitResult& fitted, const ResamplingPlan& plan,
                                  to_string(plan.scheme), static_cast<int>(fitted.model.phase),
                                  to_string(fitted.model.solver.kind), fitted.noise_scale);
   if (fitted.model.adhesion != AdhesionLaw::ring) text += to_string(fitted.model.adhesion) + "|";
+  if (fitted.model.separation != equilibrium_separation) {
+    text += fmt::format("{}|", fitted.model.separation);
+  }
   text += noise_key(fitted.data);
   if (!fitted.model.constants.empty()) text += fmt::format("{:a}|", fitted.data.constants_weight);
   for (const UncertainConstant& constant : fitted.model.constants) {

@@ -84,17 +84,19 @@ std::vector<ImpactGroups> representative_impacts(const std::filesystem::path& ro
   return impacts;
 }
 
-void run_fast(const std::vector<ImpactGroups>& impacts, bool gradient,
+void run_fast(const std::vector<ImpactGroups>& impacts, AdhesionLaw law, bool gradient,
               std::vector<ImpactResult>& results) {
   ImpactOptions options;
+  options.adhesion = law;
   options.gradient = gradient;
   results.resize(impacts.size());
   simulate_impacts_fast(impacts, options, results);
 }
 
-void run_reference(const std::vector<ImpactGroups>& impacts, bool gradient,
+void run_reference(const std::vector<ImpactGroups>& impacts, AdhesionLaw law, bool gradient,
                    std::vector<ImpactResult>& results) {
   ImpactOptions options;
+  options.adhesion = law;
   options.gradient = gradient;
   results.resize(impacts.size());
   for (std::size_t i = 0; i < impacts.size(); ++i) {
@@ -106,9 +108,9 @@ Json describe_impacts(const std::vector<ImpactGroups>& impacts) {
   std::vector<ImpactResult> fast;
   std::vector<ImpactResult> reference;
   const long handovers_before = reference_handovers();
-  run_fast(impacts, true, fast);
+  run_fast(impacts, AdhesionLaw::ring, true, fast);
   const long handovers = reference_handovers() - handovers_before;
-  run_reference(impacts, true, reference);
+  run_reference(impacts, AdhesionLaw::ring, true, reference);
 
   std::vector<double> velocity, alpha, gamma;
   int captured = 0;

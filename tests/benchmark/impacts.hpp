@@ -18,11 +18,11 @@ std::vector<ImpactGroups> representative_impacts(const std::filesystem::path& ro
                                                  std::size_t count);
 
 /// All impacts by the fast path, as a fit asks for them.
-void run_fast(const std::vector<ImpactGroups>& impacts, bool gradient,
+void run_fast(const std::vector<ImpactGroups>& impacts, AdhesionLaw law, bool gradient,
               std::vector<ImpactResult>& results);
 
 /// All impacts by CVODES at its default tolerance, with forward sensitivities for the gradient.
-void run_reference(const std::vector<ImpactGroups>& impacts, bool gradient,
+void run_reference(const std::vector<ImpactGroups>& impacts, AdhesionLaw law, bool gradient,
                    std::vector<ImpactResult>& results);
 
 /// What the set is made of, and the largest differences between the two paths on it, relative to

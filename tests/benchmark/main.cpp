@@ -66,17 +66,18 @@ benchmark::Counter time_of_each(std::size_t count) {
           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
 }
 
-using RunImpacts = void (*)(const std::vector<ImpactGroups>&, bool, std::vector<ImpactResult>&);
+using RunImpacts = void (*)(const std::vector<ImpactGroups>&, AdhesionLaw, bool,
+                            std::vector<ImpactResult>&);
 
 void register_impacts(const std::string& name, const std::vector<ImpactGroups>& impacts,
-                      bool gradient, RunImpacts run) {
+                      bool gradient, RunImpacts run, AdhesionLaw law = AdhesionLaw::ring) {
   benchmark::RegisterBenchmark(name.c_str(),
-                               [&impacts, gradient, run](benchmark::State& state) {
+                               [&impacts, gradient, run, law](benchmark::State& state) {
                                  const tbb::global_control one_thread(
                                      tbb::global_control::max_allowed_parallelism, 1);
                                  std::vector<ImpactResult> results;
                                  for (auto _ : state) {
-                                   run(impacts, gradient, results);
+                                   run(impacts, law, gradient, results);
                                    benchmark::DoNotOptimize(results.data());
                                  }
                                  state.counters["each"] = time_of_each(impacts.size());
@@ -85,6 +86,19 @@ void register_impacts(const std::string& name, const std::vector<ImpactGroups>& 
       ->UseRealTime()
       ->Repetitions(5)
       ->DisplayAggregatesOnly();
+}
+
+std::string law_name(AdhesionLaw law, const char* solver) {
+  return fmt::format("impact_with_gradient/{}/{}", to_string(law), solver);
+}
+
+/// The laws of adhesion beside the ring's.
+std::vector<AdhesionLaw> other_laws() {
+  std::vector<AdhesionLaw> laws;
+  for (const AdhesionLaw law : values_of<AdhesionLaw>()) {
+    if (law != AdhesionLaw::ring) laws.push_back(law);
+  }
+  return laws;
 }
 
 Json impact_results(const std::vector<ImpactGroups>& impacts, const Keeper& keeper) {
@@ -101,6 +115,14 @@ Json impact_results(const std::vector<ImpactGroups>& impacts, const Keeper& keep
                  {"e2_fast_ns", e2_fast},
                  {"e2_reference_ns", e2_reference},
                  {"e2_ratio", e2_reference / e2_fast}};
+  for (const AdhesionLaw law : other_laws()) {
+    const double law_fast = nanoseconds(law_name(law, "fast").c_str());
+    const double law_reference = nanoseconds(law_name(law, "reference").c_str());
+    result["laws"].push_back({{"adhesion", to_string(law)},
+                              {"fast_ns", law_fast},
+                              {"reference_ns", law_reference},
+                              {"ratio", law_reference / law_fast}});
+  }
   result.update(describe_impacts(impacts));
   return result;
 }
@@ -163,7 +185,9 @@ Json bootstrap_results(const FitResult& fitted, const Observations& data, const 
           {"scaling", scaling}};
 }
 
-int run_all(const fs::path& program, const fs::path& root, std::size_t most_points) {
+/// @param only_impacts measures and prints the first section alone, and writes nothing
+int run_all(const fs::path& program, const fs::path& root, std::size_t most_points,
+            bool only_impacts) {
   const fs::path build = program.parent_path();
   const fs::path folder = build / "benchmark";
   Json results = {{"command", "./run bench"}};
@@ -177,6 +201,16 @@ int run_all(const fs::path& program, const fs::path& root, std::size_t most_poin
   register_impacts("impact_with_gradient/reference", impacts, true, run_reference);
   register_impacts("impact/fast", impacts, false, run_fast);
   register_impacts("impact/reference", impacts, false, run_reference);
+  for (const AdhesionLaw law : other_laws()) {
+    register_impacts(law_name(law, "fast"), impacts, true, run_fast, law);
+    register_impacts(law_name(law, "reference"), impacts, true, run_reference, law);
+  }
+  if (only_impacts) {
+    Keeper keeper;
+    benchmark::RunSpecifiedBenchmarks(&keeper);
+    fmt::print("{}\n", impact_results(impacts, keeper).dump(2));
+    return 0;
+  }
   write_peer_case(folder);
   const Case peer_case = load_case(folder / "fit.toml");
   const FitResult fitted = fit(peer_case.model, peer_case.data);
@@ -223,9 +257,11 @@ int run(int count, char** words) {
   arguments.insert(arguments.begin() + 1, take_turns.data());
   int left = static_cast<int>(arguments.size());
   benchmark::Initialize(&left, arguments.data());
-  // A smaller largest case is for trying out: `recoil_benchmark 10000`.
-  const std::size_t most_points = left > 1 ? std::stoul(arguments[1]) : 1000000;
-  return run_all(program, RECOIL_SOURCE_DIR, most_points);
+  // A smaller largest case is for trying out: `recoil_benchmark 10000`, or no case at all:
+  // `recoil_benchmark impacts`.
+  const bool only_impacts = left > 1 && std::string(arguments[1]) == "impacts";
+  const std::size_t most_points = left > 1 && !only_impacts ? std::stoul(arguments[1]) : 1000000;
+  return run_all(program, RECOIL_SOURCE_DIR, most_points, only_impacts);
 }
 
 }  // namespace

@@ -63,6 +63,19 @@ const Json& largest_case(const Json& scaling) {
   return *largest;
 }
 
+/// A row for each law of adhesion beside the ring's.
+std::string law_rows(const Json& impact) {
+  std::string rows;
+  for (const Json& law : impact.value("laws", Json::array())) {
+    rows += fmt::format("| the same under `{}` | {} | {} | {} |\n",
+                        law.at("adhesion").get<std::string>(),
+                        time_text(law.at("fast_ns").get<double>() * 1e-9),
+                        time_text(law.at("reference_ns").get<double>() * 1e-9),
+                        ratio_text(law.at("ratio").get<double>()));
+  }
+  return rows;
+}
+
 std::string impact_section(const Json& impact) {
   const auto range = [&](const char* key) {
     return fmt::format("{:.2g} to {:.2g}", impact.at(key)[0].get<double>(),
@@ -79,6 +92,7 @@ std::string impact_section(const Json& impact) {
       "were handed over to the reference.\n\n"
       "| per impact | fast | reference | ratio |\n|---|---|---|---|\n"
       "| e^2 and its gradient | {} | {} | {} |\n"
+      "{}"
       "| e^2 alone | {} | {} | {} |\n\n",
       impact.at("impacts").get<int>(), impact.at("captured").get<int>(),
       range("velocity_over_adhesion_velocity"), range("C_H_V"), range("C_A_V"),
@@ -87,7 +101,7 @@ std::string impact_section(const Json& impact) {
       impact.at("handed_over_to_reference").get<long>(),
       time_text(impact.at("fast_ns").get<double>() * 1e-9),
       time_text(impact.at("reference_ns").get<double>() * 1e-9),
-      ratio_text(impact.at("ratio").get<double>()),
+      ratio_text(impact.at("ratio").get<double>()), law_rows(impact),
       time_text(impact.at("e2_fast_ns").get<double>() * 1e-9),
       time_text(impact.at("e2_reference_ns").get<double>() * 1e-9),
       ratio_text(impact.at("e2_ratio").get<double>()));

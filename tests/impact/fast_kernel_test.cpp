@@ -21,7 +21,9 @@ std::vector<ImpactGroups> mixed_impacts(std::size_t count) {
   std::vector<ImpactGroups> impacts;
   for (std::size_t i = 0; i < count; ++i) {
     const double w = between(0.1, 300.0);
-    impacts.push_back({between(1e-5, 0.5) * w, std::pow(w, -0.8), between(1e-5, 0.5) * w});
+    const double alpha = between(1e-5, 0.5) * w;
+    const double gamma = between(1e-5, 0.5) * w;
+    impacts.push_back({alpha, std::pow(w, -0.8), gamma, 0.0, between(0.05, 50.0)});
   }
   return impacts;
 }

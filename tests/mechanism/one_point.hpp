@@ -59,6 +59,7 @@ inline Answer ask(const Surroundings& at, const std::vector<std::string>& ids,
   std::vector<double> values = {base.C_H, base.C_A, base.f0};
   values.insert(values.end(), own.begin(), own.end());
   ImpactOptions options;
+  options.adhesion = at.adhesion;
   options.gradient = gradient;
   impacts.evaluate(values, options, simulate_impacts_fast);
   Answer answer;
