@@ -14,12 +14,16 @@ std::string truth_words(const Truth& truth) {
   std::string words =
       fmt::format("plastic yield (yield pressure {:.3g} Pa", at.static_yield_pressure);
   words += at.rate_exponent > 0.0
-               ? fmt::format(", rising with V to the power {:.2g})", at.rate_exponent)
+               ? fmt::format(
+                     ", rising with the rate of straining V^(3/5) / d to the power "
+                     "{:.2g})",
+                     5.0 / 3.0 * at.rate_exponent)
                : ")";
   if (at.adhesion_energy > 0.0)
     words += fmt::format(", JKR adhesion ({:.3g} J/m2)", at.adhesion_energy);
-  if (at.adhesion_hysteresis > 0.0) {
-    words += fmt::format(" and adhesion hysteresis ({:.3g} J/m2 at 1 m/s", at.adhesion_hysteresis);
+  if (at.hysteresis_factor > 0.0) {
+    words += fmt::format(" and adhesion hysteresis ({:.3g} times as much at 1 m/s",
+                         at.hysteresis_factor);
     words += at.hysteresis_exponent > 0.0
                  ? fmt::format(", rising with V to the power {:.2g})", at.hysteresis_exponent)
                  : ")";

@@ -167,7 +167,7 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
         parameter->mechanism != nullptr &&
         std::find(before.begin(), before.end(), parameter->mechanism->info.id) == before.end();
     if (is_new) {
-      stated.free = stated.free || release;
+      stated.free = stated.free || (release && stated.parameter->searched);
       if (parameter->is_scatter_of_rebounds) take_stated_scatter(datasets, stated);
     }
     candidate.spec.parameters.push_back(stated);

@@ -108,7 +108,9 @@ bool rests_on_the_edge(const CandidateResult& result) {
 
 bool can_be_released(const Candidate& candidate) {
   return std::any_of(candidate.model.slots.begin(), candidate.model.slots.end(),
-                     [&](const ParameterSlot& slot) { return !slot.free && candidate.adds(slot); });
+                     [&](const ParameterSlot& slot) {
+                       return !slot.free && slot.parameter->searched && candidate.adds(slot);
+                     });
 }
 
 /// The same with released parameters, if that is worth it.

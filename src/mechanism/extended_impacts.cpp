@@ -193,7 +193,7 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       const ImpactResult& impact = results_[i * nodes_ + node];
       if (!impact.usable()) answer.outcome = impact.outcome;
       Encounter<T>& e = work.encounters[i * nodes_ + node];
-      e.square = base_square(work.groups[i * nodes_ + node], impact) * (e.velocity * e.velocity);
+      e.square += base_square(work.groups[i * nodes_ + node], impact) * (e.velocity * e.velocity);
       back_along<T>(chain_, own, [&](const Mechanism& mechanism, std::span<const T> its) {
         const MechanismLaw<T>& law = mechanism.law<T>();
         if (law.after != nullptr) law.after(e, its);

@@ -59,6 +59,7 @@ struct Parameter {
   PlausibleRange plausible = {};
   std::vector<double> starts = {};  ///< further ones worth trying
   bool free = true;                 ///< fitted unless the fit file says otherwise
+  bool searched = true;             ///< where it is not free, a search for causes may free it
   bool log_scale = false;           ///< positive over several decades: its logarithm is fitted
   bool per_series = false;          ///< one value for every series
   /// The relative scatter of single slow rebounds: starts at what the points state of it.

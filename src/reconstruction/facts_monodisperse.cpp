@@ -41,6 +41,7 @@ FactOutcome no_capture(const FactContext& context, const FactLimits&) {
   return {lowest > 0.0, fmt::format("lowest e {:.3f}", lowest)};
 }
 
+/// "Some" velocities: those of the series that begins nearest.
 FactOutcome near_capture(const FactContext& context, const FactLimits& limits) {
   double nearest = 1e9;
   double farthest = 0.0;
@@ -50,8 +51,9 @@ FactOutcome near_capture(const FactContext& context, const FactLimits& limits) {
     nearest = std::min(nearest, ratio);
     farthest = std::max(farthest, ratio);
   }
-  return {nearest >= limits.at("from") && farthest <= limits.at("to"),
-          fmt::format("lowest velocities are {:.2f} to {:.2f} V*", nearest, farthest)};
+  return {within(nearest, limits.at("from"), limits.at("to")),
+          fmt::format("lowest velocities are {:.2f} to {:.2f} V* (the nearest {:g} .. {:g})",
+                      nearest, farthest, limits.at("from"), limits.at("to"))};
 }
 
 FactOutcome capture_velocity_fact(const FactContext& context, const FactLimits& limits) {
@@ -175,20 +177,6 @@ FactOutcome adhesion_onset(const FactContext& context, const FactLimits& limits)
                       above, limits.at("velocity"), at_lowest)};
 }
 
-FactOutcome plastic_loss_near_capture(const FactContext& context, const FactLimits& limits) {
-  double least = 1.0;
-  double most = 0.0;
-  for (const RecipeSeries& series : context.recipe.series) {
-    const double capture = true_capture_velocity(context.recipe.truth, series.diameter);
-    const double share = true_plastic_share(context.recipe.truth, series.diameter, capture);
-    least = std::min(least, share);
-    most = std::max(most, share);
-  }
-  return {least >= limits.at("least"),
-          fmt::format("at V* plastic flow takes {:.2f} to {:.2f} of the energy (at least {:.2f})",
-                      least, most, limits.at("least"))};
-}
-
 FactOutcome highest_restitution(const FactContext& context, const FactLimits& limits) {
   const Truth& truth = context.recipe.truth;
   const double diameter = limits.at("diameter");
@@ -249,7 +237,6 @@ const std::vector<FactKind>& monodisperse_facts() {
       {"target-dependence", {"velocity", "least"}, target_dependence},
       {"size-dependence", {"velocity", "least"}, size_dependence},
       {"adhesion-onset", {"velocity", "most_above", "least_at_lowest"}, adhesion_onset},
-      {"plastic-loss-near-capture", {"least"}, plastic_loss_near_capture},
       {"falls-below", {"velocity", "least_fall"}, falls_below},
       {"printed-constants",
        {"diameter", "stiffness_K", "adhesion_energy", "adhesion_force_f0", "tolerance"},

@@ -58,7 +58,7 @@ Truth read_elastoplastic_truth(TomlTable& table, const Recipe& recipe) {
   truth.density = recipe.particle.density;
   truth.reduced_modulus = derive_recipe_contact(recipe.particle, recipe.surface).reduced_modulus;
   truth.adhesion_energy = table.positive("adhesion_energy");
-  truth.adhesion_hysteresis = table.not_negative("adhesion_hysteresis");
+  truth.hysteresis_factor = table.not_negative("hysteresis_factor");
   truth.hysteresis_exponent = table.not_negative("hysteresis_exponent");
   truth.static_yield_pressure = table.positive("static_yield_pressure");
   truth.rate_velocity = table.positive("rate_velocity");

@@ -13,6 +13,9 @@ namespace {
 
 using std::numbers::pi;
 
+/// To which `rate_velocity` belongs [m].
+constexpr double rate_diameter = 10e-6;
+
 double mass_of(double density, double diameter) {
   return density * pi / 6.0 * diameter * diameter * diameter;
 }
@@ -36,9 +39,11 @@ ElastoplasticImpact impact_of(const ElastoplasticTruth& truth, double diameter, 
   contact.radius = 0.5 * diameter;
   contact.mass = mass_of(truth.density, diameter);
   contact.adhesion_energy = truth.adhesion_energy;
-  contact.hysteresis = truth.adhesion_hysteresis * std::pow(velocity, truth.hysteresis_exponent);
-  contact.yield_pressure = truth.static_yield_pressure *
-                           std::pow(1.0 + velocity / truth.rate_velocity, truth.rate_exponent);
+  contact.hysteresis = truth.hysteresis_factor * truth.adhesion_energy *
+                       std::pow(velocity, truth.hysteresis_exponent);
+  const double rate = std::pow(velocity / truth.rate_velocity, 0.6) * (rate_diameter / diameter);
+  contact.yield_pressure =
+      truth.static_yield_pressure * std::pow(1.0 + rate, 5.0 / 3.0 * truth.rate_exponent);
   return elastoplastic_impact(contact, velocity);
 }
 
@@ -91,17 +96,9 @@ double true_capture_velocity(const Truth& truth, double diameter) {
 
 Truth without_adhesion(Truth truth) {
   if (auto* ring = std::get_if<RingAdhesionTruth>(&truth)) ring->adhesion_force = 0.0;
-  if (auto* plastic = std::get_if<ElastoplasticTruth>(&truth)) {
-    plastic->adhesion_energy = 0.0;
-    plastic->adhesion_hysteresis = 0.0;
-  }
+  if (auto* plastic = std::get_if<ElastoplasticTruth>(&truth)) plastic->adhesion_energy = 0.0;
   if (auto* adhesive = std::get_if<AdhesiveTruth>(&truth)) adhesive->work = 0.0;
   return truth;
-}
-
-double true_plastic_share(const Truth& truth, double diameter, double velocity) {
-  const auto* plastic = std::get_if<ElastoplasticTruth>(&truth);
-  return plastic == nullptr ? 0.0 : impact_of(*plastic, diameter, velocity).plastic_share;
 }
 
 DerivedContact derive_recipe_contact(const Material& particle, const Material& surface) {

@@ -18,18 +18,19 @@ struct RingAdhesionTruth {
 };
 
 /// A truth made by yield and adhesion, see `ElastoplasticContact`. The yield pressure rises with
-/// the rate of straining and the work of parting with the speed at which the contact edge runs
-/// (Gent & Schultz 1972; Maugis & Barquins 1978). The impact velocity V stands for both:
-///   p_Y(V) = p_0 (1 + V / V_0)^q,   dw(V) = dw_1 (V / (1 m/s))^k.
+/// the rate of straining, which in a Hertz contact is (a / r) / t_c ~ V^(3/5) / d, and the work of
+/// parting with the speed at which the contact edge runs (Gent & Schultz 1972; Maugis & Barquins
+/// 1978), a / t_c ~ V^(3/5). With the impact velocity V in their place
+///   p_Y = p_0 (1 + (V / V_0)^(3/5) (10 um) / d)^(5q/3),   dw = s w (V / (1 m/s))^k.
 /// Both exponents are of the form, not of a theory: 0 gives constants.
 struct ElastoplasticTruth {
   double density = 0.0;                ///< of the sphere [kg/m3]
   double reduced_modulus = 0.0;        ///< E* [Pa]
   double adhesion_energy = 0.0;        ///< w [J/m2]
-  double adhesion_hysteresis = 0.0;    ///< dw_1, what parting costs more at 1 m/s [J/m2]
+  double hysteresis_factor = 0.0;      ///< s, what parting costs more at 1 m/s over w [1]
   double hysteresis_exponent = 0.0;    ///< k [1]
   double static_yield_pressure = 0.0;  ///< p_0 [Pa]
-  double rate_velocity = 0.0;          ///< V_0 [m/s]
+  double rate_velocity = 0.0;          ///< V_0, of 10 um [m/s]
   double rate_exponent = 0.0;          ///< q [1]
 };
 
@@ -56,10 +57,6 @@ double true_capture_velocity(const Truth& truth, double diameter);
 
 /// The same truth with the adhesion taken away.
 Truth without_adhesion(Truth truth);
-
-/// Part of the incident energy that goes into plastic flow, see `ElastoplasticImpact`; 0 for the
-/// ring-adhesion model.
-double true_plastic_share(const Truth& truth, double diameter, double velocity);
 
 /// Eq. 6, 7, 9 to 12 of Li, Dunn & Brach (1999) from the two materials.
 struct DerivedContact {

@@ -57,7 +57,9 @@ TEST(MechanismFit, FindsYieldPressureAndWorkOfAdhesion) {
   })};
   const FitSpec spec = parsed("\"plastic_yield\", \"jkr_hysteresis\"",
                               "C_H = { free = false, initial = 0 }\n"
-                              "C_A = { free = false, initial = 0 }\n");
+                              "C_A = { free = false, initial = 0 }\n"
+                              // (6 pi 0.2 J/m2)^(2/3) (1.789 GPa 2.45 um)^(1/3) / (2 pi)
+                              "f0 = { free = false, initial = 6.309085 }\n");
   const FitResult result = fit(make_model(spec, datasets), gather(datasets));
   ASSERT_TRUE(result.usable) << result.failure;
   EXPECT_NEAR(value_of_slot(result, "yield_pressure"), 1e8, 1e4);
@@ -242,10 +244,14 @@ TEST(MechanismFit, SizesInOnePointAreNotCountedTwice) {
   ASSERT_TRUE(result.usable) << result.failure;
   EXPECT_EQ(result.data.noise.event_spread, 0.0);
   EXPECT_NEAR(value_of_slot(result, "size_spread"), 0.35, 0.12);  // two standard errors
-  // As C_H and C_A trade for one another, the sum is known best: to 0.0022 s/m. It comes out low by
-  // three of these: the instrument's acceptance cuts rebounds off that leave at more than 8
-  // degrees, which are those of low e, so that the points lie 0.003 to 0.008 high near capture.
-  EXPECT_NEAR(value_of_slot(result, "C_A") + 2.0 * value_of_slot(result, "C_H"), 0.0274, 0.0045);
+  // As C_H and C_A trade for one another, the sum is known best: to 0.0022 s/m by its error, 0.003
+  // from one simulated stream to the next. On the average of eight (the recipe with other seeds) it
+  // comes out at 0.0305: without the instrument's acceptance of 8 degrees 0.0314, and without that
+  // and with the plane at 0.1 mm in the place of 1 mm, from where hardly a rebound is too slow to
+  // be seen, 0.0336. So what low rebounds are missing for the plane counts twice as much as what
+  // the angle cuts off, and the rest is within the error. This stream is a standard deviation
+  // lower.
+  EXPECT_NEAR(value_of_slot(result, "C_A") + 2.0 * value_of_slot(result, "C_H"), 0.0305, 0.006);
   EXPECT_LT(result.chi2, 22.4);  // 11 degrees of freedom: 2 % of correct models exceed it
   ASSERT_TRUE(result.unused_counts);
   EXPECT_EQ(result.unused_counts->mechanism->info.id, "polydispersity");

@@ -35,7 +35,7 @@ std::vector<double> at_work(const Mechanism& m) {
   if (m.info.id == "size_law") values = {0.5};
   if (m.info.id == "probe_plane") values = {2e-3};
   if (m.info.id == "rebound_truncation") values = {0.7, 0.1};
-  if (m.info.id == "plastic_yield") values = {1.2e8, 0.1};
+  if (m.info.id == "plastic_yield") values = {1.2e8, 0.1, 0.7, 0.3};
   if (m.info.id == "elastic_waves") values = {100.0};
   if (m.info.id == "plate_flexure") values = {1e4};
   if (m.info.id == "van_der_waals_approach") values = {1e-17};

@@ -150,11 +150,13 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   // contact
   v = std::sqrt(square);
   if (effects.contact.yield_pressure > 0.0) {
-    const PlasticResult plastic = plastic_contact(sphere.mass, sphere.radius, sphere.stiffness,
-                                                  effects.contact.yield_pressure, v);
+    const PlasticResult plastic =
+        plastic_contact(sphere.mass, sphere.radius, sphere.stiffness,
+                        effects.contact.yield_pressure, v, work_at_rest(sphere));
+    if (!(plastic.square > 0.0)) return plastic.square / (velocity * velocity);
     sphere.adhesion_force *= std::cbrt(plastic.radius / sphere.radius);
     sphere.radius = plastic.radius;
-    v = plastic.velocity;
+    v = std::sqrt(plastic.square);
   }
   square = contact(sphere, effects.contact, base, v).square;
   double work = effects.asperity_energy;

@@ -14,6 +14,9 @@ using recoil::RandomPurpose;
 using recoil::RandomStream;
 
 constexpr double g = 9.80665;
+/// A solid sphere that arrives without spin and leaves rolling has kept so much of its tangential
+/// velocity: friction turns v_t into v_t - J / m and gives it the rim speed (5/2) J / m.
+constexpr double rolling = 5.0 / 7.0;
 
 /// The paper's size uncertainty, +-15 % at 2 um to +-1 % at 80 um, a power law between, as 2 sd.
 double diameter_sd(double diameter) {
@@ -49,15 +52,16 @@ class Sphere {
     double first_flight = 0.0;
     double impact_speed = std::sqrt(2.0 * g * drop_);
     double hits = released_ + impact_speed / g;
+    double sideways = impact_speed * std::tan(design_.angle_sd * random_.normal());
     for (int impact = 1; impact < 50; ++impact) {
       // The path before the impact: height = impact_speed * s - g s^2 / 2 at the time hits - s.
-      const std::size_t incoming = record(hits, impact_speed, impact, true, 0.0);
+      const std::size_t incoming = record(hits, impact_speed, impact, true, sideways);
+      if (impact == 1) sideways *= rolling;  // it rolls from then on
       const double rebound = impact_speed * restitution(impact_speed);
       Fate fate = rebound > 0.0 ? Fate::too_slow : Fate::captured;
       bool comes_back = false;
       if (rebound * rebound > 2.0 * g * (design_.probe_height + 4.0 * design_.volume_sd)) {
-        const std::size_t outgoing =
-            record(hits, rebound, impact, false, design_.angle_sd * random_.normal());
+        const std::size_t outgoing = record(hits, rebound, impact, false, sideways);
         fate = outgoing > 0 ? Fate::rebound_seen : Fate::rebound_unseen;
         const double up = std::sqrt(rebound * rebound - 2.0 * g * design_.probe_height);
         comes_back = random_.uniform() < std::exp(-2.0 * up / g / design_.return_time);
@@ -89,14 +93,13 @@ class Sphere {
 
   /// Writes the passage at `speed` (at the surface) before or after the impact.
   /// @returns its place in the output plus one; 0 when the instrument missed it.
-  std::size_t record(double hits, double speed, int impact, bool down, double angle) {
+  std::size_t record(double hits, double speed, int impact, bool down, double sideways) {
     const double height = design_.probe_height + design_.volume_sd * random_.normal();
     const double at_plane = std::sqrt(std::max(speed * speed - 2.0 * g * height, 1e-12));
     const double apart = (speed - at_plane) / g;
     const double time =
         std::round((down ? hits - apart : hits + apart) / design_.clock) * design_.clock;
     const double velocity = at_plane * (1.0 + design_.velocity_sd * random_.normal());
-    const double sideways = speed * std::tan(angle);
     const double size =
         diameter_ * (1.0 + design_.diameter_noise * diameter_sd(diameter_) * random_.normal());
     const double seen = design_.seen * (down ? 1.0 : design_.rebound_seen);

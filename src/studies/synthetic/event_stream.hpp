@@ -33,8 +33,9 @@ struct Design {
   double seen = 0.97;            ///< share of passages that are written down
   double rebound_seen = 1.0;     ///< further factor for passages up
   double return_time = 0.15;     ///< a rebound comes back through the volume with exp(-T / this)
-  double angle_sd = 0.05;        ///< of the rebound to the normal [rad]
-  double duplicated = 0.002;     ///< shares of rows
+  /// Of the fall to the normal [rad]. Spheres leave rolling, tan(out) = (5/7) tan(in) / e.
+  double angle_sd = 0.05;
+  double duplicated = 0.002;  ///< shares of rows
   double damaged = 0.002;
   double displaced = 0.01;  ///< written some rows too late
   std::uint64_t seed = 1;

@@ -54,15 +54,22 @@ struct ContactResult {
 ContactResult contact(const Sphere& sphere, const ContactExtras& extras, const Base& base,
                       double velocity);
 
-/// Loading and unloading of a bare elastic-plastic sphere (Thornton & Ning 1998): Hertz up to the
-/// yield pressure at the centre, then dF/dn = pi p_Y R, unloading with Hertz's law for the
-/// flattened radius R_p that has the same contact area.
+/// Loading and unloading of an elastic-plastic sphere (Thornton & Ning 1998). Without adhesion
+/// Hertz up to the yield pressure at the centre, then dF/dn = pi p_Y R, unloading with Hertz's law
+/// for the flattened radius R_p that has the same contact area. With it the pressure of the JKR
+/// contact is cut off at p_Y, and unloading is JKR with R_p.
 struct PlasticResult {
-  double velocity = 0.0;  ///< of the rebound [m/s]
-  double radius = 0.0;    ///< R_p [m]
+  double square = 0.0;  ///< v^2 at zero approach on the way out; below zero: -2/m of the energy
+                        ///< that is missing [m2/s2]
+  double radius = 0.0;  ///< R_p [m]
 };
+/// @param work_of_adhesion [J/m2]; 0: none
 PlasticResult plastic_contact(double mass, double radius, double stiffness, double yield_pressure,
-                              double velocity);
+                              double velocity, double work_of_adhesion);
+
+/// W [J/m2] of the JKR contact that rests at the radius at which f0 holds the sphere: 2 pi a f0 =
+/// K a^3 / R = (6 pi W K a^3)^(1/2).
+double work_at_rest(const Sphere& sphere);
 
 /// Work that a JKR contact loses between its making at zero approach and its tear at fixed grips
 /// [J]: the integral of the force over the approach, by quadrature.
