@@ -13,7 +13,8 @@
 namespace recoil {
 namespace {
 
-/// theta as the sampler sees it: what moves, in the scale in which its prior is flat.
+/// theta as the sampler sees it: what moves, as logarithms where it is fitted so, and those of the
+/// damping factors: along C_A ~ f0^-3.75 or so the density is bent in C_A and straight in ln C_A.
 class PosteriorCoordinates {
  public:
   explicit PosteriorCoordinates(const FitResult& fitted)
@@ -23,15 +24,28 @@ class PosteriorCoordinates {
     }
   }
   const std::vector<std::size_t>& moving() const { return moving_; }
+  bool logarithmic(std::size_t j) const { return model_.slots[j].log_scale || flat_itself(j); }
+  /// Does its prior ask for a factor of itself, as it is flat and its coordinate the logarithm?
+  bool flat_itself(std::size_t j) const {
+    return !model_.slots[j].log_scale && model_.slots[j].parameter->is_damping();
+  }
   double to_z(std::size_t j, double value) const {
-    return model_.slots[j].log_scale ? std::log(value) : value;
+    return logarithmic(j) ? std::log(value) : value;
+  }
+  /// ln d theta / d z.
+  double log_volume(std::span<const double> z) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < moving_.size(); ++k) {
+      if (flat_itself(moving_[k])) sum += z[k];
+    }
+    return sum;
   }
   /// Nothing outside of the bounds.
   bool to_theta(std::span<const double> z, std::vector<double>& theta) const {
     theta = theta_;
     for (std::size_t k = 0; k < moving_.size(); ++k) {
       const ParameterSlot& slot = model_.slots[moving_[k]];
-      const double value = slot.log_scale ? std::exp(z[k]) : z[k];
+      const double value = logarithmic(moving_[k]) ? std::exp(z[k]) : z[k];
       if (!(value >= slot.lower && value <= slot.upper)) return false;
       theta[moving_[k]] = value;
     }
@@ -76,7 +90,8 @@ class LogPosterior {
         rest += square;
       }
     }
-    return -0.5 * rest - (scale_unknown_ ? 0.5 * rebounds * std::log(scatter) : 0.0);
+    return coordinates_.log_volume(z) - 0.5 * rest -
+           (scale_unknown_ ? 0.5 * rebounds * std::log(scatter) : 0.0);
   }
   const PosteriorCoordinates& coordinates() const { return coordinates_; }
 
@@ -99,16 +114,17 @@ std::vector<std::vector<double>> scattered(const FitResult& fitted, LogPosterior
     std::vector<double> z;
     for (const std::size_t j : coordinates.moving()) {
       const ParameterSlot& slot = fitted.model.slots[j];
-      const double value = fitted.theta[j];
+      double value = fitted.theta[j];
       double error = fitted.std_error[j];
       if (!(error > 0.0)) {
         error = without_error * (value > 0.0 ? value : std::max(slot.initial, 1e-3 * slot.upper));
       }
-      const double at = coordinates.to_z(j, value);
-      const double step = slot.log_scale ? error / value : error;
-      const double reflected = at + wide * step * random.normal();
+      const bool logarithmic = coordinates.logarithmic(j);
+      if (logarithmic) value = std::max(value, error);  // on a bound at 0
+      const double step = logarithmic ? std::min(1.0, error / value) : error;
+      const double there = coordinates.to_z(j, value) + wide * step * random.normal();
       // At a bound the walkers lie on its inner side.
-      z.push_back(slot.log_scale ? reflected : slot.lower + std::abs(reflected - slot.lower));
+      z.push_back(logarithmic ? there : slot.lower + std::abs(there - slot.lower));
     }
     if (std::isfinite(density(z))) walkers.push_back(std::move(z));
   }
@@ -215,7 +231,7 @@ PosteriorResult sample_posterior(const FitResult& fitted,
   }
   for (std::size_t j = 0; j < p; ++j) {
     const std::size_t slot = coordinates.moving()[j];
-    if (fitted.model.slots[slot].log_scale) {
+    if (coordinates.logarithmic(slot)) {
       for (std::vector<double>& chain : chains[j]) {
         for (double& value : chain) value = std::exp(value);
       }
