@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "data/text.hpp"
 #include "document/terminal.hpp"
 
 namespace recoil {
