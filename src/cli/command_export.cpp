@@ -33,6 +33,7 @@ struct ExportOptions {
   std::string dataset;
   std::string parameters;
   std::string out;
+  bool stock = false;
   AnalysisFlags analysis;
 };
 
@@ -169,7 +170,12 @@ void run_export(const ExportOptions& options) {
   if (options.diameter > 0.0) sizes = {request.diameter};
   ExportJob job;
   job.impact = exported_impact(fitted.model, fitted.theta, request);
-  job.form = form_for(target, job.impact);
+  job.form = form_for(target, job.impact, options.stock);
+  job.force = job.impact.force;
+  if (job.form == ExportForm::refitted) {
+    job.refitted = refitted_force(job.impact);
+    job.force = job.refitted->force;
+  }
   if (job.form == ExportForm::approximation) job.stock = nearest(stock_model(target), job.impact);
   if (job.form == ExportForm::lookup && target != ExportTarget::table) {
     job.lookup =
@@ -184,11 +190,7 @@ void run_export(const ExportOptions& options) {
     write_whole_file(std::filesystem::path(options.out) / file.name, file.text);
   }
 
-  if (target == ExportTarget::table) {
-    for (const std::string& line : job.heading) fmt::print("{}\n", line);
-  } else {
-    for (const std::string& sentence : job.heading) fmt::print("{}\n", sentence);
-  }
+  for (const std::string& line : job.heading) fmt::print("{}\n", line);
   if (!holds_all_sizes(target) && options.diameter <= 0.0 && sizes.size() > 1) {
     print_line(fmt::format("note: no --diameter was given; {:g} um is the middle one of {} sizes",
                            request.diameter / units::um, sizes.size()));
@@ -232,6 +234,9 @@ void add_export(CLI::App& program) {
       ->expected(2)
       ->type_name("MIN,MAX")
       ->check(positive_number("velocity", 1e-7, 1e4));
+  command->add_flag("--stock", options->stock,
+                    "lammps, yade, simbody: the nearest of the program's own contact models, for "
+                    "more than one sphere, even where it can hold the force law");
   command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
       ->type_name("ID");
   command->add_option("--parameters", options->parameters, "take the values from this fit.json")

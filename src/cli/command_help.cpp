@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/manual.hpp"
 #include "cli/reference.hpp"
+#include "cli/shell_pages.hpp"
 #include "cli/terminal_markdown.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -66,6 +67,8 @@ void add_help(CLI::App& program) {
   struct Options {
     std::string topic;
     std::string folder;
+    std::string completion;
+    std::string man;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* const command = program.add_subcommand("help", "print a page of the manual");
@@ -73,13 +76,28 @@ void add_help(CLI::App& program) {
   command->add_option("--write-docs", options->folder, "the tables that are made from the code")
       ->check(CLI::ExistingDirectory)
       ->group("");
+  command
+      ->add_option("--completion", options->completion,
+                   "a completion script for this shell: commands, options and their words")
+      ->check(CLI::IsMember(all_names<Shell>()));
+  command->add_option("--man", options->man, "write pages for man(1) into this folder")
+      ->type_name("DIR");
   command->footer(
       "The pages are those of docs/, carried along in the program.\n\n"
       "  recoil help\n"
-      "  recoil help noise");
+      "  recoil help noise\n"
+      "  source <(recoil help --completion bash)\n"
+      "  recoil help --man ~/.local/share/man/man1");
   command->callback([options, &program] {
     if (!options->folder.empty()) {
       write_pages(program, options->folder);
+    } else if (!options->completion.empty()) {
+      fmt::print("{}", completion_script(program, *value_named<Shell>(options->completion)));
+    } else if (!options->man.empty()) {
+      require_writable_folder(options->man);
+      for (const ManPage& page : man_pages(program, RECOIL_VERSION)) {
+        write_whole_file(std::filesystem::path(options->man) / page.name, page.text);
+      }
     } else if (options->topic.empty()) {
       list_topics();
     } else {

@@ -12,6 +12,7 @@ void add_fit(CLI::App& program);
 void add_diagnose(CLI::App& program);
 void add_coverage(CLI::App& program);
 void add_reconstruct(CLI::App& program);
+void add_init(CLI::App& program);
 void add_import(CLI::App& program);
 void add_predict(CLI::App& program);
 void add_export(CLI::App& program);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/roots.hpp"
+#include "estimate/least_squares.hpp"
 
 namespace recoil {
 namespace {
@@ -78,12 +79,70 @@ Approximation nearest(StockModel model, const ExportedImpact& impact) {
   return out;
 }
 
-ExportForm form_for(ExportTarget target, const ExportedImpact& impact) {
+RefittedForce refitted_force(const ExportedImpact& impact) {
+  constexpr double smallest = 0.1;  // of e, in the weights
+  constexpr double step = 1e-5;     // of the logarithms, for the derivatives
+  RefittedForce out;
+  const auto force_for = [&](std::span<const double> theta) {
+    ContactForce force = impact.force;
+    force.adhesion = AdhesionLaw::ring;
+    force.hertz_damping = theta[0];
+    force.adhesion_damping = theta[1];
+    force.adhesion_force = theta[2];
+    return force;
+  };
+  const auto residuals_at = [&](std::span<const double> theta, std::span<double> residuals) {
+    const std::vector<double> squares = squares_under(force_for(theta), impact.velocity);
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+      const double e = impact.restitution[k];
+      const double square = e > 0.0 ? squares[k] : std::max(squares[k], 0.0);
+      residuals[k] = (square - e * e) / (2.0 * std::max(e, smallest));
+    }
+  };
+  LeastSquaresProblem problem;
+  problem.residual_count = impact.velocity.size();
+  const double slow = 1.0 / impact.request.fastest;
+  problem.lower = {1e-5 * slow, 1e-5 * slow, 1e-3 * impact.force.adhesion_force};
+  problem.upper = {1e2 * slow, 1e4 * slow, 1e3 * impact.force.adhesion_force};
+  problem.log_scale = {true, true, true};
+  problem.evaluate = [&](std::span<const double> theta, std::span<double> residuals,
+                         std::span<double> jacobian) {
+    residuals_at(theta, residuals);
+    if (jacobian.empty()) return true;
+    std::vector<double> moved(residuals.size());
+    for (std::size_t j = 0; j < theta.size(); ++j) {
+      std::vector<double> there(theta.begin(), theta.end());
+      there[j] *= 1.0 + step;
+      residuals_at(there, moved);
+      for (std::size_t k = 0; k < residuals.size(); ++k) {
+        jacobian[k * theta.size() + j] = (moved[k] - residuals[k]) / (step * theta[j]);
+      }
+    }
+    return true;
+  };
+  std::vector<double> start = {impact.force.hertz_damping, impact.force.adhesion_damping,
+                               impact.force.adhesion_force};
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    start[j] = std::clamp(start[j], 10.0 * problem.lower[j], 0.1 * problem.upper[j]);
+  }
+  LeastSquaresOptions options;
+  options.covariance = false;
+  const LeastSquaresResult found = minimise(problem, start, options);
+  out.force = force_for(found.theta.empty() ? start : found.theta);
+  out.error = restitution_error(impact, restitution_under(out.force, impact.velocity));
+  out.capture_velocity = capture_velocity_under(out.force, impact.request.fastest);
+  return out;
+}
+
+ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stock) {
   switch (target) {
     case ExportTarget::lammps:
     case ExportTarget::yade:
     case ExportTarget::simbody:
-      return impact.force_is_all ? ExportForm::force : ExportForm::approximation;
+      if (stock) return ExportForm::approximation;
+      if (impact.force_is_all) return ExportForm::force;
+      // without adhesion there is nothing to begin with
+      return impact.force.adhesion_force > 0.0 ? ExportForm::refitted : ExportForm::approximation;
     case ExportTarget::liggghts:
       return ExportForm::approximation;
     case ExportTarget::openfoam:

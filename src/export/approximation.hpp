@@ -43,15 +43,30 @@ Approximation nearest(StockModel model, const ExportedImpact& impact);
 /// The force of an approximation that has one.
 ContactForce force_of(const Approximation& approximation, const ExportedImpact& impact);
 
+/// The ring law with other values of C_H, C_A and f0, for what is no force in the equation of
+/// motion: for a program that can hold any force.
+struct RefittedForce {
+  ContactForce force;
+  RestitutionError error;
+  double capture_velocity = 0.0;  ///< [m/s]; 0: it captures nothing
+};
+
+/// The values with the least squares of (e^2 - e_fit^2) / (2 max(e_fit, 0.1)), which is delta e but
+/// where e vanishes, over velocities evenly spaced in log V. Spheres that stay in both count
+/// nothing.
+RefittedForce refitted_force(const ExportedImpact& impact);
+
 /// What a program is given for an impact.
 enum class ExportForm {
   force,          ///< the law itself: exact but for the time step
+  refitted,       ///< a RefittedForce
   approximation,  ///< a stock model
   lookup          ///< e(V, d) as a table, captures included
 };
 
 /// What `target` can hold of this impact.
-ExportForm form_for(ExportTarget target, const ExportedImpact& impact);
+/// @param stock wants a contact model that the program has, whatever else it could hold
+ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stock = false);
 
 /// The stock model of `target`.
 StockModel stock_model(ExportTarget target);

@@ -20,7 +20,9 @@ struct ExportedFile {
 struct ExportJob {
   ExportedImpact impact;
   ExportForm form = ExportForm::lookup;
+  ContactForce force;                       ///< to be held: the fit's, or a refitted one
   std::optional<Approximation> stock;       ///< where that is the form
+  std::optional<RefittedForce> refitted;    ///< where that is the form
   std::optional<RestitutionLookup> lookup;  ///< where that is the form
   std::vector<std::string> heading;         ///< plain lines: which fit, what is lost
 };

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/roots.hpp"
 #include "core/units.hpp"
 #include "data/contact.hpp"
 #include "estimate/capture_velocity.hpp"
@@ -107,18 +108,34 @@ double ContactForce::jkr_length() const {
   return parting * parting / radius;
 }
 
-std::vector<double> restitution_under(const ContactForce& force, std::span<const double> velocity) {
+std::vector<double> squares_under(const ContactForce& force, std::span<const double> velocity) {
   std::vector<ImpactGroups> groups;
   ImpactScales scales;
   for (const double v : velocity) groups.push_back(groups_under(force, v, scales));
   std::vector<ImpactResult> results(groups.size());
   simulate_impacts_fast(groups, options_under(force), results);
-  std::vector<double> e;
+  std::vector<double> squares;
   for (std::size_t k = 0; k < results.size(); ++k) {
     require_answer(results[k], 2.0 * force.radius, velocity[k]);
-    e.push_back(std::sqrt(std::max(results[k].restitution_squared, 0.0)));
+    squares.push_back(results[k].restitution_squared);
   }
+  return squares;
+}
+
+std::vector<double> restitution_under(const ContactForce& force, std::span<const double> velocity) {
+  std::vector<double> e = squares_under(force, velocity);
+  for (double& square : e) square = std::sqrt(std::max(square, 0.0));
   return e;
+}
+
+double capture_velocity_under(const ContactForce& force, double fastest) {
+  const auto square = [&](double v) { return squares_under(force, {{v}}).front(); };
+  double above = fastest;
+  for (double v = 0.8 * fastest; v > no_adhesion * fastest; v *= 0.8) {
+    if (square(v) <= 0.0) return find_root(square, v, above, 1e-10);
+    above = v;
+  }
+  return 0.0;
 }
 
 double contact_time_under(const ContactForce& force, double velocity) {

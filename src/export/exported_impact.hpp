@@ -41,9 +41,16 @@ struct ContactForce {
   double jkr_length() const;
 };
 
-/// e at every velocity [m/s] under `force` alone; 0: captured.
+/// e^2 at every velocity [m/s] under `force` alone, continued below zero for captures.
 /// @throws ComputationError when an impact has no answer
+std::vector<double> squares_under(const ContactForce& force, std::span<const double> velocity);
+
+/// e; 0: captured.
 std::vector<double> restitution_under(const ContactForce& force, std::span<const double> velocity);
+
+/// The capture velocity of `force` below `fastest` [m/s], at which a sphere rebounds; 0: there is
+/// none above a millionth of it.
+double capture_velocity_under(const ContactForce& force, double fastest);
 
 /// The time between touch and release, or the first outer turning point [s].
 double contact_time_under(const ContactForce& force, double velocity);

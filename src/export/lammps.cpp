@@ -72,7 +72,10 @@ variable W equal @W@        # [1e-3 J/m2]
 variable CH equal @CH@      # [s/m]
 variable CA equal @CA@      # [s/m]
 variable n atom "(v_R-z+abs(v_R-z))/2"
-variable fz atom "v_K*sqrt(v_R)*v_n^1.5*(1-v_CH*vz)-(z<=v_R)*2*PI*v_W*v_R*(1+v_CA*@ACTS@)"
+# how much of the time around this step it is in contact: it parts under a force that is not zero
+variable part atom "0.5+(v_R-z)/((vz+(vz<=0))*v_dt)"
+variable touch atom "(vz<=0)*(z<=v_R)+(vz>0)*(abs(v_part)-abs(v_part-1)+1)/2"
+variable fz atom "v_K*sqrt(v_R)*v_n^1.5*(1-v_CH*vz)-v_touch*2*PI*v_W*v_R*(1+v_CA*@ACTS@)"
 fix contact all addforce 0 0 v_fz
 pair_style none
 )in";
@@ -95,30 +98,32 @@ variable p atom "2/sqrt(c_s^2+c_nu/3+c_nu^2/(9*c_s^2))"
 compute p all reduce sum v_p
 variable c atom "((c_p+sqrt(abs(8/c_p-c_p^2)))/2)^3"
 compute c all reduce sum v_c
-variable touch atom "((z<=v_R)+(vz>0)*(z<v_R+3*v_u))>0"
+# how much of the time around this step it is in contact: it parts under a force that is not zero
+variable part atom "0.5+(v_R+3*v_u-z)/((vz+(vz<=0))*v_dt)"
+variable touch atom "(vz<=0)*(z<=v_R)+(vz>0)*(abs(v_part)-abs(v_part-1)+1)/2"
 variable fz atom "v_touch*v_P*(c_c^2*(1-v_CH*vz)-6*c_c*(1+v_CA*@ACTS@))"
 fix contact all addforce 0 0 v_fz
 pair_style none
 )in";
 
-// At a wall this version takes E / (2 (1 - nu^2)) for E*, so that E = 1.5 K (1 - nu^2) has K; one
-// that takes E / (1 - nu^2) needs half of it (issue 4141 of lammps).
+// At a wall this version takes E / (2 (1 - nu)) for E*, found by comparing e, where one of a single
+// material would have E / (2 (1 - nu^2)) and one of a rigid wall E / (1 - nu^2) (issue 4141 of
+// lammps): with nu = 0, and no friction to need it, the first two are the same.
 constexpr const char* lammps_stock =
-    R"in(# Hertz with the damping -eta m a n', which is the one number chosen. E = 1.5 K (1 - nu^2): at a
-# wall LAMMPS takes E / (2 (1 - nu^2)) for E*, at least up to the version this was tried with.
+    R"in(# Hertz with the damping -eta m a n', which is the one number chosen. E = 1.5 K with nu = 0: at a
+# wall LAMMPS takes half of E for E* then, at least up to the version this was tried with.
 pair_style granular
-pair_coeff * * hertz/material @E@ @ETA@ 0.25 tangential linear_nohistory 0 0 damping viscoelastic
-fix contact all wall/gran granular hertz/material @E@ @ETA@ 0.25 &
+pair_coeff * * hertz/material @E@ @ETA@ 0 tangential linear_nohistory 0 0 damping viscoelastic
+fix contact all wall/gran granular hertz/material @E@ @ETA@ 0 &
     tangential linear_nohistory 0 0 damping viscoelastic zplane 0.0 NULL
 )in";
 
 std::string force_text(const ExportJob& job) {
-  const ContactForce& f = job.impact.force;
+  const ContactForce& f = job.force;
   if (job.form == ExportForm::approximation) {
-    const double poisson = 0.25;
     return filled(
         lammps_stock,
-        {{"E", number(1.5 * f.stiffness * pascal * (1.0 - poisson * poisson))},
+        {{"E", number(1.5 * f.stiffness * pascal)},
          {"ETA", number(job.stock->value / (f.mass() * std::sqrt(f.radius)) / (us * um))}});
   }
   const std::string acts = f.phase == AdhesionDampingPhase::both ? "vz" : "(vz>0)*vz";
@@ -156,8 +161,8 @@ std::string force_text(const ExportJob& job) {
 }  // namespace
 
 std::vector<ExportedFile> lammps_files(const ExportJob& job) {
-  const ContactForce& f = job.impact.force;
-  const bool exact = job.form == ExportForm::force;
+  const ContactForce& f = job.force;
+  const bool exact = job.form != ExportForm::approximation;
   const bool parts_outside = exact && f.adhesion == AdhesionLaw::jkr && f.adhesion_energy > 0.0;
   const double side = rounded(8.0 * f.radius * um, 2);
   const std::string text =

@@ -56,7 +56,7 @@ std::string plain(double value) { return fmt::format("{}", value); }
 }  // namespace
 
 std::vector<ExportedFile> liggghts_files(const ExportJob& job) {
-  const ContactForce& f = job.impact.force;
+  const ContactForce& f = job.force;
   constexpr double poisson = 0.25;
   const double side = rounded(8.0 * f.radius, 2);
   return {{"impact.liggghts",

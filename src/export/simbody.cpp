@@ -153,7 +153,7 @@ std::string law_of(const ContactForce& f, bool jkr) {
 
 std::vector<ExportedFile> simbody_files(const ExportJob& job) {
   const ContactForce f =
-      job.form == ExportForm::approximation ? force_of(*job.stock, job.impact) : job.impact.force;
+      job.form == ExportForm::approximation ? force_of(*job.stock, job.impact) : job.force;
   const bool stock = f.adhesion_force == 0.0 && f.dashpot == 0.0;
   const bool jkr = !stock && f.adhesion == AdhesionLaw::jkr;
   std::string text = filled(simbody_head, {{"HEADING", commented(job.heading, "// ")},

@@ -40,13 +40,16 @@ state.vel = (0, 0, -V)
 def contact():
     n = R - state.pos[2]
     v = state.vel[2]
-    if n >= 0 or (v > 0 and n > PARTED):
-        O.forces.addF(sphere, (0, 0, force(n, v)))
+    # how much of the time around this step it is in contact: it may meet and part under a force
+    depth = n - PARTED if v > 0 else n
+    touch = min(1.0, max(0.0, 0.5 + depth / (max(abs(v), 1e-12) * DT)))
+    if touch > 0:
+        O.forces.addF(sphere, (0, 0, touch * force(max(n, PARTED), v)))
     elif v > 0:
         O.pause()
 
 
-O.engines = [ForceResetter(), PyRunner(command="contact()", iterPeriod=1),
+O.engines = [ForceResetter(), PyRunner(command="contact()", iterPeriod=1, initRun=True),
              NewtonIntegrator(damping=0, gravity=(0, 0, 0))]
 O.dt = DT
 O.run(int(math.ceil(DURATION / DT)), True)
@@ -93,7 +96,7 @@ sys.exit(0)
 std::string written(double value) { return fmt::format("{}", value); }
 
 std::string yade_body(const ExportJob& job) {
-  const ContactForce& f = job.impact.force;
+  const ContactForce& f = job.force;
   if (job.form == ExportForm::approximation) {
     constexpr double poisson = 0.25;
     return filled(yade_stock, {{"E", written(1.5 * f.stiffness * (1.0 - poisson * poisson))},
@@ -125,7 +128,7 @@ std::vector<ExportedFile> yade_files(const ExportJob& job) {
                                               {"V", written(typical_velocity(job.impact))},
                                               {"DT", written(time_step(job.impact))},
                                               {"DURATION", written(longest_run(job.impact))},
-                                              {"R", written(job.impact.force.radius)}});
+                                              {"R", written(job.force.radius)}});
   return {{"impact.py", head + yade_body(job)}};
 }
 

@@ -198,6 +198,7 @@ Json capture_json(const Diagnosis& d) {
 
 std::string diagnosis_json(const Diagnosis& d) {
   Json out;
+  out["format_version"] = format_version;
   out["fit"] = d.spec.id;
   Json datasets = Json::array();
   for (const Dataset& dataset : d.datasets) {

@@ -336,6 +336,7 @@ Json identifiability_json(const Analysis& a) {
 
 std::string json_report(const Analysis& analysis) {
   Json out;
+  out["format_version"] = format_version;
   out["recoil_version"] = version();
   out["fit"] = {{"id", analysis.spec.id}, {"sha256", analysis.spec.sha256}};
   out["provenance_sentence"] = joined_sentences(analysis.datasets);

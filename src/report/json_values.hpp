@@ -10,6 +10,10 @@
 /// The parts of fit.json that are shared by its writers.
 namespace recoil {
 
+/// `format_version` of every JSON that people script against: it grows when a key goes or changes
+/// its meaning, not when one is added.
+inline constexpr int format_version = 1;
+
 /// A number, or null: JSON has no NaN and no infinity.
 Json number_or_null(double value);
 

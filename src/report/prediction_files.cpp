@@ -60,6 +60,7 @@ std::string csv_prediction(const PolydispersePrediction& mixture) {
 std::string json_prediction(const Analysis& analysis, const PolydispersePrediction& mixture) {
   const Dataset& dataset = analysis.datasets[mixture.dataset];
   Json out;
+  out["format_version"] = format_version;
   out["recoil"] = version();
   out["fit"] = analysis.spec.id;
   out["dataset"] = {{"id", dataset.id},

@@ -73,6 +73,7 @@ std::string parameter_words(const ExportedParameter& p) {
 std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job) {
   std::vector<std::string> out;
   const ExportedImpact& impact = job.impact;
+  const bool stock_asked = impact.force_is_all && target != ExportTarget::liggghts;
   if (job.form == ExportForm::force) {
     out.push_back(
         target == ExportTarget::simbody
@@ -86,10 +87,27 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
         impact.captures
             ? fmt::format("The capture velocity is kept: V* = {:.4g} m/s.", impact.capture_velocity)
             : "The fit captures nothing at this size, and neither does this.");
+  } else if (job.form == ExportForm::refitted) {
+    const RefittedForce& other = *job.refitted;
+    out.push_back(fmt::format(
+        "An approximation, as {}: the ring law with C_H = {:.5g} s/m, C_A = {:.5g} s/m and f0 = "
+        "{:.5g} N/m, which at this size, and over {}, has the same e but for {:.4f} (rms over log "
+        "V); the largest is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds). These three are "
+        "no parameters of the fit.",
+        why_no_force(target, impact), other.force.hertz_damping, other.force.adhesion_damping,
+        other.force.adhesion_force, range_words(impact.request), other.error.rms,
+        other.error.largest, other.error.at, other.error.rebounding));
+    out.push_back(
+        other.capture_velocity > 0.0
+            ? fmt::format("Captures are kept, with V* = {:.4g} m/s instead of {:.4g} m/s.",
+                          other.capture_velocity, impact.capture_velocity)
+            : capture_lost(impact));
   } else if (job.form == ExportForm::approximation) {
     const RestitutionError& error = job.stock->error;
-    out.push_back(fmt::format("An approximation, as {}: {}.", why_no_force(target, impact),
-                              stock_words(*job.stock)));
+    out.push_back(fmt::format(
+        "An approximation, as {}: {}.",
+        stock_asked ? "one of the program's own was asked for" : why_no_force(target, impact),
+        stock_words(*job.stock)));
     out.push_back(fmt::format(
         "Of all its values this has the smallest rms error of e over {}, evenly spaced in log V: "
         "{:.4f}; the largest is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds).",
@@ -122,7 +140,6 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
 std::vector<std::string> export_heading(ExportTarget target, const ExportSource& source,
                                         const ExportJob& job) {
   std::vector<std::string> lines;
-  const ExportedImpact& impact = job.impact;
   wrap_into(lines, fmt::format("recoil {}: the impact of {} for {}", version(), source.fit,
                                to_string(target)));
   wrap_into(lines,
@@ -134,9 +151,9 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
     wrap_into(lines,
               fmt::format("A sphere of {:.6g} um, {:.6g} kg/m3; K = {:.6g} GPa. Adhesion: {}, "
                           "its damping acts in phase \"{}\".",
-                          2.0 * impact.force.radius / units::um, impact.force.density,
-                          impact.force.stiffness / units::GPa, to_string(impact.force.adhesion),
-                          to_string(impact.force.phase)));
+                          2.0 * job.force.radius / units::um, job.force.density,
+                          job.force.stiffness / units::GPa, to_string(job.force.adhesion),
+                          to_string(job.force.phase)));
   }
   for (const std::string& sentence : export_losses(target, job)) wrap_into(lines, sentence);
   return lines;

@@ -61,10 +61,31 @@ TEST(Approximation, AForceIsExactAndAnEnergyIsNot) {
   EXPECT_TRUE(example({"bulk_viscoelastic"}).force_is_all);
   EXPECT_TRUE(example({"size_law"}).force_is_all);
   EXPECT_FALSE(example({"elastic_waves"}).force_is_all);
-  EXPECT_EQ(form_for(ExportTarget::lammps, example({"elastic_waves"})), ExportForm::approximation);
+  EXPECT_EQ(form_for(ExportTarget::lammps, example({"elastic_waves"})), ExportForm::refitted);
+  EXPECT_EQ(form_for(ExportTarget::lammps, example({"elastic_waves"}), true),
+            ExportForm::approximation);
   EXPECT_EQ(form_for(ExportTarget::lammps, example()), ExportForm::force);
   EXPECT_EQ(form_for(ExportTarget::liggghts, example()), ExportForm::approximation);
   EXPECT_EQ(form_for(ExportTarget::openfoam, example()), ExportForm::lookup);
+}
+
+TEST(Approximation, ARefittedForceFindsTheForceThatThereIs) {
+  // The ring law with other constants, called a mechanism: what is refitted has to find them.
+  ExportedImpact impact = example();
+  ContactForce truth = impact.force;
+  truth.hertz_damping = 5e-3;
+  truth.adhesion_damping = 0.045;
+  truth.adhesion_force *= 1.2;
+  impact.restitution = restitution_under(truth, impact.velocity);
+  const RefittedForce found = refitted_force(impact);
+  EXPECT_NEAR(found.force.hertz_damping, 5e-3, 1e-6);
+  EXPECT_NEAR(found.force.adhesion_damping, 0.045, 1e-5);
+  EXPECT_NEAR(found.force.adhesion_force / truth.adhesion_force, 1.0, 1e-4);
+  EXPECT_LT(found.error.largest, 1e-4);
+  const double v = found.capture_velocity;
+  const auto around = restitution_under(truth, std::vector<double>{0.999 * v, 1.001 * v});
+  EXPECT_EQ(around[0], 0.0);
+  EXPECT_GT(around[1], 0.0);
 }
 
 TEST(Approximation, ErrorsOfTheMeasurementAreLeftOut) {

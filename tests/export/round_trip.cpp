@@ -22,10 +22,12 @@ RoundTrip::RoundTrip(const std::string& fit, bool adhesion) {
 }
 
 std::string RoundTrip::write(const std::string& target, const std::string& out,
-                             const std::string& range) const {
-  const support::Outcome run =
-      place_.run({"export", "fit.toml", "--parameters", "fitted/fit.json", "--to", target,
-                  "--diameter", "4", "--velocity", range, "--out", out});
+                             const std::string& range, const std::vector<std::string>& more) const {
+  std::vector<std::string> words = {"export",     "fit.toml", "--parameters", "fitted/fit.json",
+                                    "--to",       target,     "--diameter",   "4",
+                                    "--velocity", range,      "--out",        out};
+  words.insert(words.end(), more.begin(), more.end());
+  const support::Outcome run = place_.run(words);
   EXPECT_EQ(run.status, 0) << run.err;
   // one line, whatever its breaks
   return std::regex_replace(run.out, std::regex("\n *"), " ");

@@ -16,7 +16,8 @@ class RoundTrip {
   /// `recoil export` of 4 um, from 0.5 to 25 m/s unless `range` says otherwise, into `out`; what it
   /// printed.
   std::string write(const std::string& target, const std::string& out,
-                    const std::string& range = "0.5,25") const;
+                    const std::string& range = "0.5,25",
+                    const std::vector<std::string>& more = {}) const;
   /// e as `recoil simulate` has it; 0 for a capture.
   double expected(double velocity) const;
   /// The last "restitution E" that a command prints; fails the test when there is none.

@@ -1,0 +1,54 @@
+# `cmake --install build/release` and a Debian package (`cpack -G DEB`): the program, which carries
+# its manual along, its pages for man(1) and what shells complete. These are made by the program.
+include(GNUInstallDirs)
+install(TARGETS recoil RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(CODE "
+  set(share \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share\")
+  set(program \"$<TARGET_FILE:recoil>\")
+  file(MAKE_DIRECTORY \"\${share}/bash-completion/completions\" \"\${share}/zsh/site-functions\"
+       \"\${share}/fish/vendor_completions.d\")
+  execute_process(COMMAND \"\${program}\" help --man \"\${share}/man/man1\"
+                  COMMAND_ERROR_IS_FATAL ANY)
+  foreach(to bash:bash-completion/completions/recoil zsh:zsh/site-functions/_recoil
+          fish:fish/vendor_completions.d/recoil.fish)
+    string(REPLACE \":\" \";\" to \"\${to}\")
+    list(GET to 0 shell)
+    list(GET to 1 file)
+    execute_process(COMMAND \"\${program}\" help --completion \${shell}
+                    OUTPUT_FILE \"\${share}/\${file}\" COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()
+")
+
+# find_package(recoil) of other CMake projects. The program's package leaves this out.
+include(CMakePackageConfigHelpers)
+set(recoil_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/recoil)
+set_target_properties(recoil_estimator PROPERTIES EXPORT_NAME estimator)
+set_target_properties(recoil_library PROPERTIES EXPORT_NAME library)
+install(TARGETS recoil_estimator recoil_library recoil_warnings EXPORT recoil
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(EXPORT recoil NAMESPACE recoil:: FILE recoil-targets.cmake
+        DESTINATION ${recoil_cmake_folder} COMPONENT development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/recoil
+        COMPONENT development FILES_MATCHING PATTERN *.hpp
+        PATTERN cli EXCLUDE PATTERN studies EXCLUDE PATTERN coverage EXCLUDE
+        PATTERN reconstruction EXCLUDE)
+configure_file(${PROJECT_SOURCE_DIR}/packaging_config.cmake.in
+               ${PROJECT_BINARY_DIR}/recoil-config.cmake COPYONLY)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/recoil-config-version.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/recoil-config.cmake
+              ${PROJECT_BINARY_DIR}/recoil-config-version.cmake
+        DESTINATION ${recoil_cmake_folder} COMPONENT development)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME recoil)
+set(CPACK_PACKAGE_CONTACT "The recoil authors <recoil@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_INSTALL_CMAKE_PROJECTS "${PROJECT_BINARY_DIR};recoil;Unspecified;/")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+include(CPack)

@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "cli/analysis.hpp"
+#include "cli/commands.hpp"
+#include "cli/fitted_values.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/units.hpp"
+#include "data/folder_names.hpp"
+#include "estimate/capture_velocity.hpp"
+#include "estimate/predictor.hpp"
+#include "experiment/import.hpp"
+#include "experiment/option_values.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct InitOptions {
+  std::string folder;
+  std::string particle, surface, like;
+  std::string points;
+  std::string provenance;
+  double diameter = 0.0;  // [um]
+};
+
+constexpr const char* init_fit =
+    R"toml(# Made by recoil init. Every key with its default: recoil help fit-file
+dataset = "."
+
+[parameters]
+C_H = { initial = 3e-3, bounds = [0, 1] }     # damping of the elastic contact [s/m]
+C_A = { initial = 3e-2, bounds = [0, 10] }    # damping of the adhesion [s/m]
+f0 = { free = false }                         # adhesion per length [N/m]: from the materials
+
+[uncertainty]
+replicates = 1999    # of the bootstrap
+)toml";
+
+/// The answer to a question on the terminal; `otherwise` to an empty one.
+std::string ask(const std::string& question, const std::string& otherwise = "") {
+  fmt::print("{}{}: ", question, otherwise.empty() ? "" : fmt::format(" [{}]", otherwise));
+  std::fflush(stdout);
+  std::string answer;
+  if (!std::getline(std::cin, answer))
+    throw InputError({}, "the questions were not answered", "", "");
+  return answer.empty() ? otherwise : answer;
+}
+
+std::string ask_for_material(const std::string& which, bool density) {
+  std::string words = fmt::format("material={}", ask(which + ": material, as a word"));
+  if (density) words += fmt::format(",density={}", ask("  density [kg/m3]"));
+  words += fmt::format(",youngs_modulus={}", ask("  Young's modulus [Pa]"));
+  words += fmt::format(",poisson_ratio={}", ask("  Poisson's ratio"));
+  return words;
+}
+
+/// What is missing, asked for; without a terminal it stays missing and import_points says so.
+void complete(InitOptions& options) {
+  if (isatty(STDIN_FILENO) == 0) return;
+  if (options.like.empty()) {
+    if (options.particle.empty()) options.particle = ask_for_material("the spheres", true);
+    if (options.surface.empty()) options.surface = ask_for_material("the surface", false);
+  }
+  if (options.points.empty()) {
+    options.points = ask(
+        "a CSV file with the columns incident_velocity [m/s] and restitution (none: an example)");
+  }
+  if (!options.points.empty() && options.provenance.empty()) {
+    options.provenance = ask("were these points measured or digitised?", "measured");
+  }
+  if (options.diameter <= 0.0) {
+    const std::string answer = ask("diameter of the spheres [um]", "5");
+    char* end = nullptr;
+    options.diameter = std::strtod(answer.c_str(), &end);
+    if (*end != '\0' || !(options.diameter > 0.0) || !(options.diameter < 1e6)) {
+      throw InputError({}, fmt::format("'{}' is no diameter", answer), "", "give a number in um");
+    }
+  }
+}
+
+/// The columns of the file that recoil knows, in the units that it prefers.
+std::vector<std::string> map_of(const std::string& csv) {
+  static const std::vector<std::pair<std::string, std::string>> known = {
+      {"series", ""},          {"diameter", ":um"},           {"diameter_sd", ":um"},
+      {"restitution", ""},     {"restitution_sd", ""},        {"rebound_velocity", ":m/s"},
+      {"velocity_sd", ":m/s"}, {"incident_velocity", ":m/s"}, {"events", ""},
+      {"captured", ""}};
+  std::vector<std::string> map;
+  for (const std::string& column : split_list(csv.substr(0, csv.find_first_of("\r\n")))) {
+    for (const auto& [name, unit] : known) {
+      if (column == name) map.push_back(fmt::format("{}={}{}", name, name, unit));
+    }
+  }
+  return map;
+}
+
+/// Points that the model itself makes: to be replaced, and labelled as what they are.
+std::string example_points(const Dataset& dataset, double diameter) {
+  FitSpec spec = parse_fit(init_fit, "fit.toml");
+  const ImpactModel model = make_model(spec, {dataset});
+  const std::vector<double> theta = model.initial();
+  const CaptureVelocity capture = capture_velocity(model, theta, 0, diameter);
+  const double unit = capture.found && capture.value > 0.0 ? capture.value : 1.0;
+  std::string csv = "incident_velocity,restitution,captured\n";
+  for (const double multiple : {0.8, 1.1, 1.3, 1.6, 2.2, 3.0, 5.0, 9.0, 16.0, 30.0}) {
+    const double v = multiple * unit;
+    const Prediction at = predict(model, theta, 0, diameter, v, false);
+    const double e = at.usable() ? at.restitution() : 0.0;
+    csv += fmt::format("{:.4g},{:.4f},{}\n", v, e, e > 0.0 ? 0 : 1);
+  }
+  return csv;
+}
+
+/// A file that is gone at the end.
+class PassingFile {
+ public:
+  explicit PassingFile(fs::path path) : path_(std::move(path)) {}
+  ~PassingFile() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  PassingFile(const PassingFile&) = delete;
+  PassingFile& operator=(const PassingFile&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Dataset make_example(ImportRequest request, double diameter) {
+  const PassingFile draft(fs::temp_directory_path() /
+                          fmt::format("recoil-example-{}.csv", static_cast<long>(getpid())));
+  request.file = draft.path();
+  request.provenance = Provenance::synthetic;
+  request.title = "An example";
+  request.sources = {"Computed by recoil init from the model: put your own points in their place"};
+  const std::string form = "incident_velocity,restitution\n1,0.5\n2,0.6\n";
+  write_whole_file(draft.path(), form);
+  request.map = map_of(form);
+  const Dataset first = import_points(request).dataset;  // its materials are what is needed
+  const std::string points = example_points(first, diameter);
+  write_whole_file(draft.path(), points);
+  request.map = map_of(points);
+  request.replace = true;
+  return import_points(request).dataset;
+}
+
+void run_init(InitOptions options) {
+  const fs::path folder = options.folder;
+  const fs::path fit_file = folder / "fit.toml";
+  for (const fs::path& file : {folder / package_file_name, folder / "points.csv", fit_file}) {
+    if (fs::exists(file)) {
+      throw InputError({file.string()}, "this file is there already", "init overwrites nothing",
+                       "name another folder");
+    }
+  }
+  require_writable_folder(folder);
+  complete(options);
+  ImportRequest request;
+  request.format = ImportFormat::csv;
+  request.into = folder;
+  request.particle = options.particle;
+  request.surface = options.surface;
+  request.like = options.like;
+  if (options.diameter > 0.0) request.diameters = {fmt::format("{:g}um", options.diameter)};
+  Dataset dataset;
+  if (options.points.empty()) {
+    if (options.diameter <= 0.0) {
+      throw InputError({}, "the diameter of the spheres is not known", "",
+                       "give --diameter 5, or points with a column diameter");
+    }
+    dataset = make_example(request, options.diameter * units::um);
+  } else {
+    request.file = options.points;
+    request.map = map_of(read_text_file(options.points));
+    request.provenance = value_named<Provenance>(options.provenance);
+    dataset = import_points(request).dataset;
+  }
+  write_whole_file(fit_file, init_fit);
+  load_inputs(fit_file);  // it runs
+  fmt::print("{}: {} points{}\n", folder.string(), dataset.points.size(),
+             options.points.empty()
+                 ? ", SYNTHETIC: computed from the model, to show the form. Put your own into "
+                   "points.csv and their provenance into datapackage.json"
+                 : "");
+  fmt::print("next:\n  recoil check {0}\n  recoil fit {0}/fit.toml --out {0}/result\n",
+             folder.string());
+}
+
+}  // namespace
+
+void add_init(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("init", "a new dataset folder, with a fit that runs");
+  command->footer(
+      "What the options do not say is asked for on a terminal. Without --points the folder gets "
+      "an\n"
+      "example that the model itself makes, labelled synthetic, to be replaced. Nothing is\n"
+      "overwritten. Other forms of data (figures, heights, bounces): recoil help import.\n\n"
+      "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
+      "  recoil init my-spheres --points measured.csv --provenance measured --diameter 5 \\\n"
+      "    --particle material=polystyrene,density=1050,youngs_modulus=2.56e9,poisson_ratio=0.35 "
+      "\\\n"
+      "    --surface material=silicon,youngs_modulus=131e9,poisson_ratio=0.28");
+  const auto options = std::make_shared<InitOptions>();
+  command->add_option("DIR", options->folder, "the new folder")->required();
+  command
+      ->add_option("--points", options->points,
+                   "the points (CSV): incident_velocity, restitution and whatever else recoil "
+                   "help data names (default: an example)")
+      ->type_name("FILE");
+  command->add_option("--provenance", options->provenance, "of these points: measured or digitised")
+      ->check(CLI::IsMember({"measured", "digitised"}));
+  command->add_option(
+      "--particle", options->particle,
+      "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
+  command->add_option("--surface", options->surface,
+                      "the same of the surface; its density may be left out");
+  command->add_option("--like", options->like, "take the materials of this dataset")
+      ->type_name("DIR");
+  command->add_option("--diameter", options->diameter, "of all spheres [um]")
+      ->check(positive_number("diameter", 1e-3, 1e6));
+  command->callback([options] { run_init(*options); });
+}
+
+}  // namespace recoil

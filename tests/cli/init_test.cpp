@@ -1,0 +1,81 @@
+// recoil init: from nothing to a fit that runs, and nothing overwritten.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/command.hpp"
+#include "support/workplace.hpp"
+
+namespace {
+
+using support::Outcome;
+using support::Workplace;
+
+const std::vector<std::string> kMaterials = {
+    "--particle", "material=glass,density=2500,youngs_modulus=70e9,poisson_ratio=0.22", "--surface",
+    "material=steel,youngs_modulus=200e9,poisson_ratio=0.3"};
+
+Outcome init(const Workplace& place, std::vector<std::string> more, bool materials = true) {
+  std::vector<std::string> words = {"init", "mine"};
+  words.insert(words.end(), more.begin(), more.end());
+  if (materials) words.insert(words.end(), kMaterials.begin(), kMaterials.end());
+  return place.run(words);
+}
+
+TEST(Init, AnExampleSaysThatItIsOneAndIsFoundAgainByItsFit) {
+  const Workplace place;
+  const Outcome made = init(place, {"--diameter", "5"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(made.out.find("SYNTHETIC"), std::string::npos) << made.out;
+  EXPECT_NE(place.read("mine/datapackage.json").find("\"synthetic\""), std::string::npos);
+  EXPECT_EQ(place.run({"check", "mine"}).status, 0);
+  const Outcome fitted = place.run({"fit", "mine/fit.toml", "--replicates", "0"});
+  ASSERT_EQ(fitted.status, 0) << fitted.err;
+  // the model made the points: the fit passes through them
+  EXPECT_NE(fitted.out.find("C_H"), std::string::npos);
+  const std::size_t rms = fitted.out.find("rms of e");
+  ASSERT_NE(rms, std::string::npos);
+  EXPECT_LT(std::stod(fitted.out.substr(fitted.out.find('=', rms) + 1)), 1e-3) << fitted.out;
+}
+
+TEST(Init, TakesPointsWithTheirProvenance) {
+  const Workplace place;
+  place.write("points.csv",
+              "incident_velocity,restitution\n1,0.5\n2,0.7\n4,0.8\n8,0.85\n20,0.87\n");
+  const Outcome made =
+      init(place, {"--diameter", "5", "--points", "points.csv", "--provenance", "measured"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(made.out.find("SYNTHETIC"), std::string::npos);
+  EXPECT_NE(place.read("mine/datapackage.json").find("\"measured\""), std::string::npos);
+  EXPECT_EQ(place.run({"fit", "mine/fit.toml", "--replicates", "0"}).status, 0);
+}
+
+TEST(Init, AsksOnATerminal) {
+  const Workplace place;
+  // script(1) gives the program a terminal; the answers come as if they were typed
+  const std::string answers = "glass\\n2500\\n70e9\\n0.22\\nsteel\\n200e9\\n0.3\\n\\n\\n";
+  const Outcome made = support::run_command(
+      {"sh", "-c",
+       "printf '" + answers + "' | script -qec '" RECOIL_BINARY " init mine' /dev/null"},
+      place.path());
+  EXPECT_EQ(made.status, 0) << made.out << made.err;
+  EXPECT_NE(made.out.find("Young's modulus [Pa]"), std::string::npos) << made.out;
+  EXPECT_TRUE(place.has("mine/fit.toml"));
+  EXPECT_NE(place.read("mine/points.csv").find("5"), std::string::npos);
+}
+
+TEST(Init, MistakesAreOneLineAndWriteNothing) {
+  const Workplace place;
+  place.write("taken/fit.toml", "mine");
+  const auto before = place.listing();
+  for (const Outcome& run :
+       {init(place, {}), init(place, {"--diameter", "5"}, false),
+        init(place, {"--diameter", "5", "--points", "none.csv", "--provenance", "measured"}),
+        init(place, {"--diameter", "-5"}), place.run({"init", "taken", "--diameter", "5"})}) {
+    EXPECT_EQ(run.status, 2) << run.out;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+  EXPECT_EQ(place.listing(), before);
+}
+
+}  // namespace

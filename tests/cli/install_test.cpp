@@ -1,0 +1,116 @@
+// What is installed works where there is no source tree.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "support/command.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using support::Outcome;
+using support::run_command;
+
+const std::string kBuild = fs::path(RECOIL_BINARY).parent_path().string();
+
+void expect_a_whole_installation(const fs::path& prefix) {
+  for (const char* file :
+       {"bin/recoil", "share/man/man1/recoil.1", "share/man/man1/recoil-fit.1",
+        "share/bash-completion/completions/recoil", "share/zsh/site-functions/_recoil",
+        "share/fish/vendor_completions.d/recoil.fish", "share/doc/recoil/LICENSE"}) {
+    EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
+    EXPECT_GT(fs::file_size(prefix / file), 200U) << file;
+  }
+  const support::TemporaryFolder elsewhere;
+  const std::string program = prefix / "bin/recoil";
+  const Outcome help = run_command({program, "help", "export"}, elsewhere.path());
+  EXPECT_EQ(help.status, 0) << help.err;
+  EXPECT_GT(help.out.size(), 1000U);
+  const Outcome made =
+      run_command({program, "init", "mine", "--diameter", "5", "--particle",
+                   "material=glass,density=2500,youngs_modulus=70e9,poisson_ratio=0.22",
+                   "--surface", "material=steel,youngs_modulus=200e9,poisson_ratio=0.3"},
+                  elsewhere.path());
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(
+      run_command({program, "fit", "mine/fit.toml", "--replicates", "0"}, elsewhere.path()).status,
+      0);
+}
+
+TEST(Install, TheProgramComesWithItsPagesAndCompletions) {
+  const support::TemporaryFolder place;
+  const std::string prefix = place / "there";
+  const Outcome done =
+      run_command({"cmake", "--install", kBuild, "--prefix", prefix}, place.path());
+  ASSERT_EQ(done.status, 0) << done.err;
+  expect_a_whole_installation(prefix);
+}
+
+TEST(Install, AnotherProjectFindsTheEstimatorAndTheLibrary) {
+  const support::TemporaryFolder place;
+  const std::string prefix = place / "there";
+  ASSERT_EQ(run_command({"cmake", "--install", kBuild, "--prefix", prefix}, place.path()).status,
+            0);
+  place.write("CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.25)
+project(mine LANGUAGES CXX)
+set(CMAKE_CXX_STANDARD 20)
+find_package(recoil 0.1 REQUIRED)
+add_executable(fits fits.cpp)
+target_link_libraries(fits PRIVATE recoil::estimator)
+add_executable(hits hits.cpp)
+target_link_libraries(hits PRIVATE recoil::library)
+)");
+  // a straight line through 1, 3, 5 at 0, 1, 2
+  place.write("fits.cpp", R"(#include <cstdio>
+#include "uncertainty/estimator.hpp"
+int main() {
+  recoil::LeastSquaresProblem problem;
+  problem.residual_count = 3;
+  problem.lower = {-10.0, -10.0};
+  problem.upper = {10.0, 10.0};
+  problem.log_scale = {false, false};
+  problem.evaluate = [](auto theta, auto residuals, auto jacobian) {
+    for (int i = 0; i < 3; ++i) {
+      residuals[i] = theta[0] + theta[1] * i - (1.0 + 2.0 * i);
+      if (!jacobian.empty()) { jacobian[2 * i] = 1.0; jacobian[2 * i + 1] = i; }
+    }
+    return true;
+  };
+  const auto found = recoil::minimise(problem, std::vector<double>{0.0, 0.0});
+  std::printf("%.6f %.6f\n", found.theta[0], found.theta[1]);
+}
+)");
+  place.write("hits.cpp", R"(#include <cstdio>
+#include "impact/reference_solver.hpp"
+int main() {
+  const auto impact = recoil::simulate_impact({0.1, 0.0, 0.0, 0.0});
+  std::printf("%.6f\n", impact.restitution_squared);
+}
+)");
+  const Outcome built = run_command(
+      {"sh", "-c", "cmake -B build -DCMAKE_PREFIX_PATH=" + prefix + " && cmake --build build"},
+      place.path());
+  ASSERT_EQ(built.status, 0) << built.out << built.err;
+  EXPECT_EQ(run_command({place / "build/fits"}, place.path()).out, "1.000000 2.000000\n");
+  // C_H V = 0.1: e = 0.9374755799, from 0.1 (1 + e) = ln[1.1 / (1 - 0.1 e)]
+  EXPECT_EQ(run_command({place / "build/hits"}, place.path()).out, "0.878860\n");
+}
+
+TEST(Install, ADebianPackageHoldsTheSame) {
+  const support::TemporaryFolder place;
+  const Outcome made = run_command(
+      {"cpack", "-G", "DEB", "--config", kBuild + "/CPackConfig.cmake", "-B", place / "package"},
+      place.path());
+  ASSERT_EQ(made.status, 0) << made.out << made.err;
+  const Outcome unpacked = run_command(
+      {"sh", "-c", "dpkg-deb -x package/recoil_*.deb there && dpkg-deb -I package/recoil_*.deb"},
+      place.path());
+  ASSERT_EQ(unpacked.status, 0) << unpacked.err;
+  EXPECT_NE(unpacked.out.find("gnuplot"), std::string::npos) << unpacked.out;
+  EXPECT_NE(unpacked.out.find("libgsl"), std::string::npos) << unpacked.out;
+  EXPECT_FALSE(fs::exists(place / "there/usr/include"));  // that is for who builds it
+  expect_a_whole_installation(place / "there/usr");
+}
+
+}  // namespace
