@@ -93,7 +93,7 @@ inline constexpr std::size_t base_directions = 5;
 inline constexpr std::size_t material_directions = 4;
 using FewDirections = Dual<8>;    ///< up to three parameters
 using SomeDirections = Dual<12>;  ///< up to seven: two or three mechanisms
-using ManyDirections = Dual<40>;  ///< more than the whole catalogue has
+using ManyDirections = Dual<48>;  ///< more than the whole catalogue has
 
 struct Mechanism {
   MechanismInfo info;

@@ -89,7 +89,8 @@ std::vector<LawFit> fit_under_every_law(const FitSpec& spec, const std::vector<D
                                         const FitResult& own) {
   std::vector<AdhesionLaw> laws = {spec.adhesion};
   for (const AdhesionLaw law : values_of<AdhesionLaw>()) {
-    if (law != spec.adhesion) laws.push_back(law);
+    // Fits under maugis can take minutes: only where they are asked for.
+    if (law != spec.adhesion && law != AdhesionLaw::maugis) laws.push_back(law);
   }
   std::vector<LawFit> fits;
   for (const AdhesionLaw law : laws) {
