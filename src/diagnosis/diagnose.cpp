@@ -212,6 +212,15 @@ bool outshone(const CandidateResult& best, const CandidateResult& impossible, do
                             : best.delta_aicc > impossible.delta_aicc + margin;
 }
 
+/// Fit two causes better by `lead`, of which one rests on the edge of what is possible? They want
+/// to be what cannot be, and keep their place as single ones do.
+bool outshone_at_the_edge(const CandidateResult& best, const std::vector<CandidateResult>& pairs,
+                          double lead) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const CandidateResult& c) {
+    return c.set_aside == SetAside::at_the_edge && c.delta_aicc < best.delta_aicc - lead;
+  });
+}
+
 /// The ids of all that cannot be told and fit as well as the best of them.
 std::vector<std::string> resembling(const std::vector<CandidateResult>& candidates, double margin) {
   std::vector<std::string> ids;
@@ -250,6 +259,9 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
     const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
     judge(base, diagnosis.pairs, margin_in_pairs, folds, base_folds);
     found = explanations(diagnosis.pairs, margin_in_pairs, one_size);
+    if (!found.empty() && outshone_at_the_edge(*found.front(), diagnosis.pairs, margin_in_pairs)) {
+      found.clear();
+    }
   }
   if (outshone_by_it()) {
     found.clear();

@@ -9,8 +9,8 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double left_out = 1e-6;  // of the unit variance of a smooth function
-constexpr double unseen = 1e-9;    // of a variance of residuals, beside their own
+constexpr double left_out = 1e-6;   // of the unit variance of a smooth function
+constexpr double too_small = 1e-9;  // of a variance of residuals, beside their own
 
 /// The matrix I + Q diag(factor) Q' times `m`.
 template <class M>
@@ -60,7 +60,7 @@ Discrepancy::Discrepancy(const Eigen::MatrixXd& shared) {
   // U'U = V S^2 V' gives the directions U V / S, and I + U U' has 1 + S^2 along them.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(shared.transpose() * shared);
   const Eigen::VectorXd& variances = eigen.eigenvalues();
-  const auto rank = (variances.array() > unseen).count();
+  const auto rank = (variances.array() > too_small).count();
   directions_.resize(shared.rows(), rank);
   whiter_.resize(rank);
   rougher_.resize(rank);

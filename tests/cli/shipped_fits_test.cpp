@@ -93,8 +93,11 @@ TEST(ShippedFits, DiagnosisFindsTheYieldingThatTheRecipeHid) {
 TEST(ShippedFits, DiagnosisOfYieldingByAnotherLawInventsNothing) {
   const auto answer = diagnosed("tests/cli/yielding_otherwise/fit.toml");
   for (const std::string id : answer["named"]) EXPECT_EQ(id, "plastic_yield") << answer["text"];
-  const std::string text = answer["text"];
-  EXPECT_NE(text.find("plastic_yield"), std::string::npos) << text;
+  // Among the five best, the only one of them that is physics.
+  bool listed = false;
+  for (std::size_t k = 0; k < 5; ++k)
+    listed = listed || answer["candidates"][k]["id"] == "plastic_yield";
+  EXPECT_TRUE(listed) << answer["text"];
 }
 
 }  // namespace

@@ -145,15 +145,13 @@ TEST(Diagnose, PointsAtTheOnePointThatIsOff) {
                         return off ? e - 0.2 : e;
                       })},
                quick());
-  ASSERT_NE(found.verdict, Verdict::adequate);
-  if (found.verdict == Verdict::unexplained) {
-    const auto worst = dominant_point(found);
-    ASSERT_TRUE(worst);
-    EXPECT_EQ(found.base.data.points[*worst].velocity, 13.0);
-    EXPECT_EQ(found.base.data.points[*worst].diameter, 3.42e-6);
-  } else {
-    EXPECT_EQ(found.named, std::vector<std::string>{"outliers"});
-  }
+  EXPECT_EQ(found.verdict, Verdict::adequate);  // but for that point
+  ASSERT_EQ(found.outlying.size(), 1U);
+  EXPECT_EQ(found.outlying.front().velocity, 13.0);
+  EXPECT_EQ(found.outlying.front().diameter, 3.42e-6);
+  EXPECT_LT(found.outlying.front().residual, -15.0);
+  ASSERT_TRUE(found.for_all);
+  EXPECT_NE(found.for_all->verdict, Verdict::adequate);
 }
 
 TEST(Diagnose, SaysThatFewPointsAreNoEvidence) {

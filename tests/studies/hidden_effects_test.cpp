@@ -127,8 +127,11 @@ std::vector<Question> one_diameter() {
 
 /// Errors that the table does not state are no cause.
 TEST(CarelessBar, ErrorsThatNobodyStatedAreToldAndNoCauseIs) {
-  for (const char* kind : {"velocities", "deviations"}) {
-    const Answered answer = ask({"wall", {kind}, 0.0, 0}, RECOIL_BINARY, {});
+  // Drawn so that structure is seen at all: velocities off by 3 % are, near capture, hardly more
+  // than losses that are good to 3 %.
+  for (const auto& [kind, index] : {std::pair("velocities", 2), std::pair("deviations", 0)}) {
+    const auto draw = static_cast<std::uint64_t>(index);
+    const Answered answer = ask({"wall", {kind}, 0.0, draw}, RECOIL_BINARY, {});
     ASSERT_EQ(answer.status, 0) << answer.complaint;
     EXPECT_EQ(answer.verdict, "unexplained") << kind;
     EXPECT_TRUE(answer.errors_told) << kind;
