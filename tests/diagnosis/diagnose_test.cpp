@@ -39,7 +39,7 @@ double by_series(const ImpactPoint& point, double e) { return e + batch_offset[p
 
 /// A resonance that no mechanism makes: a dip at one velocity, for one half of the sizes.
 double with_dip(const ImpactPoint& point, double e) {
-  const double away = std::log(point.incident_velocity / 20.0) / 0.15;
+  const double away = std::log(point.incident_velocity / 20.0) / 0.4;
   return point.series % 2 == 0 ? e - 0.12 * std::exp(-0.5 * away * away) : e;
 }
 
