@@ -113,9 +113,9 @@ INSTANTIATE_TEST_SUITE_P(Manual, Examples, testing::ValuesIn(pages_with_examples
 /// Objects whose keys are names: of parameters, datasets, outcomes.
 bool has_names_as_keys(const std::string& path) {
   static const std::set<std::string> last = {
-      "parameters",      "covariance",       "correlation",    "spread",
-      "exponents",       "relative_sd",      "ended",          "two_point_by_dataset",
-      "full_by_dataset", "two_point_failed", "intervals_note", "covariance.NAME",
+      "parameters",       "covariance",       "correlation",    "spread",
+      "exponents",        "relative_sd",      "ended",          "two_point_by_dataset",
+      "full_by_dataset",  "two_point_failed", "intervals_note", "covariance.NAME",
       "correlation.NAME", "constants"};
   for (const std::string& name : last) {
     if (path == name ||

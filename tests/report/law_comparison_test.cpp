@@ -30,7 +30,7 @@ const Fitted& fitted() {
 
 TEST(LawChoice, FitsEveryLawAndTheTrueOneIsBest) {
   const std::vector<LawFit>& laws = fitted().laws;
-  ASSERT_EQ(laws.size(), 3U);  // maugis only where it is asked for
+  ASSERT_EQ(laws.size(), 3U);                      // maugis only where it is asked for
   EXPECT_EQ(laws.front().law, AdhesionLaw::ring);  // the truth, without noise
   for (const LawFit& law : laws) {
     ASSERT_TRUE(law.fitted && law.fitted->usable) << to_string(law.law);
