@@ -33,7 +33,7 @@ struct LawFit {
 /// @param datasets those of the fit
 FitSpec under_law(const FitSpec& spec, AdhesionLaw law, const std::vector<Dataset>& datasets);
 
-/// The fit under every law, its own first.
+/// The fit under its own law, and under the others that are fast to fit.
 std::vector<LawFit> fit_under_every_law(const FitSpec& spec, const std::vector<Dataset>& datasets,
                                         const FitResult& own);
 

@@ -42,7 +42,8 @@ struct FitSummary {
   std::optional<double> p_value;
   std::optional<Verdict> verdict;  ///< of the diagnosis, where there is one
   std::string headline;
-  std::vector<ComparedFit> laws = {};  ///< the fit under every law of adhesion; may be empty
+  std::vector<ComparedFit> laws =
+      {};  ///< the fit under its own law of adhesion and others; may be empty
 };
 
 FitSummary summary_of(const Analysis& analysis);

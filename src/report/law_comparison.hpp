@@ -9,8 +9,9 @@
 
 namespace recoil {
 
-/// A fit under every law of adhesion, as `recoil compare` would see them, but for the intervals:
-/// these are 1.96 standard errors wide on either side. Laws without an answer are left out.
+/// A fit under its own law of adhesion and others, as `recoil compare` would see them, but for the
+/// intervals: these are 1.96 standard errors wide on either side. Laws without an answer are left
+/// out.
 std::vector<ComparedFit> compared_laws(const std::vector<LawFit>& laws,
                                        const std::vector<Dataset>& datasets);
 

@@ -24,9 +24,9 @@ struct Analysis {
   UncertaintyResult uncertainty;
   std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
   std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
-  std::vector<LawFit> laws;                      ///< the fit under every law; may be empty
-  std::vector<CorrectionStudy> corrections;      ///< of a reconstruction that goes by way of events
-  bool corrections_outdated = false;  ///< they were made from another fit, dataset or recipe
+  std::vector<LawFit> laws;                  ///< the fit under its own law and others; may be empty
+  std::vector<CorrectionStudy> corrections;  ///< of a reconstruction that goes by way of events
+  bool corrections_outdated = false;         ///< they were made from another fit, dataset or recipe
 };
 
 /// This program's version, "0.1.0".
