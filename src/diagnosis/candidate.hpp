@@ -5,16 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/shared_discrepancy.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/point_conditions.hpp"
 #include "mechanism/plausible_range.hpp"
 
 namespace recoil {
-
-class Discrepancy;
-
-/// What residuals share that have nothing but their own noise.
-std::shared_ptr<const Discrepancy> nothing_shared();
 
 /// The model of a fit with further mechanisms, ready to be refitted to many samples.
 struct Candidate {

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "diagnosis/candidate.hpp"
-
 namespace recoil {
 namespace {
 
@@ -48,11 +46,6 @@ Eigen::MatrixXd smooth_functions(const Observations& data) {
     functions.col(k) = columns[static_cast<std::size_t>(k)];
   }
   return functions;
-}
-
-std::shared_ptr<const Discrepancy> nothing_shared() {
-  static const auto nothing = std::make_shared<const Discrepancy>();
-  return nothing;
 }
 
 Discrepancy::Discrepancy(const Eigen::MatrixXd& shared) {

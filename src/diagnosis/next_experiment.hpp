@@ -22,7 +22,7 @@ struct NamesOf<ExperimentKind> {
 /// Something to do that would tell one rival from another.
 struct NextExperiment {
   ExperimentKind kind = ExperimentKind::points;
-  std::string one, other;  ///< what it separates: "gas_film", "plastic_yield + probe_plane"
+  std::string one, other;  ///< what it separates: names of candidates
   std::size_t dataset = 0;
   double diameter = 0.0;  ///< [m]
   double velocity = 0.0;  ///< [m/s]

@@ -86,16 +86,11 @@ bool answer_at_once(const ImpactGroups& groups, const ImpactOptions& options,
 long fly_some(std::span<const ImpactGroups> groups, const ImpactOptions& options,
               std::span<ImpactResult> results) {
   fast_kernels().front().fly(groups, options, results);
-  // Where a slow creep is not known in advance it is not followed to its end: a trial point of an
-  // optimiser that would take seconds is a failure, and the optimiser takes another.
-  ImpactOptions patient = options;
-  if (options.adhesion == AdhesionLaw::maugis)
-    patient.max_steps = std::min(3000L, patient.max_steps);
   long handed_over = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (results[i].usable() && std::isfinite(results[i].restitution_squared)) continue;
     ++handed_over;
-    results[i] = simulate_impact(groups[i], patient);
+    results[i] = simulate_impact(groups[i], options);
   }
   handovers += handed_over;
   return handed_over;

