@@ -82,23 +82,6 @@ TEST(Diagnose, NamesNothingAtOneSize) {
   EXPECT_EQ(found.shared_cause, "");
 }
 
-TEST(Diagnose, ALimitDoesNotPromoteAWorseCause) {
-  // A velocimeter that reads 0.9 m/s too much, both ways: more than one can be off by. Something
-  // else may come next, but is not it.
-  const Diagnosis found = diagnose(synthetic::spec(),
-                                   {noisy(3, 0.004,
-                                          [](const ImpactPoint& point, double e) {
-                                            const double V = point.incident_velocity;
-                                            return (e * (V - 0.9) + 0.9) / V;
-                                          })},
-                                   quick());
-  EXPECT_EQ(found.verdict, Verdict::unexplained);
-  EXPECT_TRUE(found.named.empty());
-  EXPECT_TRUE(found.rivals.empty());
-  EXPECT_NE(std::find(found.resembles.begin(), found.resembles.end(), "velocity_offset"),
-            found.resembles.end());
-}
-
 TEST(Diagnose, OffsetsThatRunSmoothlyWithSizeAreNoBatch) {
   // e lower by a smooth function of the diameter that no mechanism of the catalogue makes.
   const Diagnosis found = diagnose(synthetic::spec(),
