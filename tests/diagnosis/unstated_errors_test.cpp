@@ -140,8 +140,8 @@ TEST(Diagnose, ErrorsDoNotStandForABatch) {
 TEST(Diagnose, ErrorsDoNotStandForADip) {
   Dataset data = measured(6, 0.0, 1.0);
   for (ImpactPoint& point : data.points) {
-    const double away = std::log(point.incident_velocity / 10.0) / 0.25;
-    if (point.series % 2 == 0) point.restitution -= 0.2 * std::exp(-0.5 * away * away);
+    const double away = std::log(point.incident_velocity / 10.0) / 0.4;
+    if (point.series % 2 == 0) point.restitution -= 0.12 * std::exp(-0.5 * away * away);
   }
   const Diagnosis found = diagnosed(data);
   EXPECT_EQ(found.verdict, Verdict::unexplained);
