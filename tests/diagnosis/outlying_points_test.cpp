@@ -84,7 +84,7 @@ TEST(OutlyingPoints, AreRareWhereThereAreNone) {
   EXPECT_LE(sets, 8);
 }
 
-TEST(OutlyingPoints, AreSetAsideBeforeAnythingElseIsAsked) {
+TEST(Diagnose, SetsOddPointsAsideFirst) {
   std::mt19937 random(3);
   Dataset data = sixty_points(random, 0.0);
   const std::set<std::size_t> truth = disturb_five(data, random);
