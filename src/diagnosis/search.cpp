@@ -116,7 +116,9 @@ bool can_be_released(const Candidate& candidate) {
 /// The same with released parameters, if that is worth it.
 void try_released(const SearchBase& base, CandidateResult& result, int tries) {
   if (!result.refit.usable || !can_be_released(result.candidate)) return;
-  Candidate released = make_candidate(base.spec, base.datasets, result.candidate.added, true, true);
+  // A single one may want to be what it cannot be, and is to say so.
+  const bool pair = result.candidate.added.size() > 1;
+  Candidate released = make_candidate(base.spec, base.datasets, result.candidate.added, true, pair);
   const std::vector<double> near = within_bounds(
       released.model, carried_over(result.candidate.model, result.refit.theta, released.model));
   CandidateResult other = try_one(base, std::move(released), near, tries);
