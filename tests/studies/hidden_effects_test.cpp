@@ -122,9 +122,7 @@ std::vector<Question> outside_the_catalogue() {
 
 /// One size tells no cause: whatever is seen, no name may be given.
 std::vector<Question> one_diameter() {
-  return {{{"wall-one", {"jkr_hysteresis"}, 10.0, 0}, {Mark::inside, Mark::outside}},
-          {{"wall-one", {"plastic_yield", "adhesion_hysteresis"}, 20.0, 0},
-           {Mark::inside, Mark::outside}}};
+  return {{{"wall-one", {"jkr_hysteresis"}, 10.0, 0}, {Mark::inside, Mark::outside}}};
 }
 
 /// Errors that the table does not state are no cause.
