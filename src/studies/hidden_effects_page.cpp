@@ -97,12 +97,13 @@ std::string listed(const std::map<std::string, int>& counts) {
 
 Table power_table(const StudyTally& tally, Arm arm) {
   using Column = std::pair<const char*, Mark>;
-  constexpr std::array<Column, 8> marks = {{{"named", Mark::named},
+  constexpr std::array<Column, 9> marks = {{{"named", Mark::named},
                                             {"one of several", Mark::part},
                                             {"listed", Mark::inside},
                                             {"wrong", Mark::wrong},
                                             {"not listed", Mark::outside},
                                             {"unexplained", Mark::unexplained},
+                                            {"resembles", Mark::resembled},
                                             {"adequate", Mark::nothing},
                                             {"no answer", Mark::failed}}};
   Table table;
@@ -298,28 +299,36 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
                code("probe_plane"), code("electrostatic_image"))},
            rivals_table(tally)});
   section("The threshold", margins_blocks(tally));
-  section("Power against strength, effect by effect", {power_table(tally, Arm::effect)});
-  section(
+  // A study of some arms only says nothing of the others.
+  const auto arms_section = [&](Sentence title, std::vector<Block> blocks,
+                                std::initializer_list<Arm> arms) {
+    const std::size_t words = blocks.size();
+    for (const Arm arm : arms) {
+      Table table = power_table(tally, arm);
+      if (!table.rows.empty()) blocks.emplace_back(std::move(table));
+    }
+    if (blocks.size() > words) section(std::move(title), std::move(blocks));
+  };
+  arms_section("Power against strength, effect by effect", {}, {Arm::effect});
+  arms_section(
       "Laws that are wrong by some per cent",
       {Paragraph{"What the effect does to e² is multiplied by a smooth random factor of V and d, "
-                 "first of 10 %, then of 20 %."},
-       power_table(tally, Arm::bent), power_table(tally, Arm::bent_more)});
-  section("Effects of impossible size",
-          {Paragraph{"At three times the largest strength that nature or a careful experimenter "
-                     "still has."},
-           power_table(tally, Arm::impossible)});
+                 "first of 10 %, then of 20 %."}},
+      {Arm::bent, Arm::bent_more});
+  arms_section("Effects of impossible size",
+               {Paragraph{"At three times the largest strength that nature or a careful "
+                          "experimenter still has."}},
+               {Arm::impossible});
   section("Confusion",
           {Paragraph{say("What was answered (several causes named count once each; {} by whether "
                          "the truth is listed).",
                          code("not_separable"))},
            confusion_table(tally.confusion)});
   section("Nothing hidden", {alarms_table(tally)});
-  section("Two at once",
-          {Paragraph{"Each as strong as it would be alone."}, power_table(tally, Arm::pair)});
-  section("Effects that are not in the catalogue", {power_table(tally, Arm::outside)});
-  section("Errors that nobody stated",
-          {Paragraph{careless_words(tally)}, power_table(tally, Arm::careless)});
-  section("One diameter", {power_table(tally, Arm::single)});
+  arms_section("Two at once", {Paragraph{"Each as strong as it would be alone."}}, {Arm::pair});
+  arms_section("Effects that are not in the catalogue", {}, {Arm::outside});
+  arms_section("Errors that nobody stated", {Paragraph{careless_words(tally)}}, {Arm::careless});
+  arms_section("One diameter", {}, {Arm::single});
   section("Time", {Paragraph{times_words(tally.times)}});
   section("Without an answer", {complaints_block(tally)});
   section("Too weak in nature to be made", {unreached_table(tally)});
