@@ -149,11 +149,12 @@ Sentence dependence_words(const ChoiceDependence& found) {
                listed_names(found.holds));
   }
   if (found.holds.empty()) {
-    return say("All depends on the choice: the intervals of {} do not overlap.",
+    return say("Everything depends on the choice: the intervals of {} do not overlap.",
                listed_names(found.depends));
   }
-  return say("On the choice depend {} (their intervals do not overlap); {} do not.",
-             listed_names(found.depends), listed_names(found.holds));
+  return say(
+      "These depend on the choice, since their intervals do not overlap: {}. These do not: {}.",
+      listed_names(found.depends), listed_names(found.holds));
 }
 
 }  // namespace
@@ -216,7 +217,7 @@ std::vector<Section> comparison_sections(const std::vector<ComparedFit>& fits) {
   require_same_data(fits);
   return {{"quality", "How well each describes the data", {}, {quality_table(fits)}},
           {"quantities",
-           "What each says",
+           "What each fit gives",
            {},
            {Paragraph{dependence_words(choice_dependence(fits))}, quantity_table(fits)}}};
 }

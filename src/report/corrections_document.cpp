@@ -112,18 +112,18 @@ std::vector<Sentence> correction_words(const CorrectionStudy& study) {
 std::vector<Block> corrections_blocks(const Analysis& analysis) {
   if (analysis.corrections_outdated) {
     return {
-        Paragraph{say("What each correction does was studied for another fit, dataset or "
-                      "recipe than these. {} studies it again.",
+        Paragraph{say("The study of the corrections was made for another fit, dataset or recipe. "
+                      "{} makes it again.",
                       code("recoil_study corrections " + analysis.spec.file.string()))}};
   }
   if (analysis.corrections.empty()) return {};
-  std::vector<Block> blocks = {Paragraph{
-      "The points of this reconstruction come from simulated events through the tool's own "
-      "pairing: its recipe says what the instrument would have recorded, recoil pair makes the "
-      "points, and none of it was measured. Because the truth is known, each correction on this "
-      "way can be left out to see what it does, with the same events. Where all sizes stand in one "
-      "point their mixture is a further error, which no correction takes away; the second table, "
-      "with more spheres in narrow classes of size, is nearly free of it."}};
+  std::vector<Block> blocks = {
+      Paragraph{"The points of this reconstruction come from simulated passages: its recipe says "
+                "what the instrument would have recorded, recoil pair makes points of that, and "
+                "none of it was measured. Because the truth is known, each correction can be left "
+                "out, with the same passages, to see what it does. Where one point averages over "
+                "all sizes, the mixture is a further error, which no correction removes; the "
+                "second table, with more spheres in narrow size classes, is nearly free of it."}};
   std::size_t index = 0;
   for (const CorrectionStudy& study : analysis.corrections) {
     List changes;

@@ -69,8 +69,8 @@ List warnings_of(const Diagnosis& d) {
 Table structure_table(const Diagnosis& d) {
   Table table;
   table.caption =
-      say("Questions put to the residuals; p-values from {} data sets that the fitted model itself "
-          "made",
+      say("Questions asked of the residuals; p-values from {} data sets simulated with the fitted "
+          "model",
           d.structure.simulated);
   table.columns = {{"question"}, {say("{p}")}, {"id", "", true}};
   for (const StructureTest& test : d.structure.tests) {
@@ -84,8 +84,8 @@ Table structure_table(const Diagnosis& d) {
 Table misfit_table(const Diagnosis& d) {
   Table table;
   table.caption =
-      say("{e} - {e}_model, the same in the energy of the rebound and in standard "
-          "errors: positive where the model is too low");
+      say("Mean of {e} - {e}_model, also as energy of the rebound and in standard errors: positive "
+          "where the model is too low");
   table.columns = {{"dataset"},     {say("{d}"), "um"}, {say("{V}"), "m/s"}, {"points"},
                    {say("in {e}")}, {"energy", "J"},    {"standard errors"}};
   for (const MisfitCell& cell : d.where) {
@@ -102,10 +102,10 @@ Table misfit_table(const Diagnosis& d) {
 Table candidates_table(const std::vector<CandidateResult>& candidates, std::size_t most) {
   Table table;
   table.compact = true;
-  table.caption = say(
-      "Every mechanism of the catalogue, added to the model and refitted. {p}: of the gain, "
-      "against the best of all candidates on data of the base model; left: {p} of the structure "
-      "that remains");
+  table.caption =
+      say("Every mechanism of the catalogue, added to the model and refitted. {p}: how often the "
+          "best of all candidates gains as much on data simulated with the base model; left: "
+          "p-value of the structure that remains");
   table.columns = {{"mechanism"}, {"kind", "", true}, {"dAICc"},
                    {say("{p}")},  {"held out"},       {"left"}};
   for (std::size_t k = 0; k < std::min(most, candidates.size()); ++k) {
@@ -122,7 +122,7 @@ Table candidates_table(const std::vector<CandidateResult>& candidates, std::size
 Table found_parameters_table(const std::vector<CandidateResult>& candidates, std::size_t most) {
   Table table;
   table.compact = true;
-  table.caption = "What each would have to be, and what speaks against it";
+  table.caption = "The values that each would need, and what speaks against it";
   table.columns = {{"mechanism"}, {"parameters", "", true}, {"verdict", "", true}};
   for (std::size_t k = 0; k < std::min(most, candidates.size()); ++k) {
     const CandidateResult& c = candidates[k];
@@ -140,7 +140,8 @@ Table held_out_table(const Diagnosis& d) {
   Table table;
   if (!d.gain) return table;
   table.caption =
-      "Blocks of points that neither model saw: both fitted to the others, then compared with them";
+      "Blocks of points that were held out: both models were fitted to the other points and then "
+      "compared with these";
   table.columns = {{"held out"},
                    {"points"},
                    {say("rms of {e}, base")},
@@ -163,7 +164,7 @@ Table both_models_table(const Diagnosis& d) {
   if (!d.extended_fit) return table;
   const std::string level = percent(d.spec.uncertainty.level) + " interval";
   table.caption =
-      "Parameters under both models: what the base model's damping was carrying for the missing "
+      "Parameters under both models: how far the base model's damping stood in for the missing "
       "effect";
   table.columns = {{"parameter"}, {"unit", "", true},  {"base"}, {level}, {"extended"},
                    {level},       {"remark", "", true}};
@@ -194,7 +195,7 @@ Table capture_change_table(const Diagnosis& d) {
 
 Table next_measurement_table(const Diagnosis& d) {
   Table table;
-  table.caption = "Impacts at which the rivals differ most for the number of impacts";
+  table.caption = "Where the fewest impacts would tell the rivals apart";
   table.columns = {{"tells"},           {"from", "", true},         {say("{d}"), "um"},
                    {say("{V}"), "m/s"}, {say("difference in {e}")}, {"impacts"}};
   for (const NextMeasurement& next : d.next) {
@@ -261,7 +262,7 @@ Document diagnosis_document(const Diagnosis& d) {
        "What could explain it",
        {},
        {Figures{ranking_figures(d)}, candidates_table(tried, all),
-        Details{"What each would have to be, and what speaks against it",
+        Details{"The values that each would need, and what speaks against it",
                 {found_parameters_table(tried, all)}}}},
       {"before-after",
        "Before and after",

@@ -33,10 +33,10 @@ std::string headline_of_several(const Diagnosis& d) {
     return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
   });
   if (!d.common.empty() && !doubtful.empty()) {
-    return fmt::format("What the model misses: {}, and beside it {}", causes(d.common),
+    return fmt::format("What the model misses: {}, together with {}", causes(d.common),
                        causes(doubtful, " or "));
   }
-  return "Something is missed, and these data cannot tell what: " + causes(d.rivals);
+  return "The model misses something, and these data cannot tell what: " + causes(d.rivals);
 }
 
 }  // namespace
@@ -51,13 +51,13 @@ std::string headline(const Diagnosis& d) {
       return headline_of_several(d);
     case Verdict::unexplained:
       if (!d.resembles.empty()) {
-        return fmt::format("Something of the shape of {} acts, which cannot be what it is",
+        return fmt::format("The misfit has the shape of {}, which cannot be its cause",
                            causes(d.resembles, " or "));
       }
       return rival_errors(d).empty()
-                 ? "Something is missed that nothing in the catalogue explains"
-                 : "Either the errors are larger than stated, or something is missed that nothing "
-                   "in the catalogue explains";
+                 ? "The model misses something that nothing in the catalogue explains"
+                 : "Either the errors are larger than stated, or the model misses something that "
+                   "nothing in the catalogue explains";
   }
   return "";
 }

@@ -72,10 +72,10 @@ std::vector<Figure> budget_figures(const Analysis& a) {
   picture.title = "What the errors come from";
   picture.height = static_cast<int>(130 + 34 * budgets.size());
   picture.plots = {std::move(shown)};
-  return {figure_of(std::move(picture),
-                    "Share of each source in the variance of a parameter or a capture velocity, by "
-                    "the law of propagation (JCGM 100:2008). The longest bar is what to measure "
-                    "better first.")};
+  return {figure_of(
+      std::move(picture),
+      "Share of each source in the variance of a parameter or a capture velocity, by the law of "
+      "propagation (JCGM 100:2008). The longest bar shows what to measure better first.")};
 }
 
 }  // namespace recoil

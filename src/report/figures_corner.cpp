@@ -186,9 +186,9 @@ std::vector<Figure> corner_figures(const Analysis& analysis) {
       replicates, to_string(analysis.uncertainty.bootstrap.scheme));
   if (panels > 0) {
     caption +=
-        " Below it each pair of parameters, with the lines within which half and 95 % of the "
-        "replicates lie: a narrow oblique cloud is a combination that the data know better "
-        "than its members.";
+        " Below it, every two parameters against each other, with contours that contain half and "
+        "95 % of the replicates: a narrow oblique cloud is a combination that the data determine "
+        "better than either parameter.";
     if (stride > 1) caption += fmt::format(" One replicate in {} is drawn.", stride);
   }
   if (free > count) caption += fmt::format(" The first {} of {} parameters.", count, free);

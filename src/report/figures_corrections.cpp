@@ -54,9 +54,9 @@ Figure error_figure(const CorrectionStudy& study, std::size_t index) {
   shown.y.set_range(plot::range_of(errors, 0.08));
   shown.y.about = 5;
   const std::string caption = fmt::format(
-      "{}. Mean over the rebounds of each velocity of e less the recipe's truth at the point's own "
-      "diameter and velocity; zero is right. All lines rest on the same events, so that "
-      "chance is no part of their differences. Not counting captures leaves e as it is.",
+      "{}. Mean over the rebounds at each velocity: e less the recipe's truth at the point's own "
+      "diameter and velocity; zero is right. All lines rest on the same passages, so chance plays "
+      "no part in their differences. Not counting captures leaves e as it is.",
       study_words(study));
   return figure_of(picture_of("e", index, std::move(shown)), caption);
 }
@@ -86,9 +86,8 @@ Figure damping_figure(const CorrectionStudy& study, std::size_t index) {
     shown.layers.push_back(std::move(point));
   }
   return figure_of(picture_of("damping", index, std::move(shown)),
-                   say("{C_A} with one standard error (none where it rests on its bound), for the "
-                       "points of each "
-                       "way. The line is what the recipe put into the events."));
+                   say("{C_A} with one standard error (none where it rests on its bound), from the "
+                       "points made in each way. The line is the value in the recipe."));
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
       std::string("Every disc is a point. Orange: the measured e is higher than the fitted base "
                   "model; blue: lower. The larger, the more standard deviations. Patches of one "
                   "colour are structure; a mixture is noise.") +
-          (one_size ? " There is one diameter: the height of a disc is its miss." : ""));
+          (one_size ? " There is one diameter: the height of a disc is its residual." : ""));
 }
 
 /// Is it the extended model, or one that cannot be told from it?
@@ -335,15 +335,14 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
   picture.width = 720;
   picture.height = 70 + 24 * static_cast<int>(shown.size());
   picture.plots = {std::move(ranking)};
-  return {figure_of(
-      std::move(picture),
-      fmt::format(
-          "The longer the bar, the better the whole model fits with this added, its "
-          "parameters paid for. Blue: the answer. Grey: further behind, or set aside "
-          "for the reason beside it. Bars within {:.0f} of each other ({:.0f} where two act at "
-          "once) cannot be told apart.",
-          d.options.margin, d.options.margin_in_pairs),
-      true)};
+  return {
+      figure_of(std::move(picture),
+                fmt::format("The longer the bar, the better the whole model fits with this added, "
+                            "after the penalty for its parameters. Blue: the answer. Grey: further "
+                            "behind, or set aside for the reason beside it. Bars within {:.0f} of "
+                            "each other ({:.0f} where two act at once) cannot be told apart.",
+                            d.options.margin, d.options.margin_in_pairs),
+                true)};
 }
 
 }  // namespace recoil

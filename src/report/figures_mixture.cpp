@@ -107,9 +107,8 @@ Figure averages_figure(const Analysis& analysis, const PolydispersePrediction& m
   add_points(analysis, mixture.dataset, shown);
   const std::string caption = fmt::format(
       "{}. The average over {} sizes under three conventions, with pointwise {} bands{}, beside "
-      "the "
-      "simulation of d10 alone (Figs. 11 and 12 of Li, Dunn & Brach 1999). Too slow to be seen: "
-      "below {} m/s, which does not climb {} mm.",
+      "the simulation of d10 alone (Figs. 11 and 12 of Li, Dunn & Brach 1999). Too slow to be "
+      "seen: rebounds below {} m/s, which do not climb {} mm.",
       analysis.datasets[mixture.dataset].id, mixture.simulated, percent(mixture.level),
       mixture.replicates == 0 ? " (none: no bootstrap)" : "", number(mixture.slowest_seen, 3),
       number(1e3 * mixture.probe_height, 3));

@@ -199,21 +199,20 @@ Figure pair_figure(const Analysis& analysis, const PairStudy& study) {
 
   plot::Picture picture;
   picture.name = fmt::format("pairs-{}", study.dataset + 1);
-  picture.title = fmt::format("What two points cost, by which two are taken, {}",
+  picture.title = fmt::format("What two points cost, for every choice of the two, {}",
                               analysis.datasets[study.dataset].id);
   picture.width = static_cast<int>(picture_width);
   picture.height = static_cast<int>(panels.height());
   picture.key = {plot::KeyPlace::above, 2};
   for (std::size_t i = 0; i < panels.all.size(); ++i) picture.plots.push_back(panels.panel(i));
 
-  Sentence caption = say(
-      "{}, d = {} {um}. Each mark is a pair of points on which {C_H} and {C_A} are calibrated, in "
-      "{} data sets simulated from the fit to all points. Bias: median over the true value; "
-      "spread: robust "
-      "standard deviation over that of the full fit on the same data; both of the data sets that "
-      "have an answer. Error: root mean square miss of a new measurement of the points that the "
-      "pair did not use, noise included.",
-      analysis.datasets[study.dataset].id, diameter_text(study.diameter), study.simulations);
+  Sentence caption =
+      say("{}, d = {} {um}. Each mark is a pair of points on which {C_H} and {C_A} are calibrated, "
+          "in {} data sets simulated from the fit to all points. Bias: deviation of the median "
+          "from the true value; spread: robust standard deviation relative to that of the full fit "
+          "to the same data; both from the data sets that have an answer. Error: rms difference "
+          "from a new measurement of the points that the pair did not use, noise included.",
+          analysis.datasets[study.dataset].id, diameter_text(study.diameter), study.simulations);
   if (study.taken < study.points) {
     caption += fmt::format(" {} of the {} points are tried.", study.taken, study.points);
   }

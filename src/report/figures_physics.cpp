@@ -132,7 +132,7 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
   shown.heading =
       fmt::format("d = {} µm, V = {} m/s", diameter_text(conditions.diameter), number(velocity, 3));
   if (analysis.datasets.size() > 1) shown.heading += ", " + analysis.datasets[dataset].id;
-  shown.x = {"time since touch", time.name};
+  shown.x = {"time since contact", time.name};
   shown.x.set_range({0.0, 1.02 * longest * time.factor});
   shown.y = {"force on the sphere", force.name};
   shown.y.set_range({bottom * force.factor - 0.06 * span, top * force.factor + 0.06 * span});
@@ -154,7 +154,7 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
     caption +=
         say(" e = {}. {}.", number(std::sqrt(result.restitution_squared), 3), budget_words(result));
   } else if (result.outcome == ImpactOutcome::captured) {
-    caption += " The curves end where the sphere turns back for good.";
+    caption += " The curves end where the captured sphere has turned back for good.";
   }
   return figure_of(std::move(picture), caption);
 }

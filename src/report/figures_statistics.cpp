@@ -229,7 +229,7 @@ std::vector<Figure> residual_velocity_figures(const Analysis& analysis) {
 
 std::vector<Figure> residual_diameter_figures(const Analysis& analysis) {
   return per_dataset(analysis, "residual-diameter", "Weighted residuals against diameter",
-                     " Means that wander from zero say that the model misjudges size.",
+                     " Means away from zero show that the model gets the dependence on size wrong.",
                      residuals_by_diameter);
 }
 

@@ -69,11 +69,11 @@ const char* quality_words(double p) {
 Sentence fit_quality_words(const Analysis& a) {
   const FitResult& f = a.fitted;
   if (!f.data.sd_stated || f.dof <= 0) {
-    return say("The fit misses the points by {} in {e} (root mean square).", number(f.rmse, 2));
+    return say("The rms residual of the fit is {} in {e}.", number(f.rmse, 2));
   }
   return say(
-      "Chi-square is {} on {} degrees of freedom ({} each, {p} {}): {}. The root mean square miss "
-      "is {} in {e}.",
+      "Chi-square is {} on {} degrees of freedom ({} each, {p} {}): {}. The rms residual is {} in "
+      "{e}.",
       number(f.chi2, 4), f.dof, number(f.chi2 / f.dof, 3),
       f.p_value < 1e-6 ? p_value_text(f.p_value) : "= " + p_value_text(f.p_value),
       quality_words(f.p_value), number(f.rmse, 2));
@@ -89,12 +89,12 @@ Sentence calibration_words(const Analysis& a) {
     return say(" The two-point calibration of the paper{} gave no answer ({}).", where,
                words_of(to_string(two.status)));
   }
-  Sentence words = say(
-      " The two-point calibration of the paper{} gives {C_H} = {} and {C_A} = {} s/m and misses by "
-      "{} over the same points where the full fit misses by {}",
-      where, number(two.theta[a.fitted.model.slot_C_H[0]], 3),
-      number(two.theta[a.fitted.model.slot_C_A[0]], 3), number(comparison->rmse, 2),
-      number(comparison->full_rmse, 2));
+  Sentence words =
+      say(" The two-point calibration of the paper{} gives {C_H} = {} and {C_A} = {} s/m with an "
+          "rms residual of {} over the same points, where the full fit has {}",
+          where, number(two.theta[a.fitted.model.slot_C_H[0]], 3),
+          number(two.theta[a.fitted.model.slot_C_A[0]], 3), number(comparison->rmse, 2),
+          number(comparison->full_rmse, 2));
   if (comparison->held_out_rmse && comparison->full_held_out_rmse) {
     words += say("; fitted to one diameter and judged on the others, {} against {}",
                  number(*comparison->held_out_rmse, 2), number(*comparison->full_held_out_rmse, 2));

@@ -40,7 +40,7 @@ std::size_t free_parameters(const FitResult& fitted) {
 
 Sentence solver_words(const FitResult& f) {
   if (f.model.solver.kind == Solver::reference) return "reference (CVODES)";
-  return say("fast; {} impacts of the fit were handed over to the reference", f.handovers);
+  return say("fast; {} impacts of the fit were handed over to the reference solver", f.handovers);
 }
 
 Cell p_value_cell(const Analysis& a) {
@@ -215,7 +215,7 @@ Table correlations_table(const Analysis& a) {
     return std::abs(x.value) > std::abs(y.value);
   });
   Table table;
-  table.caption = say("Correlations above {:g} in size", least_correlation);
+  table.caption = say("Correlations above {:g} in magnitude", least_correlation);
   table.columns = {{"of"}, {"and", "", true}, {"correlation"}};
   for (const Pair& pair : pairs) {
     table.rows.push_back({symbol(slots[pair.one].label()), symbol(slots[pair.other].label()),
@@ -334,16 +334,16 @@ Table contact_table(const Analysis& a, std::size_t k) {
   const ImpactConditions conditions = reference_conditions(a, k, 1.0);
   table.rows.push_back({say("{f0} [N/m]"), Number{conditions.adhesion_force},
                         say("{}; eq. 12 gives {}",
-                            !by_force       ? "of the W below"
+                            !by_force       ? "the W below"
                             : adhesion_free ? "fitted"
                                             : origin(system.adhesion_force_f0.has_value()),
                             eq_12_words(contact))});
   table.rows.push_back({say("{W} [{J/m2}]"),
                         Number{adhesion_energy_for(conditions.adhesion_force,
                                                    conditions.diameter / 2.0, contact.stiffness)},
-                        by_force        ? "of this f0, by eqs 9 and 10"
+                        by_force        ? "this f0, by eqs 9 and 10"
                         : adhesion_free ? "fitted"
-                                        : "of the materials"});
+                                        : "the materials"});
   table.rows.push_back({say("reference diameter [{um}]"),
                         Sentence(diameter_text(contact.reference_diameter)),
                         say("{f0} grows with the cube root of the radius from here")});

@@ -86,7 +86,7 @@ Section laws_section(const std::vector<ComparedFit>& laws) {
   }
   section.blocks.emplace_back(
       Paragraph{"The same points under other laws. The intervals are 1.96 standard errors wide on "
-                "either side, to first order; C_A and C_H of one law are not those of another."});
+                "either side, to first order. C_A and C_H mean something else under every law."});
   return section;
 }
 

@@ -23,8 +23,8 @@ Table constants_table(const Analysis& a) {
   const ImpactModel& model = a.fitted.model;
   if (model.constants.empty() || a.fitted.std_error.empty()) return table;
   table.caption =
-      "Constants that are known with an error: parameters of the fit on which what is "
-      "stated is one more observation";
+      "Constants that are known with an error: they are parameters of the fit, and each stated "
+      "value is one more observation";
   table.columns = {
       {"constant", "", true}, {"unit", "", true}, {"stated"}, {"fitted"}, {"moved", "sd"}};
   for (std::size_t k = 0; k < model.constants.size(); ++k) {

@@ -91,8 +91,8 @@ std::string others_sentence(const Analysis& a, const PairStudy& study) {
   }
   const std::size_t count = study.pairs.size();
   std::string text = fmt::format(
-      "Of the {} pair{} whose velocities differ by half at least, {} leave{} more than a tenth of "
-      "the data sets without an answer",
+      "Of the {} pair{} of points whose velocities differ by at least half, {} leave{} more than a "
+      "tenth of the data sets without an answer",
       count, count == 1 ? "" : "s", often_without, often_without == 1 ? "s" : "");
   if (best != nullptr) {
     const auto range = [](const std::vector<double>& values, int figures) {

@@ -67,9 +67,9 @@ Sentence plane_words(const PairingResult& pairs) {
                pairs.options.refine ? "as estimated: too few pairs to refine it" : "as stated");
   }
   return say(
-      "{:.5g} {+/-} {:.2g} mm above the surface, refined from {:g} mm (standard error of scatter; "
-      "an error of the velocity scale comes on top); one pair's flight time scatters by {:.2g} % "
-      "of h, its two diameters by {:.2g} %",
+      "{:.5g} {+/-} {:.2g} mm above the surface, refined from {:g} mm (standard error from the "
+      "scatter; an error of the velocity scale adds to it); one pair's flight time scatters by "
+      "{:.2g} % of h, its two diameters by {:.2g} %",
       pairs.height / units::mm, pairs.height_sd / units::mm, pairs.options.height / units::mm,
       100.0 * pairs.height_spread, 100.0 * pairs.diameter_spread);
 }
@@ -77,7 +77,7 @@ Sentence plane_words(const PairingResult& pairs) {
 Sentence later_words(const PairingResult& pairs) {
   if (!pairs.returns_usable) {
     return "rebounds that come down again cannot be told from chance: second impacts, if there are "
-           "any, are among the first";
+           "any, are counted as first ones";
   }
   const auto later = std::count_if(pairs.impacts.begin(), pairs.impacts.end(),
                                    [](const Impact& impact) { return impact.number > 1; });
@@ -124,21 +124,20 @@ Sentence threshold_words(const PassageTable& table, const PairingResult& pairs) 
   const Selected later_out =
       selected(pairs, [&](const Impact& i) { return !is_first(i) && below(i); });
   const Selected kept = selected(pairs, [&](const Impact& i) { return is_first(i) && !below(i); });
-  Sentence words = say(
-      "{:g} m/s at the plane: takes away {} of {} later impacts ({:.1f} %) and {} of {} first ones "
-      "({:.1f} %). ",
-      threshold, later_out.number, later.number,
-      percent_of(as_number(later_out.number), as_number(later.number)), first_out.number,
-      first.number, percent_of(as_number(first_out.number), as_number(first.number)));
+  Sentence words =
+      say("{:g} m/s at the plane: removes {} of {} later impacts ({:.1f} %) and {} of {} first "
+          "ones ({:.1f} %). ",
+          threshold, later_out.number, later.number,
+          percent_of(as_number(later_out.number), as_number(later.number)), first_out.number,
+          first.number, percent_of(as_number(first_out.number), as_number(first.number)));
   if (kept.number > 0) {
     words += say(
         "Selection: among first impacts the mean {e} goes from {:.4f} to {:.4f}, the mean diameter "
         "from {:.4g} to {:.4g} {um}. ",
         first.restitution, kept.restitution, first.diameter / units::um, kept.diameter / units::um);
   }
-  return words +
-         say("It acts on the incident velocity only, so {e} above it is not selected; but slow "
-             "first impacts, where adhesion shows, are gone.");
+  return words + say("It acts on the incident velocity only, so above it nothing is selected by "
+                     "{e}; but slow first impacts, where adhesion shows, are gone.");
 }
 
 Sentence angle_words(const PassageTable& table, const PairingResult& pairs) {
@@ -174,12 +173,12 @@ Section unpaired_section(const PairingResult& pairs, const Averages& averages) {
   section.blocks = {
       Paragraph{say("{} used passages towards the surface have no rebound:", averages.unpaired)},
       unpaired_table(pairs, averages),
-      Paragraph{say("Of the fastest quarter, {:.1f} % of {} have no rebound: if capture is over "
-                    "there, this is the share that is lost (--lost-share).",
+      Paragraph{say("Of the fastest quarter, {:.1f} % of {} have no rebound: if nothing is "
+                    "captured there, this is the share that is lost (--lost-share).",
                     100.0 * averages.fast_unpaired, averages.fast_impacts)},
-      Paragraph{"A single passage tells nothing: captured, too slow and lost look alike, and only "
-                "their numbers can be estimated. Where few rebounds are left in a bin, captured "
-                "includes too slow."}};
+      Paragraph{"A single passage does not say which: captured, too slow and lost look alike, and "
+                "only their numbers can be estimated. Where few rebounds are left in a bin, "
+                "captured includes too slow."}};
   return section;
 }
 
@@ -191,7 +190,7 @@ Section points_section(const Averages& averages) {
   List left_out;
   if (averages.outside_sizes > 0) {
     left_out.entries.push_back(
-        say("{} impacts lie outside of the size classes", averages.outside_sizes));
+        say("{} impacts lie outside the size classes", averages.outside_sizes));
   }
   if (averages.in_small_bins > 0) {
     left_out.entries.push_back(
@@ -212,9 +211,8 @@ Table unpaired_table(const PairingResult& pairs, const Averages& averages) {
   const std::string seen = pairs.options.lost_share
                                ? std::string("as stated")
                                : fmt::format(
-                                     "of {} of {} rebounds the way down was not seen, and the way "
-                                     "up is taken to be missed "
-                                     "as often",
+                                     "{} of {} rebounds were not seen on their way down, and the "
+                                     "way up is taken to be missed as often",
                                      pairs.orphans, pairs.up);
   Table table;
   table.columns = {{"taken for"}, {"passages"}, {"because", "", true}};

@@ -34,7 +34,7 @@ std::string no_posterior_words(const PosteriorResult& posterior) {
   if (posterior.available()) return {};
   switch (*posterior.missing) {
     case NoPosterior::no_walkers:
-      return "no posterior: the model has no answer at most places near the estimate";
+      return "no posterior: near the estimate the model mostly has no answer";
     case NoPosterior::not_settled:
       return fmt::format("no posterior: the draws have not settled after {} steps of every walker",
                          posterior.steps);
@@ -49,9 +49,9 @@ Table posterior_table(const Analysis& a) {
   const PosteriorResult* const found = sampled(a);
   if (found == nullptr || !found->available()) return table;
   table.caption =
-      say("{} intervals of the posterior: equal tails, flat priors between the bounds, "
-          "constants of the materials as stated; R-hat is 1 and many draws are "
-          "effective where the sampler has settled",
+      say("{} intervals of the posterior: equal tails, flat priors between the bounds, constants "
+          "of the materials as stated; where the sampler has settled, R-hat is close to 1 and many "
+          "draws are effective",
           percent(a.uncertainty.options.level));
   table.columns = {{"quantity"}, {"mean"}, {"sd"}, {"interval"}, {"R-hat"}, {"effective draws"}};
   const auto row = [&](Sentence name, const PosteriorMarginal& m, bool settled) {

@@ -176,8 +176,8 @@ std::vector<Block> mixture_blocks(const Analysis& analysis) {
 std::vector<Block> capture_comparison_blocks(const Analysis& analysis) {
   Figures figures{capture_comparison_figures(analysis)};
   if (figures.figures.empty()) return {};
-  return {Paragraph{"What the older models make of the same system. They know nothing of these "
-                    "points but one restitution; their energies follow from the elastic constants "
+  return {Paragraph{"What the older models make of the same system. All that they take from these "
+                    "points is one restitution; their energies follow from the elastic constants "
                     "and surface energies that the dataset states or that are estimated for it."},
           std::move(figures)};
 }

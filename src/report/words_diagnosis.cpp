@@ -40,27 +40,27 @@ std::string because_words(const CandidateResult& c) {
     case SetAside::gains_too_little:
       return "it gains less than its parameters cost";
     case SetAside::chance:
-      return fmt::format("chance gives the best of all candidates as much in {:.0f} % of data sets",
-                         100.0 * c.p_value.value_or(1.0));
+      return fmt::format(
+          "by chance alone the best of all candidates gains as much in {:.0f} % of data sets",
+          100.0 * c.p_value.value_or(1.0));
     case SetAside::not_possible:
       break;
     case SetAside::batch_is_size:
-      return "every series has its own diameter and the offsets run smoothly with it: a batch and "
-             "an "
-             "unknown law of size are the same thing here";
+      return "every series has its own diameter and the offsets vary smoothly with it: offsets of "
+             "batches cannot be told from an unknown law of size here";
     case SetAside::leaves_structure:
       return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
     case SetAside::predicts_no_better:
-      return "it predicts sizes or targets that were held out no better than the base model";
+      return "it predicts held-out sizes or targets no better than the base model";
     case SetAside::one_would_do:
       return "one of the two does as well alone";
     case SetAside::one_hardly_takes_part:
       return fmt::format(
-          "it leaves structure behind (p = {:.2g}), and one of the two takes no more of the misfit "
-          "than the law of the other may be wrong",
+          "it leaves structure behind (p = {:.2g}), and one of the two explains no more of the "
+          "misfit than an error in the law of the other could",
           c.remaining_p);
     case SetAside::at_the_edge:
-      return "a parameter rests on the edge of what is possible";
+      return "a parameter lies at the limit of what is possible";
   }
   for (const FoundParameter& parameter : c.parameters) {
     if (!parameter.plausible()) return implausible_words(parameter);
@@ -102,7 +102,7 @@ std::string gain_words(const Diagnosis& d) {
       " Points that were held out are predicted with an error of {:.3g} in e instead of {:.3g}",
       d.gain->rmse_extended, d.gain->rmse_base);
   if (d.gain->relative < 0.0) {
-    text += fmt::format(" ({:.0f} % more: what was seen elsewhere is not true there)",
+    text += fmt::format(" ({:.0f} % more: what holds elsewhere does not hold there)",
                         -100.0 * d.gain->relative);
   } else if (d.gain->lower && d.gain->upper) {
     text += fmt::format(" ({:.0f} % less, 95 % interval {:.0f} to {:.0f} %)",
@@ -149,15 +149,14 @@ std::string resembling_words(const Diagnosis& d) {
     }
   }
   return fmt::format(
-      "Something acts that looks like {}. Nothing that is believable comes as close, and nothing "
-      "is named.",
+      "The misfit looks like {}. No plausible cause comes as close, so none is named.",
       fmt::join(words, ", or like "));
 }
 
 /// When two causes at once are needed: which one all the answers have in common.
 std::string common_words(const Diagnosis& d) {
   if (!d.extended || d.extended->candidate.added.size() < 2) return "";
-  std::string text = " It takes two at once";
+  std::string text = " It takes two causes at once";
   for (const std::string& id : d.common) text += fmt::format("; {} is one of them in any case", id);
   return text + ".";
 }
@@ -169,9 +168,8 @@ std::string change_words(const Diagnosis& d) {
       [](const NextExperiment& next) { return next.kind == ExperimentKind::condition; });
   if (change == d.experiments.end()) return "";
   return fmt::format(
-      " Or change something: {}, and repeat {} impact{} of {} at {:.3g} m/s. If it is {}, e "
-      "changes "
-      "there by {:.2g}; if it is {}, it does not.",
+      " Or change the conditions: {}, and repeat {} impact{} of {} at {:.3g} m/s. If the cause is "
+      "{}, e changes there by {:.2g}; if it is {}, e stays the same.",
       change->doing, change->events, change->events == 1 ? "" : "s",
       diameter_words(change->diameter), change->velocity, change->one, std::abs(change->difference),
       change->other);
@@ -185,14 +183,12 @@ std::string next_words(const Diagnosis& d) {
   });
   const NextMeasurement& next = about == d.next.end() ? d.next.front() : *about;
   std::string text = fmt::format(
-      " What would tell {} from {}: spheres of {} at {:.3g} m/s, where they differ by "
-      "{:.2g} "
-      "in e",
+      " To tell {} from {}, measure spheres of {} at {:.3g} m/s, where they differ by {:.2g} in e",
       next.one, next.other, diameter_words(next.diameter), next.velocity,
       std::abs(next.difference));
-  text += !next.events        ? "; a million events would not be enough"
-          : *next.events == 1 ? "; one event may do"
-                              : fmt::format("; about {} events", *next.events);
+  text += !next.events        ? "; even a million impacts would not be enough"
+          : *next.events == 1 ? "; one impact may be enough"
+                              : fmt::format("; about {} impacts are needed", *next.events);
   return text + ".";
 }
 
@@ -208,8 +204,8 @@ std::string evidence_words(const Diagnosis& d) {
   const Evidence evidence = evidence_for(d);
   if (!evidence.hardly_any()) return "";
   return fmt::format(
-      " With {} points that rebounded and {} free parameters hardly anything else could have been "
-      "seen: that is no evidence for the model.",
+      " With {} points that rebounded and {} free parameters hardly any misfit could have been "
+      "seen: this is no evidence for the model.",
       evidence.rebounds, evidence.free);
 }
 
@@ -218,7 +214,7 @@ std::string dominant_point_words(const Diagnosis& d) {
   if (!worst) return "";
   const Observation& point = d.base.data.points[*worst];
   return fmt::format(
-      " Most of it is one point, of {} at {:.3g} m/s (e = {:.3g}): look at that first.",
+      " Most of the misfit is one point, of {} at {:.3g} m/s (e = {:.3g}): look at that first.",
       diameter_words(point.diameter), point.velocity, point.restitution);
 }
 
@@ -226,9 +222,9 @@ std::string closest_words(const Diagnosis& d) {
   const CandidateResult* const closest = closest_cause(d);
   if (closest == nullptr) return "";
   return fmt::format(
-      " Closest comes {}, which takes {:.0f} % of the misfit: it may be the cause with a law other "
-      "than the catalogue's, or one of two; what it leaves is more than noise ({}), and it is not "
-      "named.",
+      " The closest is {}, which explains {:.0f} % of the misfit: it may be the cause, with a law "
+      "other than the catalogue's, or one of two causes; but what it leaves is more than noise "
+      "({}), so it is not named.",
       title_of(closest->candidate.name()), 100.0 * (1.0 - closest->remaining_part),
       p_words(closest->remaining_p, quick_samples));
 }
@@ -252,8 +248,7 @@ std::string errors_words(const UnstatedErrors& errors) {
   if (errors.source == ErrorSource::shared_setting) {
     return fmt::format(
         "an error of {:.2g} in e that all points of one setting of the apparatus have in common "
-        "leaves nothing systematic (p = {:.2g}): what is repeated at one setting says nothing more "
-        "of it",
+        "leaves nothing systematic (p = {:.2g}): repeating one setting does not average it out",
         errors.value, errors.remaining_p);
   }
   return errors.source == ErrorSource::velocity_errors
@@ -273,13 +268,14 @@ std::string rival_errors_words(const Diagnosis& d) {
   std::vector<std::string> words;
   for (const UnstatedErrors& errors : rivals) words.push_back(errors_words(errors));
   const double behind = d.extended ? rivals.front().delta_aicc - d.extended->delta_aicc : 0.0;
-  return fmt::format(" Errors that were not stated would do {}: {}.",
-                     !d.extended                 ? "without any cause"
-                     : behind > d.options.margin ? fmt::format("too, if less well (AICc larger by "
-                                                               "{:.0f} than with two causes)",
-                                                               behind)
-                                                 : "as well",
-                     fmt::join(words, "; "));
+  return fmt::format(
+      " Unstated errors would explain the misfit {}: {}.",
+      !d.extended ? "without any cause"
+      : behind > d.options.margin
+          ? fmt::format("too, though less well (AICc larger by {:.0f} than with two causes)",
+                        behind)
+          : "as well",
+      fmt::join(words, "; "));
 }
 
 std::string verdict_words(const AnswerForAll& answer) {
@@ -308,7 +304,7 @@ std::string method_words(const Diagnosis& d) {
   if (!unknown || words.empty()) return "";
   return fmt::format(
       " The dataset does not say how velocities were measured (recoil.method), which would decide "
-      "about some of these: {}.",
+      "some of these: {}.",
       fmt::join(words, ", "));
 }
 
@@ -332,17 +328,17 @@ std::string outlying_words(const Diagnosis& d) {
 
 std::string unexplained_words(const Diagnosis& d) {
   if (!d.structure.smooth) {
-    return " It has no shape in velocity and size: the points scatter more than their stated "
-           "deviations say, which are then too small.";
+    return " The misfit has no shape in velocity and size: the points scatter more than their "
+           "stated standard deviations, which are then too small.";
   }
   if (d.free_form_p <= 0.01) {
-    return " A smooth function of velocity and size does not take it up either.";
+    return " A smooth function of velocity and size does not describe the misfit either.";
   }
   return rival_errors(d).empty()
-             ? " A smooth function of velocity and size takes it up: there is an effect that this "
-               "program does not know, or one that acts on some of the points only."
-             : " A smooth function of velocity and size takes it up as well, as it would an effect "
-               "that this program does not know.";
+             ? " A smooth function of velocity and size describes the misfit: there is an effect "
+               "that this program does not know, or one that acts on some of the points only."
+             : " A smooth function of velocity and size describes the misfit as well, as it would "
+               "describe an effect that this program does not know.";
 }
 
 }  // namespace
@@ -358,11 +354,11 @@ std::string words_of(StructureQuestion question) {
     case StructureQuestion::curvature:
       return "residuals bend with velocity";
     case StructureQuestion::capture:
-      return "the model bends wrongly near capture";
+      return "the model has the wrong curvature near capture";
     case StructureQuestion::runs:
       return "neighbouring points miss on the same side";
     case StructureQuestion::smooth:
-      return "a smooth function of velocity and size takes up the residuals";
+      return "a smooth function of velocity and size describes the residuals";
   }
   return "";
 }
@@ -386,12 +382,12 @@ std::string implausible_words(const FoundParameter& parameter) {
   if (!parameter.implausible) return "";
   switch (*parameter.implausible) {
     case Implausible::outside_range:
-      return fmt::format("{} = {}{} lies outside of {:.3g} to {:.3g}, as {}", parameter.label,
+      return fmt::format("{} = {}{} lies outside {:.3g} to {:.3g}: {}", parameter.label,
                          value_words(parameter), unit_suffix(parameter.unit), parameter.lower,
                          parameter.upper, parameter.range_why);
     case Implausible::beyond_limit: {
       const bool above = parameter.quantity > parameter.limit->upper;
-      return fmt::format("{} = {}{}: the {} would be {:.2g}, and is at {} {:g}, as {}",
+      return fmt::format("{} = {}{}: the {} would be {:.2g}, but is at {} {:g}: {}",
                          parameter.label, value_words(parameter), unit_suffix(parameter.unit),
                          parameter.limit->quantity, parameter.quantity, above ? "most" : "least",
                          above ? parameter.limit->upper : parameter.limit->lower,
@@ -427,7 +423,7 @@ std::string where_words(const Diagnosis& d) {
   const MisfitCell* const worst = worst_cell(d);
   if (worst == nullptr) return "";
   return fmt::format(
-      "It is furthest off for {} at {:.3g} to {:.3g} m/s, where it is too {} by {:.2g} in e "
+      "The model is furthest off for {} at {:.3g} to {:.3g} m/s, where it is too {} by {:.2g} in e "
       "({:.2g} standard errors) and by {:.2g} J in the energy of the rebound",
       diameter_words(worst->diameter), worst->slowest, worst->fastest,
       worst->restitution > 0.0 ? "low" : "high", std::abs(worst->restitution),
@@ -448,8 +444,8 @@ std::string materials_words(const Diagnosis& d) {
                          d.base.model.slots[d.base.model.first_constant() + k].label(), by);
   }
   return fmt::format(
-      " It does so within the errors of the materials{}{}; with exact materials structure would be "
-      "left (p = {:.2g}).",
+      " It does so within the errors of the material constants{}{}; with exact constants structure "
+      "would be left (p = {:.2g}).",
       moved, moved.empty() ? "" : " standard deviations", d.materials->p_value_exact);
 }
 
@@ -459,8 +455,8 @@ std::string answer_words(const Diagnosis& d) {
   const std::string p = p_words(d.structure.p_value, d.structure.simulated);
   if (d.verdict == Verdict::adequate) {
     return fmt::format(
-               "The model describes these points: nothing systematic is left in its residuals ({}; "
-               "of data sets that the model itself makes, so many look as systematic).",
+               "The model describes these points: nothing systematic is left in its residuals ({}: "
+               "the share of data sets simulated with the model that look as systematic).",
                p) +
            evidence_words(d) + materials_words(d) + outlying_words(d);
   }
@@ -478,14 +474,15 @@ std::string answer_words(const Diagnosis& d) {
       text += gain_words(d);
       break;
     case Verdict::not_separable:
-      text += d.rivals.size() == 1
-                  ? fmt::format("Of all that the catalogue offers, only {} would explain it.",
-                                titles_of(d.rivals))
-              : d.shared_cause.empty()
-                  ? fmt::format("These data cannot tell which of these causes it is: {}.",
-                                titles_of(d.rivals))
-                  : fmt::format("The cause is {}; by which of its laws these data cannot tell: {}.",
-                                d.shared_cause, titles_of(d.rivals));
+      text +=
+          d.rivals.size() == 1
+              ? fmt::format("Of all that the catalogue offers, only {} would explain it.",
+                            titles_of(d.rivals))
+          : d.shared_cause.empty()
+              ? fmt::format("These data cannot tell which of these causes it is: {}.",
+                            titles_of(d.rivals))
+              : fmt::format("The cause is {}; which of its laws holds, these data cannot tell: {}.",
+                            d.shared_cause, titles_of(d.rivals));
       text += common_words(d) + one_size_words(d);
       text += fmt::format(" The extended model takes {}: {}.", d.extended->candidate.name(),
                           parameters_words(*d.extended));
@@ -495,8 +492,8 @@ std::string answer_words(const Diagnosis& d) {
       text += !d.resembles.empty() ? resembling_words(d)
               : d.outdone.empty()  ? "Nothing in the catalogue explains it, alone or in pairs."
                                    : fmt::format(
-                                         "{} would explain it, but so would errors that were not "
-                                          "stated, and with less: no cause is told.",
+                                         "{} would explain it, but so would unstated errors, which "
+                                          "assume less: no cause is named.",
                                          d.outdone);
       text += dominant_point_words(d);
       if (d.resembles.empty()) text += closest_words(d) + unexplained_words(d);

@@ -77,12 +77,11 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
   if (job.form == ExportForm::force) {
     out.push_back(
         target == ExportTarget::simbody
-            ? "The force law is the model's own: e differs by what the integrator's accuracy "
-              "leaves."
-            : fmt::format(
-                  "The force law is the model's own: e differs by what the time step of {:.2g} "
-                  "ns leaves, less than 1e-4 from 5 % above capture, and in proportion to it.",
-                  time_step(impact) / units::ns));
+            ? "The force law is the model's own: e differs only by the integrator's error."
+            : fmt::format("The force law is the model's own: e differs only by the error of the "
+                          "time step of {:.2g} ns, which is below 1e-4 from 5 % above capture on "
+                          "and proportional to the step.",
+                          time_step(impact) / units::ns));
     out.push_back(
         impact.captures
             ? fmt::format("The capture velocity is kept: V* = {:.4g} m/s.", impact.capture_velocity)
@@ -91,9 +90,9 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
     const RefittedForce& other = *job.refitted;
     out.push_back(fmt::format(
         "An approximation, as {}: the ring law with C_H = {:.5g} s/m, C_A = {:.5g} s/m and f0 = "
-        "{:.5g} N/m, which at this size, and over {}, has the same e but for {:.4f} (rms over log "
-        "V); the largest is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds). These three are "
-        "no parameters of the fit.",
+        "{:.5g} N/m, which at this size, and over {}, has the same e up to {:.4f} (rms over log "
+        "V); the largest difference is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds). These "
+        "three are no parameters of the fit.",
         why_no_force(target, impact), other.force.hertz_damping, other.force.adhesion_damping,
         other.force.adhesion_force, range_words(impact.request), other.error.rms,
         other.error.largest, other.error.at, other.error.rebounding));
@@ -110,7 +109,7 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
         stock_words(*job.stock)));
     out.push_back(fmt::format(
         "Of all its values this has the smallest rms error of e over {}, evenly spaced in log V: "
-        "{:.4f}; the largest is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds).",
+        "{:.4f}; the largest error is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds).",
         range_words(impact.request), error.rms, error.largest, error.at, error.rebounding));
     out.push_back(capture_lost(impact));
   } else if (target != ExportTarget::table) {
@@ -120,7 +119,7 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
                     job.lookup->error, job.lookup->captures ? " from 1 % above capture" : "",
                     range_words(impact.request)));
     if (!job.lookup->captures) {
-      out.push_back("Below the range of velocities the table's first value holds.");
+      out.push_back("Below the range of velocities the first value of the table holds.");
     } else if (job.lookup->diameter.size() > 1) {
       out.push_back(
           fmt::format("Captures are kept; V* is within {:.1g} of itself between the sizes.",
@@ -132,7 +131,7 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
   }
   for (const Mechanism* mechanism : impact.of_measurement) {
     out.push_back(
-        fmt::format("{} is an error of the measurement, and left out.", mechanism->info.id));
+        fmt::format("{} is an error of the measurement and is left out.", mechanism->info.id));
   }
   return out;
 }

@@ -90,15 +90,15 @@ std::vector<std::string> fit_warnings(const FitResult& fitted) {
   if (!fitted.usable) return warnings;
   if (!fitted.weights_at_rest) {
     warnings.emplace_back(
-        "the weights of the points still moved when their rounds ran out: the estimate depends on "
-        "where they stopped");
+        "the weights of the points had not settled in the last round of reweighting: the estimate "
+        "depends on where they stopped");
   }
   if (fitted.noise_verdict == NoiseVerdict::exceeded) warnings.push_back(widened_words(fitted));
   if (fitted.strained_points > 0) {
     warnings.push_back(fmt::format(
         "at {} points the curve bends so much over the errors of velocity or diameter that their "
         "effective variance (first order) is biased by more than {:.1g} standard deviations: close "
-        "to capture these errors are too large for it",
+        "to capture these errors are too large for that approximation",
         fitted.strained_points, strained_bias));
   }
   if (fitted.covariance.empty()) {

@@ -89,7 +89,7 @@ void describe_correlations(const FitResult& fitted, const Identifiability& found
   const auto& directions = found.information.directions;
   if (found.correlated.empty() || directions.size() < 2) return;
   sentences.push_back(fmt::format(
-      "what the points do know is {}, to {}; what they hardly know is {}, to {}",
+      "the points determine {} to {}, but {} only to {}",
       direction_words(fitted, directions.front()), known_to(directions.front().relative_sd),
       direction_words(fitted, directions.back()), known_to(directions.back().relative_sd)));
 }

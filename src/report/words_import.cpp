@@ -58,9 +58,8 @@ std::string note_sentence(const ImportNote& note) {
       return air_sentence(note.air);
     case ImportRemark::turbulent_air:
       return fmt::format(
-          "the Reynolds number of the fastest impact, {:.2g}, is beyond the law of drag (2e5), "
-          "from "
-          "where on the drag of a smooth sphere can fall to a fifth",
+          "the Reynolds number of the fastest impact, {:.2g}, is beyond the range of the drag law "
+          "(up to 2e5); above that the drag of a smooth sphere can fall to a fifth",
           note.air.reynolds);
     case ImportRemark::bounces_missing:
       return fmt::format("{} {} of intervals left out, because a bounce between them is missing",
@@ -69,9 +68,10 @@ std::string note_sentence(const ImportNote& note) {
       std::vector<std::string> heights;
       for (const ReleaseCheck& check : note.releases) heights.push_back(release_words(check));
       return fmt::format(
-          "release heights, a check on which no point rests: by how much the ball seems to have "
-          "fallen further than stated, if its first bounce was like its second. {}. The same at "
-          "all heights would be an offset of the scale, such as another point of the ball",
+          "release heights, a check that no point depends on: how much further than stated the "
+          "ball seems to have fallen, if its first bounce was like its second. {}. The same "
+          "difference at all heights would be an offset of the scale, such as a reading at another "
+          "point of the ball",
           fmt::join(heights, "; "));
     }
     case ImportRemark::shared_bounces:

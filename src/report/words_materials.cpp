@@ -36,8 +36,8 @@ std::string better_words(const BudgetOf& of, const ImpactModel& model) {
   }
   if (!budget.linear) {
     words +=
-        "; it does not follow the constants in a straight line, so that the shares say which "
-        "is large, not how large";
+        "; it does not depend linearly on the constants, so the shares say which is large, not how "
+        "large";
   }
   return words;
 }
@@ -99,18 +99,17 @@ std::string moved_words(const Analysis& a) {
   }
   if (moved.empty()) return moved;
   return fmt::format(
-      "the points pull constants of the materials away from what is stated ({} "
-      "standard deviations): either they are so, or they stand for something that "
-      "the model lacks",
+      "the points pull constants of the materials away from what is stated ({} standard "
+      "deviations): either these are their true values, or they make up for something that the "
+      "model lacks",
       moved);
 }
 
 std::string conditional_words(const Analysis& a) {
   if (!a.uncertainty.conditional) return {};
-  return "intervals include the errors that are stated of the materials; \"materials exact\" is "
-         "what "
-         "they were if the constants were known as they are written (materials = false), and "
-         "describes the scatter of the points alone";
+  return "intervals include the stated errors of the materials; \"materials exact\" is what they "
+         "would be with the constants exactly as written (materials = false), which describes the "
+         "scatter of the points alone";
 }
 
 }  // namespace recoil

@@ -110,7 +110,7 @@ std::string scale_words(VarianceFunction function, double scale) {
 std::string widened_words(const FitResult& fitted) {
   return fmt::format(
       "the residuals are {:.3g} times larger than the stated noise explains ({}): every error and "
-      "interval is widened by that factor, and still describes this model, not the truth",
+      "interval is widened by that factor, but still describes this model, not the truth",
       fitted.noise_scale, p_words(fitted.p_value));
 }
 

@@ -40,7 +40,8 @@ std::string rests_on_words(const CaptureComparison& comparison, CaptureModel mod
       fmt::format("W_A = {:.3g} J/m2 and K = {:.4g} GPa", comparison.adhesion_energy,
                   comparison.stiffness / units::GPa);
   if (model == CaptureModel::jkr) {
-    return constants + ", nothing fitted; the elastic sphere of Thornton & Ning sticks alike";
+    return constants +
+           ", nothing fitted; the elastic sphere of Thornton & Ning sticks at the same velocity";
   }
   if (model == CaptureModel::thornton_ning) {
     const PublishedYield yield = comparison.yield.value_or(PublishedYield{});
@@ -68,7 +69,8 @@ std::vector<std::string> capture_notes(const CaptureComparison& comparison,
   }
   if (!(comparison.restitution > 0.0)) {
     notes.emplace_back(
-        "Dahneke and Wall are not drawn: the fitted curve has no rebound to take e from");
+        "the models of Dahneke and of Wall et al. are not drawn: the fitted curve has no rebound "
+        "to take e from");
   }
   if (comparison.published.empty()) {
     notes.push_back(fmt::format(

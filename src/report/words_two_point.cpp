@@ -24,7 +24,7 @@ std::string two_point_words(const FitResult& fitted, std::size_t dataset,
   switch (result.status) {
     case TwoPointStatus::no_hertz_damping:
       return fmt::format(
-          "no C_H >= 0 gives {}: the adhesion that the lowest velocity asks for (C_A = {:.4g} s/m) "
+          "no C_H >= 0 gives {}: the adhesion that the lowest velocity requires (C_A = {:.4g} s/m) "
           "already costs more there",
           high, C_A);
     case TwoPointStatus::no_adhesion_damping:
