@@ -14,8 +14,8 @@ void add_check(CLI::App& program) {
   command->footer(
       "Reads datapackage.json and the points that it names, converts the units and prints what "
       "was\n"
-      "understood. A mistake is one line: file:line:column: problem (why it is one); "
-      "suggestion.\n\n"
+      "understood. A mistake is answered with one line:\n"
+      "  file:line:column: problem (why it is one); suggestion\n\n"
       "  recoil check datasets/dahneke1975-quartz");
   const auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "the dataset's folder")->required();

@@ -60,10 +60,11 @@ void point_to_studies(CLI::App& command) {
 
 void add_coverage(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("coverage", "how often the intervals contain the truth, measured");
+      program.add_subcommand("coverage", "measure how often the intervals contain the truth");
   command->footer(
       "Simulates the design of the fit again and again from a known truth (the recipe's, or the\n"
-      "fit's own estimate), fits each data set as you would, and counts. Prints Markdown.\n\n"
+      "fit's own estimate), fits each data set as you would, and counts how often the intervals\n"
+      "contain the truth. Prints Markdown.\n\n"
       "  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md\n\n"
       "Grids of designs, tables of several fits and their summary are studies of recoil's\n"
       "authors: ./run study, or recoil_study --help.");
@@ -72,7 +73,8 @@ void add_coverage(CLI::App& program) {
   command->add_option("--datasets", options->datasets, "simulated data sets")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--out", options->out, "write the table here, too")->type_name("FILE");
+  command->add_option("--out", options->out, "also write the table to this file")
+      ->type_name("FILE");
   point_to_studies(*command);
   add_analysis_flags(*command, options->analysis);
   command->callback([options] { run(*options); });

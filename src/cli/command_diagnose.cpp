@@ -43,14 +43,14 @@ void run_diagnosis(const DiagnoseFlags& flags) {
 
 void add_diagnose(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "diagnose", "what the model gets wrong, why, and what an extended one gains");
+      "diagnose", "what the model gets wrong, why, and what an extended model gains");
   command->footer(
       "Tests the residuals of the fit for structure, tries every mechanism of the catalogue "
       "(alone,\n"
-      "then in pairs), and answers with one of\n"
+      "then two at a time), and answers with one of\n"
       "  adequate        nothing systematic is left\n"
       "  cause_named     one cause explains it, and nothing else in the catalogue does\n"
-      "  not_separable   several causes explain it: which ones, and what to measure to tell\n"
+      "  not_separable   several causes explain it: which ones, and what to measure to decide\n"
       "  unexplained     something is there that the catalogue does not know, or the errors are "
       "larger\n"
       "                  than stated\n"

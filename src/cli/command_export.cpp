@@ -211,8 +211,9 @@ void add_export(CLI::App& program) {
       "export", "a fitted impact as the input of another program, or as a table");
   command->footer(
       "Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. Where the\n"
-      "program can hold the force law (lammps, yade, simbody) the export is exact; where it has\n"
-      "only contact models of its own (liggghts) it gets the nearest, with its error; openfoam,\n"
+      "program can run the force law (lammps, yade, simbody) the export is exact; where it has\n"
+      "only contact models of its own (liggghts) it gets the nearest one, with its error; "
+      "openfoam,\n"
       "fluent and table get e(V, d) with captures. The file says what is lost.\n\n"
       "  recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps\n"
       "  lmp -in my-lammps/impact.lammps -var V 2.4");
@@ -235,8 +236,8 @@ void add_export(CLI::App& program) {
       ->type_name("MIN,MAX")
       ->check(positive_number("velocity", 1e-7, 1e4));
   command->add_flag("--stock", options->stock,
-                    "lammps, yade, simbody: the nearest of the program's own contact models, for "
-                    "more than one sphere, even where it can hold the force law");
+                    "lammps, yade, simbody: write the nearest of the program's own contact models, "
+                    "for many spheres, even where it could run the force law");
   command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
       ->type_name("ID");
   command->add_option("--parameters", options->parameters, "take the values from this fit.json")

@@ -44,7 +44,8 @@ void run_import(ImportFlags flags) {
 
 void add_import(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "import", "digitised points, drop heights, bounce times or any table into a dataset folder");
+      "import",
+      "make a dataset folder of digitised points, drop heights, bounce times or any table");
   command->footer(
       "Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals "
       "(between\n"
@@ -68,13 +69,12 @@ void add_import(CLI::App& program) {
                    fmt::format("one of {}", fmt::join(all_names<ImportFormat>(), ", ")))
       ->required();
   command->add_option("--into", flags->into, "the dataset's folder")->required();
-  command->add_flag(
-      "--replace", r.replace,
-      "replace the points of the dataset that is there; it keeps its materials, and a "
-      "reconstruction becomes digitised");
-  command->add_option("--map", r.map, "quantity=column:unit, several with commas");
+  command->add_flag("--replace", r.replace,
+                    "replace the points of the existing dataset; it keeps its materials, and a "
+                    "reconstruction becomes digitised");
+  command->add_option("--map", r.map, "quantity=column:unit, several separated by commas");
   command->add_option("--diameter", r.diameters,
-                      "diameter of the spheres: 4.9um, or SERIES=4.9um once for each");
+                      "diameter of the spheres: 4.9um, or SERIES=4.9um once for each series");
   command->add_option("--diameter-error", r.diameter_error,
                       "one standard deviation of the diameters: 1% or 0.1um");
   command->add_option("--series", r.series, "name of the series when the file has none");
@@ -82,23 +82,25 @@ void add_import(CLI::App& program) {
       "--particle", r.particle,
       "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
   command->add_option("--surface", r.surface,
-                      "the same of the surface; its density may be left out");
+                      "the surface, in the same form; its density may be left out");
   command->add_option("--like", flags->like, "take the materials of this dataset");
   command->add_option("--adhesion-energy", r.adhesion_energy,
-                      "of the pair of materials [J/m2]; 0: no adhesion");
+                      "work of adhesion of the two materials [J/m2]; 0: no adhesion");
   command
       ->add_option("--provenance", flags->provenance,
-                   "measured, digitised or synthetic (default: that of the format)")
+                   "where the points come from: measured, digitised or synthetic (default: that of "
+                   "the format)")
       ->check(CLI::IsMember({"measured", "digitised", "synthetic"}));
   command->add_option("--title", r.title, "title of the dataset");
-  command->add_option("--source", r.sources, "who published or measured it; once for each");
+  command->add_option("--source", r.sources,
+                      "who published or measured the points; once for each source");
   command->add_option(
       "--axis", r.axes,
-      "axis of a figure: x=log,MIN,MAX or y=linear,MIN,MAX,LENGTHpx; once for each");
+      "axis of a figure: x=log,MIN,MAX or y=linear,MIN,MAX,LENGTHpx; once for each axis");
   command->add_option("--reading-error", r.reading_error,
                       "one standard deviation of a reading: 0.5% of an axis, or 2px");
   command->add_option("--scatter", r.scatter,
-                      "scatter of e besides the errors of reading: 10%, or 0.02");
+                      "scatter of e in addition to the errors of reading: 10%, or 0.02");
   command
       ->add_option("--captured-below", r.captured_below,
                    "a digitised restitution below this is a capture")
@@ -113,10 +115,10 @@ void add_import(CLI::App& program) {
   command->add_option("--gravity", r.gravity, "gravity [m/s2]")->capture_default_str();
   command
       ->add_option("--ambient-pressure", r.ambient_pressure,
-                   "of the air [Pa], whose drag is taken out of heights and intervals (default "
-                   "101325); 0: vacuum")
+                   "pressure of the air [Pa], whose drag is taken out of heights and intervals "
+                   "(default 101325); 0: vacuum")
       ->check(CLI::Range(0.0, limits::highest_pressure));
-  command->add_option("--temperature", r.temperature, "of the air [K] (default 293)")
+  command->add_option("--temperature", r.temperature, "temperature of the air [K] (default 293)")
       ->check(CLI::Range(limits::lowest_temperature, limits::highest_temperature));
   for (CLI::Option* option : command->get_options()) {
     if (option->get_items_expected_max() > 1)

@@ -212,19 +212,21 @@ void add_init(CLI::App& program) {
   command->add_option("DIR", options->folder, "the new folder")->required();
   command
       ->add_option("--points", options->points,
-                   "the points (CSV): incident_velocity, restitution and whatever else recoil "
-                   "help data names (default: an example)")
+                   "the points (CSV): incident_velocity, restitution and any other column that "
+                   "recoil help data names (default: an example)")
       ->type_name("FILE");
-  command->add_option("--provenance", options->provenance, "of these points: measured or digitised")
+  command
+      ->add_option("--provenance", options->provenance,
+                   "where these points come from: measured or digitised")
       ->check(CLI::IsMember({"measured", "digitised"}));
   command->add_option(
       "--particle", options->particle,
       "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
   command->add_option("--surface", options->surface,
-                      "the same of the surface; its density may be left out");
+                      "the surface, in the same form; its density may be left out");
   command->add_option("--like", options->like, "take the materials of this dataset")
       ->type_name("DIR");
-  command->add_option("--diameter", options->diameter, "of all spheres [um]")
+  command->add_option("--diameter", options->diameter, "diameter of all spheres [um]")
       ->check(positive_number("diameter", 1e-3, 1e6));
   command->callback([options] { run_init(*options); });
 }

@@ -92,10 +92,11 @@ void resolve(PairCommand& command) {
 std::optional<Provenance> stated_provenance(const PairCommand& command, const PassageTable& table) {
   const auto stated = value_named<Provenance>(command.provenance);
   if (stated && table.provenance && *stated != *table.provenance) {
-    throw InputError({},
-                     fmt::format("--provenance {}, but datapackage.json beside the events says {}",
-                                 command.provenance, to_string(*table.provenance)),
-                     "", "correct one of them");
+    throw InputError(
+        {},
+        fmt::format("--provenance {}, but datapackage.json beside the passages says {}",
+                    command.provenance, to_string(*table.provenance)),
+        "", "correct one of them");
   }
   return stated ? stated : table.provenance;
 }
@@ -104,8 +105,8 @@ std::optional<Provenance> stated_provenance(const PairCommand& command, const Pa
 Provenance provenance_of(const PairCommand& command, const PassageTable& table) {
   const auto provenance = stated_provenance(command, table);
   if (!provenance) {
-    throw InputError({}, "the provenance of the events is not known", "every dataset states it",
-                     "say --provenance measured, or synthetic for simulated events");
+    throw InputError({}, "the provenance of the passages is not known", "every dataset states it",
+                     "give --provenance measured, or synthetic for simulated passages");
   }
   return *provenance;
 }
@@ -180,7 +181,7 @@ void run_pair(PairCommand command) {
 }
 
 void add_input_options(CLI::App& app, PairCommand& command) {
-  app.add_option("EVENTS", command.events,
+  app.add_option("PASSAGES", command.events,
                  "CSV file, one row per passage: time, velocity, diameter; optional "
                  "tangential_velocity and series (a run; times of different runs are not compared)")
       ->required();
@@ -189,10 +190,11 @@ void add_input_options(CLI::App& app, PairCommand& command) {
                  "datapackage.json beside the file states the units")
       ->delimiter(',');
   app.add_option("--column", command.columns,
-                 "FIELD=NAME, for files that name their columns otherwise, e.g. velocity=LDA1")
+                 "FIELD=NAME, for files with other column names, e.g. velocity=LDA1")
       ->delimiter(',');
-  app.add_option("--positive", command.positive,
-                 "in which direction velocities are positive: towards the surface or away")
+  app.add_option(
+         "--positive", command.positive,
+         "the direction in which velocities are positive: towards the surface or away from it")
       ->capture_default_str()
       ->check(CLI::IsMember({"towards", "away"}));
 }
@@ -203,7 +205,7 @@ void add_search_options(CLI::App& app, PairCommand& command) {
       ->capture_default_str()
       ->check(CLI::Range(1e-3, 1e3));
   app.add_option("--height-range", command.pairing.height_range,
-                 "the true height lies within this factor of it")
+                 "the true height lies within this factor of the first estimate")
       ->capture_default_str()
       ->check(CLI::Range(1.01, 10.0));
   app.add_flag("--keep-height", command.keep_height, "take --height as it is");
@@ -223,16 +225,15 @@ void add_selection_options(CLI::App& app, PairCommand& command) {
   app.add_flag("--keep-later", command.pairing.keep_later, "use second and third impacts as well");
   app.add_option("--threshold", command.threshold,
                  "leave out incident velocities below this [m/s, at the plane], the paper's way to "
-                 "remove second impacts; what that selects is printed")
+                 "remove second impacts; the effect of the selection is printed")
       ->check(CLI::Range(0.0, 1e4));
   app.add_option("--angle", command.angle_degrees,
-                 "use rebounds within this of the normal [degrees]; the paper: 8. Needs "
+                 "use only rebounds within this angle of the normal [degrees]; the paper: 8. Needs "
                  "tangential_velocity")
       ->check(CLI::Range(0.0, 90.0));
-  app.add_option(
-         "--lost-share", command.lost_share,
-         "share of rebounds that the instrument misses (default: the share of rebounds whose "
-         "way down it missed)")
+  app.add_option("--lost-share", command.lost_share,
+                 "share of rebounds that the instrument misses (default: the share of rebounds "
+                 "that it did not see on their way down)")
       ->check(CLI::Range(0.0, 0.9));
 }
 
@@ -247,19 +248,20 @@ void add_output_options(CLI::App& app, PairCommand& command) {
   into->needs(like);
   like->needs(into);
   app.add_option("--provenance", command.provenance,
-                 "where the passages come from, if no datapackage.json beside them says it")
+                 "where the passages come from, if no datapackage.json beside them says so")
       ->check(CLI::IsMember(all_names<Provenance>()));
-  app.add_option("--per-bin", command.averaging.per_bin, "about so many impacts make one point")
+  app.add_option("--per-bin", command.averaging.per_bin,
+                 "approximate number of impacts in one point")
       ->capture_default_str()
       ->check(CLI::Range(2, 1000000));
   CLI::Option* classes =
       app.add_option("--size-classes", command.averaging.size_classes,
-                     "so many size classes of equal number, each a series of points")
+                     "number of size classes with equally many spheres, each a series of points")
           ->capture_default_str()
           ->check(CLI::Range(1, 100));
   app.add_option(
          "--size-edges", command.size_edges_um,
-         "limits of the size classes [um], e.g. 20,40,60,110; what lies outside is left out")
+         "limits of the size classes [um], e.g. 20,40,60,110; spheres outside them are left out")
       ->delimiter(',')
       ->excludes(classes)
       ->check(CLI::PositiveNumber);
@@ -277,8 +279,9 @@ void add_output_options(CLI::App& app, PairCommand& command) {
 }  // namespace
 
 void add_pair(CLI::App& program) {
-  CLI::App* app = program.add_subcommand(
-      "pair", "from the passages that a phase Doppler instrument records to impacts and points");
+  CLI::App* app = program.add_subcommand("pair",
+                                         "find the impacts in the passages that a phase Doppler "
+                                         "instrument records, and make points of them");
   app->footer(
       "A sphere passes the probe plane on its way down and, if it rebounds, on its way up. The "
       "time\n"
@@ -286,7 +289,7 @@ void add_pair(CLI::App& program) {
       "height\n"
       "of the plane determine. The height is found as the one at which most passages agree; then\n"
       "each is given to at most one partner, by flight time and diameter. Rebounds that come down\n"
-      "again are later impacts and kept out. Velocities are corrected to the surface,\n"
+      "again are later impacts and are left out. Velocities are corrected to the surface,\n"
       "v_s^2 = v_p^2 + 2 g h, and averaged over about 40 impacts. Passages without a rebound are\n"
       "divided by number into lost, too slow to return, and captured.\n\n"
       "  recoil pair run7.csv --unit time=s,velocity=m/s,diameter=um --out points.csv\n"

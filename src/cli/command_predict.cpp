@@ -72,7 +72,8 @@ void predict_sizes(const PredictOptions& options) {
 
 void add_predict(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "predict", "what a mixture of sizes does: weighted averages over a size distribution");
+      "predict",
+      "what a mixture of sizes does: averages of the restitution over a size distribution");
   command->footer(
       "Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter "
       "and\n"
@@ -86,14 +87,13 @@ void add_predict(CLI::App& program) {
   command->add_option("--sizes", options->sizes, "the size distribution (CSV)")
       ->required()
       ->type_name("FILE");
-  command->add_option(
-      "--unit", options->unit,
-      "unit of its diameters: um, mm or m (default: what the datapackage.json beside "
-      "it says, else um)");
+  command->add_option("--unit", options->unit,
+                      "unit of its diameters: um, mm or m (default: what the datapackage.json "
+                      "beside it says, otherwise um)");
   command
       ->add_option("--height", options->height,
                    "height of the measuring plane above the surface [mm] (default: what the "
-                   "datapackage.json says, else 1)")
+                   "datapackage.json says, otherwise 1)")
       ->check(CLI::Range(0.0, 1000.0));
   command->add_flag(
       "--midpoints", options->midpoints,

@@ -34,10 +34,10 @@ void add_reconstruct(CLI::App& program) {
   command->footer(
       "Makes points.csv of DIR from DIR/recipe.toml and verifies every published fact that the\n"
       "recipe names. With --check nothing is written: the file has to be what the recipe makes,\n"
-      "byte for byte. A recipe with a table [pairing] simulates passages, and makes its\n"
-      "points from them by recoil pair.\n\n"
+      "byte for byte. A recipe with a table [pairing] simulates passages and makes its points\n"
+      "of them with recoil pair.\n\n"
       "  recoil reconstruct datasets/wall1990-silicon --check\n\n"
-      "Where the recipe says what the instrument records, the passages can be had as well:\n\n"
+      "Where the recipe says what the instrument records, --passages writes the passages:\n\n"
       "  recoil reconstruct datasets/li1999-sst65-silicon --passages events.csv\n"
       "  recoil pair events.csv --unit time=s,velocity=m/s,tangential_velocity=m/s,diameter=um");
   const auto folder = std::make_shared<std::string>();
@@ -49,10 +49,10 @@ void add_reconstruct(CLI::App& program) {
   CLI::Option* to =
       command
           ->add_option("--passages", *passages,
-                       "write what the instrument would have recorded instead (CSV), for recoil "
-                       "pair; the recipe needs a table [passages]")
+                       "write the passages that the instrument would have recorded (CSV, for "
+                       "recoil pair) instead of the points; the recipe needs a table [passages]")
           ->type_name("FILE");
-  command->add_option("--times", *times, "so many times as many spheres as in the recipe")
+  command->add_option("--times", *times, "how many times as many spheres as in the recipe")
       ->needs(to)
       ->check(CLI::Range(1, 10000));
   command->callback([folder, check, passages, times] {

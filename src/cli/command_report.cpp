@@ -138,7 +138,7 @@ void report(const ReportOptions& options) {
 
 void add_report(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("report", "fit and write pages for every fit, with an index");
+      program.add_subcommand("report", "fit, and write a page for every fit and an index");
   command->footer(
       "Writes one page per fit, which needs no other file, and index.html. Pages whose inputs "
       "have\n"

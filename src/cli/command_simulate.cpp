@@ -157,8 +157,8 @@ void print_impact(const ImpactGroups& groups, const ImpactScales& scales, const 
              c.stiffness / units::GPa, c.adhesion_force, to_string(phase));
   if (captured) {
     print_line(
-        "note: adhesion did work on the sphere on its way in, so the shares can exceed 100 %; what "
-        "is bound is negative");
+        "note: adhesion did work on the sphere on its way in, so the shares can exceed 100 %; the "
+        "share still bound in the contact is negative");
   }
   for (const std::string& line : contact.contradictions) print_line("note: " + line);
   print_line(fmt::format("dataset: {} ({}): {}", dataset.id, to_string(dataset.provenance),

@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(
       "Exit status: 0 done, 2 the input or the command line is wrong, 3 no usable answer.\n"
-      "recoil COMMAND --help shows an example of each, recoil help the pages of the manual.");
+      "recoil COMMAND --help shows an example of each, recoil help lists the pages of the manual.");
   recoil::add_check(program);
   recoil::add_simulate(program);
   recoil::add_fit(program);

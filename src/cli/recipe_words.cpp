@@ -22,8 +22,7 @@ std::string truth_words(const Truth& truth) {
   if (at.adhesion_energy > 0.0)
     words += fmt::format(", JKR adhesion ({:.3g} J/m2)", at.adhesion_energy);
   if (at.hysteresis_factor > 0.0) {
-    words += fmt::format(" and adhesion hysteresis ({:.3g} times as much at 1 m/s",
-                         at.hysteresis_factor);
+    words += fmt::format(" and adhesion hysteresis ({:.3g} of that at 1 m/s", at.hysteresis_factor);
     words += at.hysteresis_exponent > 0.0
                  ? fmt::format(", rising with V to the power {:.2g})", at.hysteresis_exponent)
                  : ")";
@@ -33,8 +32,8 @@ std::string truth_words(const Truth& truth) {
 
 std::string sizes_words(const SizeDistribution& sizes) {
   std::string words = fmt::format(
-      "; spheres of many sizes ({:.3g} to {:.3g} um) stand in every point under one diameter, and "
-      "only rebounds count",
+      "; spheres of many sizes ({:.3g} to {:.3g} um) are averaged in every point under one "
+      "diameter, and only rebounds count",
       sizes.lower / units::um, sizes.upper / units::um);
   if (sizes.probe_height > 0.0) {
     words += fmt::format(" that are faster than {:.2g} m/s", sizes.slowest_seen());
@@ -52,7 +51,7 @@ std::vector<std::string> recipe_remarks(const std::vector<Dataset>& datasets) {
     std::string made = truth_words(recipe.truth);
     if (recipe.sizes) made += sizes_words(*recipe.sizes);
     if (recipe.pairing) {
-      made += "; its points come from simulated events through the tool's own pairing";
+      made += "; its points come from simulated passages, paired by recoil pair";
     }
     remarks.push_back(fmt::format(
         "{} is a reconstruction, and its recipe made the points with {}. Whatever a diagnosis "

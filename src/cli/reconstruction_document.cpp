@@ -29,10 +29,10 @@ std::vector<Section> reconstruction_sections(const ReconstructionResult& result)
   Section made{"reconstruction", "Reconstruction",
                say("{}: {} points, seed {}", result.id, result.points, result.seed)};
   made.blocks = {Paragraph{
-      "No point of it was measured: a committed recipe makes them from the facts below."}};
+      "No point of it was measured: a committed recipe makes the points from the facts below."}};
   if (result.from_events) {
     made.blocks.emplace_back(
-        Paragraph{"The points come from simulated events through the tool's own pairing."});
+        Paragraph{"The points come from simulated passages, paired by recoil pair."});
   }
   made.blocks.emplace_back(Paragraph{file_words(result)});
   List assumptions;

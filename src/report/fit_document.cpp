@@ -319,7 +319,7 @@ std::vector<Section> figure_sections(const Analysis& a, std::vector<Block> diagn
            "Adhesion and contact forces",
            {},
            {together({adhesion_force_figures(a), force_history_figures(a)})}},
-          {"corrections", "From events to points", {}, corrections_blocks(a)},
+          {"corrections", "From passages to points", {}, corrections_blocks(a)},
           {"mixture", "A mixture of sizes", {}, mixture_blocks(a)},
           {"capture-models",
            "Capture velocity by this and other models",

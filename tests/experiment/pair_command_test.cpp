@@ -128,7 +128,7 @@ TEST(PairCommand, TheShippedPointsComeFromEvents) {
     EXPECT_EQ(place.read("points.csv"), recoil::read_text_file(folder / "points.csv")) << id;
     const Outcome check = place.run({"reconstruct", folder.string(), "--check"});
     EXPECT_EQ(check.status, 0) << check.err;
-    EXPECT_NE(check.out.find("simulated events through the tool's own pairing"), std::string::npos);
+    EXPECT_NE(check.out.find("simulated passages, paired by recoil pair"), std::string::npos);
     EXPECT_NE(check.out.find("--height 1 --angle 8 --per-bin 40 --mean-diameter"),
               std::string::npos)
         << check.out;
@@ -166,7 +166,7 @@ TEST(PairCommand, MistakesAreOneLineAndWriteNothing) {
       {{"pair", "e.csv", "--unit", kUnits, "--unit", "time=ms"}, "time is given twice"},
       {{"pair", "e.csv", "--unit", kUnits, "--into", "set"}, "--like"},
       {{"pair", "e.csv", "--unit", kUnits, "--into", "set", "--like", "data"},
-       "the provenance of the events is not known"},
+       "the provenance of the passages is not known"},
       {{"pair", "e.csv", "--unit", kUnits, "--into", "set", "--like", "set", "--provenance",
         "measured"},
        "set/datapackage.json: no such file"},
