@@ -48,7 +48,7 @@ void point_to_studies(CLI::App& command) {
         .add_flag_callback(name,
                            [name] {
                              throw InputError(
-                                 {}, fmt::format("{} is no option of recoil coverage", name),
+                                 {}, fmt::format("{} is not an option of recoil coverage", name),
                                  "it simulates the design of one fit",
                                  "see recoil_study --help for grids of designs and their summary");
                            })

@@ -108,8 +108,8 @@ ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, s
     request.fastest = options.velocity[1];
     if (!(request.slowest < request.fastest)) {
       throw InputError(
-          {}, fmt::format("--velocity {:g},{:g} is no range", request.slowest, request.fastest),
-          "the first has to be the smaller one", "for example --velocity 1,50");
+          {}, fmt::format("--velocity {:g},{:g} is not a range", request.slowest, request.fastest),
+          "the first number has to be the smaller one", "for example --velocity 1,50");
     }
   }
   const std::vector<double> sizes = distinct_diameters(dataset);

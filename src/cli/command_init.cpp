@@ -80,7 +80,8 @@ void complete(InitOptions& options) {
     char* end = nullptr;
     options.diameter = std::strtod(answer.c_str(), &end);
     if (*end != '\0' || !(options.diameter > 0.0) || !(options.diameter < 1e6)) {
-      throw InputError({}, fmt::format("'{}' is no diameter", answer), "", "give a number in um");
+      throw InputError({}, fmt::format("'{}' is not a diameter", answer), "",
+                       "give a number in um");
     }
   }
 }
@@ -157,7 +158,7 @@ void run_init(InitOptions options) {
   const fs::path fit_file = folder / "fit.toml";
   for (const fs::path& file : {folder / package_file_name, folder / "points.csv", fit_file}) {
     if (fs::exists(file)) {
-      throw InputError({file.string()}, "this file is there already", "init overwrites nothing",
+      throw InputError({file.string()}, "this file exists already", "init overwrites nothing",
                        "name another folder");
     }
   }

@@ -160,8 +160,8 @@ void run_pair(PairCommand command) {
   fmt::print("{}", pairing_text(table, pairs, averages));
   if (pairs.impacts.empty()) {
     throw ComputationError(fmt::format(
-        "{}: no impacts found (no passage up follows one down in the time that a plane {:g} mm "
-        "above the surface allows); check --height, the units and --positive",
+        "{}: no impacts found (no passage up follows a passage down within the time that a plane "
+        "{:g} mm above the surface allows); check --height, the units and --positive",
         command.events, command.height_mm));
   }
   const std::string points = points_csv(averages);

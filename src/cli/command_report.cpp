@@ -39,7 +39,7 @@ std::vector<fs::path> fits_to_report(const ReportOptions& options) {
   }
   if (files.empty()) {
     throw InputError({"fits"}, "there are no fit files here",
-                     "without FIT every fits/*.toml is reported",
+                     "without FIT, recoil report takes every fits/*.toml",
                      "name the fits, or run this in the project's folder");
   }
   std::sort(files.begin(), files.end());

@@ -270,12 +270,13 @@ CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& da
     throw InputError({spec.file.string()},
                      "coverage can simulate no truth with adhesion = \"maugis\"",
                      "its independent simulator knows the ring law, jkr and dmt",
-                     "take the one of jkr and dmt to which your Tabor parameter is closer");
+                     "take jkr or dmt, whichever is closer to your Tabor parameter");
   }
   if (!spec.mechanisms.empty()) {
-    throw InputError({spec.file.string()}, "coverage can simulate no truth with mechanisms",
-                     "its simulator, which shares no code with the fitter, has the base model only",
-                     "leave 'mechanisms' out");
+    throw InputError(
+        {spec.file.string()}, "coverage can simulate no truth with mechanisms",
+        "its simulator, which shares no code with the fitter, knows the base model only",
+        "leave 'mechanisms' out");
   }
   // Recipes have the ring law's truth.
   std::vector<KnownRecipe> recipes;

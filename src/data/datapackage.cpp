@@ -51,8 +51,8 @@ void read_unit(const JsonNode& field, Column& column) {
 
 Column read_field(const JsonNode& field) {
   const std::vector<std::string> names = all_names<Quantity>();
-  const JsonNode name =
-      field.require("name", "it ties the field to a column", fmt::format("known: {}", join(names)));
+  const JsonNode name = field.require("name", "it links the field to a column",
+                                      fmt::format("known: {}", join(names)));
   Column column;
   column.name = name.string();
   const auto quantity = value_named<Quantity>(column.name);
@@ -94,7 +94,7 @@ std::vector<Column> read_fields(const JsonNode& fields) {
       field.find("name")->fail(problem, why, "remove one");
     };
     if (find_column(columns, column.quantity) != nullptr) {
-      name_fails(fmt::format("the field '{}' stands here twice", column.name), "");
+      name_fails(fmt::format("the field '{}' appears twice", column.name), "");
     }
     columns.push_back(column);
     if (find_column(columns, Quantity::restitution) != nullptr &&
@@ -129,7 +129,8 @@ char read_delimiter(const JsonNode& resource) {
   constexpr std::string_view allowed = ",;|\t";
   if (text.size() != 1 || allowed.find(text[0]) == std::string_view::npos) {
     node->fail(fmt::format("the delimiter is {}", quote(text)),
-               "only comma, semicolon, bar and tab are read", "save the points with commas");
+               "only comma, semicolon, vertical bar and tab are read",
+               "save the points with commas");
   }
   return text[0];
 }
@@ -165,7 +166,7 @@ std::string read_id(const JsonNode& node) {
            c == '_' || c == '-';
   });
   if (id.empty() || id.front() == '.' || !plain) {
-    node.fail(fmt::format("the name {} is not fit for a file's name", quote(id)), "",
+    node.fail(fmt::format("the name {} cannot be the name of a file", quote(id)), "",
               "use letters, digits, '.', '_' and '-', as in wall1990-mica");
   }
   return id;

@@ -126,7 +126,7 @@ class PositionScan {
     child.name = string_token();
     if (!seen.insert(child.name).second) {
       throw InputError(locate(text_, child.key, file_),
-                       fmt::format("the key {} stands here twice", quote(child.name)), "",
+                       fmt::format("the key {} appears twice", quote(child.name)), "",
                        "remove one");
     }
     skip_blanks();

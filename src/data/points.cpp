@@ -75,7 +75,7 @@ class PointReader {
       }
       const auto index = static_cast<std::size_t>(column - names.begin());
       if (std::find(header_.begin(), header_.end(), index) != header_.end()) {
-        fail(cell, fmt::format("the column '{}' stands here twice", cell.text), "",
+        fail(cell, fmt::format("the column '{}' appears twice", cell.text), "",
              "remove or rename one");
       }
       field_of_[package_.columns[index].quantity] = header_.size();
@@ -142,7 +142,7 @@ class PointReader {
       suggestion = "remove the row, or leave the cell empty if the column is optional";
     }
     fail(field, fmt::format("{} is not a number", quote(field.text)),
-         fmt::format("'{}' is a finite number{}", column.name,
+         fmt::format("'{}' has to be a finite number{}", column.name,
                      column.unit.empty() ? "" : " in " + column.unit),
          suggestion);
   }
@@ -197,7 +197,7 @@ class PointReader {
     constexpr double largest = limits::largest_restitution;
     if (!field_of_.contains(Quantity::rebound_velocity)) {
       return value(Quantity::restitution,
-                   {0.0, largest, " (above 1 only noise can bring it)",
+                   {0.0, largest, " (only noise can bring it above 1)",
                     "correct it; a restitution in per cent has the unit %", ""});
     }
     const auto rebound = value(Quantity::rebound_velocity,
@@ -215,9 +215,9 @@ class PointReader {
     const CsvField& field = (*row_)[field_of_.at(quantity)];
     if (point.all_captured()) {
       if (known.value_or(0.0) == 0.0) return 0.0;
-      fail(field, fmt::format("a rebound of {} though all were captured", quote(field.text)),
+      fail(field, fmt::format("a rebound of {} although all were captured", quote(field.text)),
            "the mean is that of the spheres that rebounded",
-           "write 0 or nothing, or correct 'captured'");
+           "write 0 or leave the cell empty, or correct 'captured'");
     }
     if (known) return *known;
     fail(field, fmt::format("'{}' is empty", column(quantity).name),
@@ -238,7 +238,7 @@ class PointReader {
         count(Quantity::events,
               {1.0, limits::most_events, " impacts", "split the point", "count the impacts"}, 1);
     const std::string captured_hint =
-        "'captured' counts among 'events', which is 1 when it is not given";
+        "'captured' is a part of 'events', which is 1 when it is not given";
     point.captured = count(
         Quantity::captured,
         {0.0, static_cast<double>(point.events), ", the events of this point", captured_hint, ""},

@@ -42,7 +42,7 @@ double stated_sd(const JsonNode& node, double value) {
   const auto relative = node.find("relative_sd");
   if (sd && relative) {
     relative->fail(fmt::format("{} has both sd and relative_sd", node.name()),
-                   "they say the same twice", "remove one of them");
+                   "either of them is enough", "remove one of them");
   }
   if (!sd && !relative) {
     node.fail(fmt::format("{} is an object without sd or relative_sd", node.name()),
@@ -54,13 +54,13 @@ double stated_sd(const JsonNode& node, double value) {
   const double size = sd ? number : number * std::abs(value);
   if (!(number >= 0.0)) {
     place.fail(fmt::format("{} = {:g}", place.name(), number),
-               "a standard deviation is not negative", "leave out the minus");
+               "a standard deviation is not negative", "leave out the minus sign");
   }
   if (size > largest_relative_error * std::abs(value)) {
     place.fail(
         fmt::format("{} = {:g}", place.name(), number),
         fmt::format("it is more than {:g} times the value {:g}", largest_relative_error, value),
-        sd ? "give it in the unit of the value" : "20 per cent is written 0.2");
+        sd ? "give it in the unit of the value" : "20 % is written 0.2");
   }
   return size;
 }
@@ -72,7 +72,7 @@ double uncertain_constant(const JsonNode& node, Body body, Constant which, Impac
   if (!node.is_object()) return read(node);
   node.allow_only({"value", "sd", "relative_sd"});
   const double value =
-      read(node.require("value", "it states an error, but of nothing", "add the value"));
+      read(node.require("value", "an error without a value means nothing", "add the value"));
   const double sd = stated_sd(node, value);
   if (sd > 0.0) system.errors.push_back({body, which, sd});
   return value;
@@ -162,7 +162,7 @@ void read_conditions(const JsonNode& conditions, ImpactSystem& system) {
       {0.0, limits::highest_pressure, "Pa", "give it in Pa: 1 atm is 101325 Pa, 0 is vacuum"});
   system.temperature = bounded_if_any(conditions, "temperature",
                                       {limits::lowest_temperature, limits::highest_temperature, "K",
-                                       "give it in K: 20 degrees Celsius are 293 K"});
+                                       "give it in K: 20 degrees Celsius is 293 K"});
 }
 
 }  // namespace

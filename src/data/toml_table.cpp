@@ -33,7 +33,7 @@ double TomlTable::number(const std::string& key) {
 double TomlTable::positive(const std::string& key) {
   const double value = number(key);
   if (!(value > 0.0)) {
-    fail(key, fmt::format("{} = {:g}, but it has to be above zero", key, value), "",
+    fail(key, fmt::format("{} = {:g}, but it has to be positive", key, value), "",
          "see the units in the comments");
   }
   return value;
@@ -58,7 +58,7 @@ std::int64_t TomlTable::whole(const std::string& key, std::int64_t lowest) {
   const std::int64_t value = reader_.integer(need(key, "a whole number"), key);
   if (value < lowest) {
     fail(key, fmt::format("{} = {}", key, value),
-         fmt::format("it has to be a whole number from {} on", lowest), "correct it");
+         fmt::format("it has to be a whole number, {} or more", lowest), "correct it");
   }
   return value;
 }
@@ -91,9 +91,8 @@ std::optional<std::vector<double>> TomlTable::optional_positives(const std::stri
     numbers.push_back(reader_.number(item, key));
     if (numbers.back() > 0.0) continue;
     reader_.fail(
-        item,
-        fmt::format("{:g} in '{}', but every entry has to be above zero", numbers.back(), key), "",
-        "correct it");
+        item, fmt::format("{:g} in '{}', but every entry has to be positive", numbers.back(), key),
+        "", "correct it");
   }
   return numbers;
 }

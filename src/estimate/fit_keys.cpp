@@ -24,14 +24,16 @@ std::vector<FitKey> all_keys() {
       {"", "diagnosis", "", "the table [diagnosis]"},
 
       {"model", "adhesion", quoted(name_of(fit.adhesion)),
-       "the law of adhesion: ring (eq. 5, with f0), jkr, dmt, or maugis between the two (with W)"},
+       "the law of adhesion: ring (eq. 5, with f0), jkr, dmt, or maugis between these two (all "
+       "three with W)"},
       {"model", "separation", fmt::format("{:g}", fit.separation),
-       "z_0 [m], the distance of the surfaces at rest, over which maugis lets adhesion reach"},
+       "z0 [m], the distance of the surfaces at rest, which sets the range of adhesion under "
+       "maugis"},
       {"model", "adhesion_damping_phase", quoted(name_of(fit.phase)),
        "when the damping of the adhesion acts: while the sphere moves outward (rebound), or in "
        "both "
        "phases"},
-      {"model", "mechanisms", "[]", "ids of what is added to the base model"},
+      {"model", "mechanisms", "[]", "ids of the mechanisms that are added to the base model"},
 
       {"parameter", "initial", "", "where the fit starts; the value of a fixed parameter"},
       {"parameter", "bounds", "", "[lower, upper]"},
@@ -39,36 +41,36 @@ std::vector<FitKey> all_keys() {
       {"parameter", "per", "",
        "\"dataset\": one value for each dataset of a joint fit instead of one for all"},
 
-      {"noise", "variance", quoted("auto"), "how the scatter depends on e"},
+      {"noise", "variance", quoted("auto"), "how the scatter depends on e and V"},
       {"noise", "residuals", quoted(noise.student ? "student" : "normal"),
-       "normal, or student against outliers"},
+       "normal, or student, which gives outliers less weight"},
       {"noise", "student_dof", fmt::format("{:g}", noise.student_dof),
        "degrees of freedom of Student's t"},
       {"noise", "velocity_errors", truth_value(noise.velocity_errors),
        "use the column velocity_sd"},
       {"noise", "velocity_relative_sd", fmt::format("{:g}", noise.velocity_relative_sd),
-       "for points that state no velocity_sd"},
+       "relative standard deviation for points that state no velocity_sd"},
       {"noise", "diameter_errors", truth_value(noise.diameter_errors),
        "use the column diameter_sd"},
       {"noise", "diameter_relative_sd", fmt::format("{:g}", noise.diameter_relative_sd),
-       "for points that state no diameter_sd"},
+       "relative standard deviation for points that state no diameter_sd"},
 
       {"uncertainty", "replicates", fmt::format("{}", uncertainty.replicates),
-       "of the bootstrap; 0: none, \"auto\": as many as it takes"},
+       "replicates of the bootstrap; 0: none, \"auto\": as many as it takes"},
       {"uncertainty", "scheme", quoted(name_of(uncertainty.scheme)),
        "how the bootstrap draws new data sets"},
-      {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "of every interval"},
+      {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "level of every interval"},
       {"uncertainty", "materials", truth_value(uncertainty.materials),
-       "use the errors that the datasets state of their material constants; false takes them as "
-       "exact"},
+       "use the errors that the datasets state for their material constants; false takes the "
+       "constants as exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),
-       "sample the posterior: another interval, and joint draws in posterior.csv"},
+       "sample the posterior: one more kind of interval, and joint draws in posterior.csv"},
       {"uncertainty", "seed", fmt::format("{}", uncertainty.seed),
-       "fixes every digit of every output"},
+       "seed of the random numbers; fixes every digit of every output"},
 
       {"diagnosis", "law_error", fmt::format("{:g}", fit.law_error),
-       "how wrong the law of a mechanism may be, relative and smooth in V and d; the losses of the "
-       "base model may be by three tenths of it; 0 takes laws as exact"},
+       "relative error, smooth in V and d, that a diagnosis allows the law of a mechanism; the "
+       "losses of the base model are allowed three tenths of it; 0 takes the laws as exact"},
   };
 }
 

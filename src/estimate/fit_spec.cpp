@@ -46,7 +46,7 @@ void read_residuals(const TomlReader& reader, const toml::table& table, NoiseSpe
   if (const toml::node* node = table.get("residuals")) {
     const std::string word = reader.string(*node, "residuals", "residuals = \"normal\"");
     if (word != "normal" && word != "student") {
-      reader.fail(*node, fmt::format("unknown distribution {} of residuals", quote(word)), "",
+      reader.fail(*node, fmt::format("unknown distribution of the residuals {}", quote(word)), "",
                   did_you_mean(word, {"normal", "student"}));
     }
     spec.student = word == "student";
@@ -78,7 +78,7 @@ void read_input_errors(const TomlReader& reader, const toml::table& table,
   if (relative_sd < 0.0 || relative_sd > largest_relative_sd) {
     reader.fail(*node, fmt::format("{} = {:g}", size_name, relative_sd),
                 fmt::format("it has to lie between 0 and {:g}", largest_relative_sd),
-                "two per cent is written 0.02");
+                "2 % is written 0.02");
   }
   if (!used) {
     reader.fail(*node, fmt::format("'{}' is given though {} = false", size_name, switch_name),
@@ -135,13 +135,13 @@ class FitReader : private TomlReader {
         string(node, "dataset", "dataset = \"../datasets/dahneke1975-quartz\"");
     if (text.empty() || printable(text) != text) {
       fail(node, "'dataset' names no folder", "",
-           "write the path of a dataset folder, as seen from this file");
+           "write the path of a dataset folder, relative to this file");
     }
     std::filesystem::path path = (folder_ / text).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();  // "../datasets/mica/"
     auto& datasets = fit_.spec.datasets;
     if (std::find(datasets.begin(), datasets.end(), path) != datasets.end()) {
-      fail(node, fmt::format("the dataset {} stands here twice", quote(text)),
+      fail(node, fmt::format("the dataset {} appears twice", quote(text)),
            "its points would count twice", "remove one");
     }
     datasets.push_back(path);
@@ -152,7 +152,7 @@ class FitReader : private TomlReader {
     const toml::node* const node = root.get("dataset");
     if (node == nullptr) {
       throw InputError({file(), 1, 1}, "the key 'dataset' is missing", "",
-                       "add dataset = \"../datasets/...\" above all tables");
+                       "add dataset = \"../datasets/...\" above the first table");
     }
     const toml::array* const list = node->as_array();
     if (list == nullptr) {
@@ -194,10 +194,10 @@ class FitReader : private TomlReader {
 
   void read_separation(const toml::node& node) {
     if (fit_.spec.adhesion != AdhesionLaw::maugis) {
-      fail(node,
-           fmt::format("'separation' is stated beside adhesion = \"{}\"",
-                       name_of(fit_.spec.adhesion)),
-           "that law has no range", "leave it out, or set adhesion = \"maugis\"");
+      fail(
+          node,
+          fmt::format("'separation' is stated with adhesion = \"{}\"", name_of(fit_.spec.adhesion)),
+          "only maugis has a range of adhesion", "leave it out, or set adhesion = \"maugis\"");
     }
     const double separation = number(node, "separation");
     if (!(separation >= least_separation && separation <= largest_separation)) {
@@ -221,13 +221,13 @@ class FitReader : private TomlReader {
     if (const std::string_view why = find_mechanism(id)->refusal(fit_.spec.adhesion);
         !why.empty()) {
       fail(item,
-           fmt::format("the mechanism {} cannot stand beside adhesion = \"{}\"", quote(id),
+           fmt::format("the mechanism {} cannot be used with adhesion = \"{}\"", quote(id),
                        name_of(fit_.spec.adhesion)),
            std::string(why), "leave the mechanism out, or choose adhesion = \"ring\"");
     }
     std::vector<std::string>& mechanisms = fit_.spec.mechanisms;
     if (std::find(mechanisms.begin(), mechanisms.end(), id) != mechanisms.end()) {
-      fail(item, fmt::format("the mechanism {} stands here twice", quote(id)), "", "remove one");
+      fail(item, fmt::format("the mechanism {} appears twice", quote(id)), "", "remove one");
     }
     mechanisms.push_back(id);
   }
@@ -310,7 +310,7 @@ class FitReader : private TomlReader {
     const bool outside = spec.initial < spec.lower || spec.initial > spec.upper;
     if (!spec.is_derived() && outside && (spec.free || bounds != nullptr)) {
       fail(initial != nullptr ? *initial : *bounds,
-           fmt::format("the {}initial value {:g} of '{}' lies outside of its bounds",
+           fmt::format("the {}initial value {:g} of '{}' lies outside its bounds",
                        spec.initial_stated ? "" : "default ", spec.initial, entry.name),
            fmt::format("the bounds are [{:g}, {:g}]", spec.lower, spec.upper),
            "choose an initial value within them");
@@ -364,7 +364,7 @@ class FitReader : private TomlReader {
       const std::string word = string(*node, "scheme", "scheme = \"auto\"");
       const std::optional<Scheme> scheme = value_named<Scheme>(word);
       if (!scheme) {
-        fail(*node, fmt::format("unknown scheme {} of the bootstrap", quote(word)), "",
+        fail(*node, fmt::format("unknown bootstrap scheme {}", quote(word)), "",
              did_you_mean(word, all_names<Scheme>()));
       }
       spec.scheme = *scheme;
@@ -402,7 +402,8 @@ class FitReader : private TomlReader {
     if (const toml::node* node = table.get("seed")) {
       const std::int64_t seed = integer(*node, "seed");
       if (seed < 0) {
-        fail(*node, fmt::format("seed = {}", seed), "seeds count from 0", "leave out the minus");
+        fail(*node, fmt::format("seed = {}", seed), "a seed cannot be negative",
+             "leave out the minus sign");
       }
       spec.seed = static_cast<std::uint64_t>(seed);
     }
@@ -451,7 +452,7 @@ FitSpec load_fit(const std::filesystem::path& file) {
     if (std::filesystem::is_directory(fit.spec.datasets[i], failed)) continue;
     throw InputError(fit.dataset_places[i],
                      fmt::format("there is no folder '{}'", fit.spec.datasets[i].string()),
-                     "paths are seen from the folder of this file", "correct the path");
+                     "paths are relative to the folder of this file", "correct the path");
   }
   return std::move(fit.spec);
 }

@@ -81,7 +81,9 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
     const auto predicted = renew_weights(model, theta, result.data);
     if (!predicted) {
       result.run.converged = false;
-      result.run.message = "the model has no answer beside a point, where the weights need one";
+      result.run.message =
+          "the weights need an answer of the model close to every point, and it has none beside "
+          "one of them";
       return result;
     }
     result.run = minimise(impact_problem(model, result.data), theta, options.minimiser);

@@ -95,7 +95,7 @@ void refuse_reconstructed_points(const ImportRequest& request, const Dataset& im
       {request.file.string()},
       fmt::format("{} of {} points are those of the reconstruction", same, imported.points.size()),
       "a recipe made them; nobody measured or digitised them",
-      "import points of an experiment, or --provenance synthetic");
+      "import points of an experiment, or give --provenance synthetic");
 }
 
 /// Keeps the recipe of a former reconstruction where nothing takes it for the folder's.

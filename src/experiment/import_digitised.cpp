@@ -82,15 +82,16 @@ class ReadingError {
     if (!(pixels || percent) || !number || !(*number > 0.0)) {
       throw InputError(
           {},
-          fmt::format("--reading-error {} is neither a part of the axis nor a number of pixels",
-                      quote(word)),
+          fmt::format(
+              "--reading-error {} is neither a percentage of the axis nor a number of pixels",
+              quote(word)),
           "", "write --reading-error 0.5% or --reading-error 2px");
     }
     for (const char* name : {"x", "y"}) {
       if (!axes_.contains(name)) {
         throw InputError(
             {}, fmt::format("--reading-error without --axis {}=...", name),
-            "a part of an axis means nothing without its ends",
+            "a percentage of an axis means nothing without its ends",
             fmt::format("add --axis {}=log,MIN,MAX or --axis {}=linear,MIN,MAX", name, name));
       }
       if (pixels && !(axes_[name].pixels > 0.0)) {
@@ -132,7 +133,7 @@ std::map<std::string, Coordinate> read_coordinates(const std::vector<std::string
           pair && (pair->first == "incident_velocity" || pair->first == "rebound_velocity");
       if (!(velocity || (pair && pair->first == "restitution")) || (axis != "x" && axis != "y")) {
         throw InputError(
-            {}, fmt::format("--map {} does not fit a figure", quote(entry)),
+            {}, fmt::format("--map {} does not suit a figure", quote(entry)),
             "it has x and y, one of them the incident velocity",
             "write incident_velocity=x:m/s and restitution=y or rebound_velocity=y:m/s");
       }

@@ -91,8 +91,8 @@ std::vector<Launch> gather_launches(const ImportTable& table, const ImportReques
                            [](const Flight& a, const Flight& b) { return a.bounce == b.bounce; });
     if (twice != launch.flights.end()) {
       table.fail(std::next(twice)->row, "bounce",
-                 fmt::format("bounce {:g} of launch '{}' stands here and on line {}", twice->bounce,
-                             launch.name, table.line(twice->row)),
+                 fmt::format("bounce {:g} of launch '{}' appears here and on line {}",
+                             twice->bounce, launch.name, table.line(twice->row)),
                  "the ratio of two launches' intervals is no restitution",
                  "if several columns name a launch, join them: --map launch=COLUMN+COLUMN");
     }
@@ -131,7 +131,7 @@ class Reduction {
       table.fail(row, quantity,
                  fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
                              sphere_.air.pressure),
-                 "a sphere of this size and density could not have come so far",
+                 "a sphere of this size and density could not have flown so far",
                  "check --diameter and the density, or write --ambient-pressure 0 for vacuum");
     }
     const double share = e > 0.0 ? 1.0 - plain / e : 0.0;
@@ -210,9 +210,9 @@ std::vector<ReleaseCheck> release_check(const std::vector<Launch>& launches, dou
 double gravity_of(const ImportRequest& request) {
   const auto value = parse_number(request.gravity);
   if (value && *value >= slowest_gravity && *value <= fastest_gravity) return *value;
-  throw InputError({},
-                   fmt::format("--gravity {} is no acceleration in m/s2", quote(request.gravity)),
-                   "", "write 9.80665 for standard gravity");
+  throw InputError(
+      {}, fmt::format("--gravity {} is not an acceleration in m/s2", quote(request.gravity)), "",
+      "write 9.80665 for standard gravity");
 }
 
 }  // namespace
@@ -370,7 +370,7 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
   if (out.points.empty()) {
     throw InputError({request.file.string(), 1, 1}, "no launch has two successive intervals",
                      "e is the ratio of successive intervals",
-                     "say with --map launch=COLUMN which rows belong together");
+                     "state with --map launch=COLUMN which rows belong together");
   }
   if (gaps > 0) out.notes.push_back({ImportRemark::bounces_missing, {}, gaps});
   const std::vector<ReleaseCheck> releases = release_check(launches, g, reduction);

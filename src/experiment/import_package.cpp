@@ -72,7 +72,7 @@ Provenance provenance_for(const ImportRequest& request,
   if (existing && existing->provenance == Provenance::reconstruction) return Provenance::digitised;
   if (existing) return existing->provenance;
   throw InputError({}, "the provenance of these points is not known", "every result states it",
-                   "give --provenance measured, or digitised when they were read off a figure");
+                   "give --provenance measured, or digitised if they were read off a figure");
 }
 
 /// Conditions that are stated, and those that the flights are reduced with.

@@ -111,7 +111,7 @@ void ImportTable::add(const std::string& entry, const std::vector<ImportQuantity
       known.begin(), known.end(), [&](const ImportQuantity& q) { return q.name == pair->first; });
   if (quantity == known.end()) {
     throw InputError({}, fmt::format("--map: unknown quantity {}", quote(pair->first)),
-                     "this format does not have it", did_you_mean(pair->first, names));
+                     "this format does not have this quantity", did_you_mean(pair->first, names));
   }
   std::string column = pair->second;
   if (column.size() > 1 && column.front() == '"' && column.back() == '"') {

@@ -31,7 +31,7 @@ double value_with_unit(const std::string& word, Dimension dimension, const std::
     const auto factor = plain ? 1.0 : unit_factor(dimension, parts->second);
     if (factor) return parts->first * *factor;
   }
-  throw InputError({}, fmt::format("{} {} is no number with a unit", option, quote(word)),
+  throw InputError({}, fmt::format("{} {} is not a number with a unit", option, quote(word)),
                    fmt::format("units are {}", join(names)),
                    fmt::format("write for example 4.9{}", names.front()));
 }
@@ -46,7 +46,7 @@ StatedError stated_error(const std::string& word, Dimension dimension, const std
     error.absolute = value_with_unit(word, dimension, option);
   }
   if (error.relative < 0.0 || error.absolute < 0.0 || !error.stated()) {
-    throw InputError({}, fmt::format("{} {} is not above zero", option, quote(word)),
+    throw InputError({}, fmt::format("{} {} is not positive", option, quote(word)),
                      "it is a standard deviation", "leave the option out if it is not known");
   }
   return error;

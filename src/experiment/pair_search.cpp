@@ -86,8 +86,8 @@ std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
     }
     if (links.size() > most_candidates * (i + 1000)) {
       throw ComputationError(fmt::format(
-          "too crowded: more than {} rebounds fit every passage down (up to line {}); narrow "
-          "--height-range or --diameter-tolerance, or measure at a lower rate",
+          "too many overlapping flights: more than {} rebounds fit every passage down (up to line "
+          "{}); narrow --height-range or --diameter-tolerance, or measure at a lower rate",
           most_candidates, down.line));
     }
   }

@@ -105,7 +105,7 @@ PassageColumns passage_columns(const std::vector<std::string>& header, const std
       throw InputError(place, fmt::format("the unit of '{}' is not known", name),
                        stated.found ? "datapackage.json beside the file states none"
                                     : "there is no datapackage.json beside the file that lists it",
-                       fmt::format("say --unit {}={}", name, fmt::join(known, "|")));
+                       fmt::format("give --unit {}={}", name, fmt::join(known, "|")));
     }
     const std::string& unit =
         by_option != format.units.end() ? by_option->second : by_package->second;

@@ -173,7 +173,7 @@ void require_sense(const PassageTable& table) {
   const BadRow& first = table.first_damaged.front();
   throw InputError({table.file, first.line, 1}, first.problem,
                    fmt::format("{} of {} rows cannot be used", table.damaged, table.rows),
-                   "check the delimiter, the units and that decimals have a point");
+                   "check the delimiter and the units, and that decimals have a point");
 }
 
 }  // namespace

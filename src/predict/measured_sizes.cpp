@@ -83,7 +83,7 @@ class SizesReader {
     const double upper = diameter_ != no_column ? lower : size(row[upper_]);
     if (upper < lower) {
       fail(row[upper_], fmt::format("upper = {} lies below lower", row[upper_].text), "",
-           "exchange them");
+           "swap them");
     }
     const double weight = weight_ == no_column ? 1.0 : number(row[weight_]);
     if (weight < 0.0) {
@@ -106,7 +106,7 @@ class SizesReader {
     }
     if (weights_.size() > most_sizes) {
       throw InputError({file_}, fmt::format("the file has {} different diameters", weights_.size()),
-                       fmt::format("at most {} are simulated", most_sizes), "gather them in bins");
+                       fmt::format("at most {} are simulated", most_sizes), "sort them into bins");
     }
     std::vector<SizeBin> bins;
     for (const auto& [size, weight] : weights_) {
@@ -148,8 +148,8 @@ class SizesReader {
              "known: diameter, lower, upper, count, weight, fraction");
       }
       if (*column != no_column) {
-        fail(row[i], fmt::format("{} is a second column of its kind", quote(row[i].text)), "",
-             "remove one");
+        fail(row[i], fmt::format("{} is a second column with the same meaning", quote(row[i].text)),
+             "", "remove one");
       }
       *column = i;
     }

@@ -156,7 +156,7 @@ std::vector<double> log_spaced(TomlTable table) {
   const double to = table.positive("to");
   const auto count = table.whole("count", 2);
   table.finish();
-  if (!(to > from)) table.fail("to", "'to' does not lie above 'from'", "", "exchange them");
+  if (!(to > from)) table.fail("to", "'to' is not above 'from'", "", "swap them");
   std::vector<double> velocities;
   for (std::int64_t i = 0; i < count; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(count - 1);

@@ -42,13 +42,13 @@ void require_recipe(const std::filesystem::path& folder) {
     return;
   }
   const bool replaced = std::filesystem::exists(folder / set_aside_recipe_name);
-  throw InputError({folder.string()}, "this is no reconstruction",
-                   fmt::format("it has no {}", recipe_name),
-                   replaced ? fmt::format("its points were replaced; how they were made before "
-                                          "stands in {}",
-                                          set_aside_recipe_name)
-                            : std::string("its points are not made by a recipe; name a folder that "
-                                          "has one"));
+  throw InputError(
+      {folder.string()}, "this is no reconstruction", fmt::format("it has no {}", recipe_name),
+      replaced
+          ? fmt::format("its points were replaced; the recipe of the earlier ones is kept in {}",
+                        set_aside_recipe_name)
+          : std::string("its points are not made by a recipe; name a folder that "
+                        "has one"));
 }
 
 PairedPoints make_points(const Recipe& recipe) {
@@ -67,7 +67,7 @@ std::string first_difference(const std::string& there, const std::string& made) 
     std::string right;
     const bool more_left = static_cast<bool>(std::getline(a, left));
     const bool more_right = static_cast<bool>(std::getline(b, right));
-    if (!more_left && !more_right) return "the line ends differ";
+    if (!more_left && !more_right) return "the line endings differ";
     if (left != right || more_left != more_right) {
       return fmt::format("line {}: the file has '{}', the recipe makes '{}'", line,
                          more_left ? left : "nothing", more_right ? right : "nothing");

@@ -91,7 +91,7 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
     out.push_back(fmt::format(
         "An approximation, as {}: the ring law with C_H = {:.5g} s/m, C_A = {:.5g} s/m and f0 = "
         "{:.5g} N/m, which at this size, and over {}, has the same e up to {:.4f} (rms over log "
-        "V); the largest difference is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds). These "
+        "V); the largest error is {:.4f} at {:.4g} m/s ({:.4f} where the fit rebounds). These "
         "three are no parameters of the fit.",
         why_no_force(target, impact), other.force.hertz_damping, other.force.adhesion_damping,
         other.force.adhesion_force, range_words(impact.request), other.error.rms,

@@ -68,7 +68,7 @@ const Mistake points_mistakes[] = {
      "correct it"},
     {"restitution_empty", "0.71", "", "points.csv:2:16: ", "'restitution' is empty", "fill it in"},
     {"restitution_though_captured", "1.25,,", "1.25,0.5,", "points.csv:3:17: ", "all were captured",
-     "write 0 or nothing"},
+     "write 0 or leave the cell empty"},
     {"sd_zero", "0.71,1.5", "0.71,0", "points.csv:2:21: ", "restitution_sd = 0 %",
      "leave the cell empty"},
     {"sd_negative", "0.71,1.5", "0.71,-1.5", "points.csv:2:21: ", "restitution_sd = -1.5 %",
@@ -79,7 +79,7 @@ const Mistake points_mistakes[] = {
      "leave the cell empty"},
     // Counts.
     {"captured_above_events", "40,3", "40,41", "points.csv:2:30: ", "captured = 41",
-     "counts among 'events'"},
+     "is a part of 'events'"},
     {"captured_negative", "40,3", "40,-1", "points.csv:2:30: ", "captured = -1", "correct it"},
     {"captured_without_events", "4,40,3", "4,,3", "points.csv:2:28: ", "captured = 3",
      "'events', which is 1 when"},

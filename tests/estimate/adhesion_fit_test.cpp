@@ -213,7 +213,7 @@ TEST(AdhesionKeys, TheParameterFollowsTheLaw) {
                 .find("it would count twice"),
             std::string::npos);
   EXPECT_EQ(refused("[model]\nadhesion = \"maugis\"\nseparation = 3e-10"), "");
-  EXPECT_NE(refused("[model]\nadhesion = \"jkr\"\nseparation = 3e-10").find("no range"),
+  EXPECT_NE(refused("[model]\nadhesion = \"jkr\"\nseparation = 3e-10").find("range of adhesion"),
             std::string::npos);
   EXPECT_NE(refused("[model]\nadhesion = \"maugis\"\nseparation = 0.3").find("4e-10 is usual"),
             std::string::npos);

@@ -180,7 +180,7 @@ const Mistake mistakes[] = {
     {"dataset_list_of_numbers", "\"../datasets/quartz\"", "[\"a\", 3]",
      "fit.toml:1:17: ", "'dataset' is a number", "for example"},
     {"dataset_twice", "\"../datasets/quartz\"", "[\"a\", \"./b/../a/\"]",
-     "fit.toml:1:17: ", "stands here twice", "remove one"},
+     "fit.toml:1:17: ", "appears twice", "remove one"},
     {"dataset_two_lines", "../datasets", "a\\nb", "fit.toml:1:11: ", "names no folder", "write"},
     // The model.
     {"model_no_table", "[model]\nadhesion_damping_phase = \"both\"\nmechanisms = []", "model = 3",

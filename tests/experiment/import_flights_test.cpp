@@ -122,7 +122,7 @@ TEST(Intervals, TwoLaunchesOfOneNameAreNotMixed) {
                                ImportFormat::intervals);
   request.map = {"launch=run,bounce=n,interval=t:s"};
   EXPECT_THAT(complaint(request),
-              HasSubstr("input.csv:4:6: bounce 1 of launch '1' stands here and on line 2"));
+              HasSubstr("input.csv:4:6: bounce 1 of launch '1' appears here and on line 2"));
   request.map = {"launch=h+run,bounce=n,interval=t:s"};
   const auto points = recoil::import_points(request).dataset.points;
   ASSERT_EQ(points.size(), 2U);
@@ -164,7 +164,7 @@ TEST(Intervals, WhatIsAskedFor) {
   EXPECT_THAT(complaint(request), HasSubstr("--gravity 'fast'"));
   request.gravity = "9.8";
   request.time_error = "3";
-  EXPECT_THAT(complaint(request), HasSubstr("--time-error '3' is no number with a unit"));
+  EXPECT_THAT(complaint(request), HasSubstr("--time-error '3' is not a number with a unit"));
   auto doubled = place.request("t\n0.2\n0.4\n", ImportFormat::intervals);
   doubled.map = {"interval=t:s"};
   EXPECT_THAT(complaint(doubled), HasSubstr("input.csv:3:1: restitution = 2"));

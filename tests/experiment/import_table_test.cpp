@@ -125,7 +125,7 @@ TEST(Table, WhatNobodySaidIsAskedFor) {
   EXPECT_THAT(without([](Request& r) { r.diameters = {"none=3um"}; }),
               HasSubstr("--diameter 'none=3um': there is no such series"));
   EXPECT_THAT(without([](Request& r) { r.diameters = {"3 miles"}; }),
-              HasSubstr("--diameter '3 miles' is no number with a unit"));
+              HasSubstr("--diameter '3 miles' is not a number with a unit"));
 }
 
 TEST(Table, NothingIsOverwrittenUnasked) {

@@ -71,7 +71,7 @@ def trip(case, folder):
         worst = max(worst, abs(there - e))
         captures_agree = captures_agree and (e == 0.0) == (there == 0.0)
     if allowed is None:
-        allowed = number(r"the largest is ([\d.]+)", said) + 2e-3
+        allowed = number(r"the largest error is ([\d.]+)", said) + 2e-3
     return worst, allowed, captures_agree
 
 

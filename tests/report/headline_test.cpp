@@ -29,11 +29,11 @@ TEST(Headline, SaysWhatIsNamed) {
 TEST(Headline, TellsTheCertainFromTheDoubtful) {
   Diagnosis d = answered(Verdict::not_separable, {"crack_rate", "plastic_yield", "capillary"});
   EXPECT_EQ(headline(d),
-            "Something is missed, and these data cannot tell what: crack rate, plastic yield, "
-            "capillary");
+            "The model misses something, and these data cannot tell what: crack rate, plastic "
+            "yield, capillary");
   d.common = {"plastic_yield"};
   EXPECT_EQ(headline(d),
-            "What the model misses: plastic yield, and beside it crack rate or capillary");
+            "What the model misses: plastic yield, together with crack rate or capillary");
   d.common.clear();
   d.shared_cause = "adhesion hysteresis";
   EXPECT_EQ(headline(d),
@@ -49,9 +49,9 @@ TEST(Headline, StaysShortWithManyRivals) {
 
 TEST(Headline, DoubtsTheStatedErrorsWhereTheyMayBeTheReason) {
   Diagnosis d = answered(Verdict::unexplained);
-  EXPECT_EQ(headline(d), "Something is missed that nothing in the catalogue explains");
+  EXPECT_EQ(headline(d), "The model misses something that nothing in the catalogue explains");
   d.unstated.push_back({ErrorSource::velocity_errors, 0.03, -40.0, 0.001});
-  EXPECT_EQ(headline(d), "Something is missed that nothing in the catalogue explains");
+  EXPECT_EQ(headline(d), "The model misses something that nothing in the catalogue explains");
   d.unstated.push_back({ErrorSource::larger_deviations, 1.4, -20.0, 0.4});
   EXPECT_THAT(headline(d), HasSubstr("Either the errors are larger than stated, or"));
 }

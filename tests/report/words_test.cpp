@@ -79,8 +79,8 @@ TEST(Words, OfAnImpossibleParameter) {
   });
   parameter.implausible = Implausible::beyond_limit;
   EXPECT_EQ(implausible_words(parameter),
-            "surface_field = 2e+08 V/m: the field over that of breakdown would be 2.1, and is at "
-            "most 1, as air sparks");
+            "surface_field = 2e+08 V/m: the field over that of breakdown would be 2.1, but is at "
+            "most 1: air sparks");
 }
 
 TEST(Words, EveryHindranceIsTold) {
