@@ -104,8 +104,8 @@ std::string commands_block(const CLI::App& program) {
 
 std::string mechanisms_block(const CLI::App&) {
   std::string out =
-      "| id | kind | what it is | parameters (in brackets: fixed unless freed) |\n"
-      "|---|---|---|---|\n";
+      "| id | kind | what it is | parameters (in brackets: fixed unless freed) "
+      "|\n|---|---|---|---|\n";
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     std::string parameters;
     for (const Parameter& p : mechanism.info.parameters) {

@@ -15,7 +15,7 @@ struct AdhesionHysteresis {
 Mechanism adhesion_hysteresis() {
   return make_mechanism<AdhesionHysteresis>({
       .id = "adhesion_hysteresis",
-      .title = "parting takes more work per area than meeting gave",
+      .title = "separation takes more work per area than contact gave",
       .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
@@ -29,17 +29,17 @@ Mechanism adhesion_hysteresis() {
       .fingerprint = "1 - e^2 falls like V^(-6/5) d^(-1), slower than for a constant energy; V* ~ "
                      "d^(-5/6), which a freed size law takes for f0 ~ r^(5/9); grows with W_A from "
                      "target to target",
-      .parameters =
-          {{.name = "hysteresis_factor",
-            .unit = "1",
-            .meaning = "s, work of parting less work of meeting, over W_A",
-            .null_value = 0.0,
-            .initial = 0.15,
-            .lower = 0.0,
-            .upper = 150.0,
-            .plausible = {0.0, 3.0,
-                          "organic solids part with up to a few times the work that they met with"},
-            .starts = {0.03, 1.0}}},
+      .parameters = {{.name = "hysteresis_factor",
+                      .unit = "1",
+                      .meaning = "s, work of separation less work gained on contact, over W_A",
+                      .null_value = 0.0,
+                      .initial = 0.15,
+                      .lower = 0.0,
+                      .upper = 150.0,
+                      .plausible = {0.0, 3.0,
+                                    "the work of separation of organic solids is up to a few times "
+                                    "the work gained on contact"},
+                      .starts = {0.03, 1.0}}},
       .needs_adhesion = true,
   });
 }

@@ -38,7 +38,7 @@ Mechanism bulk_viscoelastic() {
                       .limit = {.quantity = "loss tangent of the contact, pi A over its duration",
                                 .upper = 1.0,
                                 .why = "organic solids have 0.01 to 0.1, metals less, rubbers at "
-                                       "most about 1; beyond, the law itself does not hold",
+                                       "most about 1; beyond that, the law itself does not hold",
                                 .of =
                                     [](const Encounter<double>& sphere,
                                        std::span<const double> own) {

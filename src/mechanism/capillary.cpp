@@ -36,7 +36,7 @@ Mechanism capillary() {
             .upper = 1e-5,
             .plausible =
                 {0.0, 2e-8,
-                 "adsorbed water is 0.3 to some nm thick; a bridge breaks at a few times that"},
+                 "adsorbed water is 0.3 nm to a few nm thick; a bridge breaks at a few times that"},
             .starts = {1e-10, 1e-8}}},
       .taken_away = TakenAway{Condition::relative_humidity, 0.0, "dry the chamber"},
   });

@@ -147,10 +147,9 @@ Mechanism crack_rate() {
       .formula = "w = w_0 + w_1 (v_c / (1 m/s))^k on opening, w_1 = s W_A with W_A of the two "
                  "bodies; loss "
                  "= integral of w_1 v_c^k d(pi a^2) on the way out, v_c = (R / n)^(1/2) |n'| / 2",
-      .source =
-          "Gent, A. N. & Schultz, J. (1972), J. Adhesion 3, 281-294; Maugis, D. & Barquins, "
-          "M. (1978), J. Phys. D 11, 1989-2023. The contact is taken to open at the speed of the "
-          "base model's sphere; where that is JKR's, up to the greatest pull",
+      .source = "Gent, A. N. & Schultz, J. (1972), J. Adhesion 3, 281-294; Maugis, D. & Barquins, "
+                "M. (1978), J. Phys. D 11, 1989-2023. The contact is taken to open as that of the "
+                "base model does; under JKR, up to the greatest pull",
       .fingerprint = "1 - e^2 ~ V^((3k-6)/5) d^(-1), V* ~ d^(-5/(6-3k)): between area hysteresis "
                      "(k = 0) and viscous loss; grows with W_A from target to target",
       .parameters = {{.name = "crack_factor",
@@ -161,11 +160,11 @@ Mechanism crack_rate() {
                       .lower = 0.0,
                       .upper = 150.0,
                       .plausible = {0.0, 30.0,
-                                    "rates multiply the work of adhesion by up to some tens"},
+                                    "the rate multiplies the work of adhesion by up to a few tens"},
                       .starts = {0.03, 1.0}},
                      {.name = "crack_exponent",
                       .unit = "1",
-                      .meaning = "k, of the crack velocity",
+                      .meaning = "k, exponent of the crack velocity",
                       .null_value = 0.5,
                       .initial = 0.5,
                       .lower = 0.05,

@@ -33,16 +33,17 @@ Mechanism elastic_waves() {
                 "dataset, or that of the sphere when none is stated",
       .fingerprint = "1 - e^2 ~ V^(3/5), alike for all sizes; of the order of 1 % for steel and "
                      "0.1 % for organic spheres",
-      .parameters = {{.name = "wave_radiation",
-                      .unit = "1",
-                      .meaning = "eta, radiated energy in units of that of an elastic half-space",
-                      .null_value = 0.0,
-                      .initial = 1.0,
-                      .lower = 0.0,
-                      .upper = 1e4,
-                      .plausible = {0.0, 3.0,
-                                    "theory has 1; 3 allows for a density that is not stated"},
-                      .starts = {10.0}}},
+      .parameters =
+          {{.name = "wave_radiation",
+            .unit = "1",
+            .meaning = "eta, radiated energy in units of that of an elastic half-space",
+            .null_value = 0.0,
+            .initial = 1.0,
+            .lower = 0.0,
+            .upper = 1e4,
+            .plausible = {0.0, 3.0,
+                          "the theory gives 1; up to 3 allows for a density that is not stated"},
+            .starts = {10.0}}},
   });
 }
 

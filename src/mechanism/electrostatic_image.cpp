@@ -21,7 +21,7 @@ struct ElectrostaticImage {
 Mechanism electrostatic_image() {
   return make_mechanism<Attraction<ElectrostaticImage>>({
       .id = "electrostatic_image",
-      .title = "attraction of a charged sphere by its image",
+      .title = "attraction of a charged sphere by its image charge",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::field,
       .formula =
@@ -43,18 +43,18 @@ Mechanism electrostatic_image() {
                       // 5 um in air, by emission 9e8 V/m in vacuum. What is so highly charged was
                       // charged on purpose, and its charge is known.
                       .plausible = {0.0, 3e6,
-                                    "a plane in air holds no more, and what spheres carry that "
-                                    "nobody charged is below"},
+                                    "air at a plane breaks down above this, and spheres that "
+                                    "nobody charged carry less"},
                       .starts = {3e6, 1e7}},
                      {.name = "charge_exponent",
                       .unit = "1",
-                      .meaning = "p, of the charge with the diameter",
+                      .meaning = "p, exponent of the charge in the diameter",
                       .null_value = 2.0,
                       .initial = 2.0,
                       .lower = -2.0,
                       .upper = 4.0,
                       .plausible = {0.0, 2.0,
-                                    "0 for a fixed charge, 1 to 2 for what chargers give"},
+                                    "0 for a fixed charge, 1 to 2 for spheres from a charger"},
                       .free = false}},
       .taken_away = TakenAway{Condition::neutralised, 1.0, "neutralise the spheres"},
   });

@@ -115,8 +115,8 @@ Mechanism flight_drag() {
           "-2 g - D to the height that is read; C_d = (24 / Re) (1 + 0.27 Re)^0.43 + 0.47 (1 - "
           "exp(-0.04 Re^0.38)), with Cunningham's slip",
       .source = "Cheng, N.-S. (2009), Powder Technol. 189, 395-398 (C_d of a sphere, Re < 2e5). "
-                "Buoyancy leaves the ratio of the heights alone and is left out; so is the added "
-                "mass, rho_a / 2 rho",
+                "Buoyancy does not change the ratio of the heights and is left out; so is the "
+                "added mass, rho_a / 2 rho",
       .fingerprint = "1 - e^2 ~ V^2 d^(-1) at Re > 1000, V d^(-2) at Re < 1, no dependence on the "
                      "target: looks like C_H where velocities come from heights; gone in vacuum",
       .parameters = {{.name = "flight_pressure",
@@ -130,7 +130,7 @@ Mechanism flight_drag() {
                       .starts = {3e3, 1e5},
                       .limit = {.quantity = "height V^2 / 2g of the highest drop, over 20 m,",
                                 .upper = 1.0,
-                                .why = "such impacts are not those of spheres that were dropped",
+                                .why = "faster impacts are not those of spheres that were dropped",
                                 .of =
                                     [](const Encounter<double>& sphere, std::span<const double>) {
                                       const double v = sphere.velocity;

@@ -87,12 +87,11 @@ Mechanism gas_film() {
           "10 L / r)) / C): F(x) = (1 + x)^2 ln(1 + 1 / x) - x + ln x of a film between walls that "
           "slip by b = 1.15 free paths, drag over the distance L with Cunningham's C, and what the "
           "wall adds to it",
-      .source =
-          "Davis, R. H., Serayssol, J.-M. & Hinch, E. J. (1986), J. Fluid Mech. 163, "
-          "479-497; Barnocky, G. & Davis, R. H. (1988), Phys. Fluids 31, 1324-1329; Hocking, "
-          "L. M. (1973), J. Eng. Math. 7, 207-221 (film with slip); Brenner, H. (1961), Chem. "
-          "Eng. Sci. 16, 242-251 (sphere and wall). Drag is that of Stokes: at Re = 10 it is "
-          "half as large again",
+      .source = "Davis, R. H., Serayssol, J.-M. & Hinch, E. J. (1986), J. Fluid Mech. 163, "
+                "479-497; Barnocky, G. & Davis, R. H. (1988), Phys. Fluids 31, 1324-1329; Hocking, "
+                "L. M. (1973), J. Eng. Math. 7, 207-221 (film with slip); Brenner, H. (1961), "
+                "Chem. Eng. Sci. 16, 242-251 (sphere and wall). Drag is that of Stokes: at Re = 10 "
+                "the true drag is larger by half",
       .fingerprint = "1 - e^2 ~ V^(-1) d^(-1) (d^(-2) where drag prevails), no dependence on the "
                      "target; gone in vacuum",
       .parameters =
@@ -113,8 +112,9 @@ Mechanism gas_film() {
             .initial = 2e-5,
             .lower = 0.0,
             .upper = 1e-1,
-            .plausible = {0.0, 1e-2,
-                          "laser beams cross some sphere diameters to some mm above the surface"},
+            .plausible =
+                {0.0, 1e-2,
+                 "laser beams cross between a few sphere diameters and a few mm above the surface"},
             .free = false}},
       .taken_away = TakenAway{Condition::ambient_pressure, 10.0, "pump the chamber to below 10 Pa"},
   });

@@ -38,15 +38,15 @@ Mechanism height_origin() {
       .formula =
           "heights h = V^2 / 2g: that of the rebound is read as h_2 + delta, that of the drop "
           "as h_1 + s delta; e^2 = (e_0^2 (h_1 - s delta) + delta) / h_1 with h_1 as read",
-      .source = "Galilei's law of falling bodies; a height is that of the sphere's lowest point "
+      .source = "Galileo's law of falling bodies; a height is that of the sphere's lowest point "
                 "above the surface: read at its centre or top it is too large by r or 2 r",
       .fingerprint = "1 - e^2 changes by 2 g delta / V^2, the same at all sizes and targets: e is "
-                     "too high, or too low, where spheres fall from low. With s = 1 the same as "
-                     "probe_plane at h = -delta",
+                     "too high, or too low, where spheres fall from a low height. With s = 1 the "
+                     "same as probe_plane at h = -delta",
       .parameters =
           {{.name = "height_error",
             .unit = "m",
-            .meaning = "delta, read too much in the height of the rebound",
+            .meaning = "delta, by which the height of the rebound is read too large",
             .null_value = 0.0,
             .initial = 1e-5,
             .lower = -0.1,
@@ -56,17 +56,17 @@ Mechanism height_origin() {
             .limit = {.quantity = "error of the height over the diameter",
                       .lower = -1.0,
                       .upper = 1.0,
-                      .why = "points on a sphere are no more than one diameter apart",
+                      .why = "two points of a sphere are at most one diameter apart",
                       .of = [](const Encounter<double>& sphere,
                                std::span<const double> own) { return own[0] / sphere.diameter; }}},
            {.name = "drop_share",
             .unit = "1",
-            .meaning = "s, of delta in the height of the drop",
+            .meaning = "s, share of delta in the height of the drop",
             .null_value = 0.0,
             .initial = 0.0,
             .lower = -1.0,
             .upper = 1.0,
-            .plausible = {-1.0, 1.0, "an error of both heights is of one size"},
+            .plausible = {-1.0, 1.0, "both heights have an error of the same size"},
             .free = false}},
       .methods = {Method::drop_heights},
   });

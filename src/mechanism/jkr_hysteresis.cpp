@@ -27,7 +27,7 @@ struct JkrHysteresis {
 Mechanism jkr_hysteresis() {
   return make_mechanism<JkrHysteresis>({
       .id = "jkr_hysteresis",
-      .title = "adhesive contact that tears later than it forms (JKR)",
+      .title = "adhesive contact that breaks at a larger distance than it forms (JKR)",
       .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
@@ -52,18 +52,19 @@ Mechanism jkr_hysteresis() {
             .lower = 0.0,
             .upper = 150.0,
             .plausible = {0.0, 3.0,
-                          "rough or covered surfaces have less than W_A, down to a hundredth; "
-                          "of soft solids Gilman's estimate is about half of what is measured"},
+                          "rough or covered surfaces have less than W_A, down to a hundredth; for "
+                          "soft solids Gilman's estimate is about half of what is measured"},
             .starts = {0.05, 1.5},
-            .limit = {.quantity = "Tabor parameter mu of the largest sphere",
-                      .lower = 1.0,
-                      .why = "below it a contact neither jumps in nor out, and no hysteresis is "
-                             "expected",
-                      .of = tabor_parameter}}},
+            .limit =
+                {.quantity = "Tabor parameter mu of the largest sphere",
+                 .lower = 1.0,
+                 .why =
+                     "below it a contact jumps neither in nor out, and no hysteresis is expected",
+                 .of = tabor_parameter}}},
       .needs_adhesion = true,
       .refused = {{AdhesionLaw::jkr, "that law loses this work by itself: it would count twice"},
                   {AdhesionLaw::maugis, "that law loses this work by itself: it would count twice"},
-                  {AdhesionLaw::dmt, "a contact of DMT parts as it met, without a tear"}},
+                  {AdhesionLaw::dmt, "a DMT contact separates as it formed, without a jump"}},
   });
 }
 

@@ -20,18 +20,18 @@ struct Outliers {
 Mechanism outliers() {
   return make_mechanism<Outliers>({
       .id = "outliers",
-      .title = "rebounds paired with the wrong impact",
+      .title = "rebounds that were paired with the wrong impact",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::pairing,
-      .formula =
-          "the part q of all pairs is chance, with e even between 0 and 1: the mean is (1 - q) e + "
-          "q / 2. Single wild points are a matter of the noise (Student's t), not of this",
+      .formula = "the share q of all pairs is matched by chance, with e uniform between 0 and 1: "
+                 "the mean is (1 - q) e + q / 2. Single wild points are a matter of the noise "
+                 "(Student's t), not of this",
       .source = "no further source",
       .fingerprint = "draws e towards 1/2 at all velocities: too low where e is high, too high "
                      "near capture; the same at all sizes and targets",
       .parameters = {{.name = "outlier_share",
                       .unit = "1",
-                      .meaning = "q, part of the pairs that do not belong together",
+                      .meaning = "q, share of the pairs that do not belong together",
                       .null_value = 0.0,
                       .initial = 0.03,
                       .lower = 0.0,

@@ -116,9 +116,8 @@ Mechanism plastic_yield() {
             .limit = {.quantity = "yield pressure over the reduced modulus of the bodies",
                       .lower = 5e-4,
                       .upper = 0.3,
-                      .why =
-                          "no solid resists more than about 0.3 of it, and only soft pure metals "
-                          "flow below 0.001",
+                      .why = "no solid resists more than about 0.3, and only soft pure metals flow "
+                             "below 0.001",
                       .sharp = true,
                       .of =
                           [](const Encounter<double>& sphere, std::span<const double> own) {
@@ -126,21 +125,20 @@ Mechanism plastic_yield() {
                           }}},
            {.name = "yield_rate_exponent",
             .unit = "1",
-            .meaning =
-                "q, of the yield pressure with the impact velocity; p_Y is that of 10 um at 1 m/s",
+            .meaning = "q, exponent of the yield pressure in the impact velocity; p_Y is the value "
+                       "for 10 um at 1 m/s",
             .null_value = 0.0,
             .initial = 0.0,
             .lower = 0.0,
             .upper = 0.35,
-            .plausible =
-                {0.0, 0.35,
-                 "3/5 of the exponent of the rate: metals have 0.01 to 0.1, organic solids "
-                 "up to about a third"},
+            .plausible = {0.0, 0.35,
+                          "it is 3/5 of the exponent of the strain rate: metals have 0.01 to 0.1, "
+                          "organic solids up to about a third"},
             .starts = {0.1, 0.25},
             .free = false},
            {.name = "yield_adhesion",
             .unit = "1",
-            .meaning = "s, work of adhesion that helps to yield, over that of f0",
+            .meaning = "s, work of adhesion that helps the contact to yield, over that of f0",
             .null_value = 0.0,
             .initial = 1.0,
             .lower = 0.0,
@@ -150,13 +148,13 @@ Mechanism plastic_yield() {
             .searched = false},
            {.name = "finite_deformation",
             .unit = "1",
-            .meaning = "c, of the loss beyond small deformation: 1 as finite elements have it, 0 "
+            .meaning = "c, scale of the loss at large deformation: 1 as in the finite elements, 0 "
                        "for none",
             .null_value = 0.0,
             .initial = 0.0,
             .lower = 0.0,
             .upper = 10.0,
-            .plausible = {0.0, 1.0, "what the simulated spheres show, or nothing of it"},
+            .plausible = {0.0, 1.0, "between none of it and what the finite elements show"},
             .free = false,
             .searched = false}},
   });

@@ -35,7 +35,7 @@ Mechanism plate_flexure() {
             .upper = 1e9,
             .plausible =
                 {0.0, 1e3,
-                 "a silicon wafer of 0.5 mm has 0.1 s/kg, a mica sheet of 10 um some 300 s/kg"},
+                 "a silicon wafer of 0.5 mm has 0.1 s/kg, a mica sheet of 10 um about 300 s/kg"},
             .starts = {1.0, 10.0, 100.0}}},
       .taken_away =
           TakenAway{

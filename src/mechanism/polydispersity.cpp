@@ -31,16 +31,17 @@ Mechanism polydispersity() {
       .source = "Hinds, W. C., Aerosol Technology (lognormal sizes)",
       .fingerprint = "rounds e(V) off near capture, where only the large ones come back: e too "
                      "high just above V*, where the mean sphere would hardly rebound",
-      .parameters = {{.name = "size_spread",
-                      .unit = "1",
-                      .meaning = "standard deviation of ln(diameter)",
-                      .null_value = 0.0,
-                      .initial = 0.1,
-                      .lower = 0.0,
-                      .upper = 1.0,
-                      .plausible = {0.0, 0.5,
-                                    "calibration spheres have 0.01 to 0.05, sieved powders 0.3"},
-                      .starts = {0.02, 0.3}}},
+      .parameters =
+          {{.name = "size_spread",
+            .unit = "1",
+            .meaning = "standard deviation of ln(diameter)",
+            .null_value = 0.0,
+            .initial = 0.1,
+            .lower = 0.0,
+            .upper = 1.0,
+            .plausible = {0.0, 0.5,
+                          "calibration spheres have 0.01 to 0.05, sieved powders about 0.3"},
+            .starts = {0.02, 0.3}}},
       .mixes_sizes = true,
   });
 }

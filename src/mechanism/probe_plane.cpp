@@ -21,22 +21,22 @@ struct ProbePlane {
 Mechanism probe_plane() {
   return make_mechanism<ProbePlane>({
       .id = "probe_plane",
-      .title = "the measuring plane is higher than it was corrected for",
+      .title = "the measuring plane is higher than the correction assumes",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::height,
       .formula =
           "spheres fall: V^2 = V_p^2 + 2 g h on the way in, V_p^2 = V^2 - 2 g h on the way out",
-      .source = "Galilei's law of falling bodies; Li, X., Dunn, P. F. & Brach, R. M. (1999) "
+      .source = "Galileo's law of falling bodies; Li, X., Dunn, P. F. & Brach, R. M. (1999) "
                 "measure above the surface",
       .fingerprint = "1 - e^2 ~ V^(-2) at low V, the same at all sizes and for all targets",
       .parameters = {{.name = "plane_height",
                       .unit = "m",
-                      .meaning = "h, height that was not corrected for",
+                      .meaning = "h, the height that is left uncorrected",
                       .null_value = 0.0,
                       .initial = 1e-4,
                       .lower = -1e-2,
                       .upper = 1e-1,
-                      .plausible = {-2e-3, 5e-3, "beams are placed within some mm"},
+                      .plausible = {-2e-3, 5e-3, "beams are placed within a few mm"},
                       .starts = {1e-3, -1e-4}}},
       .methods = {Method::velocimeter},
       .taken_away = TakenAway{Condition::probe_height, 0.0,

@@ -35,11 +35,11 @@ struct ReboundTruncation {
 Mechanism rebound_truncation() {
   return make_mechanism<ReboundTruncation>({
       .id = "rebound_truncation",
-      .title = "slow rebounds never seen",
+      .title = "slow rebounds that are never seen",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::selection,
       .formula = "rebounds slower than V_min do not reach the measuring plane; e scatters by the "
-                 "part s from impact to impact, and a point is the mean of what is seen",
+                 "fraction s from impact to impact, and a point is the mean of what is seen",
       .source = "a beam at the height h sees nothing below (2 g h)^(1/2); the mean of a truncated "
                 "normal variable",
       .fingerprint = "near capture e stays above V_min / V, and what looks like capture is slow "
@@ -62,7 +62,7 @@ Mechanism rebound_truncation() {
             .initial = 0.1,
             .lower = 0.005,
             .upper = 0.3,
-            .plausible = {0.01, 0.3, "5 to 10 % is usual, more just above capture"},
+            .plausible = {0.01, 0.3, "0.05 to 0.1 is usual, more just above capture"},
             .free = false,
             .is_scatter_of_rebounds = true}},
       .methods = {Method::velocimeter, Method::video},

@@ -23,11 +23,11 @@ Mechanism series_offset() {
       .place = MechanismPlace::batch,
       .formula = "e is read as e + o, o one number for each series",
       .source = "a batch effect (day, adjustment, humidity); no further source",
-      .fingerprint = "residuals of one series have one sign at all velocities. With one size per "
-                     "series it takes up part of any effect of size",
+      .fingerprint = "the residuals of one series have the same sign at all velocities. With one "
+                     "size per series it takes up part of any effect of size",
       .parameters = {{.name = "series_offset",
                       .unit = "1",
-                      .meaning = "o, what is read too much in this series",
+                      .meaning = "o, by which e is read too high in this series",
                       .null_value = 0.0,
                       .initial = 0.0,
                       .lower = -0.5,

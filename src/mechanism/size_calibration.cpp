@@ -18,7 +18,7 @@ struct SizeCalibration {
 Mechanism size_calibration() {
   return make_mechanism<SizeCalibration>({
       .id = "size_calibration",
-      .title = "diameters are stated wrong by a factor",
+      .title = "the stated diameters are wrong by a factor",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::size,
       .formula = "true diameter (1 + s) d",
@@ -27,12 +27,13 @@ Mechanism size_calibration() {
                      "same as a wrong f0 or density",
       .parameters = {{.name = "diameter_error",
                       .unit = "1",
-                      .meaning = "s, true diameter over stated one, less 1",
+                      .meaning = "s, true diameter over the stated one, less 1",
                       .null_value = 0.0,
                       .initial = 0.02,
                       .lower = -0.8,
                       .upper = 4.0,
-                      .plausible = {-0.15, 0.15, "15 % below 2 um, 1 % above 80 um"},
+                      .plausible = {-0.15, 0.15,
+                                    "sizes are known to 15 % below 2 um, to 1 % above 80 um"},
                       .starts = {-0.02, 0.1, -0.1}}},
   });
 }

@@ -16,17 +16,17 @@ struct SizeLaw {
 Mechanism size_law() {
   return make_mechanism<SizeLaw>({
       .id = "size_law",
-      .title = "adhesion with another power of the size",
+      .title = "adhesion that follows another power of the size",
       .kind = MechanismKind::description,
       .place = MechanismPlace::size,
       .formula = "f0 ~ r^p",
       .source = "generalises equation 12 of Li, X., Dunn, P. F. & Brach, R. M. (1999), p = 1/3",
       .fingerprint = "takes up any dependence on size: p near 5/9 is what a rate-independent loss "
-                     "(JKR, area hysteresis) leaves. It describes and explains nothing",
+                     "(JKR, area hysteresis) leaves. It describes, and explains nothing",
       .parameters =
           {{.name = "size_exponent",
             .unit = "1",
-            .meaning = "p, of f0 with the radius",
+            .meaning = "p, exponent of f0 in the radius",
             .null_value = 1.0 / 3.0,
             .initial = 1.0 / 3.0,
             .lower = -2.0,

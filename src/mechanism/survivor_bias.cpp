@@ -32,7 +32,8 @@ Mechanism survivor_bias() {
                       .initial = 0.2,
                       .lower = 0.0,
                       .upper = 1.5,
-                      .plausible = {0.0, 0.6, "roughness scatters pull-off forces by 20 to 50 %"},
+                      .plausible = {0.0, 0.6,
+                                    "roughness makes pull-off forces scatter by 20 to 50 %"},
                       .starts = {0.05, 0.5}}},
   });
 }

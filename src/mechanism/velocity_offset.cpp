@@ -22,33 +22,32 @@ struct VelocityOffset {
 Mechanism velocity_offset() {
   return make_mechanism<VelocityOffset>({
       .id = "velocity_offset",
-      .title = "the velocimeter reads too much, or too little, by a constant",
+      .title = "the velocimeter reads too high, or too low, by a constant",
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::instrument,
-      .formula =
-          "the incident velocity is read as V + delta, that of the rebound as V_r + s delta: s = 1 "
-          "where speeds are off, -1 where velocities with their sign are (a residual shift of "
-          "frequency)",
+      .formula = "the incident velocity is read as V + delta, that of the rebound as V_r + s "
+                 "delta: s = 1 where speeds are off, -1 where velocities are off with their sign "
+                 "(a residual frequency shift)",
       .source = "an instrument's zero error; no further source",
       .fingerprint = "e changes by (s - e) delta / V: 1 - e^2 ~ V^(-1), the same at all sizes and "
                      "targets",
       .parameters = {{.name = "velocity_error",
                       .unit = "m/s",
-                      .meaning = "delta, read too much",
+                      .meaning = "delta, by which the velocity is read too high",
                       .null_value = 0.0,
                       .initial = 1e-2,
                       .lower = -10.0,
                       .upper = 10.0,
-                      .plausible = {-0.1, 0.1, "a velocimeter's zero is good to some cm/s"},
+                      .plausible = {-0.1, 0.1, "a velocimeter's zero is good to a few cm/s"},
                       .starts = {-1e-2, 1e-1, -1e-1}},
                      {.name = "rebound_sign",
                       .unit = "1",
-                      .meaning = "s, what the rebound reads too much of delta",
+                      .meaning = "s, share of delta by which the rebound is read too high",
                       .null_value = 1.0,
                       .initial = 1.0,
                       .lower = -1.0,
                       .upper = 1.0,
-                      .plausible = {-1.0, 1.0, "an error of both velocities is of one size"},
+                      .plausible = {-1.0, 1.0, "both velocities have an error of the same size"},
                       .starts = {-1.0},
                       .free = false}},
       .methods = {Method::velocimeter},
