@@ -31,7 +31,7 @@ std::string why_no_force(ExportTarget target, const ExportedImpact& impact) {
   if (target == ExportTarget::liggghts) {
     return "LIGGGHTS has no way to state a force law in its input";
   }
-  if (impact.of_nature.empty()) return "this law of adhesion is not one that the program can hold";
+  if (impact.of_nature.empty()) return "the program cannot run this law of adhesion";
   std::vector<std::string> ids;
   for (const Mechanism* mechanism : impact.of_nature) ids.emplace_back(mechanism->info.id);
   return fmt::format("{} {} no force in the equation of motion", fmt::join(ids, " and "),
