@@ -151,7 +151,7 @@ void add_report(CLI::App& program) {
       ->capture_default_str()
       ->type_name("DIR");
   command->add_flag("--force", options->force,
-                    "write every page anew, even if nothing has changed");
+                    "write every page again, even if nothing has changed");
   add_analysis_flags(*command, options->analysis);
   command->callback([options] { report(*options); });
 }

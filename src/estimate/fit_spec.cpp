@@ -257,8 +257,9 @@ class FitReader : private TomlReader {
         base_parameters(law == AdhesionLaw::ring ? AdhesionLaw::jkr : AdhesionLaw::ring)[2];
     const toml::node* const node = parameters.get(wrong.name);
     if (node == nullptr) return;
-    fail(*node, fmt::format("'{}' is no parameter of adhesion = \"{}\"", wrong.name, name_of(law)),
-         "", fmt::format("state {} [{}], the {}", right.name, right.unit, right.meaning));
+    fail(*node,
+         fmt::format("'{}' is not a parameter of adhesion = \"{}\"", wrong.name, name_of(law)), "",
+         fmt::format("state {} [{}], the {}", right.name, right.unit, right.meaning));
   }
 
   void read_parameters(const toml::table* parameters) {

@@ -93,7 +93,7 @@ std::vector<Launch> gather_launches(const ImportTable& table, const ImportReques
       table.fail(std::next(twice)->row, "bounce",
                  fmt::format("bounce {:g} of launch '{}' appears here and on line {}",
                              twice->bounce, launch.name, table.line(twice->row)),
-                 "the ratio of two launches' intervals is no restitution",
+                 "the ratio of intervals of two launches is not a restitution",
                  "if several columns name a launch, join them: --map launch=COLUMN+COLUMN");
     }
   }

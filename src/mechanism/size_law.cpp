@@ -31,8 +31,9 @@ Mechanism size_law() {
             .initial = 1.0 / 3.0,
             .lower = -2.0,
             .upper = 4.0,
-            .plausible = {1.0 / 3.0, 1.0 / 3.0,
-                          "equation 12 has 1/3; another value stands for a cause not named"},
+            .plausible =
+                {1.0 / 3.0, 1.0 / 3.0,
+                 "equation 12 has 1/3; another value stands in for a cause that is not named"},
             .starts = {0.55, 0.1}}},
   });
 }

@@ -43,7 +43,7 @@ void require_recipe(const std::filesystem::path& folder) {
   }
   const bool replaced = std::filesystem::exists(folder / set_aside_recipe_name);
   throw InputError(
-      {folder.string()}, "this is no reconstruction", fmt::format("it has no {}", recipe_name),
+      {folder.string()}, "this is not a reconstruction", fmt::format("it has no {}", recipe_name),
       replaced
           ? fmt::format("its points were replaced; the recipe of the earlier ones is kept in {}",
                         set_aside_recipe_name)

@@ -85,7 +85,7 @@ Section laws_section(const std::vector<ComparedFit>& laws) {
     for (Block& block : part.blocks) section.blocks.push_back(std::move(block));
   }
   section.blocks.emplace_back(
-      Paragraph{"The same points under other laws. The intervals are 1.96 standard errors wide on "
+      Paragraph{"The same points under other laws. The intervals extend by 1.96 standard errors to "
                 "either side, to first order. C_A and C_H mean something else under every law."});
   return section;
 }

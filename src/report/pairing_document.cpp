@@ -194,7 +194,7 @@ Section points_section(const Averages& averages) {
   }
   if (averages.in_small_bins > 0) {
     left_out.entries.push_back(
-        say("{} impacts stand alone in velocity, fewer than 5 together, and are left out",
+        say("{} impacts are isolated in velocity, fewer than 5 together, and are left out",
             averages.in_small_bins));
   }
   append(section.blocks, {std::move(left_out), averages_table(averages)});

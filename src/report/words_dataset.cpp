@@ -10,7 +10,7 @@ namespace recoil {
 std::string provenance_sentence(Provenance provenance) {
   switch (provenance) {
     case Provenance::measured:
-      return "These points were measured and stand here as their source gives them.";
+      return "These points were measured, and are given here as in their source.";
     case Provenance::digitised:
       return "These points were read off a published figure, so the error of that reading comes on "
              "top of the error of the experiment.";
@@ -33,11 +33,12 @@ std::string warning_sentence(const DatasetWarning& warning) {
   };
   switch (warning.remark) {
     case PointRemark::restitution_above_one:
-      return say("a restitution above 1", "kept, since noise can do this; energy cannot");
+      return say("a restitution above 1",
+                 "kept, since noise can cause it; energy cannot be gained");
     case PointRemark::unmarked_zero:
       return say("a restitution of 0 that is not marked as captured",
-                 "taken as the slowest of rebounds; use the column 'captured' for spheres that "
-                 "stayed");
+                 "taken as the slowest possible rebound; use the column 'captured' for spheres "
+                 "that stayed");
     case PointRemark::unusual_diameter:
       return say("a diameter above 1 mm", "kept; if these are microspheres, the unit is wrong");
     case PointRemark::repeated:

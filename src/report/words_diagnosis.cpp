@@ -466,7 +466,7 @@ std::string answer_words(const Diagnosis& d) {
   if (!where.empty()) text += where + ". ";
   switch (d.verdict) {
     case Verdict::cause_named:
-      text += fmt::format("Of all that the catalogue offers, only {} it: {}.",
+      text += fmt::format("Of all mechanisms in the catalogue, only {} it: {}.",
                           d.named.size() == 1
                               ? title_of(d.named.front()) + " explains"
                               : fmt::format("{} together explain", titles_of(d.named, " and ")),
@@ -476,7 +476,7 @@ std::string answer_words(const Diagnosis& d) {
     case Verdict::not_separable:
       text +=
           d.rivals.size() == 1
-              ? fmt::format("Of all that the catalogue offers, only {} would explain it.",
+              ? fmt::format("Of all mechanisms in the catalogue, only {} would explain it.",
                             titles_of(d.rivals))
           : d.shared_cause.empty()
               ? fmt::format("These data cannot tell which of these causes it is: {}.",

@@ -82,10 +82,10 @@ std::vector<std::string> fit_warnings(const FitResult& fitted) {
   add_about_data(fitted.data, warnings);
   add_about_idle_mechanisms(fitted.model, warnings);
   if (fitted.unused_counts) {
-    warnings.push_back(fmt::format(
-        "{} says how the impacts of a point differ: the counts of captured spheres at {} points "
-        "with rebounds are not used beside it",
-        fitted.unused_counts->mechanism->info.id, fitted.unused_counts->points));
+    warnings.push_back(
+        fmt::format("{} says how the impacts of a point differ: the counts of captured spheres at "
+                    "{} points with rebounds are not used in addition",
+                    fitted.unused_counts->mechanism->info.id, fitted.unused_counts->points));
   }
   if (!fitted.usable) return warnings;
   if (!fitted.weights_at_rest) {

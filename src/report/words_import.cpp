@@ -84,7 +84,7 @@ std::string note_sentence(const ImportNote& note) {
       return "the licence of the reconstruction was removed: that of these points is not known";
     case ImportRemark::recipe_set_aside:
       return fmt::format(
-          "the folder is no reconstruction any more; its {} is kept as {}, for comparison only",
+          "the folder is no longer a reconstruction; its {} is kept as {}, for comparison only",
           recipe_name, set_aside_recipe_name);
     case ImportRemark::overrides_left_out:
       return left_out_sentence(note.left_out);

@@ -13,7 +13,7 @@ namespace {
 
 std::string bound_words(const Disagreement& found, const FitResult& fitted, std::size_t slot) {
   if (found.estimate_at_bound) {
-    return "the estimate rests on its bound, where the likelihood is no parabola and a standard "
+    return "the estimate rests on its bound, where the likelihood is not a parabola and a standard "
            "error says nothing";
   }
   if (!found.on_bound) return "";
@@ -112,8 +112,8 @@ std::string missing_words(const Interval& interval) {
     case NoInterval::replicates_without_error:
       return "more than a tenth of the replicates rest on a bound and have no error";
     case NoInterval::refits_failed:
-      return "withheld: more than a tenth of the refits failed, and those that did not are no fair "
-             "sample";
+      return "withheld: more than a tenth of the refits failed, and those that did not are not a "
+             "fair sample";
     case NoInterval::never_rebounds:
       return "spheres of this size never rebound under the fit";
     case NoInterval::never_captured:

@@ -37,7 +37,7 @@ std::string variance_words(const Observations& data) {
   const double margin = choice_margin(noise);
   return text + fmt::format(" ({}, chosen over {} by {:.1f} in -2 ln restricted likelihood{})",
                             name_of(noise.variance), fmt::join(others, " and "), margin,
-                            margin < clear ? ", which is no clear decision" : "");
+                            margin < clear ? ", which is not a clear decision" : "");
 }
 
 std::string verdict_words(const FitResult& fitted) {

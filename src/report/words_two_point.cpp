@@ -28,7 +28,7 @@ std::string two_point_words(const FitResult& fitted, std::size_t dataset,
           "already costs more there",
           high, C_A);
     case TwoPointStatus::no_adhesion_damping:
-      return fmt::format("no C_A in [0, {:.4g}] s/m gives {} beside C_H = {:.4g} s/m",
+      return fmt::format("no C_A in [0, {:.4g}] s/m gives {} with C_H = {:.4g} s/m",
                          model.slots[model.slot_C_A[dataset]].upper, low, C_H);
     case TwoPointStatus::converged:
       return fmt::format("from {} and {}", low, high);

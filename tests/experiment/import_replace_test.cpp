@@ -87,7 +87,7 @@ TEST(Replace, ReconstructSaysThatItIsNoneAndSiblingsStillCompare) {
   const auto folder = [&](const char* id) { return (place.folder() / "datasets" / id).string(); };
   const support::Outcome none = at.run({"reconstruct", folder("wall1990-molybdenum"), "--check"});
   EXPECT_EQ(none.status, 2);
-  EXPECT_THAT(none.err, HasSubstr("this is no reconstruction"));
+  EXPECT_THAT(none.err, HasSubstr("this is not a reconstruction"));
   EXPECT_THAT(none.err, HasSubstr("recipe-set-aside.toml"));
   // Writing is refused as well: the new points stay.
   EXPECT_EQ(at.run({"reconstruct", folder("wall1990-molybdenum")}).status, 2);
