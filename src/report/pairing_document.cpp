@@ -184,9 +184,10 @@ Section unpaired_section(const PairingResult& pairs, const Averages& averages) {
 
 Section points_section(const Averages& averages) {
   Section section{"points", "Points"};
-  section.blocks = {Paragraph{
-      say("{}; a bin spans at least {:.2g} % of its velocity, 6 sd of the velocities' error",
-          averages.points.size(), 100.0 * averages.narrowest)}};
+  section.blocks = {
+      Paragraph{say("{}; a bin spans at least {:.2g} % of its velocity, 6 standard deviations of "
+                    "the velocities' error",
+                    averages.points.size(), 100.0 * averages.narrowest)}};
   List left_out;
   if (averages.outside_sizes > 0) {
     left_out.entries.push_back(

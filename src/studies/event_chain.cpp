@@ -102,7 +102,7 @@ Sentence heading_e_slow() { return say("e - truth below {:g} m/s", slow_impacts)
 Section section_of(const EventChain::Chain& chain) {
   const CorrectionStudy& study = chain.study;
   Table table;
-  table.columns = {{"from the events", {}, true},
+  table.columns = {{"from the passages", {}, true},
                    {"points"},
                    {"captured"},
                    {heading_e_slow()},
@@ -169,11 +169,11 @@ Section others_section(const std::vector<OtherStreams>& others) {
   section.title = "Other random numbers";
   section.blocks = {
       Paragraph{
-          "All corrections, 800 spheres per drop height, mean over ten other streams of events "
-          "with its standard error. What is left here is no chance of the tables above: what "
-          "goes away with finer size classes is the mixture of sizes within a class (their "
-          "mean e is not the e of their mean size, and the smallest are missing from it); "
-          "what stays is the chain's own."},
+          "All corrections, 800 spheres per drop height, mean over ten other streams of passages "
+          "with its standard error. What is left here is not the chance of the tables above: the "
+          "part that goes away with finer size classes is due to the mixture of sizes within a "
+          "class (their mean e is not the e of their mean size, and the smallest are missing from "
+          "it); the part that stays belongs to the chain itself."},
       table};
   return section;
 }
@@ -258,7 +258,7 @@ EventChain read_event_chain(const std::filesystem::path& file) {
 
 Document event_chain_page(const EventChain& chain) {
   Document page;
-  page.heading = "From events to parameters, and what each correction does";
+  page.heading = "From passages to parameters, and what each correction does";
   page.foreword = {
       Paragraph{Sentence("The recipes of the two steel reconstructions say what the instrument "
                          "would have recorded (") +
@@ -272,7 +272,7 @@ Document event_chain_page(const EventChain& chain) {
                 "determined well (truth: 0.035 s/m)."),
             "e - truth: mean over the rebounds of each point's e less the truth at its mean size "
             "and velocity. One rebound scatters by 10 %, so of 14 x 40 the mean is uncertain by "
-            "0.004, of 14 x 800 by 0.001; rows of one table share their events.",
+            "0.004, of 14 x 800 by 0.001; rows of one table share their passages.",
             say("captured: spheres that the points call captured; {V*}: capture velocity.")}}};
   for (const EventChain::Chain& of : chain.chains) page.sections.push_back(section_of(of));
   page.sections.push_back(others_section(chain.others));

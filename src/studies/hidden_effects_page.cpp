@@ -49,7 +49,7 @@ Sentence bar_words(Bar bar) {
     case Bar::unstated_named:
       return "errors that nobody stated: a cause named";
     case Bar::unstated_told:
-      return "the same, where structure is seen: told that such errors would do";
+      return "the same, where structure is seen: told that such errors would explain it";
     case Bar::single_diameter:
       return "one diameter: answered by not_separable";
     case Bar::unseen:
@@ -156,10 +156,10 @@ std::vector<Block> margins_blocks(const StudyTally& tally) {
   }
   return {
       Paragraph{"Causes whose criteria (AICc) differ by less than 4 are called rivals. The same "
-                "answers under other rules, visible effects in designs of several diameters; "
-                "at 0 the best explanation is always named. Here the limits of what is possible "
-                "are taken as sharp; the bars above are those of the diagnosis, where what lies "
-                "just beyond them blocks a name:"},
+                "answers under other rules, visible effects in designs of several diameters; at 0 "
+                "the best explanation is always named. Here the limits of what is possible are "
+                "taken as sharp; the bars above are those of the diagnosis, where a candidate just "
+                "beyond them prevents a name:"},
       table,
       Paragraph{both.empty() ? Sentence("No threshold names 80 % outright with at most 5 % wrong.")
                              : say("80 % named outright with at most 5 % wrong: at {}.",
@@ -212,8 +212,8 @@ Sentence careless_words(const StudyTally& tally) {
   return say(
       "Nothing hidden, but the printed velocities are 3 % off, each by itself ({}), or the stated "
       "standard deviations are two thirds of the true ones ({}). To name a cause would be wrong; "
-      "{} with a word on such errors is right. That word was there in {} of those in which "
-      "structure was seen; of the visible effects of the catalogue, where it leads astray, in {}.",
+      "{} with a remark on such errors is right. The remark was there in {} of those in which "
+      "structure was seen; of the visible effects of the catalogue, where it would mislead, in {}.",
       code("velocities"), code("deviations"), code("unexplained"),
       share(told == tally.bars.end() ? Count{} : told->second), share(tally.errors_told_astray));
 }
@@ -238,18 +238,18 @@ std::vector<Block> foreword(const StudyTally& tally) {
                 "order, so that those that were tried are a fair sample of all.");
   }
   std::vector<Block> blocks = {
-      Paragraph{say(
-          "Data in which an effect is hidden, made by physics of their own ({}: the contact in "
-          "time with explicit forces, 40 or 100 noisy events per point, values printed as in a "
-          "table's columns), and diagnosed by the built command, which sees the dataset folder "
-          "and a fit file. Strength is the signal-to-noise of the misfit that is left when the "
-          "base model has been refitted, sqrt(sum ((e - e_base) / sd)^2) on data without noise; "
-          "from {:g} on it counts as visible. Designs: {} 4 diameters x 15 velocities, {} 4 x 2 "
-          "batches x 8, {} 4 x 15 steel spheres, and with one diameter {} 1 x 15 and {} 1 x 20. "
-          "Every strength lies within what nature or a careful experimenter has; what would need "
-          "more is not made, and listed at the end.",
-          code("src/studies/synthetic"), visible, code("wall"), code("wall-batches"), code("li"),
-          code("wall-one"), code("dahneke"))},
+      Paragraph{
+          say("Data in which an effect is hidden, made by separate physics ({}: the contact in "
+              "time with explicit forces, 40 or 100 noisy events per point, values printed as in a "
+              "table's columns), and diagnosed by the built command, which sees the dataset folder "
+              "and a fit file. Strength is the signal-to-noise of the misfit that is left when the "
+              "base model has been refitted, sqrt(sum ((e - e_base) / sd)^2) on data without "
+              "noise; from {:g} on it counts as visible. Designs: {} 4 diameters x 15 velocities, "
+              "{} 4 x 2 batches x 8, {} 4 x 15 steel spheres, and with one diameter {} 1 x 15 and "
+              "{} 1 x 20. Every strength lies within what nature or a careful experimenter has; "
+              "what would need more is not made, and listed at the end.",
+              code("src/studies/synthetic"), visible, code("wall"), code("wall-batches"),
+              code("li"), code("wall-one"), code("dahneke"))},
       Paragraph{made}};
   recoil::append(blocks, recoil::stamp_blocks(tally.stamp));
   return blocks;

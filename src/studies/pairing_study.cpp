@@ -137,12 +137,12 @@ Table table_of(const PairingStudy& study, PairingTable which, const char* label)
 Sentence bar_words(const PairingBar& bar) {
   return strong("The bar") +
          say(": at the paper's rates at least {:.0f} % pure and {:.0f} % efficient. The paper "
-             "states no rate, only that about 40 events make a mean. Taken as its rates are the "
-             "rows of {:g} per second and less, where hardly any flights overlap: the first three "
+             "states no rate, only that about 40 events make a mean. The rows of {:g} per second "
+             "and less, where hardly any flights overlap, are taken as its rates: the first three "
              "of the first table, all of the second, and those marked {:g}/s in the third. The bar "
              "is {} in all {} of them: the lowest purity is {:.2f} %, the lowest efficiency {:.2f} "
              "% ({}). Counting second impacts that were not recognised as wrong, which the bar "
-             "does not ask, the lowest is {:.2f} %. Faster rows show where it ends.",
+             "does not demand, the lowest is {:.2f} %. Faster rows show where it is missed.",
              100.0 * PairingBar::pure, 100.0 * PairingBar::efficient, PairingBar::highest_rate,
              PairingBar::highest_rate, bar.passed() ? "reached" : "NOT reached", bar.rows,
              100.0 * bar.worst_purity, 100.0 * bar.worst_efficiency, bar.least_efficient,
@@ -266,7 +266,7 @@ PairingStudy read_pairing_study(const std::filesystem::path& file) {
 
 Document pairing_page(const PairingStudy& study) {
   Document page;
-  page.heading = "How well impacts are found in a stream of events";
+  page.heading = "How well impacts are found in a stream of passages";
   page.foreword = {Paragraph{introduction()}, terms(), Paragraph{bar_words(bar_of(study))}};
   page.sections = {{"crowding",
                     "Crowding",
