@@ -197,7 +197,7 @@ class PointReader {
     constexpr double largest = limits::largest_restitution;
     if (!field_of_.contains(Quantity::rebound_velocity)) {
       return value(Quantity::restitution,
-                   {0.0, largest, " (only noise can bring it above 1)",
+                   {0.0, largest, ", since only noise can bring it above 1",
                     "correct it; a restitution in per cent has the unit %", ""});
     }
     const auto rebound = value(Quantity::rebound_velocity,

@@ -462,7 +462,8 @@ Document fit_document(const Analysis& a, std::vector<Block> diagnosis) {
     page.sections.push_back(laws_section(compared_laws(a.laws, a.datasets)));
   }
   page.sections.push_back(identifiability_section(a));
-  page.sections.push_back(validity_section(a, "Where the points pass the limits of the model"));
+  page.sections.push_back(
+      validity_section(a, "Where the points are outside the limits of the model"));
   page.sections.push_back(two_point_section(a, false));
   page.sections.push_back(bootstrap_section(a));
   page.sections.push_back(inputs_section(a));

@@ -93,7 +93,7 @@ Table validity_table(const std::vector<Validity>& validity) {
   for (const Validity& one : validity) {
     table.rows.push_back({Sentence(short_name(one.quantity)), Number{one.value, significant(3)},
                           Sentence(fmt::format("{} {:g}{}", one.limit_is_least() ? "from" : "up to",
-                                               one.limit, one.passed() ? ": passed" : ""))});
+                                               one.limit, one.passed() ? ": outside" : ""))});
   }
   return table;
 }
