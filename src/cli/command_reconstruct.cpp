@@ -19,8 +19,8 @@ std::string pair_command_words(const Recipe& recipe) {
   const PairingDesign& pairing = recipe.pairing.value();
   return fmt::format(
       "  The same by hand, {0} being this folder:\n"
-      "    recoil reconstruct {0} --passages events.csv\n"
-      "    recoil pair events.csv --unit time=s,velocity=m/s,tangential_velocity=m/s,diameter=um "
+      "    recoil reconstruct {0} --passages passages.csv\n"
+      "    recoil pair passages.csv --unit time=s,velocity=m/s,tangential_velocity=m/s,diameter=um "
       "\\\n"
       "        --height {1:g} --angle {2:.6g} --per-bin {3} --mean-diameter --out points.csv\n",
       recipe.id, pairing.height / units::mm, pairing.angle * 180.0 / M_PI, pairing.per_bin);
@@ -38,8 +38,8 @@ void add_reconstruct(CLI::App& program) {
       "of them with recoil pair.\n\n"
       "  recoil reconstruct datasets/wall1990-silicon --check\n\n"
       "Where the recipe says what the instrument records, --passages writes the passages:\n\n"
-      "  recoil reconstruct datasets/li1999-sst65-silicon --passages events.csv\n"
-      "  recoil pair events.csv --unit time=s,velocity=m/s,tangential_velocity=m/s,diameter=um");
+      "  recoil reconstruct datasets/li1999-sst65-silicon --passages passages.csv\n"
+      "  recoil pair passages.csv --unit time=s,velocity=m/s,tangential_velocity=m/s,diameter=um");
   const auto folder = std::make_shared<std::string>();
   const auto check = std::make_shared<bool>(false);
   command->add_option("DIR", *folder, "the dataset's folder")->required();

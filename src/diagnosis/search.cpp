@@ -292,7 +292,7 @@ std::vector<CandidateResult> try_pairs(const SearchBase& base,
       untried.emplace_back(causes[a], causes[b]);
     }
   }
-  Progress progress("pairs of causes", untried.size());
+  Progress progress("two causes at once", untried.size());
   std::vector<CandidateResult> results(untried.size());
   parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
     results[k] = try_both(base, *untried[k].first, *untried[k].second);

@@ -162,7 +162,7 @@ std::vector<Figure> corner_figures(const Analysis& analysis) {
 
   plot::Picture picture;
   picture.name = "corner-1";
-  picture.title = "Replicates of every pair of parameters, with the profile likelihood";
+  picture.title = "Replicates of every two parameters, with the profile likelihood";
   picture.width = static_cast<int>(layout.width);
   picture.height = static_cast<int>(layout.height);
   // The key stands in the empty corner, above the panel of a single parameter.

@@ -124,7 +124,7 @@ struct Panels {
     plot::Points cloud;
     cloud.marker.colour = plot::pale;
     cloud.size = 0.35;
-    cloud.name = "other pairs";
+    cloud.name = "other choices";
     for (const PairQuality& pair : study.pairs) {
       const std::optional<double> value = quantity.value(pair);
       if (!value) continue;
@@ -165,7 +165,7 @@ struct Panels {
       ring.marker.mark = plot::Mark::circle;
       ring.size = 2.0;
       ring.width = 2.0;
-      ring.name = "the paper's pair";
+      ring.name = "the paper's choice";
       shown.layers.push_back(std::move(ring));
     }
     return shown;
@@ -207,11 +207,11 @@ Figure pair_figure(const Analysis& analysis, const PairStudy& study) {
   for (std::size_t i = 0; i < panels.all.size(); ++i) picture.plots.push_back(panels.panel(i));
 
   Sentence caption =
-      say("{}, d = {} {um}. Each mark is a pair of points on which {C_H} and {C_A} are calibrated, "
-          "in {} data sets simulated from the fit to all points. Bias: deviation of the median "
-          "from the true value; spread: robust standard deviation relative to that of the full fit "
-          "to the same data; both from the data sets that have an answer. Error: rms difference "
-          "from a new measurement of the points that the pair did not use, noise included.",
+      say("{}, d = {} {um}. Each mark is a choice of two points on which {C_H} and {C_A} are "
+          "calibrated, in {} data sets simulated from the fit to all points. Bias: deviation of "
+          "the median from the true value; spread: robust standard deviation relative to that of "
+          "the full fit to the same data; both from the data sets that have an answer. Error: rms "
+          "difference from a new measurement of the points that were not used, noise included.",
           analysis.datasets[study.dataset].id, diameter_text(study.diameter), study.simulations);
   if (study.taken < study.points) {
     caption += fmt::format(" {} of the {} points are tried.", study.taken, study.points);

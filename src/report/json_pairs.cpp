@@ -62,7 +62,7 @@ void put_pairs(Json& out, const Analysis& a, std::size_t dataset) {
                             {"measured_rmse", held_out_json(study.measured_held_out)}}},
                           {"text", pair_words(a, study)}};
   }
-  if (out["pairs"].empty()) out["pairs_why"] = "no pair of points was studied";
+  if (out["pairs"].empty()) out["pairs_why"] = "no choice of two points was studied";
 }
 
 }  // namespace recoil

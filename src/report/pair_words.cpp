@@ -61,15 +61,16 @@ std::string paper_sentence(const Analysis& a, const PairStudy& study) {
                                  a.datasets[study.dataset].id, study.simulations);
   const std::string no_answer = fmt::format("{:.0f} %", 100.0 * figures.without_answer);
   if (!pair.C_H.median) {
-    return text + fmt::format("the paper's pair of points, {}, gives no answer in {}.",
+    return text + fmt::format("the paper's two points, {}, give no answer in {}.",
                               velocities(a, pair), no_answer);
   }
   text +=
-      fmt::format("the paper's pair of points, {}, gives {} and {}, and no answer in {}",
+      fmt::format("the paper's two points, {}, give {} and {}, and no answer in {}",
                   velocities(a, pair), estimate_words("C_H", figures.bias_C_H, figures.spread_C_H),
                   estimate_words("C_A", figures.bias_C_A, figures.spread_C_A), no_answer);
   const std::string error = error_words(pair.held_out, study.held_out);
-  if (!error.empty()) text += fmt::format("; it would miss a new measurement of e by {}", error);
+  if (!error.empty())
+    text += fmt::format("; their curve would miss a new measurement of e by {}", error);
   return text + ".";
 }
 
@@ -91,8 +92,8 @@ std::string others_sentence(const Analysis& a, const PairStudy& study) {
   }
   const std::size_t count = study.pairs.size();
   std::string text = fmt::format(
-      "Of the {} pair{} of points whose velocities differ by at least half, {} leave{} more than a "
-      "tenth of the data sets without an answer",
+      "Of the {} choice{} of two points whose velocities differ by at least half, {} leave{} more "
+      "than a tenth of the data sets without an answer",
       count, count == 1 ? "" : "s", often_without, often_without == 1 ? "s" : "");
   if (best != nullptr) {
     const auto range = [](const std::vector<double>& values, int figures) {

@@ -490,7 +490,7 @@ std::string answer_words(const Diagnosis& d) {
       break;
     case Verdict::unexplained:
       text += !d.resembles.empty() ? resembling_words(d)
-              : d.outdone.empty()  ? "Nothing in the catalogue explains it, alone or in pairs."
+              : d.outdone.empty()  ? "Nothing in the catalogue explains it, alone or two at a time."
                                    : fmt::format(
                                          "{} would explain it, but so would unstated errors, which "
                                           "assume less: no cause is named.",

@@ -310,7 +310,7 @@ std::vector<PairStudy> study_two_point_pairs(const FitResult& fitted,
     studies.push_back(study.full(fitted, simulations));
     std::vector<PairQuality>& pairs = studies.back().pairs;
     pairs.resize(all[s].pairs.size());
-    Progress progress("pairs of points", pairs.size());
+    Progress progress("choices of two points", pairs.size());
     parallel_over(pairs.size(), options.threads, [&](std::size_t p) {
       pairs[p] = study.pair(p, s, simulations);
       progress.advance();

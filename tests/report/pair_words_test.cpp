@@ -65,7 +65,7 @@ TEST(PairWords, SurviveAPairWithoutAnyAnswerAndAFitAtItsBound) {
     pair.ended = {0, 100, 99, 0, 0};
   }
   const std::vector<std::string> words = pair_words(analysis, study);
-  EXPECT_THAT(words[0], HasSubstr("gives no answer in 100 %"));
+  EXPECT_THAT(words[0], HasSubstr("give no answer in 100 %"));
   EXPECT_THAT(words[1], HasSubstr("12 leave"));
   for (const std::string& sentence : words) EXPECT_THAT(sentence, Not(HasSubstr("nan")));
 }
