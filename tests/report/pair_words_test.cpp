@@ -40,7 +40,7 @@ TEST(PairWords, CountThePairsAndNameTheBest) {
   const PairStudy& study = analysis.uncertainty.pairs[0];
   // Without an answer: int(16 w) of 199 with w = 1, 1.5, 2, ...: only w = 1 stays below a tenth.
   const std::string words = pair_words(analysis, study)[1];
-  EXPECT_THAT(words, HasSubstr("Of the 12 pairs"));
+  EXPECT_THAT(words, HasSubstr("Of the 12 choices of two points"));
   EXPECT_THAT(words, HasSubstr("11 leave more than a tenth"));
   EXPECT_THAT(words, HasSubstr("C_A scatters 2.5 to 2.5 times as much"));
   EXPECT_THAT(words, Not(HasSubstr("were tried")));
