@@ -146,8 +146,8 @@ Sentence equation_words(AdhesionLaw law) {
           "(1975); damping {C_H} on its elastic part, {C_A} on its adhesive part");
     case AdhesionLaw::maugis:
       return say(
-          "Contact of Maugis (1992) between the two, with the work of adhesion {W} over a range "
-          "that follows from the separation; damping {C_H} on its elastic part, {C_A} on its "
+          "Contact of Maugis (1992), between JKR and DMT, with the work of adhesion {W} over a "
+          "range that follows from the separation; damping {C_H} on its elastic part, {C_A} on its "
           "adhesive part");
   }
   return {};
@@ -224,8 +224,8 @@ Section two_point_section(const Analysis& a, bool with_pairs) {
             two.iterations, two_point_words(a.fitted, comparison.dataset, two)))});
     if (comparison.full_held_out_rmse) {
       section.blocks.emplace_back(
-          Paragraph{"For the diameters not seen, all points of the calibration diameter alone were "
-                    "fitted."});
+          Paragraph{"For the held-out diameters, the full fit used the points of the calibration "
+                    "diameter only."});
     }
     add_paragraphs(section.blocks, {held_out_words(comparison)});
     for (const PairStudy& study : a.uncertainty.pairs) {

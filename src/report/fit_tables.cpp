@@ -273,7 +273,7 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
   table.rows.push_back({say("rms of {e}, all points"),
                         answered ? Cell(Number{comparison.rmse}) : Cell("none"),
                         Number{comparison.full_rmse}});
-  table.rows.push_back({say("rms of {e}, diameters not seen"),
+  table.rows.push_back({say("rms of {e}, held-out diameters"),
                         optional_cell(comparison.held_out_rmse),
                         optional_cell(comparison.full_held_out_rmse)});
   table.rows.push_back(

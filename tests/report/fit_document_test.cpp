@@ -334,7 +334,7 @@ TEST(FitTables, SetTwoPointsBesideAll) {
   EXPECT_EQ(number_in(C_H[1]).value, 0.0046);
   EXPECT_EQ(number_in(C_H[2]).value, 0.00312);
   EXPECT_EQ(number_in(row_of(table, "rms of e, all points")[1]).value, 0.047);
-  EXPECT_EQ(number_in(row_of(table, "rms of e, diameters not seen")[2]).value, 0.034);
+  EXPECT_EQ(number_in(row_of(table, "rms of e, held-out diameters")[2]).value, 0.034);
 }
 
 TEST(FitTables, ShowEveryPointWithItsResidual) {
