@@ -141,8 +141,8 @@ std::vector<Section> prediction_sections(const Analysis& analysis,
   said.blocks = {
       items({{"dataset", say("{}, {}: {}", dataset.id, to_string(dataset.provenance),
                              provenance_sentence(dataset.provenance))},
-             {"sizes are a", Sentence(mixture.sizes.provenance.empty() ? "size distribution"
-                                                                       : mixture.sizes.provenance)},
+             {"origin of sizes",
+              Sentence(mixture.sizes.provenance.empty() ? "not stated" : mixture.sizes.provenance)},
              {"measuring plane",
               say("{} mm above the surface: rebounds below {} m/s are not seen",
                   number(mixture.probe_height / units::mm, 3), number(mixture.slowest_seen, 3))}})};

@@ -121,9 +121,9 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
     if (!job.lookup->captures) {
       out.push_back("Below the range of velocities the first value of the table holds.");
     } else if (job.lookup->diameter.size() > 1) {
-      out.push_back(
-          fmt::format("Captures are kept; V* is within {:.1g} of itself between the sizes.",
-                      job.lookup->capture_error));
+      out.push_back(fmt::format(
+          "Captures are kept; between the sizes the relative error of V* is at most {:.1g}.",
+          job.lookup->capture_error));
     } else {
       out.push_back(fmt::format("Captures are kept: V* = {:.4g} m/s.", job.lookup->scale.front()));
     }
