@@ -19,9 +19,8 @@ std::string release_words(const ReleaseCheck& check) {
 
 std::string air_sentence(const AirShare& air) {
   return fmt::format(
-      "the drag of the air ({:g} Pa, {:g} K) was taken out; it took {:.2g} % of e at {:.3g} m/s "
-      "and "
-      "{:.2g} % at {:.3g} m/s (--ambient-pressure 0 for vacuum)",
+      "the drag of the air ({:g} Pa, {:g} K) was taken out; it had lowered e by {:.2g} % at {:.3g} "
+      "m/s and by {:.2g} % at {:.3g} m/s (--ambient-pressure 0 for vacuum)",
       air.pressure, air.temperature, 100.0 * air.slow_share, air.slow, 100.0 * air.fast_share,
       air.fast);
 }

@@ -150,9 +150,9 @@ std::string recommended_words(const IntervalSet& set) {
              "others";
     case RecommendedBecause::noise_estimated:
       return "it follows the likelihood where that is not a parabola, stops at the bounds and "
-             "allows by Student's factor for how few points estimate the noise; intervals from "
-             "replicates contain the truth less often where two or three points near capture "
-             "decide";
+             "allows by Student's factor for the small number of points that estimate the noise; "
+             "intervals from replicates contain the truth less often where two or three points "
+             "near capture decide";
     case RecommendedBecause::no_profile:
       return "the profile is not available: " + missing_words(set[IntervalKind::profile]);
   }
@@ -165,17 +165,17 @@ std::string recommended_words(const CaptureEstimate& capture) {
     case CaptureBecause::no_delta:
       return missing_words(capture[CaptureIntervalKind::delta]);
     case CaptureBecause::at_bound:
-      return "a parameter rests on its bound, which the delta method does not know";
+      return "a parameter rests on its bound, which the delta method does not take into account";
     case CaptureBecause::bend:
       return "the noise is stated, and the replicates follow the bend of V* in the parameters, "
-             "which the delta method takes as straight";
+             "which the delta method takes as linear";
     case CaptureBecause::no_percentiles:
       return "there are no percentiles: " + missing_words(capture[CaptureIntervalKind::percentile]);
     case CaptureBecause::spread_estimated:
-      return "its error allows for the spread of the impacts, which is estimated, too";
+      return "its error allows for the spread of the impacts, which is estimated as well";
     case CaptureBecause::noise_estimated:
-      return "it allows for how few points estimate the noise, and is averaged over the variance "
-             "functions that they leave open";
+      return "it allows for the small number of points that estimate the noise, and is averaged "
+             "over the variance functions that they leave open";
   }
   return "";
 }
@@ -231,8 +231,8 @@ static std::string_view mechanism_of_sizes() {
 std::string wide_spread_words(const std::string& what, double event_spread) {
   return fmt::format(
       "the interval of {} is not to be trusted: from impact to impact the capture velocity "
-      "scatters by {:.0f} %, and what is assumed of the survivors is good up to {:.0f} %; if "
-      "spheres of several sizes stand in one point, put them into classes of size (recoil pair "
+      "scatters by {:.0f} %, and what is assumed of the survivors is good up to {:.0f} %; if one "
+      "point averages over spheres of several sizes, sort them into size classes (recoil pair "
       "--size-edges), or fit their spread (mechanisms = [\"{}\"])",
       what, 100.0 * event_spread, 100.0 * widest_spread, mechanism_of_sizes());
 }

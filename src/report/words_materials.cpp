@@ -20,16 +20,15 @@ std::string better_words(const BudgetOf& of, const ImpactModel& model) {
   const std::string share = fmt::format("{:.0f} %", 100.0 * first.share);
   std::string words;
   if (first.source != BudgetSource::constant) {
-    words = fmt::format("{}: most of the variance ({}) is {}", of.quantity, share,
+    words = fmt::format("{}: most of the variance ({}) comes from {}", of.quantity, share,
                         source_words(first, model));
     words += first.source == BudgetSource::scatter ? ", which more points reduce" : "";
   } else {
-    words = fmt::format("{}: measure {} first, it makes {} of the variance", of.quantity,
+    words = fmt::format("{}: measure {} first, which accounts for {} of the variance", of.quantity,
                         label_of(model, first.constant), share);
     if (budget.sd_without_first_constant) {
       words += fmt::format(
-          "; known exactly it would leave a standard error of {:.2g} instead of "
-          "{:.2g}{}",
+          "; if it were known exactly, the standard error would be {:.2g} instead of {:.2g}{}",
           *budget.sd_without_first_constant, budget.sd,
           of.unit == "1" ? std::string() : " " + of.unit);
     }

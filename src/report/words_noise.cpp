@@ -70,8 +70,8 @@ std::string input_words(const std::vector<Observation>& points) {
   }
   if (count == 0) return "";
   return fmt::format(
-      "; errors of velocity and diameter reach e at {} points, with at most {:.2g} times the "
-      "standard deviation of e itself",
+      "; errors of velocity and diameter add to the error of e at {} points, by at most {:.2g} "
+      "times the standard deviation of e itself",
       count, most);
 }
 
