@@ -12,10 +12,23 @@
 #include "diagnosis/discrepancy.hpp"
 #include "estimate/impact_problem.hpp"
 #include "mechanism/catalogue.hpp"
-#include "uncertainty/refit.hpp"
 
 namespace recoil {
 namespace {
+
+/// How candidates are fitted: hundreds of descents, of which only the criterion has to be known, to
+/// a hundredth. (A tolerance of the parameters would compare steps of very different units.)
+LeastSquaresOptions descent() {
+  LeastSquaresOptions options;
+  options.max_iterations = 100;
+  options.function_tolerance = 1e-6;
+  options.gradient_tolerance = 1e-10;
+  options.parameter_tolerance = 1e-10;
+  options.covariance = false;
+  options.search_along_steps = false;
+  options.first_radius = 10.0;
+  return options;
+}
 
 /// `near` and what differs from it by an advised start of one parameter of an added mechanism.
 std::vector<std::vector<double>> advised_starts(const Candidate& candidate,
@@ -227,8 +240,7 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
       starts.push_back(std::move(start));
     }
   }
-  LeastSquaresOptions options = refit_options();
-  options.covariance = false;
+  const LeastSquaresOptions options = descent();
   Refit best;
   best.discrepancy = std::move(discrepancy);
   for (const std::vector<double>& start : starts) {

@@ -55,14 +55,15 @@ enum class SetAside {
   one_would_do,           ///< of the two of a pair
   one_hardly_takes_part,  ///< of the two of a pair, and structure is left behind
   at_the_edge,            ///< a parameter rests on the edge of what is possible
+  far_behind              ///< the best at a first look: a pair that was not followed any further
 };
 template <>
 struct NamesOf<SetAside> {
-  static constexpr std::array<std::string_view, 10> names = {
+  static constexpr std::array<std::string_view, 11> names = {
       "description",        "gains_too_little", "chance",
       "not_possible",       "batch_is_size",    "leaves_structure",
       "predicts_no_better", "one_would_do",     "one_hardly_takes_part",
-      "at_the_edge"};
+      "at_the_edge",        "far_behind"};
 };
 
 /// One mechanism, or several at once, tried as an explanation.

@@ -327,20 +327,14 @@ std::vector<Dataset> without(std::vector<Dataset> datasets,
   return datasets;
 }
 
-/// Steps 1 to 4 on all points of `datasets`.
-Diagnosis diagnose_all(const FitSpec& spec, const std::vector<Dataset>& datasets,
-                       const FitResult& fitted, const DiagnosisOptions& options,
-                       const std::vector<IntervalSet>& base_intervals) {
+/// Steps 1 to 4 on all points of `base`.
+Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& base_intervals) {
+  const DiagnosisOptions& options = base.options;
   Diagnosis diagnosis;
   diagnosis.options = options;
-  diagnosis.spec = spec;
-  diagnosis.datasets = datasets;
-  diagnosis.base = fitted;
-  const SearchBase base = search_base(spec, datasets, diagnosis.base, options);
-  if (!base.refit.usable) {
-    throw ComputationError(
-        fmt::format("{}: the fit cannot be repeated from its own answer", spec.file.string()));
-  }
+  diagnosis.spec = base.spec;
+  diagnosis.datasets = base.datasets;
+  diagnosis.base = base.fitted;
   Progress progress("diagnosis",
                     static_cast<std::size_t>((options.simulated + 9) / 10 + options.compared));
   test_base(base, diagnosis, progress);
@@ -363,9 +357,12 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
                    const FitResult& fitted, const DiagnosisOptions& options,
                    const std::vector<IntervalSet>& base_intervals) {
   const SearchBase base = search_base(spec, datasets, fitted, options);
-  const std::vector<OutlyingPoint> outlying =
-      base.refit.usable ? outlying_points(base) : std::vector<OutlyingPoint>();
-  Diagnosis for_all = diagnose_all(spec, datasets, fitted, options, base_intervals);
+  if (!base.refit.usable) {
+    throw ComputationError(
+        fmt::format("{}: the fit cannot be repeated from its own answer", spec.file.string()));
+  }
+  const std::vector<OutlyingPoint> outlying = outlying_points(base);
+  Diagnosis for_all = diagnose_all(base, base_intervals);
   // Errors that all points have make odd points, too, and are the plainer answer.
   const bool errors_do =
       std::any_of(for_all.unstated.begin(), for_all.unstated.end(),
@@ -374,7 +371,9 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
   const std::vector<Dataset> others = without(datasets, outlying);
   const FitResult refitted = fit(make_model(spec, others), gather(others, spec));
   if (!refitted.usable) return for_all;
-  Diagnosis diagnosis = diagnose_all(spec, others, refitted, options, {});
+  const SearchBase of_others = search_base(spec, others, refitted, options);
+  if (!of_others.refit.usable) return for_all;
+  Diagnosis diagnosis = diagnose_all(of_others, {});
   diagnosis.outlying = outlying;
   diagnosis.for_all =
       AnswerForAll{for_all.verdict, for_all.named, for_all.rivals, for_all.resembles};

@@ -159,12 +159,8 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
       left.whiten(residuals);
       log_determinant = left.log_determinant();
     }
-    std::vector<PointConditions> conditions;
-    for (const Observation& point : unseen.points) {
-      conditions.push_back({point.dataset, point.diameter, point.velocity, point.series});
-    }
     const std::vector<Prediction> at =
-        predict(candidate.model, refit.theta, std::move(conditions), false);
+        predict(candidate.model, refit.theta, unseen.conditions(), false);
     FoldPrediction& out = predictions[f];
     out.usable = true;
     out.criterion = corrected_criterion(seen, refit, candidate.free_count);

@@ -1,7 +1,9 @@
 #include "diagnosis/law_errors.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
@@ -14,12 +16,6 @@ namespace {
 constexpr int rounds = 2;
 constexpr double most_loss = 1.0;  // of e^2: no more than all the energy
 
-std::vector<PointConditions> conditions_of(const Observations& data) {
-  std::vector<PointConditions> points;
-  for (const Observation& point : data.points) points.push_back(point.conditions());
-  return points;
-}
-
 /// e^2 of every point, 0 where it is captured; empty where there is no answer.
 std::optional<Eigen::VectorXd> squares(PointPredictor& predictor, std::span<const double> theta) {
   predictor.evaluate(theta, false);
@@ -29,15 +25,6 @@ std::optional<Eigen::VectorXd> squares(PointPredictor& predictor, std::span<cons
     found(static_cast<Eigen::Index>(i)) = predictor.at(i).restitution_squared;
   }
   return found;
-}
-
-/// theta with `mechanism` at its null values.
-std::vector<double> without(const ImpactModel& model, std::vector<double> theta,
-                            const Mechanism* mechanism) {
-  for (std::size_t j = 0; j < theta.size(); ++j) {
-    if (model.slots[j].mechanism() == mechanism) theta[j] = model.slots[j].parameter->null_value;
-  }
-  return theta;
 }
 
 }  // namespace
@@ -58,7 +45,7 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
                                                  const LawErrors& laws) {
   const ImpactModel& model = candidate.model;
   const std::vector<double> full(theta.begin(), theta.end());
-  PointPredictor predictor(model, conditions_of(data));
+  PointPredictor predictor(model, data.conditions());
   const std::optional<Eigen::VectorXd> all = squares(predictor, full);
   if (!all) return std::nullopt;
   const std::optional<Eigen::VectorXd> bare = squares(predictor, without_mechanisms(model, full));
@@ -66,7 +53,8 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
   std::vector<Eigen::VectorXd> sizes;  // of each error, in e^2
   sizes.push_back(laws.base * (1.0 - bare->array()).min(most_loss).max(0.0).matrix());
   for (const Mechanism* mechanism : model.chain) {
-    const std::optional<Eigen::VectorXd> less = squares(predictor, without(model, full, mechanism));
+    const std::optional<Eigen::VectorXd> less =
+        squares(predictor, without_mechanism(model, full, *mechanism));
     if (!less) return std::nullopt;
     sizes.push_back(laws.mechanism *
                     (*all - *less).array().min(most_loss).max(-most_loss).matrix());
@@ -84,6 +72,20 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
         slopes.cwiseProduct(sizes[k]).asDiagonal() * laws.functions;
   }
   return columns;
+}
+
+Refit under_law_errors(const Candidate& candidate, const Observations& data, Refit refit,
+                       const LawErrors& laws) {
+  if (laws.none() || !refit.usable) return refit;
+  const auto columns = law_error_columns(candidate, data, refit.theta, laws);
+  if (!columns) return {};
+  refit.discrepancy = std::make_shared<const Discrepancy>(*columns);
+  refit.discrepancy->whiten(refit.residuals);
+  refit.jacobian.resize(data.points.size() * refit.theta.size());
+  refit.discrepancy->whiten(refit.jacobian, refit.theta.size());
+  refit.chi2 = std::inner_product(refit.residuals.begin(), refit.residuals.end(),
+                                  refit.residuals.begin(), 0.0);
+  return refit;
 }
 
 Refit with_law_errors(const Candidate& candidate, const Observations& data, Refit refit,

@@ -33,6 +33,11 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
                                                  std::span<const double> theta,
                                                  const LawErrors& laws);
 
+/// `refit`, which knows no errors of laws, seen under the covariance that they have there: nothing
+/// moves.
+Refit under_law_errors(const Candidate& candidate, const Observations& data, Refit refit,
+                       const LawErrors& laws);
+
 /// `refit` again, under the covariance that the laws' errors have there.
 Refit with_law_errors(const Candidate& candidate, const Observations& data, Refit refit,
                       const LawErrors& laws);

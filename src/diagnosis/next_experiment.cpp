@@ -31,16 +31,6 @@ bool has(const CandidateResult& rival, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-/// theta with `mechanism` taken away.
-std::vector<double> without(const Candidate& candidate, std::vector<double> theta,
-                            const Mechanism& mechanism) {
-  for (std::size_t j = 0; j < theta.size(); ++j) {
-    const ParameterSlot& slot = candidate.model.slots[j];
-    if (slot.mechanism() == &mechanism) theta[j] = slot.parameter->null_value;
-  }
-  return theta;
-}
-
 class Search {
  public:
   explicit Search(const FitResult& base) : grid_(measurable_impacts(base)) {
@@ -86,7 +76,8 @@ void add_changes(const Search& search, const CandidateResult& one, const Candida
     change.one = one.candidate.name();
     change.other = other.candidate.name();
     const Curve rest =
-        curve_of(one.candidate, without(one.candidate, one.refit.theta, mechanism), search.grid());
+        curve_of(one.candidate, without_mechanism(one.candidate.model, one.refit.theta, mechanism),
+                 search.grid());
     if (!search.place(with, rest, change)) continue;
     change.condition = mechanism.info.taken_away->condition;
     change.value = mechanism.info.taken_away->value;

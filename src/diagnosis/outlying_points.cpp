@@ -69,9 +69,9 @@ Eigen::MatrixXd predictable(const SearchBase& base) {
 
 /// How the points `asked` lie from what the points `others` predict, each left out itself, in
 /// standard deviations.
-class Foreteller {
+class PredictionByOthers {
  public:
-  Foreteller(const Eigen::MatrixXd& U, const Eigen::VectorXd& r, const Indices& others)
+  PredictionByOthers(const Eigen::MatrixXd& U, const Eigen::VectorXd& r, const Indices& others)
       : U_(U), r_(r), information_(Eigen::MatrixXd::Identity(U.cols(), U.cols())) {
     along_ = Eigen::VectorXd::Zero(U.cols());
     for (const std::size_t i : others) {
@@ -131,7 +131,7 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
   const std::size_t most = kept.size() / 5;
   double scale = 1.0;
   while (out.size() < most && kept.size() > fewest + base.refit.theta.size()) {
-    const Foreteller prediction(U, r, kept);
+    const PredictionByOthers prediction(U, r, kept);
     std::vector<double> z;
     for (const std::size_t i : kept) z.push_back(prediction.of_one_of_them(i));
     scale = scale_of(z, data.sd_stated);
@@ -146,7 +146,7 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
   std::vector<OutlyingPoint> found;
   if (out.empty()) return found;
   std::sort(out.begin(), out.end());
-  const Foreteller prediction(U, r, kept);
+  const PredictionByOthers prediction(U, r, kept);
   for (const std::size_t i : out) {
     const double z = prediction.of_another(i) / scale;
     if (!(std::abs(z) > limit)) continue;

@@ -68,11 +68,7 @@ std::string describe_point(const Observation& point) {
 std::vector<Prediction> predict_observations(const ImpactModel& model,
                                              std::span<const double> theta,
                                              const Observations& data) {
-  std::vector<PointConditions> points;
-  for (const Observation& point : data.points) {
-    points.push_back(point.conditions());
-  }
-  return predict(model, theta, std::move(points), false);
+  return predict(model, theta, data.conditions(), false);
 }
 
 /// The first point that the model cannot answer at `theta`, in words.

@@ -53,11 +53,7 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
     problem.log_scale.push_back(slot.log_scale);
     problem.fixed.push_back(!slot.moves());
   }
-  std::vector<PointConditions> points;
-  for (const Observation& point : data.points) {
-    points.push_back(point.conditions());
-  }
-  const auto predictor = std::make_shared<PointPredictor>(model, std::move(points));
+  const auto predictor = std::make_shared<PointPredictor>(model, data.conditions());
   problem.evaluate = [predictor, &model, &data, handovers](std::span<const double> theta,
                                                            std::span<double> residuals,
                                                            std::span<double> jacobian) {

@@ -176,6 +176,8 @@ void descend(const LeastSquaresProblem& problem, const Coordinates& coordinates,
   solver.function_tolerance = options.function_tolerance;
   solver.gradient_tolerance = options.gradient_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
+  solver.initial_trust_region_radius = options.first_radius;
+  if (!options.search_along_steps) solver.max_num_line_search_step_size_iterations = 0;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &ceres_problem, &summary);
   result.converged = summary.termination_type == ceres::CONVERGENCE;

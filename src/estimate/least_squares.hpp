@@ -31,6 +31,10 @@ struct LeastSquaresOptions {
   double gradient_tolerance = 1e-14;
   double parameter_tolerance = 1e-11;  ///< relative change of theta
   bool covariance = true;
+  /// Where there are bounds, look along every step for its best length: up to eight evaluations for
+  /// each step that is refused.
+  bool search_along_steps = true;
+  double first_radius = 1e4;  ///< of the trust region, in parameters scaled by the Jacobian
 };
 
 struct LeastSquaresResult {

@@ -327,6 +327,15 @@ std::vector<double> without_mechanisms(const ImpactModel& model, std::vector<dou
   return theta;
 }
 
+std::vector<double> without_mechanism(const ImpactModel& model, std::vector<double> theta,
+                                      const Mechanism& mechanism) {
+  for (std::size_t j = 0; j < theta.size(); ++j) {
+    const Parameter& parameter = *model.slots[j].parameter;
+    if (parameter.mechanism == &mechanism) theta[j] = parameter.null_value;
+  }
+  return theta;
+}
+
 ImpactConditions conditions_at(const ImpactModel& model, std::span<const double> theta,
                                std::size_t dataset, double diameter, double velocity) {
   assert(theta.size() == model.slots.size());

@@ -108,6 +108,9 @@ Surroundings surroundings_under(const ImpactModel& model, std::span<const double
 
 /// theta with every mechanism at its null value: the base model.
 std::vector<double> without_mechanisms(const ImpactModel& model, std::vector<double> theta);
+/// theta with this one at its null value.
+std::vector<double> without_mechanism(const ImpactModel& model, std::vector<double> theta,
+                                      const Mechanism& mechanism);
 
 /// Lays out theta for `spec`. f0 that is not free, or has no stated start, takes the value of eq.
 /// 12 for its dataset.

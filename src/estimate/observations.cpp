@@ -88,6 +88,13 @@ double Observation::event_sd() const {
   return weights.sd * std::sqrt(static_cast<double>(rebounds() > 0 ? rebounds() : events));
 }
 
+std::vector<PointConditions> Observations::conditions() const {
+  std::vector<PointConditions> all;
+  all.reserve(points.size());
+  for (const Observation& point : points) all.push_back(point.conditions());
+  return all;
+}
+
 bool Observations::weights_depend_on_fit() const {
   return !sd_stated || std::any_of(points.begin(), points.end(), [](const Observation& point) {
     return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 || point.weights.scatter > 0.0 ||

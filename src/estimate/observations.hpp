@@ -45,6 +45,9 @@ struct Observations {
   /// that they keep their own errors when those of the points are widened.
   double constants_weight = 1.0;
 
+  /// Those of every point.
+  std::vector<PointConditions> conditions() const;
+
   /// Must the weights be found together with the parameters?
   bool weights_depend_on_fit() const;
 };

@@ -61,6 +61,8 @@ std::string because_words(const CandidateResult& c) {
           c.remaining_p);
     case SetAside::at_the_edge:
       return "a parameter lies at the limit of what is possible";
+    case SetAside::far_behind:
+      return "it fits far worse than the best two";
   }
   for (const FoundParameter& parameter : c.parameters) {
     if (!parameter.plausible()) return implausible_words(parameter);

@@ -145,9 +145,7 @@ class BudgetMaker {
   /// What the errors of V and d are of the variance of each point, see `reweighted_fit`.
   void find_input_shares() {
     const std::vector<Observation>& points = fitted_.data.points;
-    std::vector<PointConditions> conditions;
-    for (const Observation& point : points) conditions.push_back(point.conditions());
-    PointPredictor predictor(fitted_.model, std::move(conditions));
+    PointPredictor predictor(fitted_.model, fitted_.data.conditions());
     predictor.evaluate(fitted_.theta, true);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Observation& point = points[i];

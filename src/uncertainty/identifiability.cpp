@@ -20,9 +20,7 @@ constexpr double least_loss = 0.01;  // 1 - e^2 below which a point tells no sca
 std::vector<double> loss_scales(const FitResult& fitted) {
   std::vector<PointConditions> places;
   for (const Observation& point : fitted.data.points) {
-    if (!point.censored) {
-      places.push_back({point.dataset, point.diameter, point.velocity, point.series});
-    }
+    if (!point.censored) places.push_back(point.conditions());
   }
   std::vector<double> largest(fitted.theta.size(), 0.0);
   for (const Prediction& at : predict(fitted.model, fitted.theta, std::move(places), true)) {

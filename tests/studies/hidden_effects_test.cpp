@@ -43,7 +43,7 @@ TEST_P(Bar, TheAnswerIsTrue) {
   if (!has_several_diameters(question.order.design)) {
     EXPECT_TRUE(answer.certain.empty()) << "no cause is certain: " << answer.certain.front();
   }
-  if (mark == Mark::inside && !question.cause.empty()) {
+  if (mark == Mark::inside) {
     EXPECT_EQ(answer.shared_cause, question.cause) << listed;
   }
 }
@@ -54,8 +54,6 @@ std::vector<Question> clear_causes() {
   for (const char* effect : {"plastic_yield", "gas_film", "rebound_truncation", "series_offset"}) {
     all.push_back({{"wall", {effect}, 20.0, 0}, {Mark::named}});
   }
-  // Hardly more than losses that are good to 3 %.
-  all.push_back({{"li", {"bulk_viscoelastic"}, 10.0, 0}, {Mark::named, Mark::nothing}});
   // Off with its sign: the incident velocity too high, that of the rebound too low.
   all.push_back({{"li", {"velocity_offset"}, 20.0, 0}, {Mark::named}});
   return all;
@@ -66,9 +64,9 @@ std::vector<Question> clear_causes() {
 /// leaves 20.)
 std::vector<Question> close_causes() {
   const std::vector<Mark> right = {Mark::named, Mark::inside};
-  return {{{"wall", {"jkr_hysteresis"}, 20.0, 0}, right},
+  return {{{"wall", {"jkr_hysteresis"}, 40.0, 0}, right, "adhesion hysteresis"},
           {{"wall", {"survivor_bias"}, 10.0, 0}, right, "unequal impacts averaged in one point"},
-          {{"li", {"plate_flexure"}, 10.0, 0}, {Mark::named, Mark::inside, Mark::nothing}},
+          {{"li", {"plate_flexure"}, 20.0, 0}, right},
           {{"wall", {"plastic_yield", "jkr_hysteresis"}, 20.0, 0},
            {Mark::named, Mark::part, Mark::inside}}};
 }
@@ -89,7 +87,16 @@ std::vector<Question> bent_laws() {
     all.push_back({{"wall", {effect}, 20.0, 0}, {Mark::named, Mark::inside, Mark::resembled}});
     all.back().order.law_bend = 0.1;
   }
+  all.push_back(
+      {{"wall", {"plastic_yield"}, 40.0, 0}, {Mark::named, Mark::inside, Mark::resembled}});
+  all.back().order.law_bend = 0.1;
   return all;
+}
+
+/// As strong as nature has it this is no more than losses that are good to 3 %: what the errors of
+/// laws cost in power.
+std::vector<Question> within_law_errors() {
+  return {{{"li", {"bulk_viscoelastic"}, 10.0, 0}, {Mark::nothing}}};
 }
 
 /// Losses of the base model that are wrong by 3 % are no alarm.
@@ -104,13 +111,12 @@ std::vector<Question> bent_base() {
   return all;
 }
 
-/// Nothing else is named in the place of what cannot be (or can just be: its error decides).
+/// Nothing is named in the place of what cannot be.
 std::vector<Question> impossible_sizes() {
   std::vector<Question> all;
   for (const char* effect : {"velocity_offset", "probe_plane"}) {
-    all.push_back({{"wall", {effect}, 0.0, 0},
-                   {Mark::resembled, Mark::unexplained, Mark::inside, Mark::nothing, Mark::named}});
-    all.back().order.beyond = 3.0;
+    all.push_back({{"wall", {effect}, 0.0, 0}, {Mark::resembled, Mark::unexplained}});
+    all.back().order.beyond = 10.0;
   }
   return all;
 }
@@ -142,6 +148,7 @@ INSTANTIATE_TEST_SUITE_P(ClearCause, Bar, testing::ValuesIn(clear_causes()), tes
 INSTANTIATE_TEST_SUITE_P(CloseCause, Bar, testing::ValuesIn(close_causes()), test_name);
 INSTANTIATE_TEST_SUITE_P(NothingHidden, Bar, testing::ValuesIn(nothing_hidden()), test_name);
 INSTANTIATE_TEST_SUITE_P(BentLaw, Bar, testing::ValuesIn(bent_laws()), test_name);
+INSTANTIATE_TEST_SUITE_P(WithinLawErrors, Bar, testing::ValuesIn(within_law_errors()), test_name);
 INSTANTIATE_TEST_SUITE_P(BentBase, Bar, testing::ValuesIn(bent_base()), test_name);
 INSTANTIATE_TEST_SUITE_P(Impossible, Bar, testing::ValuesIn(impossible_sizes()), test_name);
 INSTANTIATE_TEST_SUITE_P(Outside, Bar, testing::ValuesIn(outside_the_catalogue()), test_name);
