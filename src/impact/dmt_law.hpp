@@ -15,7 +15,7 @@ namespace recoil {
 ///   dq/dsigma = u,   du/dsigma = 2 q [p (1 + gamma S) - q^3 (1 + alpha u)].
 /// p = 2 pi W r n_c / (m V^2) = beta^(3/2) / 3, where beta is that of the f0 that eqs 9 and 10 have
 /// for this W: all laws depend on the same three groups.
-struct DmtLaw {
+struct DmtLaw : HertzRadius {
   static constexpr unsigned groups = 3;  ///< alpha, p, gamma
   static constexpr unsigned constants = 0;
   static constexpr std::array<std::size_t, groups> places = {0, 1, 2};
@@ -48,16 +48,6 @@ struct DmtLaw {
   /// grow with the contact: whether one creeps into the well has to be followed.
   static double depth(const ImpactGroups& g) { return -0.6 * std::pow(strength(g), 5.0 / 3.0); }
 
-  template <class Q, class... Values>
-  static constexpr auto dashpot_weight(const Q& q, const Values&...) {
-    return (q + q) * q;
-  }
-  static double dashpot_unit(const ImpactGroups&) { return 1.0; }
-  static constexpr double dashpot_power = 0.0;
-
-  /// x [n_c], dx / dq and the four forces [m V^2 / n_c].
-  static double penetration(double q, double, double, double) { return q * q; }
-  static double clock(double q, double, double, double) { return 2.0 * q; }
   static ContactForces<double, double, double, double> forces(double q, double u, double acts,
                                                               double alpha, double p,
                                                               double gamma) {

@@ -80,10 +80,26 @@ struct LawPath {
   bool seam = false;
 };
 
+/// What laws have in common whose contact has the radius of Hertz, x = q^2.
+struct HertzRadius {
+  /// A dashpot along the contact radius, the force -kappa x^(1/2) u, adds -kappa u times this to
+  /// du/dsigma; kappa in units of `dashpot_unit`, which goes with this power of beta.
+  template <class Q, class... Values>
+  static constexpr auto dashpot_weight(const Q& q, const Values&...) {
+    return (q + q) * q;
+  }
+  static double dashpot_unit(const ImpactGroups&) { return 1.0; }
+  static constexpr double dashpot_power = 0.0;
+
+  /// x [n_c] and dx / dq.
+  static double penetration(double q, double, double, double) { return q * q; }
+  static double clock(double q, double, double, double) { return 2.0 * q; }
+};
+
 /// The model as a solver of any number type sees it: another law is another struct like this one.
 /// After q and u its functions take `groups` numbers, in which the gradient is asked for, and
 /// `constants`, in which it is not. `strength` is the law's own measure of the adhesion.
-struct RingAdhesionLaw {
+struct RingAdhesionLaw : HertzRadius {
   static constexpr unsigned groups = 3;  ///< alpha, beta, gamma
   static constexpr unsigned constants = 0;
   static constexpr std::array<std::size_t, groups> places = {0, 1, 2};  ///< in ImpactResult
@@ -109,18 +125,7 @@ struct RingAdhesionLaw {
   static bool creeps(const ImpactGroups& g) { return creeps_into_the_well(g); }
   static double depth(const ImpactGroups& g) { return well_depth(g.beta); }
 
-  /// A dashpot along the contact radius, the force -kappa x^(1/2) u, adds -kappa u times this to
-  /// du/dsigma; kappa in units of `dashpot_unit`, which goes with this power of beta.
-  template <class Q, class... Values>
-  static constexpr auto dashpot_weight(const Q& q, const Values&...) {
-    return (q + q) * q;
-  }
-  static double dashpot_unit(const ImpactGroups&) { return 1.0; }
-  static constexpr double dashpot_power = 0.0;
-
-  /// x [n_c], dx / dq and the four forces [m V^2 / n_c].
-  static double penetration(double q, double, double, double) { return q * q; }
-  static double clock(double q, double, double, double) { return 2.0 * q; }
+  /// The four forces [m V^2 / n_c].
   static ContactForces<double, double, double, double> forces(double q, double u, double acts,
                                                               double alpha, double beta,
                                                               double gamma) {

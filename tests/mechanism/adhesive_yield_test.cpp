@@ -168,8 +168,8 @@ TEST(AdhesiveYield, AHardAdhesiveSphereGivesBackAll) {
   EXPECT_TRUE(adhesive_yield(1e-6, 0.62).yielded);
 }
 
-/// V at which e^2 of the mechanisms at work is 0 [m/s], by bisection.
-double captures_below(const Kind& kind) {
+/// e^2 by the mechanisms at work.
+double square_at_work(const Kind& kind, double v) {
   Surroundings at;
   at.density = kind.density;
   at.stiffness = 4.0 / 3.0 * kind.E;
@@ -179,13 +179,17 @@ double captures_below(const Kind& kind) {
   // f0 whose contact at rest is as wide as JKR's: K a^3 = 6 pi W r^2, 2 pi a f0 = K a^3 / r.
   const double a = std::cbrt(6.0 * pi * kind.W * kind.r() * kind.r() / at.stiffness);
   const one_point::Base base{0.0, 0.0, at.stiffness * a * a / (2.0 * pi * kind.r())};
+  return square(at, {"jkr_hysteresis", "plastic_yield"}, {1.0, kind.p, 0.0, 1.0, 0.0}, kind.d, v,
+                base);
+}
+
+/// V at which it is 0 [m/s], by bisection.
+double captures_below(const Kind& kind) {
   double low = 0.1;
   double high = 100.0;
   for (int i = 0; i < 40; ++i) {
     const double v = std::sqrt(low * high);
-    const double e2 = square(at, {"jkr_hysteresis", "plastic_yield"}, {1.0, kind.p, 0.0, 1.0, 0.0},
-                             kind.d, v, base);
-    (e2 > 0.0 ? high : low) = v;
+    (square_at_work(kind, v) > 0.0 ? high : low) = v;
   }
   return low;
 }
@@ -203,16 +207,7 @@ TEST(AdhesiveYield, TheSphereAboveCaptureKeepsTheEnergyBalance) {
   for (const double v : {1.6, 3.0, 20.0}) {
     const Kind kind = fluorescein(35.3e6);
     const Kind::Followed expected = kind.follow(v);
-    Surroundings at;
-    at.density = kind.density;
-    at.stiffness = 4.0 / 3.0 * kind.E;
-    at.reduced_modulus = kind.E;
-    at.reference_diameter = kind.d;
-    at.adhesion_energy = kind.W;
-    const double a = std::cbrt(6.0 * pi * kind.W * kind.r() * kind.r() / at.stiffness);
-    const one_point::Base base{0.0, 0.0, at.stiffness * a * a / (2.0 * pi * kind.r())};
-    EXPECT_NEAR(square(at, {"jkr_hysteresis", "plastic_yield"}, {1.0, kind.p, 0.0, 1.0, 0.0},
-                       kind.d, v, base),
+    EXPECT_NEAR(square_at_work(kind, v),
                 (expected.recovered - expected.parting) / (0.5 * kind.mass() * v * v), 5e-4)
         << v;
   }
