@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _recoil
 from ._facts import Facts, facts_of
 from ._impacts import Array, Impacts, Model
-from ._pictures import DiagnosisPictures, FitPictures, MixturePictures, pictures_of
+from ._pictures import DiagnosisPictures, FitPictures, MixturePictures
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -357,4 +357,4 @@ class Comparison(_Result):
         return iter(self.facts.fits)
 
 
-__all__ = ["Comparison", "Diagnosis", "FitResult", "Parameter", "Prediction", "pictures_of"]
+__all__ = ["Comparison", "Diagnosis", "FitResult", "Parameter", "Prediction"]
