@@ -256,7 +256,7 @@ class FitResult(FitPictures, _Result):
     def best_fit(self) -> Array:
         """e of the model at every point [1], in the order of ``residuals``; 0: captured."""
         predicted = [np.nan if r.predicted is None else r.predicted for r in self.residuals]
-        return np.sqrt(np.maximum(np.array(predicted, dtype=np.float64), 0.0))
+        return np.array(predicted, dtype=np.float64)
 
     def eval(self, V: npt.ArrayLike, d: npt.ArrayLike, *, dataset: str = "") -> Array:  # noqa: N803
         """e at ``V`` [m/s] and ``d`` [um] [1]; 0: captured."""
