@@ -2,9 +2,12 @@
 
 import ast
 import inspect
+import subprocess
+import sys
 from pathlib import Path
 
 import recoil
+from conftest import SOURCE
 from recoil import _recoil
 
 PACKAGE = Path(recoil.__file__).parent
@@ -12,6 +15,14 @@ PACKAGE = Path(recoil.__file__).parent
 
 def test_the_package_says_that_it_is_typed():
     assert (PACKAGE / "py.typed").exists()
+
+
+def test_mypy_finds_nothing_in_its_strict_mode(tmp_path):
+    package = SOURCE / "src/python/recoil"
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports",
+                           "--cache-dir", str(tmp_path), str(package)],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_the_stub_has_the_names_of_the_module_and_no_other():

@@ -186,9 +186,10 @@ def _rule(ax: "Axes", layer: Facts, plot: Facts) -> None:
 
 def _contour(ax: "Axes", layer: Facts, plot: Facts) -> None:
     rows = np.array([_numbers(row) for row in layer.rows])
+    (left, right), (bottom, top) = layer.x, layer.y
     ax.contour(
-        np.linspace(*layer.x, rows.shape[1]),
-        np.linspace(*layer.y, rows.shape[0]),
+        np.linspace(left, right, rows.shape[1]),
+        np.linspace(bottom, top, rows.shape[0]),
         rows,
         levels=[layer.level],
         colors=[layer.stroke.colour],
@@ -334,7 +335,7 @@ def draw(
         else:
             axes = [figure.add_axes(_frame(plot, picture)) for plot in plots]
     else:
-        axes = list(ax) if isinstance(ax, (list, tuple, np.ndarray)) else [ax]  # type: ignore[list-item]
+        axes = list(ax) if isinstance(ax, (list, tuple, np.ndarray)) else [ax]
     if len(axes) != len(plots):
         raise ValueError(f"{picture.name} has {len(plots)} plots, and ax has {len(axes)} axes")
     for number, (one, plot) in enumerate(zip(axes, plots)):
