@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 
 import jsonschema
 import pytest
@@ -113,6 +114,23 @@ def test_schemas_are_schemas_and_close_every_object(name):
                 look(item, f"{where}/{key}")
 
     look(found, name)
+
+
+@pytest.mark.parametrize("name", ["fit", "diagnosis"])
+def test_the_manual_has_every_key_of_the_schema(name):
+    page = set(re.findall(r"\w+", (SOURCE / f"docs/{name}-json.md").read_text()))
+
+    def keys(node):
+        if isinstance(node, dict):
+            yield from node.get("properties", {})
+            for inner in node.values():
+                yield from keys(inner)
+        elif isinstance(node, list):
+            for inner in node:
+                yield from keys(inner)
+
+    missing = sorted(set(keys(schema(name))) - page)
+    assert not missing
 
 
 def test_a_schema_for_every_json_and_no_other():
