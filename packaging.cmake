@@ -3,6 +3,8 @@
 include(GNUInstallDirs)
 install(TARGETS recoil RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# What the JSON files are: one JSON Schema each.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/recoil)
 install(CODE "
   set(share \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share\")
   set(program \"$<TARGET_FILE:recoil>\")
@@ -31,8 +33,8 @@ install(EXPORT recoil NAMESPACE recoil:: FILE recoil-targets.cmake
         DESTINATION ${recoil_cmake_folder} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/recoil
         COMPONENT development FILES_MATCHING PATTERN *.hpp
-        PATTERN cli EXCLUDE PATTERN studies EXCLUDE PATTERN coverage EXCLUDE
-        PATTERN reconstruction EXCLUDE)
+        PATTERN cli EXCLUDE PATTERN python EXCLUDE PATTERN studies EXCLUDE
+        PATTERN coverage EXCLUDE PATTERN reconstruction EXCLUDE)
 configure_file(${PROJECT_SOURCE_DIR}/packaging_config.cmake.in
                ${PROJECT_BINARY_DIR}/recoil-config.cmake COPYONLY)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/recoil-config-version.cmake

@@ -3,9 +3,11 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "core/files.hpp"
 #include "document/terminal.hpp"
 #include "report/comparison_document.hpp"
+#include "report/json_comparison.hpp"
 
 namespace recoil {
 
@@ -20,10 +22,12 @@ void add_compare(CLI::App& program) {
   command->add_option("FIT.json", *files, "two or more fit.json of the same datasets")
       ->required()
       ->expected(2, 100);
-  command->callback([files] {
+  const auto json = std::make_shared<bool>(false);
+  add_json_flag(*command, *json);
+  command->callback([files, json] {
     std::vector<ComparedFit> fits;
     for (const std::string& file : *files) fits.push_back(compared_fit(file, read_text_file(file)));
-    fmt::print("{}", terminal_text(comparison_sections(fits)));
+    fmt::print("{}", *json ? comparison_json(fits) : terminal_text(comparison_sections(fits)));
   });
 }
 

@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/coverage_words.hpp"
+#include "cli/json_coverage.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "coverage/coverage_truth.hpp"
@@ -19,6 +20,7 @@ struct Options {
   std::string fit_file;
   std::string out;
   int datasets = 100;
+  bool json = false;
   AnalysisFlags analysis;
 };
 
@@ -33,12 +35,13 @@ void run(const Options& options) {
   coverage.uncertainty = uncertainty_options(spec, options.analysis.resolved());
   require_scheme(spec, coverage.uncertainty.scheme, gather(datasets));
   const CoverageTruth truth = coverage_truth(spec, datasets, coverage.uncertainty.seed);
-  std::string text = coverage_markdown(measure_coverage(spec, truth, coverage), spec, coverage);
+  const CoverageResult result = measure_coverage(spec, truth, coverage);
+  std::string text = coverage_markdown(result, spec, coverage);
   for (const Dataset& dataset : datasets) {
     text += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));
   }
   if (!options.out.empty()) write_whole_file(options.out, text);
-  fmt::print("{}", text);
+  fmt::print("{}", options.json ? coverage_json(result, spec, coverage, datasets) : text);
 }
 
 /// Grids and summaries belong to the program of the studies; who asks for them here is told so.
@@ -77,6 +80,7 @@ void add_coverage(CLI::App& program) {
       ->type_name("FILE");
   point_to_studies(*command);
   add_analysis_flags(*command, options->analysis);
+  add_json_flag(*command, options->json);
   command->callback([options] { run(*options); });
 }
 

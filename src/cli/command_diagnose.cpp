@@ -4,6 +4,7 @@
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/recipe_words.hpp"
 #include "core/files.hpp"
 #include "diagnosis/diagnose.hpp"
@@ -20,6 +21,7 @@ struct DiagnoseFlags {
   std::string out;
   int threads = 0;
   std::int64_t seed = -1;
+  bool json = false;
 };
 
 void run_diagnosis(const DiagnoseFlags& flags) {
@@ -30,13 +32,14 @@ void run_diagnosis(const DiagnoseFlags& flags) {
   options.seed = flags.seed >= 0 ? static_cast<std::uint64_t>(flags.seed) : spec.uncertainty.seed;
   Diagnosis diagnosis = diagnose(spec, load_datasets(spec), options);
   diagnosis.remarks = recipe_remarks(diagnosis.datasets);
+  const std::string result = diagnosis_json(diagnosis);
   if (!flags.out.empty()) {
     const std::filesystem::path folder = flags.out;
     write_whole_file(folder / "extended.toml", extended_toml(diagnosis, folder));
     write_whole_file(folder / "diagnosis.html", diagnosis_html(diagnosis));
-    write_whole_file(folder / "diagnosis.json", diagnosis_json(diagnosis));
+    write_whole_file(folder / "diagnosis.json", result);
   }
-  fmt::print("{}", diagnosis_text(diagnosis));
+  fmt::print("{}", flags.json ? result : diagnosis_text(diagnosis));
 }
 
 }  // namespace
@@ -69,6 +72,7 @@ void add_diagnose(CLI::App& program) {
       ->add_option("--seed", flags->seed,
                    "seed of the simulated data sets (default: the fit file's)")
       ->check(CLI::NonNegativeNumber);
+  add_json_flag(*command, flags->json);
   command->callback([flags] { run_diagnosis(*flags); });
 }
 

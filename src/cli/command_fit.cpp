@@ -26,19 +26,22 @@ void add_fit(CLI::App& program) {
   command->add_option("--out", *out, "folder for fit.json (default: nothing is written)")
       ->type_name("DIR");
   add_analysis_flags(*command, *options);
+  const auto json = std::make_shared<bool>(false);
+  add_json_flag(*command, *json);
   command->callback([=] {
     if (!out->empty()) require_writable_folder(*out);
     AnalysisOptions resolved = options->resolved();
     resolved.folder = *out;
     const Analysis analysis = analyse(load_inputs(*fit_file), resolved);
+    const std::string result = json_report(analysis);
     if (!out->empty()) {
       const std::filesystem::path folder = *out;
-      write_whole_file(folder / "fit.json", json_report(analysis));
+      write_whole_file(folder / "fit.json", result);
       const std::string draws = posterior_csv(analysis);
       if (!draws.empty()) write_whole_file(folder / "posterior.csv", draws);
       forget_replicates(*out);
     }
-    fmt::print("{}", text_report(analysis));
+    fmt::print("{}", *json ? result : text_report(analysis));
   });
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
@@ -17,6 +18,7 @@
 #include "experiment/passages.hpp"
 #include "plot/draw.hpp"
 #include "report/experiment_figures.hpp"
+#include "report/json_pairing.hpp"
 #include "report/pairing_document.hpp"
 #include "report/words_dataset.hpp"
 
@@ -40,6 +42,7 @@ struct PairCommand {
   std::string positive = "towards";
   double height_mm = 1.0;
   bool keep_height = false;
+  bool json = false;
   double threshold = -1.0;
   double angle_degrees = -1.0;
   double lost_share = -1.0;
@@ -139,7 +142,9 @@ void write_dataset(const PairCommand& command, const PassageTable& table,
     write_whole_file(fs::path(command.into) / "sizes.csv", sizes_csv(distributions(table, pairs)));
   }
   write_whole_file(fs::path(command.into) / package_file_name, package);
-  if (!left_out.empty()) fmt::print("note: {}\n", left_out_sentence(left_out));
+  if (!left_out.empty()) {
+    fmt::print(command.json ? stderr : stdout, "note: {}\n", left_out_sentence(left_out));
+  }
 }
 
 void run_pair(PairCommand command) {
@@ -157,13 +162,14 @@ void run_pair(PairCommand command) {
   if (!command.into.empty()) provenance_of(command, table);  // complain before the work
   const PairingResult pairs = pair_passages(table.passages, command.pairing);
   const Averages averages = average(table.passages, table.series, pairs, command.averaging);
-  fmt::print("{}", pairing_text(table, pairs, averages));
+  if (!command.json) fmt::print("{}", pairing_text(table, pairs, averages));
   if (pairs.impacts.empty()) {
     throw ComputationError(fmt::format(
         "{}: no impacts found (no passage up follows a passage down within the time that a plane "
         "{:g} mm above the surface allows); check --height, the units and --positive",
         command.events, command.height_mm));
   }
+  if (command.json) fmt::print("{}", pairing_json(table, pairs, averages));
   const std::string points = points_csv(averages);
   if (!command.into.empty()) write_dataset(command, table, pairs, points);
   if (!command.out.empty()) write_whole_file(command.out, points);
@@ -274,6 +280,7 @@ void add_output_options(CLI::App& app, PairCommand& command) {
   app.add_option(
       "--histograms", command.histograms,
       "write histograms and size distributions (CSV) and pictures (SVG) into this folder");
+  add_json_flag(app, command.json);
 }
 
 }  // namespace

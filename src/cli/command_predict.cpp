@@ -25,6 +25,7 @@ struct PredictOptions {
   std::string out;
   double height = -1.0;  // [mm]; below zero: not stated
   bool midpoints = false;
+  bool json = false;
   AnalysisFlags analysis;
 };
 
@@ -50,6 +51,7 @@ void predict_sizes(const PredictOptions& options) {
   if (options.midpoints) mix.parts = 1;
   const PolydispersePrediction mixture =
       predict_mixture(analysis.fitted, dataset, analysis.uncertainty.bootstrap, sizes, mix);
+  const std::string result = json_prediction(analysis, mixture);
   if (!options.out.empty()) {
     const std::filesystem::path out = options.out;
     for (const Figure& figure : mixture_figures(analysis, mixture)) {
@@ -59,11 +61,12 @@ void predict_sizes(const PredictOptions& options) {
                        plot::draw_svg(figure.picture));
     }
     write_whole_file(out / "predict.csv", csv_prediction(mixture));
-    write_whole_file(out / "predict.json", json_prediction(analysis, mixture));
+    write_whole_file(out / "predict.json", result);
   }
-  fmt::print("{}", text_prediction(analysis, mixture));
+  fmt::print("{}", options.json ? result : text_prediction(analysis, mixture));
   if (options.height < 0.0 && !sizes.probe_height) {
-    fmt::print("note: no --height was given; {:g} mm is that of Li, Dunn & Brach (1999)\n",
+    fmt::print(options.json ? stderr : stdout,
+               "note: no --height was given; {:g} mm is that of Li, Dunn & Brach (1999)\n",
                mix.probe_height / units::mm);
   }
 }
@@ -103,6 +106,7 @@ void add_predict(CLI::App& program) {
   command->add_option("--out", options->out, "folder for the files (default: none are written)")
       ->type_name("DIR");
   add_analysis_flags(*command, options->analysis);
+  add_json_flag(*command, options->json);
   command->callback([options] { predict_sizes(*options); });
 }
 

@@ -5,13 +5,14 @@
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/fitted_values.hpp"
+#include "cli/simulated_impact.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
 #include "estimate/predictor.hpp"
-#include "impact/reference_solver.hpp"
 #include "impact/sensitivity.hpp"
 #include "predict/validity.hpp"
 #include "report/words_dataset.hpp"
@@ -33,22 +34,19 @@ struct SimulateOptions {
   std::string dataset;
   std::string parameters;
   std::string history;
+  bool json = false;
 };
 
-std::string history_csv(const std::vector<ImpactMoment>& history, const ImpactScales& scales,
-                        bool dashpot) {
-  std::string csv =
-      "time_ns,penetration_nm,approach_velocity_m_s,hertz_force_uN,hertz_damping_force_uN,"
-      "adhesion_force_uN,adhesion_damping_force_uN";
-  csv += dashpot ? ",dashpot_force_uN\n" : "\n";
-  constexpr double uN = 1e-6;
-  for (const ImpactMoment& m : history) {
-    csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}",
-                       m.time * scales.time / units::ns, m.penetration * scales.length / units::nm,
-                       m.approach * scales.velocity, m.hertz * scales.force / uN,
-                       m.hertz_damping * scales.force / uN, m.adhesion * scales.force / uN,
-                       m.adhesion_damping * scales.force / uN);
-    csv += dashpot ? fmt::format(",{:.6g}\n", m.dashpot * scales.force / uN) : "\n";
+std::string history_csv(const SimulatedImpact& simulated) {
+  const std::vector<HistoryColumn> columns = history_columns(simulated);
+  std::string csv;
+  for (const HistoryColumn& column : columns) csv += (csv.empty() ? "" : ",") + column.name;
+  csv += '\n';
+  for (std::size_t row = 0; row < simulated.history.size(); ++row) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      csv += fmt::format("{}{:.6g}", c == 0 ? "" : ",", columns[c].values[row]);
+    }
+    csv += '\n';
   }
   return csv;
 }
@@ -92,15 +90,6 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
   fmt::print("{}", terminal_text(table, indent));
 }
 
-/// What an impact loses without any damping: under jkr and maugis the work between the jumps.
-double lost_by_jumps(ImpactGroups groups, ImpactOptions options) {
-  if (options.adhesion != AdhesionLaw::jkr && options.adhesion != AdhesionLaw::maugis) return 0.0;
-  groups.alpha = groups.gamma = groups.kappa = 0.0;
-  options.budget = options.gradient = false;
-  const ImpactResult undamped = simulate_impact(groups, options);
-  return undamped.usable() ? std::max(0.0, 0.5 * (1.0 - undamped.restitution_squared)) : 0.0;
-}
-
 /// Where the incident energy went.
 /// @param jumps what the contact loses by itself, in jumping in and out [m V^2]
 Table energy_budget(const ImpactGroups& groups, const ImpactScales& scales,
@@ -126,15 +115,16 @@ Table energy_budget(const ImpactGroups& groups, const ImpactScales& scales,
   return table;
 }
 
-/// The impact of the base model. @param extended the conditions are those in which mechanisms leave
-/// the sphere at the contact
-void print_impact(const ImpactGroups& groups, const ImpactScales& scales, const ImpactConditions& c,
-                  const ImpactResult& impact, const Dataset& dataset,
-                  const ContactProperties& contact, AdhesionDampingPhase phase, bool extended,
-                  double jumps) {
+/// The impact of the base model, where the mechanisms leave the sphere at the contact.
+void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
+                  const ContactProperties& contact, AdhesionDampingPhase phase) {
+  const ImpactResult& impact = simulated.impact;
+  const ImpactGroups& groups = simulated.groups;
+  const ImpactScales& scales = simulated.scales;
+  const ImpactConditions& c = simulated.conditions;
   const double e = std::sqrt(std::max(impact.restitution_squared, 0.0));
   const bool captured = impact.outcome == ImpactOutcome::captured;
-  if (extended) {
+  if (simulated.extended) {
     fmt::print("\nthe impact of the base model at the contact, in at {:.6g} m/s{}:\n", c.velocity,
                captured ? "; captured" : fmt::format(", out at {:.6g} m/s", e * c.velocity));
   } else {
@@ -148,7 +138,7 @@ void print_impact(const ImpactGroups& groups, const ImpactScales& scales, const 
              impact.penetration_max * scales.length / units::nm);
   fmt::print("largest push: {:.6g} uN\n", impact.force_compression * scales.force * 1e6);
   fmt::print("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
-  fmt::print("{}", terminal_text(energy_budget(groups, scales, impact, jumps), indent));
+  fmt::print("{}", terminal_text(energy_budget(groups, scales, impact, simulated.jumps), indent));
   fmt::print("groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)\n",
              groups.alpha, groups.gamma,
              groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY,
@@ -200,51 +190,32 @@ void simulate(const SimulateOptions& options) {
   ImpactModel model = make_model(spec, datasets);
   if (!options.parameters.empty()) take_fitted_values(model, options.parameters);
   const std::size_t d = choose_dataset(datasets, options.dataset);
-  ImpactConditions conditions =
-      conditions_at(model, model.initial(), d, options.diameter * units::um, options.velocity);
+  const PointConditions at = {d, options.diameter * units::um, options.velocity};
+  const SimulatedImpact simulated = simulate_at(model, datasets, at);
+  if (!options.history.empty()) write_whole_file(options.history, history_csv(simulated));
+  if (options.json) {
+    fmt::print("{}",
+               simulation_json(model, datasets, simulated, spec.id,
+                               options.parameters.empty() ? "the initial values of the fit file"
+                                                          : options.parameters));
+    return;
+  }
+  const ImpactConditions start = conditions_at(model, model.initial(), d, at.diameter, at.velocity);
   fmt::print("parameters: {}\n  C_H = {:.6g} s/m, C_A = {:.6g} s/m\n",
              options.parameters.empty()
                  ? "initial values of the fit file (--parameters fit.json takes fitted ones)"
                  : "from " + options.parameters,
-             conditions.hertz_damping, conditions.adhesion_damping);
-  ImpactOptions impact_options;
-  impact_options.adhesion = model.adhesion;
-  impact_options.phase = model.phase;
-  impact_options.budget = true;
-  impact_options.gradient = true;
-  std::vector<ImpactMoment> history;
-  ImpactGroups groups = impact_groups(conditions);
-  ImpactScales scales = impact_scales(conditions);
-  const bool extended = !model.chain.empty();
-  if (extended) {
-    const double diameter = conditions.diameter;
-    print_mechanisms(model, d, diameter, options.velocity);
-    const ContactView view = contact_view(model, model.initial(), {d, diameter, options.velocity});
-    groups = view.groups;
-    scales = view.scales;
-    impact_options.dashpot = true;
-    conditions.velocity = view.encounter.velocity;
-    conditions.diameter = view.encounter.diameter;
-    conditions.adhesion_force = view.encounter.adhesion_force;
+             start.hertz_damping, start.adhesion_damping);
+  if (simulated.extended) print_mechanisms(model, d, at.diameter, at.velocity);
+  print_impact(simulated, datasets[d], model.contacts[d], model.phase);
+  fmt::print("{}", terminal_text(validity_table(simulated.validity), indent));
+  for (const std::string& sentence : passed_limits(simulated.validity, {})) {
+    print_line("note: " + sentence);
   }
-  const ImpactResult impact = simulate_impact(groups, impact_options, &history);
-  if (!impact.usable()) {
-    throw ComputationError(fmt::format("the impact at V = {:.6g} m/s, d = {:.6g} um: {}",
-                                       options.velocity, options.diameter,
-                                       to_string(impact.outcome)));
-  }
-  if (!options.history.empty()) {
-    write_whole_file(options.history, history_csv(history, scales, groups.kappa > 0.0));
-  }
-  print_impact(groups, scales, conditions, impact, datasets[d], model.contacts[d], model.phase,
-               extended, lost_by_jumps(groups, impact_options));
-  const std::vector<Validity> validity =
-      impact_validity(model, datasets[d].system, model.initial(),
-                      {d, options.diameter * units::um, options.velocity});
-  fmt::print("{}", terminal_text(validity_table(validity), indent));
-  for (const std::string& sentence : passed_limits(validity, {})) print_line("note: " + sentence);
-  if (!extended) {
-    fmt::print("{}", terminal_text(sensitivities(conditions, impact, datasets[d]), indent));
+  if (!simulated.extended) {
+    fmt::print(
+        "{}",
+        terminal_text(sensitivities(simulated.conditions, simulated.impact, datasets[d]), indent));
   }
 }
 
@@ -261,16 +232,17 @@ void add_simulate(CLI::App& program) {
   command->add_option("FIT", options->fit_file, "a fit file")->required();
   command->add_option("--velocity", options->velocity, "incident velocity [m/s]")
       ->required()
-      ->check(positive_number("velocity", 1e-7, 1e4));
+      ->check(positive_number("velocity", velocity_limits.first, velocity_limits.second));
   command->add_option("--diameter", options->diameter, "sphere diameter [um]")
       ->required()
-      ->check(positive_number("diameter", 1e-3, 1e6));
+      ->check(positive_number("diameter", diameter_limits_um.first, diameter_limits_um.second));
   command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
       ->type_name("ID");
   command->add_option("--parameters", options->parameters, "take the values from this fit.json")
       ->type_name("FILE");
   command->add_option("--history", options->history, "write the forces against time (CSV)")
       ->type_name("FILE");
+  add_json_flag(*command, options->json);
   command->callback([options] { simulate(*options); });
 }
 

@@ -1,5 +1,7 @@
 #include "cli/common_options.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace recoil {
@@ -35,6 +37,21 @@ void add_analysis_flags(CLI::App& command, AnalysisFlags& flags) {
       .add_option("--solver", flags.solver,
                   "how impacts are integrated; reference: CVODES (default: fast)")
       ->check(CLI::IsMember(all_names<Solver>()));
+}
+
+void add_json_flag(CLI::App& command, bool& json) {
+  command.add_flag("--json", json,
+                   "print the result as JSON instead; what else there is to say goes to stderr");
+}
+
+CLI::Validator positive_number(const std::string& what, double low, double high) {
+  return {[=](const std::string& text) -> std::string {
+            double value = 0.0;
+            const bool number = CLI::detail::lexical_cast(text, value);
+            if (number && value >= low && value <= high) return {};
+            return fmt::format("{} is not a {} between {:g} and {:g}", text, what, low, high);
+          },
+          what};
 }
 
 }  // namespace recoil

@@ -19,4 +19,10 @@ struct AnalysisFlags {
 
 void add_analysis_flags(CLI::App& command, AnalysisFlags& flags);
 
+/// --json: the result as JSON on standard output in place of the words.
+void add_json_flag(CLI::App& command, bool& json);
+
+/// A number in [low, high]; CLI11's own range check lets NaN through.
+CLI::Validator positive_number(const std::string& what, double low, double high);
+
 }  // namespace recoil

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +17,5 @@ struct FittedValue {
 /// Replaces the fit file's initial values by the values of a fit.json, and returns them [slots].
 /// @throws InputError when it is none, or that of another fit
 std::vector<FittedValue> take_fitted_values(ImpactModel& model, const std::string& path);
-
-/// A number in [low, high]; CLI11's own range check lets NaN through.
-CLI::Validator positive_number(const std::string& what, double low, double high);
 
 }  // namespace recoil

@@ -8,15 +8,10 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "report/json_result.hpp"
 
 namespace recoil {
 namespace {
-
-[[noreturn]] void refuse_json(const std::string& file, const std::string& problem) {
-  throw InputError({file}, problem,
-                   "recoil compare reads what recoil fit FIT --out DIR has written",
-                   "name DIR/fit.json");
-}
 
 std::optional<NumberRange> range_of(const Json& ends) {
   if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number()) {
@@ -59,19 +54,6 @@ void take_captures(const Json& captures, bool several, ComparedFit& fit) {
   }
 }
 
-/// Every name that any of the fits has, in the order in which they come.
-std::vector<std::string> names_of(const std::vector<ComparedFit>& fits) {
-  std::vector<std::string> names;
-  for (const ComparedFit& fit : fits) {
-    for (const ComparedQuantity& quantity : fit.quantities) {
-      if (std::find(names.begin(), names.end(), quantity.name) == names.end()) {
-        names.push_back(quantity.name);
-      }
-    }
-  }
-  return names;
-}
-
 const ComparedQuantity* quantity_of(const ComparedFit& fit, const std::string& name) {
   const auto found =
       std::find_if(fit.quantities.begin(), fit.quantities.end(),
@@ -83,15 +65,6 @@ std::string title_of(const ComparedFit& fit) {
   std::string title = fit.adhesion;
   for (const std::string& mechanism : fit.mechanisms) title += " + " + mechanism;
   return title;
-}
-
-void require_same_data(const std::vector<ComparedFit>& fits) {
-  for (const ComparedFit& fit : fits) {
-    if (fit.data == fits.front().data) continue;
-    throw InputError({},
-                     fmt::format("{} and {} are fits of different data", fits.front().id, fit.id),
-                     "only fits of the same points can be compared", "fit the same datasets again");
-  }
 }
 
 Table quality_table(const std::vector<ComparedFit>& fits) {
@@ -125,7 +98,7 @@ Table quantity_table(const std::vector<ComparedFit>& fits) {
   Table table;
   table.columns = {{"quantity"}, {"unit"}};
   for (const ComparedFit& fit : fits) table.columns.push_back({Sentence(fit.id), "", true});
-  for (const std::string& name : names_of(fits)) {
+  for (const std::string& name : compared_names(fits)) {
     std::vector<Cell> row = {Sentence(name), Cell()};
     for (const ComparedFit& fit : fits) {
       const ComparedQuantity* const quantity = quantity_of(fit, name);
@@ -159,6 +132,27 @@ Sentence dependence_words(const ChoiceDependence& found) {
 
 }  // namespace
 
+std::vector<std::string> compared_names(const std::vector<ComparedFit>& fits) {
+  std::vector<std::string> names;
+  for (const ComparedFit& fit : fits) {
+    for (const ComparedQuantity& quantity : fit.quantities) {
+      if (std::find(names.begin(), names.end(), quantity.name) == names.end()) {
+        names.push_back(quantity.name);
+      }
+    }
+  }
+  return names;
+}
+
+void require_same_data(const std::vector<ComparedFit>& fits) {
+  for (const ComparedFit& fit : fits) {
+    if (fit.data == fits.front().data) continue;
+    throw InputError({},
+                     fmt::format("{} and {} are fits of different data", fits.front().id, fit.id),
+                     "only fits of the same points can be compared", "fit the same datasets again");
+  }
+}
+
 std::optional<double> ComparedFit::aicc() const {
   const int k = free_parameters;
   if (!sd_stated || points - k - 1 <= 0) return std::nullopt;
@@ -166,9 +160,10 @@ std::optional<double> ComparedFit::aicc() const {
 }
 
 ComparedFit compared_fit(const std::string& file, const std::string& fit_json) {
+  const std::string reader = "recoil compare";
+  const Json json = read_fit_json(file, fit_json, reader);
   ComparedFit fit;
   try {
-    const Json json = Json::parse(fit_json);
     fit.id = json.at("fit").is_object() ? json.at("fit").at("id").get<std::string>()
                                         : json.at("fit").get<std::string>();
     fit.adhesion = json.at("options").value("adhesion", "ring");
@@ -186,17 +181,16 @@ ComparedFit compared_fit(const std::string& file, const std::string& fit_json) {
     fit.held_out_rmse = number_of(json.at("full").value("held_out_rmse", Json()));
     take_parameters(json.at("parameters"), fit);
     take_captures(json.at("derived").at("capture_velocity"), datasets.size() > 1, fit);
-  } catch (const Json::parse_error&) {
-    refuse_json(file, "this is not JSON");
   } catch (const Json::exception&) {
-    refuse_json(file, "this is not the fit.json of a fit");
+    throw InputError({file}, "this is not the whole fit.json of a fit", reader + " needs all of it",
+                     "make it again with recoil fit FIT --out DIR");
   }
   return fit;
 }
 
 ChoiceDependence choice_dependence(const std::vector<ComparedFit>& fits) {
   ChoiceDependence found;
-  for (const std::string& name : names_of(fits)) {
+  for (const std::string& name : compared_names(fits)) {
     std::size_t with_interval = 0;
     double highest_lower = -INFINITY;
     double lowest_upper = INFINITY;

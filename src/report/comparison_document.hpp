@@ -41,6 +41,12 @@ struct ComparedFit {
 /// @throws InputError when `fit_json` is not the fit.json of a fit
 ComparedFit compared_fit(const std::string& file, const std::string& fit_json);
 
+/// Every name that any of the fits has, in the order in which they come.
+std::vector<std::string> compared_names(const std::vector<ComparedFit>& fits);
+
+/// @throws InputError when the fits are not of the same data
+void require_same_data(const std::vector<ComparedFit>& fits);
+
 /// What two fits disagree on: both have an interval, and these do not overlap.
 struct ChoiceDependence {
   std::vector<std::string> depends, holds;

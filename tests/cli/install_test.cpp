@@ -18,7 +18,8 @@ void expect_a_whole_installation(const fs::path& prefix) {
   for (const char* file :
        {"bin/recoil", "share/man/man1/recoil.1", "share/man/man1/recoil-fit.1",
         "share/bash-completion/completions/recoil", "share/zsh/site-functions/_recoil",
-        "share/fish/vendor_completions.d/recoil.fish", "share/doc/recoil/LICENSE"}) {
+        "share/fish/vendor_completions.d/recoil.fish", "share/doc/recoil/LICENSE",
+        "share/recoil/schemas/fit.schema.json"}) {
     EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
     EXPECT_GT(fs::file_size(prefix / file), 200U) << file;
   }

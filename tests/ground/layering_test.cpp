@@ -15,11 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folders of src in pipeline order. The last two are programs: recoil and recoil_study.
+/// The folders of src in pipeline order. The last three are recoil_study, recoil and the Python
+/// module, which does what the commands do.
 const std::vector<std::string> kStages = {
     "core",     "data",        "experiment", "reconstruction", "impact",    "mechanism",
     "estimate", "uncertainty", "coverage",   "predict",        "diagnosis", "export",
-    "plot",     "document",    "report",     "studies",        "cli"};
+    "plot",     "document",    "report",     "studies",        "cli",       "python"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -
@@ -31,6 +32,10 @@ std::size_t position(const std::string& stage) {
 bool pairs_passages(const std::string& file) {
   return file.starts_with("reconstruction/paired_points.") ||
          file == "reconstruction/reconstruction.cpp";
+}
+
+bool uses_all(const std::string& stage) {
+  return stage == "studies" || stage == "cli" || stage == "python";
 }
 
 /// May `from` include `target`? Both are paths from src.
@@ -49,8 +54,8 @@ bool may_include(const std::string& from, const std::string& target) {
            (to == "experiment" && pairs_passages(from));
   }
   // What is measured with a truth brings both together; the product does not know the studies.
-  if (to == "reconstruction") return stage == "coverage" || stage == "studies" || stage == "cli";
-  if (to == "coverage") return stage == to || stage == "studies" || stage == "cli";
+  if (to == "reconstruction") return stage == "coverage" || uses_all(stage);
+  if (to == "coverage") return stage == to || uses_all(stage);
   return to != "studies" || stage == to;
 }
 

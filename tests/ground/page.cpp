@@ -20,7 +20,7 @@ std::string trimmed(const std::string& text) {
 }
 
 std::string file_named_in(const std::string& paragraph) {
-  static const std::regex name(R"re(`([A-Za-z0-9_./-]+\.(?:csv|json|toml))`)re");
+  static const std::regex name(R"re(`([A-Za-z0-9_./-]+\.(?:csv|json|toml|py|R))`)re");
   std::smatch match;
   const bool named =
       !paragraph.empty() && paragraph.back() == ':' && std::regex_search(paragraph, match, name);
@@ -98,6 +98,8 @@ std::vector<std::vector<std::string>> table_of(const fs::path& markdown,
 Sandbox::Sandbox() {
   fs::create_directories(folder() / "build/release");
   fs::create_symlink(RECOIL_BINARY, folder() / "build/release/recoil");
+  fs::create_symlink(fs::path(RECOIL_BINARY).parent_path() / "python",
+                     folder() / "build/release/python");
   for (const char* name : {"datasets", "fits"}) {
     fs::copy(tree::root() / name, folder() / name, fs::copy_options::recursive);
   }

@@ -25,7 +25,8 @@ std::vector<Block> blocks_of(const std::filesystem::path& markdown);
 std::vector<std::vector<std::string>> table_of(const std::filesystem::path& markdown,
                                                const std::string& header);
 
-/// A folder of its own with build/release/recoil, datasets and fits, removed at the end.
+/// A folder of its own with build/release/recoil and build/release/python, datasets and fits,
+/// removed at the end.
 class Sandbox {
  public:
   Sandbox();

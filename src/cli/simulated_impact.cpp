@@ -1,0 +1,166 @@
+#include "cli/simulated_impact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "estimate/predictor.hpp"
+#include "impact/reference_solver.hpp"
+#include "report/json_values.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_validity.hpp"
+
+namespace recoil {
+namespace {
+
+/// What an impact loses without any damping: under jkr and maugis the work between the jumps.
+double lost_by_jumps(ImpactGroups groups, ImpactOptions options) {
+  if (options.adhesion != AdhesionLaw::jkr && options.adhesion != AdhesionLaw::maugis) return 0.0;
+  groups.alpha = groups.gamma = groups.kappa = 0.0;
+  options.budget = options.gradient = false;
+  const ImpactResult undamped = simulate_impact(groups, options);
+  return undamped.usable() ? std::max(0.0, 0.5 * (1.0 - undamped.restitution_squared)) : 0.0;
+}
+
+[[noreturn]] void refuse_impact(const PointConditions& at, const std::string& mechanisms,
+                                ImpactOutcome outcome) {
+  throw ComputationError(fmt::format("the impact at V = {:.6g} m/s, d = {:.6g} um{}: {}",
+                                     at.velocity, at.diameter / units::um, mechanisms,
+                                     to_string(outcome)));
+}
+
+Json energy_json(const SimulatedImpact& s) {
+  const bool captured = s.impact.outcome == ImpactOutcome::captured;
+  const auto joule = [&](double energy) { return number_or_null(energy * s.scales.energy); };
+  return {
+      {"incident", joule(0.5)},
+      {"rebound", joule(captured ? 0.0 : s.impact.energy.kinetic)},
+      {"hertz_damping", joule(s.impact.energy.hertz_loss)},
+      {"adhesion_damping", joule(s.impact.energy.adhesion_loss)},
+      {"dashpot", joule(s.impact.energy.dashpot_loss)},
+      {"jumps", joule(s.jumps)},
+      {"still_bound", joule(captured ? s.impact.energy.kinetic + s.impact.energy.potential : 0.0)}};
+}
+
+Json contact_json(const SimulatedImpact& s) {
+  const bool captured = s.impact.outcome == ImpactOutcome::captured;
+  const double e = std::sqrt(std::max(s.impact.restitution_squared, 0.0));
+  return {{"incident_velocity", s.conditions.velocity},
+          {"diameter_um", s.conditions.diameter / units::um},
+          {"restitution", captured ? Json(0.0) : number_or_null(e)},
+          {"outcome", to_string(s.impact.outcome)},
+          {"stiffness_K_Pa", number_or_null(s.conditions.stiffness)},
+          {"f0_N_per_m", number_or_null(s.conditions.adhesion_force)},
+          {"density_kg_per_m3", number_or_null(s.conditions.density)},
+          {"contact_time_s", number_or_null(s.impact.contact_time * s.scales.time)},
+          {"penetration_m", number_or_null(s.impact.penetration_max * s.scales.length)},
+          {"largest_push_N", number_or_null(s.impact.force_compression * s.scales.force)},
+          {"largest_pull_N", number_or_null(s.impact.force_tension * s.scales.force)},
+          {"energy_J", energy_json(s)}};
+}
+
+}  // namespace
+
+SimulatedImpact simulate_at(const ImpactModel& model, const std::vector<Dataset>& datasets,
+                            const PointConditions& at) {
+  SimulatedImpact out;
+  out.asked = at;
+  const std::vector<double> theta = model.initial();
+  out.conditions = conditions_at(model, theta, at.dataset, at.diameter, at.velocity);
+  out.groups = impact_groups(out.conditions);
+  out.scales = impact_scales(out.conditions);
+  ImpactOptions options;
+  options.adhesion = model.adhesion;
+  options.phase = model.phase;
+  options.budget = true;
+  options.gradient = true;
+  out.extended = !model.chain.empty();
+  if (out.extended) {
+    const Prediction measured = predict(model, theta, at.dataset, at.diameter, at.velocity, false);
+    if (!measured.usable()) refuse_impact(at, " with its mechanisms", measured.outcome);
+    out.restitution_squared = measured.restitution_squared;
+    const ContactView view = contact_view(model, theta, at);
+    out.groups = view.groups;
+    out.scales = view.scales;
+    options.dashpot = true;
+    out.conditions.velocity = view.encounter.velocity;
+    out.conditions.diameter = view.encounter.diameter;
+    out.conditions.adhesion_force = view.encounter.adhesion_force;
+  }
+  out.impact = simulate_impact(out.groups, options, &out.history);
+  if (!out.impact.usable()) refuse_impact(at, "", out.impact.outcome);
+  if (!out.extended) out.restitution_squared = out.impact.restitution_squared;
+  out.jumps = lost_by_jumps(out.groups, options);
+  out.validity = impact_validity(model, datasets[at.dataset].system, theta, at);
+  return out;
+}
+
+std::vector<HistoryColumn> history_columns(const SimulatedImpact& s) {
+  constexpr double uN = 1e-6;
+  std::vector<HistoryColumn> columns;
+  const auto add = [&](const char* name, double ImpactMoment::*value, double scale) {
+    HistoryColumn column = {name, {}};
+    for (const ImpactMoment& m : s.history) column.values.push_back(m.*value * scale);
+    columns.push_back(std::move(column));
+  };
+  add("time_ns", &ImpactMoment::time, s.scales.time / units::ns);
+  add("penetration_nm", &ImpactMoment::penetration, s.scales.length / units::nm);
+  add("approach_velocity_m_s", &ImpactMoment::approach, s.scales.velocity);
+  add("hertz_force_uN", &ImpactMoment::hertz, s.scales.force / uN);
+  add("hertz_damping_force_uN", &ImpactMoment::hertz_damping, s.scales.force / uN);
+  add("adhesion_force_uN", &ImpactMoment::adhesion, s.scales.force / uN);
+  add("adhesion_damping_force_uN", &ImpactMoment::adhesion_damping, s.scales.force / uN);
+  if (s.groups.kappa > 0.0) {
+    add("dashpot_force_uN", &ImpactMoment::dashpot, s.scales.force / uN);
+  }
+  return columns;
+}
+
+std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>& datasets,
+                            const SimulatedImpact& s, const std::string& fit,
+                            const std::string& values) {
+  const Dataset& dataset = datasets[s.asked.dataset];
+  Json out;
+  out["format_version"] = format_version;
+  out["recoil_version"] = version();
+  out["fit"] = fit;
+  out["dataset"] = {{"id", dataset.id},
+                    {"provenance", to_string(dataset.provenance)},
+                    {"provenance_sentence", provenance_sentence(dataset.provenance)},
+                    {"sha256", dataset.sha256}};
+  out["values_from"] = values;
+  out["parameters"] = Json::object();
+  for (const ParameterSlot& slot : model.slots) {
+    if (slot.is_constant()) continue;
+    out["parameters"][slot.label()] = {{"value", number_or_null(slot.initial)},
+                                       {"unit", slot.parameter->unit}};
+  }
+  out["incident_velocity"] = s.asked.velocity;
+  out["diameter_um"] = s.asked.diameter / units::um;
+  const double e = s.captured() ? 0.0 : std::sqrt(s.restitution_squared);
+  out["restitution"] = number_or_null(e);
+  out["restitution_squared"] = number_or_null(s.restitution_squared);
+  out["outcome"] = s.captured() ? "captured" : "rebound";
+  out["rebound_velocity"] = number_or_null(e * s.asked.velocity);
+  out["contact"] = contact_json(s);
+  out["validity"] = Json::array();
+  for (const Validity& one : s.validity) {
+    out["validity"].push_back({{"quantity", to_string(one.quantity)},
+                               {"value", number_or_null(one.value)},
+                               {"limit", one.limit},
+                               {"limit_is", one.limit_is_least() ? "least" : "largest"},
+                               {"passed", one.passed()},
+                               {"text", validity_sentence(one)}});
+  }
+  Json history = Json::object();
+  for (const HistoryColumn& column : history_columns(s)) {
+    history[column.name] = numbers_json(column.values);
+  }
+  out["history"] = history;
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace recoil

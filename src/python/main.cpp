@@ -1,0 +1,328 @@
+// recoil._recoil: what the package recoil (src/python/recoil) is made of. Results cross over as the
+// JSON that the commands write, so that names and digits are the same; arrays only for impacts.
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "cli/analysis.hpp"
+#include "cli/fitted_values.hpp"
+#include "cli/json_coverage.hpp"
+#include "cli/recipe_words.hpp"
+#include "cli/simulated_impact.hpp"
+#include "core/error.hpp"
+#include "core/gsl_errors.hpp"
+#include "core/units.hpp"
+#include "coverage/coverage_truth.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/extended_toml.hpp"
+#include "document/html.hpp"
+#include "document/terminal.hpp"
+#include "predict/polydisperse.hpp"
+#include "python/impacts.hpp"
+#include "python/picture_json.hpp"
+#include "report/comparison_document.hpp"
+#include "report/diagnosis_document.hpp"
+#include "report/figures_mixture.hpp"
+#include "report/fit_document.hpp"
+#include "report/fit_tables.hpp"
+#include "report/json_comparison.hpp"
+#include "report/json_diagnosis.hpp"
+#include "report/json_report.hpp"
+#include "report/prediction_document.hpp"
+#include "report/prediction_files.hpp"
+
+namespace py = pybind11;
+
+namespace recoil {
+namespace {
+
+/// The interpreter runs on while `work` does.
+template <class Work>
+auto without_interpreter(const Work& work) {
+  const py::gil_scoped_release release;
+  return work();
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+AnalysisOptions analysis_options(std::optional<int> replicates, bool automatic,
+                                 const std::string& scheme, std::optional<std::uint64_t> seed,
+                                 int threads, const std::string& solver) {
+  AnalysisOptions options;
+  options.replicates = replicates;
+  options.replicates_auto = automatic;
+  if (!scheme.empty()) options.scheme = value_named<Scheme>(scheme);
+  options.seed = seed;
+  options.threads = threads;
+  options.solver = value_named<Solver>(solver).value_or(Solver::fast);
+  return options;
+}
+
+FitInputs inputs_from_text(const std::string& text, const std::string& file,
+                           std::vector<Dataset> datasets) {
+  return {parse_fit(text, file), std::move(datasets)};
+}
+
+// ---- models ------------------------------------------------------------------------------------
+
+/// A model with values, as it is simulated.
+struct Valued {
+  ImpactModel model;
+  std::vector<Dataset> datasets;
+  std::string fit;
+  std::string values;
+
+  std::vector<std::string> labels() const {
+    std::vector<std::string> names;
+    for (const ParameterSlot& slot : model.slots) names.push_back(slot.label());
+    return names;
+  }
+};
+
+Valued model_of(const FitInputs& inputs, const std::string& parameters) {
+  Valued out = {make_model(inputs.spec, inputs.datasets), inputs.datasets, inputs.spec.id,
+                "the initial values of the fit file"};
+  if (!parameters.empty()) {
+    take_fitted_values(out.model, parameters);
+    out.values = parameters;
+  }
+  return out;
+}
+
+Valued model_of(const Analysis& analysis) {
+  Valued out = {analysis.fitted.model, analysis.datasets, analysis.spec.id, "the fit"};
+  for (std::size_t s = 0; s < out.model.slots.size(); ++s) {
+    out.model.slots[s].initial = analysis.fitted.theta[s];
+  }
+  return out;
+}
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+std::vector<double> values_in(const Numbers& numbers, double unit) {
+  std::vector<double> values(numbers.data(), numbers.data() + numbers.size());
+  for (double& value : values) value *= unit;
+  return values;
+}
+
+template <class T>
+py::array_t<T> array_of(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::tuple simulate_columns(const Valued& valued, const Numbers& velocity,
+                           const Numbers& diameter_um, const std::string& dataset, bool slopes) {
+  const std::vector<double> v = values_in(velocity, units::m);
+  const std::vector<double> d = values_in(diameter_um, units::um);
+  const ManyImpacts many = without_interpreter([&] {
+    return simulate_many(valued.model, choose_dataset(valued.datasets, dataset), v, d, slopes);
+  });
+  py::list columns;
+  for (const std::vector<double>& column : many.slopes) columns.append(array_of(column));
+  return py::make_tuple(array_of(many.restitution_squared), array_of(many.captured), columns);
+}
+
+std::string one_impact(const Valued& valued, double velocity, double diameter_um,
+                       const std::string& dataset) {
+  const std::size_t d = choose_dataset(valued.datasets, dataset);
+  const double diameter = diameter_um * units::um;
+  simulate_many(valued.model, d, {velocity}, {diameter}, false);  // looks at their limits
+  return simulation_json(valued.model, valued.datasets,
+                         simulate_at(valued.model, valued.datasets, {d, diameter, velocity}),
+                         valued.fit, valued.values);
+}
+
+// ---- results -----------------------------------------------------------------------------------
+
+std::string summary_html(const Analysis& analysis) {
+  std::vector<Block> blocks = provenance_banners(analysis.datasets);
+  blocks.emplace_back(Paragraph{fit_summary(analysis)});
+  for (const Section& section : fit_sections(analysis)) {
+    if (section.id == "parameters" || section.id == "capture" || section.id == "warnings") {
+      blocks.emplace_back(section);
+    }
+  }
+  return html_of(blocks);
+}
+
+struct Predicted {
+  std::string json, text, pictures;
+};
+
+Predicted predict_for(const Analysis& analysis, const std::string& sizes_file,
+                      const std::string& unit, std::optional<double> height_mm, bool midpoints,
+                      const std::string& dataset) {
+  const MeasuredSizes sizes = load_sizes(sizes_file, unit);
+  PolydisperseOptions mix;
+  mix.level = analysis.uncertainty.options.level;
+  mix.threads = analysis.uncertainty.options.threads;
+  if (sizes.probe_height) mix.probe_height = *sizes.probe_height;
+  if (height_mm) mix.probe_height = *height_mm * units::mm;
+  if (midpoints) mix.parts = 1;
+  const PolydispersePrediction mixture =
+      predict_mixture(analysis.fitted, choose_dataset(analysis.datasets, dataset),
+                      analysis.uncertainty.bootstrap, sizes, mix);
+  return {json_prediction(analysis, mixture), text_prediction(analysis, mixture),
+          text_of(pictures_json(mixture_figures(analysis, mixture)))};
+}
+
+Diagnosis diagnosis_of(const Analysis& analysis, std::optional<std::uint64_t> seed, int threads) {
+  DiagnosisOptions options;
+  options.threads = threads;
+  options.seed = seed.value_or(analysis.spec.uncertainty.seed);
+  Diagnosis diagnosis = diagnose(analysis.spec, analysis.datasets, options);
+  diagnosis.remarks = recipe_remarks(diagnosis.datasets);
+  return diagnosis;
+}
+
+std::string coverage_of(const FitInputs& inputs, int datasets, const AnalysisOptions& options) {
+  CoverageOptions coverage;
+  coverage.datasets = datasets;
+  coverage.uncertainty = uncertainty_options(inputs.spec, options);
+  require_scheme(inputs.spec, coverage.uncertainty.scheme, gather(inputs.datasets));
+  const CoverageTruth truth =
+      coverage_truth(inputs.spec, inputs.datasets, coverage.uncertainty.seed);
+  return coverage_json(measure_coverage(inputs.spec, truth, coverage), inputs.spec, coverage,
+                       inputs.datasets);
+}
+
+std::pair<std::string, std::string> compared(
+    const std::vector<std::pair<std::string, std::string>>& named_texts) {
+  std::vector<ComparedFit> fits;
+  for (const auto& [name, text] : named_texts) fits.push_back(compared_fit(name, text));
+  return {comparison_json(fits), terminal_text(comparison_sections(fits))};
+}
+
+// ---- errors ------------------------------------------------------------------------------------
+
+/// The exceptions are classes of the package, where they have their words.
+void raise_as(const char* name, const py::tuple& arguments) {
+  const py::object type = py::module_::import("recoil._errors").attr(name);
+  PyErr_SetObject(type.ptr(), type(*arguments).ptr());
+}
+
+void translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(std::move(thrown));
+  } catch (const InputError& error) {
+    raise_as("InputError", py::make_tuple(error.what(), error.where().file, error.where().line,
+                                          error.where().column, error.problem(), error.why(),
+                                          error.suggestion()));
+  } catch (const ComputationError& error) {
+    raise_as("ComputationError", py::make_tuple(error.what()));
+  }
+}
+
+// ---- what Python sees --------------------------------------------------------------------------
+
+void bind_inputs(py::module_& module) {
+  py::class_<Dataset>(module, "Dataset")
+      .def_readonly("id", &Dataset::id)
+      .def_readonly("title", &Dataset::title)
+      .def_readonly("sha256", &Dataset::sha256)
+      .def_readonly("sources", &Dataset::sources)
+      .def_property_readonly("folder", [](const Dataset& d) { return d.folder.string(); })
+      .def_property_readonly("provenance",
+                             [](const Dataset& d) { return std::string(to_string(d.provenance)); })
+      .def_property_readonly("points", [](const Dataset& d) { return d.points.size(); });
+  module.def(
+      "load_dataset", [](const std::string& folder) { return load_dataset(folder); },
+      py::arg("folder"));
+  module.def(
+      "parse_dataset",
+      [](const std::string& package, const std::string& csv, const std::string& folder) {
+        return parse_dataset(package, csv, folder);
+      },
+      py::arg("package"), py::arg("csv"), py::arg("folder"));
+
+  py::class_<FitInputs>(module, "Inputs")
+      .def_property_readonly("id", [](const FitInputs& inputs) { return inputs.spec.id; })
+      .def_property_readonly("datasets", [](const FitInputs& inputs) { return inputs.datasets; });
+  module.def(
+      "load_fit", [](const std::string& file) { return load_inputs(file); }, py::arg("file"));
+  module.def("parse_fit", &inputs_from_text, py::arg("text"), py::arg("file"), py::arg("datasets"));
+
+  py::class_<AnalysisOptions>(module, "Options")
+      .def(py::init(&analysis_options), py::arg("replicates"), py::arg("automatic"),
+           py::arg("scheme"), py::arg("seed"), py::arg("threads"), py::arg("solver"));
+}
+
+void bind_models(py::module_& module) {
+  py::class_<Valued>(module, "Model")
+      .def_property_readonly("labels", &Valued::labels)
+      .def_property_readonly("values", [](const Valued& v) { return v.model.initial(); })
+      .def("simulate", &simulate_columns, py::arg("velocity"), py::arg("diameter_um"),
+           py::arg("dataset"), py::arg("slopes"))
+      .def("impact", &one_impact, py::arg("velocity"), py::arg("diameter_um"), py::arg("dataset"),
+           py::call_guard<py::gil_scoped_release>());
+  module.def(
+      "model_of_fit",
+      [](const FitInputs& inputs, const std::string& parameters) {
+        return model_of(inputs, parameters);
+      },
+      py::arg("inputs"), py::arg("parameters"));
+}
+
+void bind_results(py::module_& module) {
+  using Released = py::call_guard<py::gil_scoped_release>;
+  py::class_<Analysis, std::shared_ptr<Analysis>>(module, "Analysis")
+      .def("json", &json_report, Released())
+      .def("text", &text_report, Released())
+      .def(
+          "page", [](const Analysis& a) { return html_report(a); }, Released())
+      .def("summary", &summary_html, Released())
+      .def(
+          "pictures", [](const Analysis& a) { return text_of(pictures_json(fit_document(a))); },
+          Released())
+      .def("model", [](const Analysis& a) { return model_of(a); })
+      .def("predict", &predict_for, py::arg("sizes"), py::arg("unit"), py::arg("height_mm"),
+           py::arg("midpoints"), py::arg("dataset"), Released())
+      .def("diagnose", &diagnosis_of, py::arg("seed"), py::arg("threads"), Released());
+  module.def(
+      "fit",
+      [](const FitInputs& inputs, const AnalysisOptions& options) {
+        auto analysis = std::make_shared<Analysis>(analyse(inputs, options));
+        add_predictions(*analysis);
+        return analysis;
+      },
+      py::arg("inputs"), py::arg("options"), Released());
+
+  py::class_<Predicted>(module, "Predicted")
+      .def_readonly("json", &Predicted::json)
+      .def_readonly("text", &Predicted::text)
+      .def_readonly("pictures", &Predicted::pictures);
+
+  py::class_<Diagnosis>(module, "Diagnosis")
+      .def("json", &diagnosis_json, Released())
+      .def("text", &diagnosis_text, Released())
+      .def("page", &diagnosis_html, Released())
+      .def(
+          "summary", [](const Diagnosis& d) { return html_of(diagnosis_answer(d)); }, Released())
+      .def(
+          "pictures",
+          [](const Diagnosis& d) { return text_of(pictures_json(diagnosis_document(d))); },
+          Released())
+      .def("extended_toml",
+           [](const Diagnosis& d, const std::string& folder) { return extended_toml(d, folder); });
+
+  module.def("coverage", &coverage_of, py::arg("inputs"), py::arg("datasets"), py::arg("options"),
+             Released());
+  module.def("compare", &compared, py::arg("named_texts"), Released());
+}
+
+}  // namespace
+}  // namespace recoil
+
+PYBIND11_MODULE(_recoil, module) {
+  recoil::gsl_errors_are_values();
+  py::register_exception_translator(&recoil::translate);
+  module.attr("__version__") = recoil::version();
+  recoil::bind_inputs(module);
+  recoil::bind_models(module);
+  recoil::bind_results(module);
+}

@@ -1,0 +1,108 @@
+"""Impacts of a model, one or many."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _recoil
+from ._facts import Facts, facts_of
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Impacts:
+    """Many impacts of one model; all arrays have the shape of the velocities and diameters."""
+
+    incident_velocity: Array
+    """V [m/s]"""
+    diameter_um: Array
+    """d [um]"""
+    restitution: Array
+    """e = rebound over incident velocity [1]; 0 where the sphere is captured, NaN where an impact
+    has no answer."""
+    restitution_squared: Array
+    """e^2 [1], continued below zero for a capture: 2 H / (m V^2), H the mechanical energy with
+    which the sphere stays. Smooth across the capture velocity, so this is what to fit."""
+    captured: npt.NDArray[np.bool_]
+    """Does the sphere stay?"""
+    slopes: Optional[dict[str, Array]]
+    """d e^2 / d p by the name of p, [1 / unit of p]: each parameter of the model (C_H, C_A [s/m],
+    f0 [N/m], ...), ``incident_velocity`` [s/m] and ``diameter_um`` [1/um], f0 following the
+    diameter as r^(1/3) (eq. 12). None unless asked for."""
+
+    def gradient(self, name: str) -> Array:
+        """d e / d p = (d e^2 / d p) / (2 e) [1 / unit of p] of the parameter ``name``; 0 where the
+        sphere is captured."""
+        if self.slopes is None:
+            raise ValueError("the gradient was not asked for; simulate with gradient=True")
+        slope = self.slopes[name]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(self.captured, 0.0, slope / (2.0 * self.restitution))
+
+
+class Model:
+    """The impact model of a fit with values for its parameters."""
+
+    def __init__(self, model: _recoil.Model) -> None:
+        self._model = model
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The values by name, those of fit.json, units as there; constants of the materials that
+        are known with an error stand among them."""
+        return dict(zip(self._model.labels, self._model.values))
+
+    def simulate(
+        self,
+        V: npt.ArrayLike,  # noqa: N803
+        d: npt.ArrayLike,
+        *,
+        dataset: str = "",
+        gradient: bool = False,
+    ) -> Impacts:
+        """Impacts at incident velocities ``V`` [m/s] of spheres of diameter ``d`` [um].
+
+        ``V`` and ``d`` are numbers or arrays that broadcast against each other. ``dataset``: the
+        id, in a fit of several (the first). With ``gradient`` the slopes come along. Other threads
+        of Python run meanwhile.
+
+        Raises ``InputError`` when a velocity is not between 1e-7 and 1e4 m/s, or a diameter not
+        between 1e-3 and 1e6 um.
+        """
+        velocity, diameter = np.broadcast_arrays(
+            np.asarray(V, dtype=np.float64), np.asarray(d, dtype=np.float64)
+        )
+        shape = velocity.shape
+        squared, captured, columns = self._model.simulate(
+            np.ascontiguousarray(velocity).reshape(-1),
+            np.ascontiguousarray(diameter).reshape(-1),
+            dataset,
+            gradient,
+        )
+        slopes = None
+        if gradient:
+            names = [*self._model.labels, "incident_velocity", "diameter_um"]
+            slopes = {name: column.reshape(shape) for name, column in zip(names, columns)}
+            slopes["diameter_um"] = slopes["diameter_um"] * 1e-6
+        return Impacts(
+            incident_velocity=velocity.copy(),
+            diameter_um=diameter.copy(),
+            restitution=np.sqrt(np.maximum(squared, 0.0)).reshape(shape),
+            restitution_squared=squared.reshape(shape),
+            captured=captured.astype(bool).reshape(shape),
+            slopes=slopes,
+        )
+
+    def impact(self, V: float, d: float, *, dataset: str = "") -> Facts:  # noqa: N803
+        """One impact at ``V`` [m/s] of a sphere of diameter ``d`` [um] in detail: the JSON of
+        ``recoil simulate --json``, with contact time, forces, energies and, under ``history``, the
+        forces against time.
+
+        Raises ``ComputationError`` when it has no answer.
+        """
+        return facts_of(self._model.impact(float(V), float(d), dataset))

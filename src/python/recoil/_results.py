@@ -1,0 +1,360 @@
+"""Results: the facts of the JSON files as attributes, and what can be done with them."""
+
+from __future__ import annotations
+
+import html
+import os
+import tempfile
+from pathlib import Path
+from typing import Any, Iterator, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _recoil
+from ._facts import Facts, facts_of
+from ._impacts import Array, Impacts, Model
+from ._pictures import DiagnosisPictures, FitPictures, MixturePictures
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+class _Result:
+    """What all results share: the names of their JSON are attributes."""
+
+    _text = ""
+    _json = ""
+
+    @property
+    def facts(self) -> Facts:
+        """All of the JSON."""
+        found: Optional[Facts] = self.__dict__.get("_facts")
+        if found is None:
+            found = facts_of(self._json)
+            self.__dict__["_facts"] = found
+        return found
+
+    @property
+    def json(self) -> str:
+        """The text of the JSON file, byte for byte as the command writes it."""
+        return self._json
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self.facts, name)
+
+    def __getitem__(self, name: str) -> Any:
+        return self.facts[name]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self.facts]
+
+    def __str__(self) -> str:
+        return self._text
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Writes beside ``path`` and renames: a reader sees the old file or the new one."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, beside = tempfile.mkstemp(dir=path.parent, prefix=path.name)
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
+            file.write(text)
+        os.chmod(beside, 0o644)
+        os.replace(beside, path)
+    except BaseException:
+        os.unlink(beside)
+        raise
+
+
+class Parameter:
+    """A parameter of a fit under the names that lmfit has for its parts."""
+
+    def __init__(self, name: str, facts: Facts, options: Facts) -> None:
+        self.name = name
+        self.value: float = facts.value
+        self.stderr: Optional[float] = facts.std_error
+        self.vary: bool = facts.free
+        self.unit: str = facts.unit
+        self.init_value: Optional[float] = options.initial
+        bounds = options.bounds
+        self.min: float = -np.inf if bounds[0] is None else bounds[0]
+        self.max: float = np.inf if bounds[1] is None else bounds[1]
+        self.facts = facts
+
+    @property
+    def interval(self) -> Optional[list[float]]:
+        """The recommended interval, [lower, upper] or None."""
+        kind = self.facts.recommended.interval
+        interval: Optional[list[float]] = self.facts.intervals[kind] if kind else None
+        return interval
+
+    def __repr__(self) -> str:
+        error = "(fixed)" if not self.vary else f"+/- {self.stderr}"
+        return f"<Parameter {self.name} = {self.value} {error} [{self.unit}]>"
+
+
+class FitResult(FitPictures, _Result):
+    """A fit: the names of fit.json are attributes (``result.parameters.C_H.value``,
+    ``result.goodness.chi2``, ``result.derived.capture_velocity[0].interval``); ``recoil help
+    fit-json`` lists them. Names of lmfit's ModelResult come beside."""
+
+    fit: Facts
+    dataset: Facts
+    datasets: list[Facts]
+    provenance_sentence: str
+    options: Facts
+    model: Facts
+    parameters: Facts
+    derived: Facts
+    goodness: Facts
+    identifiability: Facts
+    validity: list[Facts]
+    bootstrap: Facts
+    noise: Facts
+    two_point: Optional[Facts]
+    full: Facts
+    curve: list[Facts]
+    residuals: list[Facts]
+    warnings: list[str]
+
+    def __init__(self, analysis: _recoil.Analysis) -> None:
+        self._analysis = analysis
+        self._json = analysis.json()
+        self._text = analysis.text()
+        self._fitted = Model(analysis.model())
+
+    # -- what can be done with it --
+
+    def simulate(
+        self,
+        V: npt.ArrayLike,  # noqa: N803
+        d: npt.ArrayLike,
+        *,
+        dataset: str = "",
+        gradient: bool = False,
+    ) -> Impacts:
+        """Impacts with the fitted values: ``Model.simulate``."""
+        return self._fitted.simulate(V, d, dataset=dataset, gradient=gradient)
+
+    def impact(self, V: float, d: float, *, dataset: str = "") -> Facts:  # noqa: N803
+        """One impact with the fitted values in detail: ``Model.impact``."""
+        return self._fitted.impact(V, d, dataset=dataset)
+
+    def diagnose(self, *, seed: Optional[int] = None, threads: int = 0) -> "Diagnosis":
+        """What the model gets wrong and why: ``recoil diagnose``.
+
+        ``seed``: of the simulated data sets (the fit file's); ``threads``: 0, all cores.
+        """
+        return Diagnosis(self._analysis.diagnose(seed, threads))
+
+    def predict(
+        self,
+        sizes: PathLike,
+        *,
+        unit: str = "",
+        height_mm: Optional[float] = None,
+        midpoints: bool = False,
+        dataset: str = "",
+    ) -> "Prediction":
+        """What a mixture of sizes does: ``recoil predict``.
+
+        ``sizes``: a CSV file with the columns diameter and count; ``unit`` of its diameters (what
+        the datapackage.json beside it says, else um); ``height_mm``: of the measuring plane [mm].
+        """
+        predicted = self._analysis.predict(os.fspath(sizes), unit, height_mm, midpoints, dataset)
+        return Prediction(predicted)
+
+    def report(self) -> str:
+        """What ``recoil fit`` prints."""
+        return self._text
+
+    def save(self, folder: PathLike) -> Path:
+        """Writes ``folder``/fit.json, and returns its path."""
+        path = Path(folder) / "fit.json"
+        write_whole(path, self._json)
+        return path
+
+    def save_page(self, file: PathLike) -> None:
+        """Writes the page of ``recoil report``: one HTML file, pictures (by gnuplot) inside."""
+        write_whole(Path(file), self._analysis.page())
+
+    def _read_pictures(self) -> str:
+        return self._analysis.pictures()
+
+    # -- lmfit's names --
+
+    @property
+    def params(self) -> dict[str, Parameter]:
+        """The parameters with ``value``, ``stderr``, ``vary``, ``min``, ``max``, ``init_value``."""
+        stated = self.options.parameters
+        return {name: Parameter(name, p, stated[name]) for name, p in self.parameters.items()}
+
+    @property
+    def var_names(self) -> list[str]:
+        """The free parameters."""
+        return [name for name, p in self.parameters.items() if p.free]
+
+    @property
+    def best_values(self) -> dict[str, float]:
+        """The values by name."""
+        return {name: p.value for name, p in self.parameters.items()}
+
+    @property
+    def init_values(self) -> dict[str, float]:
+        """Where they started."""
+        return {name: p.initial for name, p in self.options.parameters.items()}
+
+    @property
+    def covar(self) -> Array:
+        """Covariance of ``var_names``, NaN where there is none."""
+        rows = self.facts.covariance
+        names = self.var_names
+        return np.array(
+            [[np.nan if rows[a][b] is None else rows[a][b] for b in names] for a in names]
+        ).reshape(len(names), len(names))
+
+    @property
+    def chisqr(self) -> float:
+        """Sum of the squares of the weighted residuals."""
+        return float(self.goodness.chi2)
+
+    @property
+    def nfree(self) -> int:
+        """Degrees of freedom."""
+        return int(self.goodness.dof)
+
+    @property
+    def redchi(self) -> float:
+        """``chisqr`` over ``nfree``; NaN without degrees of freedom."""
+        return self.chisqr / self.nfree if self.nfree > 0 else float("nan")
+
+    @property
+    def ndata(self) -> int:
+        """Points."""
+        return int(self.dataset.points)
+
+    @property
+    def nvarys(self) -> int:
+        """Free parameters."""
+        return len(self.var_names)
+
+    @property
+    def success(self) -> bool:
+        """True: a fit without a usable answer raises ``ComputationError``."""
+        return True
+
+    @property
+    def residual(self) -> Array:
+        """The weighted residuals of e^2, in the order of ``residuals``."""
+        values = [np.nan if r.weighted_residual is None else r.weighted_residual
+                  for r in self.residuals]
+        return np.array(values, dtype=np.float64)
+
+    @property
+    def best_fit(self) -> Array:
+        """e of the model at every point [1], in the order of ``residuals``; 0: captured."""
+        predicted = [np.nan if r.predicted is None else r.predicted for r in self.residuals]
+        return np.array(predicted, dtype=np.float64)
+
+    def eval(self, V: npt.ArrayLike, d: npt.ArrayLike, *, dataset: str = "") -> Array:  # noqa: N803
+        """e at ``V`` [m/s] and ``d`` [um] [1]; 0: captured."""
+        return self.simulate(V, d, dataset=dataset).restitution
+
+    def fit_report(self) -> str:
+        """``report``."""
+        return self._text
+
+    def conf_interval(self) -> dict[str, dict[str, Optional[list[float]]]]:
+        """Every interval of every free parameter, [lower, upper] or None, by name and kind."""
+        kinds = ("wald", "profile", "percentile", "bca", "studentized", "posterior")
+        return {name: {kind: self.parameters[name].intervals[kind] for kind in kinds}
+                for name in self.var_names}
+
+    # -- display --
+
+    def __repr__(self) -> str:
+        values = ", ".join(
+            f"{name} = {self.parameters[name].value:.4g}" for name in self.var_names
+        )
+        return f"<recoil.FitResult {self.fit.id}: {values}>"
+
+    def _repr_html_(self) -> str:
+        return self._analysis.summary()
+
+
+class Diagnosis(DiagnosisPictures, _Result):
+    """What the model gets wrong: the names of diagnosis.json are attributes (``verdict``,
+    ``named``, ``candidates``); ``recoil help diagnosis-json`` lists them."""
+
+    verdict: str
+    headline: str
+    text: str
+    named: list[str]
+    rivals: list[str]
+    resembles: list[str]
+    misfit: Facts
+    candidates: list[Facts]
+    gain: Optional[Facts]
+    next_measurement: list[Facts]
+    next_experiment: list[Facts]
+    warnings: list[str]
+
+    def __init__(self, diagnosis: _recoil.Diagnosis) -> None:
+        self._diagnosis = diagnosis
+        self._json = diagnosis.json()
+        self._text = diagnosis.text()
+
+    def report(self) -> str:
+        """What ``recoil diagnose`` prints."""
+        return self._text
+
+    def save(self, folder: PathLike) -> Path:
+        """Writes diagnosis.json and extended.toml (a fit file of the extended model) into
+        ``folder``, and returns the path of the first."""
+        path = Path(folder) / "diagnosis.json"
+        write_whole(Path(folder) / "extended.toml",
+                    self._diagnosis.extended_toml(os.fspath(folder)))
+        write_whole(path, self._json)
+        return path
+
+    def _read_pictures(self) -> str:
+        return self._diagnosis.pictures()
+
+    def __repr__(self) -> str:
+        return f"<recoil.Diagnosis: {self.verdict} {', '.join(self.named)}>"
+
+    def _repr_html_(self) -> str:
+        return self._diagnosis.summary()
+
+
+class Prediction(MixturePictures, _Result):
+    """A mixture of sizes: the names of predict.json are attributes."""
+
+    def __init__(self, predicted: _recoil.Predicted) -> None:
+        self._predicted = predicted
+        self._json = predicted.json
+        self._text = predicted.text
+
+    def _read_pictures(self) -> str:
+        return self._predicted.pictures
+
+    def __repr__(self) -> str:
+        return f"<recoil.Prediction of {self.facts.fit}>"
+
+
+class Comparison(_Result):
+    """Fits side by side: ``fits``, and ``quantities`` with what each says."""
+
+    def __init__(self, json_text: str, text: str) -> None:
+        self._json, self._text = json_text, text
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(self._text)}</pre>"
+
+    def __iter__(self) -> Iterator[Facts]:
+        return iter(self.facts.fits)
+
+
+__all__ = ["Comparison", "Diagnosis", "FitResult", "Parameter", "Prediction"]

@@ -1,0 +1,89 @@
+"""Datasets from and to pandas, and what is wrong with them."""
+
+import numpy as np
+import pandas as pd
+import pytest
+import recoil
+from conftest import PARTICLE, SURFACE
+
+SHIPPED = ["wall1990-molybdenum", "dahneke1975-quartz", "li1999-sst65-silicon"]
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_there_and_back_again_is_the_same_fit(here, name):
+    read = recoil.load_dataset(f"datasets/{name}")
+    frame = read.to_pandas()
+    assert len(frame) == len(read)
+    again = recoil.Dataset.from_pandas(frame, read.id, like=read)
+    pd.testing.assert_frame_equal(again.to_pandas(), frame)
+    one, two = recoil.fit(read, replicates=0), recoil.fit(again, replicates=0)
+    assert one.parameters == two.parameters
+    assert one.residuals == two.residuals
+    assert two.dataset.provenance == "reconstruction"
+
+
+def test_a_frame_of_ones_own(here):
+    frame = pd.read_csv("mine/points.csv")
+    made = recoil.Dataset.from_pandas(frame, "own", particle=PARTICLE, surface=SURFACE,
+                                      provenance="synthetic")
+    assert (made.id, made.provenance, len(made)) == ("own", "synthetic", 12)
+    assert recoil.fit(made, replicates=0).parameters == (
+        recoil.fit("mine.toml", replicates=0).parameters)
+    assert repr(made) == "<recoil.Dataset own: 12 points, synthetic>"
+
+
+def test_units_of_columns(here):
+    like = recoil.load_dataset("mine")
+    frame = like.to_pandas()
+    assert frame.attrs["units"] == {"diameter": "um", "incident_velocity": "m/s",
+                                    "restitution": "1", "restitution_sd": "1"}
+    frame["diameter"] /= 1000.0
+    frame.attrs = {}
+    wanted = recoil.fit(like, replicates=0).parameters.C_H.value
+    millimetres = recoil.Dataset.from_pandas(frame, like=like, units={"diameter": "mm"})
+    assert recoil.fit(millimetres, replicates=0).parameters.C_H.value == pytest.approx(
+        wanted, rel=1e-6)
+    assert millimetres.to_pandas().attrs["units"]["diameter"] == "mm"
+    # the units of a frame stay with what is made of it
+    again = recoil.Dataset.from_pandas(millimetres.to_pandas(), like=like)
+    assert again.to_pandas().attrs["units"]["diameter"] == "mm"
+
+
+def test_saved_folders_are_datasets(here, command):
+    frame = recoil.load_dataset("mine").to_pandas()
+    frame["restitution_sd"] = np.where(frame.index % 2 == 0, np.nan, 0.02)
+    frame["velocity_sd"] = 0.01
+    made = recoil.Dataset.from_pandas(frame.drop(columns="restitution_sd"), "saved",
+                                      like=recoil.load_dataset("mine"), method="video")
+    made.save("saved")
+    assert command("check", "saved").status == 0
+    read = recoil.load_dataset("saved")
+    assert read.sha256 and read.package["recoil"]["method"] == "video"
+    pd.testing.assert_frame_equal(read.to_pandas(), made.to_pandas())
+    recoil.load_dataset("mine").save("copy")
+    assert recoil.fit("copy", replicates=0).parameters == recoil.fit("mine", replicates=0).parameters
+
+
+def test_a_column_that_is_not_known_names_the_nearest(here):
+    like = recoil.load_dataset("mine")
+    frame = like.to_pandas().rename(columns={"restitution": "restitutoin"})
+    with pytest.raises(recoil.InputError, match="restitution"):
+        recoil.Dataset.from_pandas(frame, like=like)
+
+
+def test_a_wrong_cell_is_named_by_line_and_column(here):
+    like = recoil.load_dataset("mine")
+    frame = like.to_pandas()
+    frame.loc[3, "restitution"] = 1.9
+    with pytest.raises(recoil.InputError) as caught:
+        recoil.Dataset.from_pandas(frame, like=like)
+    assert caught.value.line == 5 and caught.value.column > 1
+    assert "1.9" in caught.value.problem
+
+
+def test_materials_that_are_missing_are_asked_for(here):
+    frame = pd.read_csv("mine/points.csv")
+    with pytest.raises(recoil.InputError, match="surface is not known; give surface="):
+        recoil.Dataset.from_pandas(frame, particle=PARTICLE, provenance="synthetic")
+    with pytest.raises(recoil.InputError, match="provenance is not known"):
+        recoil.Dataset.from_pandas(frame, particle=PARTICLE, surface=SURFACE)
