@@ -75,7 +75,8 @@ Fitted fitted_before(const ExportOptions& options) {
   FitInputs inputs = load_inputs(options.fit_file);
   Fitted out;
   out.model = make_model(inputs.spec, inputs.datasets);
-  const std::vector<FittedValue> values = take_fitted_values(out.model, options.parameters);
+  const std::vector<FittedValue> values =
+      take_fitted_values(out.model, inputs.datasets, options.parameters);
   out.theta = out.model.initial();
   out.source.parameters = "from " + options.parameters;
   for (std::size_t s = 0; s < out.theta.size(); ++s) {

@@ -188,7 +188,7 @@ void simulate(const SimulateOptions& options) {
   const FitSpec spec = load_fit(options.fit_file);
   const std::vector<Dataset> datasets = load_datasets(spec);
   ImpactModel model = make_model(spec, datasets);
-  if (!options.parameters.empty()) take_fitted_values(model, options.parameters);
+  if (!options.parameters.empty()) take_fitted_values(model, datasets, options.parameters);
   const std::size_t d = choose_dataset(datasets, options.dataset);
   const PointConditions at = {d, options.diameter * units::um, options.velocity};
   const SimulatedImpact simulated = simulate_at(model, datasets, at);

@@ -8,9 +8,37 @@
 
 namespace recoil {
 
-std::vector<FittedValue> take_fitted_values(ImpactModel& model, const std::string& path) {
+namespace {
+
+/// Were these values fitted to `datasets` as they are now?
+void check_data(const Json& json, const std::vector<Dataset>& datasets, const std::string& path) {
+  const Json fitted = json.value("datasets", Json::array());
+  bool same = fitted.size() == datasets.size();
+  std::string ids;
+  for (std::size_t d = 0; d < fitted.size(); ++d) {
+    const std::string id = fitted[d].value("id", "");
+    ids += (ids.empty() ? "" : " + ") + id;
+    same = same && id == datasets[d].id;
+  }
+  if (!same) {
+    throw InputError({path}, fmt::format("these values were fitted to {}", ids),
+                     "the fit file names other data", "use the fit.json of this fit file");
+  }
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    if (fitted[d].value("sha256", "") == datasets[d].sha256) continue;
+    throw InputError({path}, fmt::format("{} has changed since", datasets[d].id),
+                     "these values belong to the files as they were", "run recoil fit again");
+  }
+}
+
+}  // namespace
+
+std::vector<FittedValue> take_fitted_values(ImpactModel& model,
+                                            const std::vector<Dataset>& datasets,
+                                            const std::string& path) {
   const std::string text = read_text_file(path);
   const Json json = read_fit_json(path, text, "--parameters");
+  check_data(json, datasets, path);
   std::vector<FittedValue> values;
   for (ParameterSlot& slot : model.slots) {
     // An adhesion that follows the materials does so from what is stated of them.

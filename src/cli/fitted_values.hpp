@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "data/dataset.hpp"
 #include "estimate/model.hpp"
 
 namespace recoil {
@@ -15,7 +16,10 @@ struct FittedValue {
 };
 
 /// Replaces the fit file's initial values by the values of a fit.json, and returns them [slots].
+/// @param datasets those of the fit file: the values have to be fitted to these very files
 /// @throws InputError when it is none, or that of another fit
-std::vector<FittedValue> take_fitted_values(ImpactModel& model, const std::string& path);
+std::vector<FittedValue> take_fitted_values(ImpactModel& model,
+                                            const std::vector<Dataset>& datasets,
+                                            const std::string& path);
 
 }  // namespace recoil

@@ -88,7 +88,7 @@ Valued model_of(const FitInputs& inputs, const std::string& parameters) {
   Valued out = {make_model(inputs.spec, inputs.datasets), inputs.datasets, inputs.spec.id,
                 "the initial values of the fit file"};
   if (!parameters.empty()) {
-    take_fitted_values(out.model, parameters);
+    take_fitted_values(out.model, inputs.datasets, parameters);
     out.values = parameters;
   }
   return out;

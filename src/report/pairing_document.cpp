@@ -15,6 +15,7 @@ namespace {
 
 constexpr double degree = M_PI / 180.0;
 constexpr std::size_t most_rows = 40;
+constexpr double doubtful_purity = 0.9;  // of the pairs, below which the points are not believed
 
 double as_number(std::size_t n) { return static_cast<double>(n); }
 double percent_of(double part, double whole) { return whole > 0.0 ? 100.0 * part / whole : 0.0; }
@@ -165,7 +166,15 @@ Section impacts_section(const PassageTable& table, const PairingResult& pairs) {
   if (const Sentence words = angle_words(table, pairs); !words.empty()) {
     entries.emplace_back("angle", words);
   }
-  return {"impacts", "Impacts", {}, {items(entries)}};
+  Section section{"impacts", "Impacts", {}, {items(entries)}};
+  if (pairs.purity() < doubtful_purity) {
+    section.blocks.push_back(Banner{
+        "warning", say("Only {:.1f} % of the pairs are true ones: the points are those of passages "
+                       "that have nothing to do with each other. The height of the measuring plane "
+                       "(--height) and the times are the first things to check.",
+                       100.0 * pairs.purity())});
+  }
+  return section;
 }
 
 Section unpaired_section(const PairingResult& pairs, const Averages& averages) {

@@ -142,6 +142,25 @@ TEST(Fit, FittedValuesCanBeSimulated) {
   EXPECT_EQ(wrong.status, 2);
 }
 
+TEST(Fit, FittedValuesBelongToTheirData) {
+  const Workplace place;
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "out", "--replicates", "0"}).status, 0);
+  const std::vector<std::string> simulate = {
+      "simulate",   "fit.toml", "--velocity",   "8",
+      "--diameter", "4.9",      "--parameters", "out/fit.json"};
+  place.write("data/points.csv", place.read("data/points.csv") + "large,4,12,0.935,0.015,20,0\n");
+  const Outcome changed = place.run(simulate);
+  EXPECT_EQ(changed.status, 2);
+  EXPECT_EQ(changed.err,
+            "out/fit.json: example has changed since; these values belong to the files as they "
+            "were; run recoil fit again\n");
+  std::string package = place.read("data/datapackage.json");
+  place.write("data/datapackage.json", package.replace(package.find("example"), 7, "another"));
+  const Outcome other = place.run(simulate);
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.err.find("fitted to example"), std::string::npos) << other.err;
+}
+
 TEST(Fit, WithoutAnAnswerEndsWithStatusThree) {
   const Workplace place;
   const std::string points = place.read("data/points.csv");

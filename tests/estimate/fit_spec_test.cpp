@@ -240,7 +240,7 @@ const Mistake mistakes[] = {
      "fit.toml:14:12: ", "unknown variance function 'captured'", "did you mean 'capture'?"},
     {"variance_number", "\"capture\"", "2", "fit.toml:14:12: ", "is a number", "auto"},
     {"residuals_unknown", "\"student\"", "\"studnt\"",
-     "fit.toml:15:13: ", "unknown distribution 'studnt'", "did you mean 'student'?"},
+     "fit.toml:15:13: ", "unknown distribution of the residuals 'studnt'", "did you mean 'student'?"},
     {"student_dof_alone", "residuals = \"student\"\n", "",
      "fit.toml:15:15: ", "'student_dof' without Student's t", "residuals = \"student\""},
     {"student_dof_low", "student_dof = 5", "student_dof = 0.5",

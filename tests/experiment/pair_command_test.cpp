@@ -59,6 +59,16 @@ TEST(PairCommand, PrintedConstantsOfTheOtherDatasetAreNotTakenOver) {
   EXPECT_EQ(made["adhesion_energy"], 2.72);
 }
 
+TEST(PairCommand, PairsThatAreMostlyFalseAreSaidToBeSo) {
+  const Workplace place;
+  place.write("e.csv", small_stream().csv);
+  const Outcome right = place.run({"pair", "e.csv", "--unit", kUnits});
+  EXPECT_EQ(right.out.find("warning"), std::string::npos) << right.out;
+  const Outcome wrong = place.run({"pair", "e.csv", "--unit", kUnits, "--height", "500"});
+  EXPECT_NE(wrong.out.find("warning"), std::string::npos) << wrong.out;
+  EXPECT_NE(wrong.out.find("(--height)"), std::string::npos) << wrong.out;
+}
+
 TEST(PairCommand, HistogramsAndPictures) {
   const Workplace place;
   place.write("e.csv", small_stream().csv);
