@@ -152,8 +152,8 @@ TEST(Fit, FittedValuesBelongToTheirData) {
   const Outcome changed = place.run(simulate);
   EXPECT_EQ(changed.status, 2);
   EXPECT_EQ(changed.err,
-            "out/fit.json: example has changed since; these values belong to the files as they "
-            "were; run recoil fit again\n");
+            "out/fit.json: example has changed since (these values belong to the files as they "
+            "were); run recoil fit again\n");
   std::string package = place.read("data/datapackage.json");
   place.write("data/datapackage.json", package.replace(package.find("example"), 7, "another"));
   const Outcome other = place.run(simulate);
