@@ -86,6 +86,19 @@ TEST(Digitised, ReboundVelocitiesInOtherUnits) {
   EXPECT_DOUBLE_EQ(made.points[1].restitution, 0.75);
 }
 
+TEST(Digitised, OnlyTheSeriesWhoseNameWasReadIsSaidToBe) {
+  const Place place;
+  auto request =
+      place.request("4.90um,,large,\nX,Y,X,Y\n2,0.5,1,0.4\n3,0.6,2,0.5\n", kFormat);
+  request.diameters = {"large=8um"};
+  const auto result = recoil::import_points(request);
+  std::vector<std::string> named;
+  for (const auto& note : result.notes) {
+    if (note.remark == recoil::ImportRemark::diameters_from_names) named = note.names;
+  }
+  EXPECT_EQ(named, std::vector<std::string>{"4.90um"});
+}
+
 TEST(Digitised, DiametersMayStandInTheNames) {
   const Place place;
   auto request = place.request("d = 2.58 um,,4.90um,\nX,Y,X,Y\n2,0.5,1,0.4\n", kFormat);
