@@ -88,8 +88,7 @@ TEST(Digitised, ReboundVelocitiesInOtherUnits) {
 
 TEST(Digitised, OnlyTheSeriesWhoseNameWasReadIsSaidToBe) {
   const Place place;
-  auto request =
-      place.request("4.90um,,large,\nX,Y,X,Y\n2,0.5,1,0.4\n3,0.6,2,0.5\n", kFormat);
+  auto request = place.request("4.90um,,large,\nX,Y,X,Y\n2,0.5,1,0.4\n3,0.6,2,0.5\n", kFormat);
   request.diameters = {"large=8um"};
   const auto result = recoil::import_points(request);
   std::vector<std::string> named;

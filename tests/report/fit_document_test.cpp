@@ -16,6 +16,7 @@
 #include "page_checks.hpp"
 #include "report/corrections_document.hpp"
 #include "report/fit_tables.hpp"
+#include "report/materials_tables.hpp"
 
 namespace recoil {
 namespace {
@@ -294,6 +295,24 @@ TEST(FitTables, GiveEstimateErrorIntervalAndStartOfAParameter) {
   EXPECT_EQ(words(f0[5]), "fixed");
   EXPECT_EQ(number_in(f0[1]).error, 0.0);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(f0[4]));
+}
+
+TEST(FitTables, SetEveryFreeParameterBesideTheOneOfExactMaterials) {
+  Analysis analysis = sample::four_diameters();
+  ConditionalFit exact{analysis.fitted, analysis.uncertainty.intervals};
+  exact.fitted.theta = {0.0033, 0.0505, 8.9};
+  exact.intervals[1] = {};
+  analysis.uncertainty.conditional = exact;
+  const Table table = conditional_table(analysis);
+  ASSERT_EQ(table.rows.size(), 2U);  // f0 is fixed
+  const auto& C_H = row_of(table, "C_H [s/m]");
+  EXPECT_EQ(number_in(C_H[1]).value, 0.00312);
+  EXPECT_EQ(number_in(C_H[3]).value, 0.0033);
+  EXPECT_THAT(words(C_H[4]), HasSubstr("0.003561]"));
+  const auto& C_A = row_of(table, "C_A [s/m]");
+  EXPECT_EQ(number_in(C_A[3]).value, 0.0505);
+  EXPECT_THAT(words(C_A[2]), HasSubstr("["));
+  EXPECT_EQ(words(C_A[4]), "");
 }
 
 TEST(FitTables, SayWhatIsMissing) {

@@ -111,6 +111,27 @@ TEST(Identifiability, AKnownUpperLimitIsKnowledge) {
   EXPECT_FALSE(verdict.parameter[1].upper_limit);
 }
 
+TEST(Identifiability, ComparesEveryImpactWithTheCaptureOfItsOwnSize) {
+  const Case c = noisy_case();
+  UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
+  const auto slowest_over = [&](double first, double others) {
+    for (CaptureEstimate& at : result.capture) {
+      double slowest = INFINITY;
+      for (const Observation& point : c.fitted.data.points) {
+        if (point.diameter == at.diameter) slowest = std::min(slowest, point.velocity);
+      }
+      at.found = true;
+      at.value = slowest / (&at == &result.capture.front() ? first : others);
+    }
+    return judge_identifiability(c.fitted, result.intervals, result.capture).slowest;
+  };
+  ASSERT_GT(result.capture.size(), 1U);
+  ASSERT_TRUE(slowest_over(4.0, 6.0));
+  EXPECT_NEAR(*slowest_over(4.0, 6.0), 4.0, 1e-12);
+  EXPECT_NEAR(*slowest_over(6.0, 4.0), 4.0, 1e-12);
+  EXPECT_FALSE(slowest_over(6.0, 1.2));
+}
+
 TEST(Identifiability, DoesNotTrustSurvivorsOfImpactsThatDifferMuch) {
   Case c = noisy_case();
   const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
