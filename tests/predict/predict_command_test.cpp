@@ -69,6 +69,17 @@ TEST(Predict, MistakesAreOneLineAndWriteNothing) {
   EXPECT_EQ(place.listing(), before);
 }
 
+TEST(Predict, MeasuresAtMostAMetreAboveTheSurface) {
+  const Workplace place;
+  place.write("sizes.csv", "diameter,count\n2,30\n");
+  const auto at = [&](const std::string& height) {
+    return place.run(command({"predict", "fit.toml", "--sizes", "sizes.csv", "--height", height}));
+  };
+  EXPECT_EQ(at("1000").status, 0);
+  EXPECT_EQ(at("1001").status, 2);
+  EXPECT_EQ(at("-1").status, 2);
+}
+
 TEST(Report, ShowsMixtureAndCaptureModels) {
   const Workplace place;
   place.write("data/sizes.csv", "diameter,count\n2,30\n4,20\n");

@@ -12,6 +12,7 @@
 #include "report/experiment_figures.hpp"
 #include "report/figures_corner.hpp"
 #include "report/figures_corrections.hpp"
+#include "report/figures_diagnosis.hpp"
 #include "report/figures_intervals.hpp"
 #include "report/figures_physics.hpp"
 #include "report/figures_statistics.hpp"
@@ -222,6 +223,34 @@ TEST(ForceHistoryFigures, TheSumIsThatOfTheFourForces) {
     EXPECT_NEAR(lines[4].y[i], sum, 1e-9 * (1.0 + std::abs(sum)));
     EXPECT_TRUE(inside(lines[0].x[i], plot_of(figure).x));
   }
+}
+
+CandidateResult candidate(const std::string& id, double delta_aicc) {
+  CandidateResult made;
+  made.candidate.added = {id};
+  made.delta_aicc = delta_aicc;
+  return made;
+}
+
+TEST(RankingFigures, HaveABarForEveryCandidateThatGains) {
+  Diagnosis d;
+  d.candidates = {candidate("gas_film", -3.0), candidate("capillary", 4.0),
+                  candidate("plastic_yield", -20.0)};
+  d.pairs = {candidate("probe_plane", -7.0), candidate("size_law", 1.0)};
+  const plot::Plot ranking = plot_of(ranking_figures(d).at(0));
+  std::vector<std::string> names;
+  for (const auto& tick : ranking.y.ticks) names.push_back(tick.label);
+  EXPECT_THAT(names, ElementsAre("plastic_yield", "probe_plane", "gas_film"));
+  EXPECT_THAT(ranking_figures(Diagnosis{}), IsEmpty());
+}
+
+TEST(RankingFigures, LeaveRoomForTheReasonBehindALongBar) {
+  Diagnosis d;
+  d.candidates = {candidate("gas_film", -19.0), candidate("plastic_yield", -20.0)};
+  d.candidates[0].set_aside = SetAside::not_possible;
+  const double end = *plot_of(ranking_figures(d).at(0)).x.to;
+  EXPECT_GT(end, 22.0);
+  EXPECT_LT(end, 40.0);  // the bars are what the picture is about
 }
 
 TEST(CorrectionFigures, LeaveOutTheRowThatCannotDiffer) {

@@ -312,7 +312,7 @@ TEST(FitTables, SetEveryFreeParameterBesideTheOneOfExactMaterials) {
   const auto& C_A = row_of(table, "C_A [s/m]");
   EXPECT_EQ(number_in(C_A[3]).value, 0.0505);
   EXPECT_THAT(words(C_A[2]), HasSubstr("["));
-  EXPECT_EQ(words(C_A[4]), "");
+  EXPECT_EQ(words(C_A[4]), "–");
 }
 
 TEST(FitTables, SayWhatIsMissing) {
