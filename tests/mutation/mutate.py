@@ -7,9 +7,9 @@ then those of later folders; the first failing test kills it. A mutant that does
 object code is that of the original, is no mutant and another one is drawn.
 
 To be affordable, only the changed source is compiled (its object is linked before the original, whose
-functions it replaces), and only tests that take less than QUICK seconds are run: all of the same
-folder, others until BUDGET seconds of them have been. So the share that is killed is a lower bound.
-With --thorough a survivor is put to all tests of up to SLOW seconds.
+functions it replaces), and only quick tests are run: all of the same folder, others as long as a budget
+lasts. So the share that is killed is a lower bound. With --thorough a survivor is put to all tests that
+take less than a minute.
 
 Finished mutants are kept in build/mutants/SEED.jsonl, each with its source as it was: a stopped run goes
 on where it was, and an edited source only loses its own.
@@ -22,6 +22,7 @@ on where it was, and an edited source only loses its own.
 import argparse
 import hashlib
 import json
+import math
 import os
 import random
 import re
@@ -34,7 +35,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 HOME = ROOT / "build" / "mutants"
 WORK = HOME / "work"
-QUICK, SLOW, BUDGET, LONGEST = 5.0, 60.0, 30.0, 300.0  # seconds
+SLOW, LONGEST = 60.0, 300.0  # seconds: of a test for --thorough; of measuring one program
 
 # (what it is, pattern, replacements). Binary operators have a blank on either side in formatted code,
 # brackets of templates have none.
@@ -204,7 +205,7 @@ class Build:
             self.commands[output] = (entry["command"], Path(entry["file"]))
         order = (self.tree / "tests" / "CMakeLists.txt").read_text()
         self.stages = re.search(r"foreach\(stage ([^)]*)\)", order)[1].split()
-        self.links = {}
+        self.links, self.passed = {}, set()
 
     def check(self, command):
         status, said = run(command, 7200)
@@ -262,6 +263,15 @@ class Build:
             command = command.replace(" -I", f" -I{shadow} -I", 1)
         return run(command, 1800, shell=True, cwd=self.folder)[0]
 
+    def fails_anyway(self, program, test):
+        """Does a test fail in the tree as it is? Asked once of each that kills."""
+        if test not in self.passed:
+            self.put_back()
+            if run([str(program), f"--gtest_filter={test}"], 600, cwd=program.parent)[0] != 0:
+                return True
+            self.passed.add(test)
+        return False
+
     def put_back(self):
         for kept in self.folder.glob("*.original"):
             os.replace(kept, kept.with_suffix(""))
@@ -274,41 +284,41 @@ class Build:
         os.replace(f"{program}.new", program)
 
 
-def tests_of(build):
-    """{program: {test: seconds}} of the tests that pass and take at most SLOW seconds."""
-    known, costs = {}, build.folder / "Testing" / "Temporary" / "CTestCostData.txt"
+def tests_of(build, quick):
+    """{program: {test: seconds}} of all tests. What is not known from an earlier run, of this program
+    or of ctest, is measured."""
+    costs, kept = build.folder / "Testing" / "Temporary" / "CTestCostData.txt", HOME / "times.json"
+    by_ctest = {}
     if costs.is_file():
-        known = dict((w[0], float(w[2])) for w in map(str.split, costs.read_text().splitlines())
-                     if len(w) == 3)
-    kept = HOME / "times.json"
-    measured = json.loads(kept.read_text()) if kept.is_file() else {}
+        by_ctest = dict((w[0], float(w[2])) for w in map(str.split, costs.read_text().splitlines())
+                        if len(w) == 3)
+    known = json.loads(kept.read_text()) if kept.is_file() else {}
     times = {}
     for program in build.programs:
-        key = program.name + " " + hashlib.sha256(program.read_bytes()).hexdigest()
-        if key not in measured:
-            # What ctest found slow is not measured again, and what has no turn in time is not used.
-            slow = [t for t, s in known.items() if s > QUICK]
+        names, suite = [], ""
+        for line in run([str(program), "--gtest_list_tests"], 60)[1].splitlines():
+            words = line.split("#")[0].strip()
+            if line.startswith(" "):
+                names.append(suite + words)
+            else:
+                suite = words
+        own = known.setdefault(program.name, {})
+        own.update({n: by_ctest[n] for n in names if n not in own and by_ctest.get(n, 0.0) > quick})
+        if unknown := [n for n in names if n not in own]:
             begin = time.time()
-            said = run([str(program), "--gtest_filter=-" + ":".join(slow)], LONGEST, cwd=program.parent)[1]
-            passed = {t: float(ms) / 1000 for t, ms in
-                      re.findall(r"^\[       OK \] (\S+?)(?:, where .*)? \((\d+) ms\)", said, re.M)}
-            failed = set(re.findall(r"^\[  FAILED  \] (\S+?),? .*\(\d+ ms\)", said, re.M))
-            listed, suite = run([str(program), "--gtest_list_tests"], 60)[1], ""
-            for line in listed.splitlines():
-                if not line.startswith(" "):
-                    suite = line.split("#")[0].strip()
-                elif (name := suite + line.split("#")[0].strip()) in slow:
-                    passed[name] = known[name]
-            print(f"  {program.name:24} {len(passed):4} tests, {time.time() - begin:5.1f} s", flush=True)
-            for name in failed:
-                print(f"    {name} fails without a mutant and is not used")
-            measured[key] = passed
-            kept.write_text(json.dumps(measured))
-        times[program] = {t: s for t, s in measured[key].items() if s <= SLOW}
+            said = run([str(program), "--gtest_filter=" + ":".join(unknown)], LONGEST,
+                       cwd=program.parent)[1]
+            measured = {t: float(ms) / 1000 for t, ms in
+                        re.findall(r"^\[       OK \] (\S+) \((\d+) ms\)", said, re.M)}
+            # What had no turn is slow, or stands behind what is.
+            own.update({n: measured.get(n, LONGEST) for n in unknown})
+            kept.write_text(json.dumps(known))
+            print(f"  {program.name:24} {len(measured):4} tests, {time.time() - begin:5.1f} s", flush=True)
+        times[program] = {n: own[n] for n in names}
     return times
 
 
-def plan(build, times, stage, thorough):
+def plan(build, times, stage, quick, budget):
     """[(program, tests, their seconds)] in the order in which they are run, and what is left out."""
     stages = build.stages
     sees = [p for p, folder in build.programs.items()
@@ -316,18 +326,18 @@ def plan(build, times, stage, thorough):
             stages.index(folder) >= stages.index(stage)]
     programs, spent, left_out = [], 0.0, 0
     for program in sorted(sees, key=lambda p: (build.programs[p] != stage, sum(
-            s for s in times[p].values() if s <= QUICK))):
-        tests = {t: s for t, s in times[program].items() if thorough or s <= QUICK}
-        if build.programs[program] != stage and not thorough and spent + sum(tests.values()) > BUDGET:
+            s for s in times[p].values() if s <= quick))):
+        tests = {t: s for t, s in times[program].items() if s <= quick}
+        if build.programs[program] != stage and spent + sum(tests.values()) > budget:
             tests = {}
         left_out += len(times[program]) - len(tests)
-        spent += sum(tests.values())
+        spent += sum(tests.values()) if build.programs[program] != stage else 0.0
         if tests:
             programs.append((program, tests))
     return programs, left_out
 
 
-def verdict_on(mutant, build, times, thorough):
+def verdict_on(mutant, build, times, quick, budget):
     """Builds and tests one mutant: ('killed', by whom), ('survived', '') or ('none', why)."""
     stage = mutant.path.relative_to(ROOT / "src").parts[0]
     shutil.rmtree(WORK, ignore_errors=True)
@@ -381,7 +391,7 @@ def verdict_on(mutant, build, times, thorough):
                 build.put_in_place(build.folder / name, made)
                 commands = True
         compared = False
-        for program, tests in plan(build, times, stage, thorough)[0]:
+        for program, tests in plan(build, times, stage, quick, budget)[0]:
             if build.programs[program] != stage and not compared:
                 if same_code():
                     return "none", "the same object code"
@@ -395,8 +405,10 @@ def verdict_on(mutant, build, times, thorough):
             if status == "timeout":
                 return "killed", f"{program.name}: does not end"
             if status != 0:
-                failed = re.findall(r"\[  FAILED  \] (\S+)", said)
-                return "killed", failed[0].rstrip(",") if failed else f"{program.name}: ends badly"
+                failed = re.findall(r"\[  FAILED  \] ([^\s,]+)", said)
+                if failed and build.fails_anyway(program, failed[0]):
+                    sys.exit(f"mutate: {failed[0]} fails without a mutant")
+                return "killed", failed[0] if failed else f"{program.name}: ends badly"
             if made:
                 made.unlink()
         return ("survived", "") if compared or not same_code() else ("none", "the same object code")
@@ -417,6 +429,10 @@ def main():
     parser.add_argument("--only", default="", help="files whose path contains this")
     parser.add_argument("--headers", action="store_true",
                         help="change headers too: minutes for one that many sources include")
+    parser.add_argument("--quick", type=float, default=5.0, metavar="SECONDS",
+                        help="run tests that take at most this (default: 5)")
+    parser.add_argument("--budget", type=float, default=30.0, metavar="SECONDS",
+                        help="of tests of other folders (default: 30)")
     parser.add_argument("--thorough", action="store_true", help="slower tests for what survives")
     parser.add_argument("--again", action="store_true", help="try the survivors of earlier runs again")
     parser.add_argument("--build", type=Path, default=HOME / "tree" / "build" / "mutants",
@@ -429,7 +445,7 @@ def main():
         sys.exit(f"mutate: no source has '{options.only}' in its path")
     print("Building and timing the tests as they are.", flush=True)
     build = Build(options.build.absolute())
-    times = tests_of(build)
+    times = tests_of(build, options.quick)
     journal = HOME / f"{options.seed}.jsonl"
     finished = {}
     if journal.is_file():
@@ -444,10 +460,10 @@ def main():
         if entry is None or entry["outcome"] == "survived" and (
                 options.again or options.thorough and not entry["thorough"]):
             begin = time.time()
-            outcome, by = verdict_on(mutant, build, times, False)
+            outcome, by = verdict_on(mutant, build, times, options.quick, options.budget)
             thorough = options.thorough and outcome == "survived"
             if thorough:
-                outcome, by = verdict_on(mutant, build, times, True)
+                outcome, by = verdict_on(mutant, build, times, SLOW, math.inf)
             entry = {"key": key, "outcome": outcome, "by": by, "thorough": thorough,
                      "seconds": round(time.time() - begin, 1), **mutant.describe()}
             with journal.open("a") as out:
@@ -461,9 +477,10 @@ def main():
     survivors = [m for m in counted if m["outcome"] == "survived"]
     print(f"\n{len(counted) - len(survivors)} of {len(counted)} mutants were killed (seed {options.seed}).")
     for m in survivors:
-        left_out = plan(build, times, Path(m["file"]).parts[1], m["thorough"])[1]
-        print(f"\n{m['file']}:{m['line']} ({m['kind']}); {left_out} tests of later folders or of more than "
-              f"{SLOW if m['thorough'] else QUICK:.0f} s were not run\n  - {m['before']}\n  + {m['after']}")
+        limits = (SLOW, math.inf) if m["thorough"] else (options.quick, options.budget)
+        left_out = plan(build, times, Path(m["file"]).parts[1], *limits)[1]
+        print(f"\n{m['file']}:{m['line']} ({m['kind']}); {left_out} tests of this and later folders were "
+              f"not run\n  - {m['before']}\n  + {m['after']}")
     print(f"\nEach survivor wants a test, or the removal of code that nothing needs. "
           f"Kept in {journal.relative_to(ROOT)}.")
 
