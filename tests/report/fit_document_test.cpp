@@ -107,6 +107,19 @@ TEST(FitDocument, HoldsEveryFigureOfAJointFit) {
   }
 }
 
+TEST(FitDocument, GivesWideFiguresTheWidthOfThePage) {
+  const Document page = fit_document(sample::four_diameters());
+  int wide = 0;
+  for (const Section& section : page.sections) {
+    for (const Figure* figure : figures_of(section)) {
+      if (figure->picture.width <= 600) continue;  // two beside each other
+      EXPECT_TRUE(figure->large) << figure->id;
+      ++wide;
+    }
+  }
+  EXPECT_GE(wide, 1);
+}
+
 TEST(FitDocument, SaysWhereThePointsComeFromBeforeAnythingElse) {
   const auto labels = [](const Analysis& analysis) {
     std::vector<std::string> found;
