@@ -319,22 +319,22 @@ def tests_of(build, quick):
 
 
 def plan(build, times, stage, quick, budget):
-    """[(program, tests, their seconds)] in the order in which they are run, and what is left out."""
+    """[(program, tests, their seconds)] in the order in which they are run, and how many are left out:
+    the quick tests of the folder, and of later folders the quickest that fit into the budget."""
     stages = build.stages
     sees = [p for p, folder in build.programs.items()
-            if folder == stage or stage not in stages or folder not in stages or folder == "ground" or
+            if folder in (stage, "ground") or stage not in stages or folder not in stages or
             stages.index(folder) >= stages.index(stage)]
-    programs, spent, left_out = [], 0.0, 0
-    for program in sorted(sees, key=lambda p: (build.programs[p] != stage, sum(
-            s for s in times[p].values() if s <= quick))):
-        tests = {t: s for t, s in times[program].items() if s <= quick}
-        if build.programs[program] != stage and spent + sum(tests.values()) > budget:
-            tests = {}
-        left_out += len(times[program]) - len(tests)
-        spent += sum(tests.values()) if build.programs[program] != stage else 0.0
-        if tests:
-            programs.append((program, tests))
-    return programs, left_out
+    chosen, spent, left_out = {}, 0.0, 0
+    for seconds, test, program in sorted((s, t, p) for p in sees for t, s in times[p].items()):
+        own = build.programs[program] == stage
+        if seconds > quick or not own and spent + seconds > budget:
+            left_out += 1
+            continue
+        spent += 0.0 if own else seconds
+        chosen.setdefault(program, {})[test] = seconds
+    order = sorted(chosen, key=lambda p: (build.programs[p] != stage, sum(chosen[p].values())))
+    return [(program, chosen[program]) for program in order], left_out
 
 
 def verdict_on(mutant, build, times, quick, budget):

@@ -69,6 +69,27 @@ TEST(Predict, MistakesAreOneLineAndWriteNothing) {
   EXPECT_EQ(place.listing(), before);
 }
 
+TEST(Predict, SpreadsTheSpheresOfABinUnlessTheyShallBeAtItsMiddle) {
+  const Workplace place;
+  place.write("sizes.csv", "lower,upper,count\n2,6,30\n");
+  // Spheres of one size stay, or they do not; of several sizes the larger ones leave first.
+  const auto some_stay = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"predict",   "fit.toml", "--sizes",
+                                      "sizes.csv", "--out",    "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(place.run(command(words)).status, 0);
+    const auto json = nlohmann::json::parse(place.read("out/predict.json"));
+    int some = 0;
+    for (const auto& row : json["curve"]) {
+      const double captured = row["captured_fraction"]["value"];
+      some += captured > 1e-9 && captured < 1.0 - 1e-9 ? 1 : 0;
+    }
+    return some > 0;
+  };
+  EXPECT_TRUE(some_stay({}));
+  EXPECT_FALSE(some_stay({"--midpoints"}));
+}
+
 TEST(Predict, MeasuresAtMostAMetreAboveTheSurface) {
   const Workplace place;
   place.write("sizes.csv", "diameter,count\n2,30\n");

@@ -21,6 +21,7 @@ namespace recoil {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 template <class Kind>
@@ -62,13 +63,16 @@ TEST(RestitutionFigures, ShowEveryPointOnce) {
     EXPECT_TRUE(plot.x.logarithmic);
     EXPECT_EQ(plot.x.unit, "m/s");
     EXPECT_EQ(plot.y.from, 0.0);
+    std::size_t here = 0;
     for (const plot::Points& points : layers_of<plot::Points>(plot)) {
-      shown += points.x.size();
+      here += points.x.size();
       for (std::size_t i = 0; i < points.x.size(); ++i) {
         EXPECT_TRUE(inside(points.x[i], plot.x)) << points.x[i];
         EXPECT_TRUE(inside(points.y[i], plot.y)) << points.y[i];
       }
     }
+    EXPECT_THAT(plain_text(figure.caption), HasSubstr(": " + std::to_string(here) + " points."));
+    shown += here;
   }
   EXPECT_EQ(shown, analysis.fitted.data.points.size());
 }
