@@ -68,6 +68,18 @@ TEST(Capture, StudentizedAndDeltaRestOnTheSameError) {
   }
 }
 
+TEST(Capture, SaysWhetherAParameterRestsOnItsBound) {
+  Case c = noisy_case();
+  CaptureEstimate at = assess_uncertainty(c.fitted, c.datasets, small(0)).capture.front();
+  for (const bool resting : {false, true}) {
+    c.fitted.at_bound.assign(c.fitted.theta.size(), false);
+    c.fitted.at_bound[0] = resting;
+    recommend_capture(c.fitted, true, at);
+    EXPECT_EQ(at.recommended, CaptureIntervalKind::percentile);
+    EXPECT_EQ(at.because, resting ? CaptureBecause::at_bound : CaptureBecause::bend);
+  }
+}
+
 /// The relative change of the loss 1 - e^2 per unit of a slot, largest over the points, by
 /// differences.
 double largest_effect(const Case& c, std::size_t slot) {
