@@ -229,11 +229,13 @@ TEST(CaptureVelocity, IsFoundFromWhereverOneLooksFirst) {
   const Dataset data = synthetic::dataset({});
   const ImpactModel model = make_model(synthetic::spec(), {data});
   const std::vector<double> theta = {3.12e-3, 4.87e-2, 8.9};
-  const double found = capture_velocity(model, theta, 0, 4.9e-6).value;
-  for (const double times : {0.02, 0.3, 0.9, 1.5, 10.0, 100.0}) {
-    const CaptureVelocity again = capture_velocity(model, theta, 0, 4.9e-6, times * found);
-    EXPECT_TRUE(again.found) << times;
-    EXPECT_NEAR(again.value / found, 1.0, 1e-8) << times;
+  for (const double diameter : {1.5e-6, 4.9e-6, 200e-6}) {
+    const double found = capture_velocity(model, theta, 0, diameter).value;
+    for (const double times : {0.02, 0.3, 0.9, 1.5, 10.0, 100.0}) {
+      const CaptureVelocity again = capture_velocity(model, theta, 0, diameter, times * found);
+      EXPECT_TRUE(again.found) << times << " of " << found;
+      EXPECT_NEAR(again.value / found, 1.0, 1e-8) << times;
+    }
   }
 }
 

@@ -95,7 +95,8 @@ TEST(Digitised, BallsAreWrittenInMillimetresFromTheFirstOn) {
     request.diameters = diameters;
     request.into = place.folder() / unit;
     EXPECT_NEAR(recoil::import_points(request).dataset.points[4].diameter, 2e-3, 1e-12);
-    EXPECT_THAT(place.read(unit + "/datapackage.json"), HasSubstr("\"" + unit + "\""));
+    EXPECT_THAT(place.read(unit + "/points.csv"),
+                HasSubstr(unit == "mm" ? "large,2," : "large,2000,"));
   }
 }
 
