@@ -69,5 +69,28 @@ TEST(Candidate, FindsTheParametersThatMadeThePoints) {
   EXPECT_LT(refit.chi2, 1e-4);
 }
 
+TEST(RefitCandidate, MovesAConstantWhereThePointsKnowMoreOfItThanIsStated) {
+  Dataset data = synthetic::dataset({});
+  data.system.stiffness_K.reset();
+  data.system.adhesion_force_f0.reset();
+  data.system.particle.surface_energy = 0.05;
+  data.system.surface.density = 10220.0;
+  data.system.surface.surface_energy = 0.9;
+  const FitSpec spec = synthetic::spec();
+  for (const bool first_is_known : {true, false}) {
+    const double known = 1e-6, unknown = 0.8;
+    data.system.errors = {
+        {Body::particle, Constant::youngs_modulus, 1.2e9 * (first_is_known ? known : unknown)},
+        {Body::surface, Constant::surface_energy, 0.9 * (first_is_known ? unknown : known)}};
+    const Candidate base = make_candidate(spec, {data}, {});
+    ASSERT_EQ(base.model.constants.size(), 2U);
+    const Refit refit = refit_candidate(base, gather({data}, spec.noise), base.model.initial(), 1);
+    ASSERT_TRUE(refit.usable);
+    const std::size_t first = base.model.first_constant();
+    EXPECT_EQ(refit.moving[first], !first_is_known);
+    EXPECT_EQ(refit.moving[first + 1], first_is_known);
+  }
+}
+
 }  // namespace
 }  // namespace recoil

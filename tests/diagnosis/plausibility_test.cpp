@@ -42,6 +42,12 @@ TEST(Plausibility, RefusesAChargeThatAPlaneCouldNotHold) {
   EXPECT_TRUE(found("electrostatic_image", 2e6).front().plausible());
 }
 
+TEST(Plausibility, KnowsOnePowerOfTheSize) {
+  EXPECT_TRUE(found("size_law", 1.0 / 3.0).front().plausible());  // equation 12
+  EXPECT_FALSE(found("size_law", 0.3).front().plausible());
+  EXPECT_FALSE(found("size_law", 5.0 / 9.0).front().plausible());
+}
+
 TEST(Plausibility, AllowsTwoStandardErrors) {
   // The standard error is 0.1 % of the value: 3.005e6 is 1.7 of them above 3e6.
   EXPECT_TRUE(found("electrostatic_image", 3.005e6).front().plausible());

@@ -115,6 +115,16 @@ TEST(UnstatedErrors, DeviationsThatAreTooSmallAreFound) {
   }
 }
 
+TEST(UnstatedErrors, AreNotThoseOfAFewPointsFarOff) {
+  Dataset data = measured(2, 0.0, 1.0);
+  for (const std::size_t odd : {7U, 17U, 31U}) data.points[odd].restitution -= 10.0 * stated_sd;
+  const std::vector<UnstatedErrors> all = asked(data);
+  const UnstatedErrors* const larger = find(all, ErrorSource::larger_deviations);
+  ASSERT_NE(larger, nullptr);
+  EXPECT_LT(larger->delta_aicc, -10.0);  // all the same, they would fit better
+  EXPECT_FALSE(larger->leave_nothing()) << larger->remaining_p;
+}
+
 // Whole diagnoses bear the name of that suite, which the sanitizers leave out.
 TEST(Diagnose, UncertainVelocitiesAreNoCause) {
   const Diagnosis found = diagnosed(measured(1, 0.04, 1.0));

@@ -225,6 +225,20 @@ TEST(CaptureVelocity, MatchesTheIndependentSimulator) {
   EXPECT_FALSE(capture_velocity(model, std::vector<double>{0.0, 9.0, 8.9}, 0, 4.9e-6).found);
 }
 
+TEST(CaptureVelocity, IsFoundFromWhereverOneLooksFirst) {
+  const Dataset data = synthetic::dataset({});
+  const ImpactModel model = make_model(synthetic::spec(), {data});
+  const std::vector<double> theta = {3.12e-3, 4.87e-2, 8.9};
+  for (const double diameter : {1.5e-6, 4.9e-6, 200e-6}) {
+    const double found = capture_velocity(model, theta, 0, diameter).value;
+    for (const double times : {0.02, 0.3, 0.9, 1.5, 10.0, 100.0}) {
+      const CaptureVelocity again = capture_velocity(model, theta, 0, diameter, times * found);
+      EXPECT_TRUE(again.found) << times << " of " << found;
+      EXPECT_NEAR(again.value / found, 1.0, 1e-8) << times;
+    }
+  }
+}
+
 TwoPointResult two_point_of(const Dataset& data) {
   const std::vector<Dataset> datasets = {data};
   return two_point(make_model(synthetic::spec(), datasets), gather(datasets), 0, 4.9e-6);

@@ -124,6 +124,29 @@ TEST(Materials, DerivativesAreFiniteDifferencesOfTheReferenceSolver) {
   }
 }
 
+TEST(Materials, UnderJkrTheForceOfTheContactFollowsThemToo) {
+  for (const char* free : {"false", "true"}) {
+    const FitSpec spec = parse_fit(
+        std::string("dataset = \"d\"\n[model]\nadhesion = \"jkr\"\n[parameters]\nW = { free = ") +
+            free + " }\n",
+        "fits/x.toml");
+    const ImpactModel model = make_model(spec, {uncertain_dataset()});
+    const std::vector<double> theta = model.initial();
+    const std::vector<MaterialSlope> slopes = material_slopes(model, theta, 0);
+    EXPECT_EQ(slopes.size(), model.constants.size());
+    for (const MaterialSlope& slope : slopes) {
+      const std::size_t j = model.first_constant() + slope.index;
+      std::vector<double> more = theta, less = theta;
+      more[j] *= 1.0 + 1e-4;
+      less[j] *= 1.0 - 1e-4;
+      const double difference =
+          std::log(adhesion_force_under(model, more, 0) / adhesion_force_under(model, less, 0)) /
+          2e-4;
+      EXPECT_NEAR(slope.adhesion_force * theta[j], difference, 1e-6) << model.slots[j].label();
+    }
+  }
+}
+
 TEST(Materials, OnlyThoseThatCountAreParameters) {
   const auto labels = [](const FitSpec& spec, const Dataset& data) {
     std::vector<std::string> found;

@@ -86,6 +86,32 @@ TEST(Digitised, ReboundVelocitiesInOtherUnits) {
   EXPECT_DOUBLE_EQ(made.points[1].restitution, 0.75);
 }
 
+TEST(Digitised, BallsAreWrittenInMillimetresFromTheFirstOn) {
+  const Place place;
+  auto request = place.request(kTwoSeries, kFormat);
+  for (const auto& [diameters, unit] :
+       std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"small=1mm", "large=2mm"}, "mm"}, {{"small=0.99mm", "large=2mm"}, "um"}}) {
+    request.diameters = diameters;
+    request.into = place.folder() / unit;
+    EXPECT_NEAR(recoil::import_points(request).dataset.points[4].diameter, 2e-3, 1e-12);
+    EXPECT_THAT(place.read(unit + "/points.csv"),
+                HasSubstr(unit == "mm" ? "large,2," : "large,2000,"));
+  }
+}
+
+TEST(Digitised, OnlyTheSeriesWhoseNameWasReadIsSaidToBe) {
+  const Place place;
+  auto request = place.request("4.90um,,large,\nX,Y,X,Y\n2,0.5,1,0.4\n3,0.6,2,0.5\n", kFormat);
+  request.diameters = {"large=8um"};
+  const auto result = recoil::import_points(request);
+  std::vector<std::string> named;
+  for (const auto& note : result.notes) {
+    if (note.remark == recoil::ImportRemark::diameters_from_names) named = note.names;
+  }
+  EXPECT_EQ(named, std::vector<std::string>{"4.90um"});
+}
+
 TEST(Digitised, DiametersMayStandInTheNames) {
   const Place place;
   auto request = place.request("d = 2.58 um,,4.90um,\nX,Y,X,Y\n2,0.5,1,0.4\n", kFormat);

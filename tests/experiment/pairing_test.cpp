@@ -75,6 +75,18 @@ TEST(Pairing, AReturnIsASecondImpact) {
   EXPECT_TRUE(pair_passages(events, all).impacts[1].used);
 }
 
+TEST(Pairing, AReturnInAnotherRunIsAFirstImpact) {
+  std::vector<Passage> events = one_impact();
+  const double back = events[1].time + 2.0 * 0.5 / 9.80665;
+  events.push_back({back, 0.5, 0.0, 49e-6, 1, 4});
+  const double time = (0.019243002 + 0.032160340) / 9.80665;  // up at 0.289 m/s
+  events.push_back({back + time, -0.288764, 0.0, 49e-6, 1, 5});
+  const PairingResult result = pair_passages(events, {});
+  ASSERT_EQ(result.impacts.size(), 2U);
+  EXPECT_EQ(result.impacts[1].number, 1);
+  EXPECT_TRUE(result.impacts[1].used);
+}
+
 TEST(Pairing, NothingIsNoError) {
   EXPECT_TRUE(pair_passages({}, {}).impacts.empty());
   EXPECT_EQ(pair_passages({{1.0, 1.0, 0.0, 49e-6, 0, 2}}, {}).unpaired.size(), 1U);

@@ -1,5 +1,6 @@
-// What is written for programs that cannot be had here, compiled against stand-ins of their headers
-// and run on one sphere at an oblique wall.
+// What is written for programs that cannot be had here, or are too large to be, run against
+// stand-ins: of their headers on one sphere at an oblique wall, of their names on one that falls
+// straight.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -55,5 +56,29 @@ TEST(Sources, OpenFoamsClassReboundsAndCaptures) {
   expect_the_fit(trip, said, "tangential 3.000000000000 active 1 kept 1",
                  "tangential 0.000000000000 active 0 kept 1");
 }
+
+/// The script holds the law itself: what is left is the error of its time step.
+void expect_the_fit_in_yade(const std::string& fit) {
+  const RoundTrip trip(fit);
+  trip.write("yade", "out");
+  for (const double v : RoundTrip::velocities) {
+    EXPECT_NEAR(
+        trip.run({"python3", kStubs + "yade/stand_in.py", "out/impact.py", fmt::format("{}", v)}),
+        trip.expected(v), 1e-4)
+        << v;
+  }
+}
+
+std::string under(const std::string& law) {
+  return "dataset = \"data\"\n[model]\nadhesion = \"" + law +
+         "\"\n[parameters]\nC_H = { initial = 4e-3, free = true }\n"
+         "C_A = { initial = 0.05, free = false }\nW = { free = false }\n";
+}
+
+TEST(Sources, YadesScriptHoldsTheRing) { expect_the_fit_in_yade(kCounted); }
+
+TEST(Sources, YadesScriptHoldsDmt) { expect_the_fit_in_yade(under("dmt")); }
+
+TEST(Sources, YadesScriptHoldsJkr) { expect_the_fit_in_yade(under("jkr")); }
 
 }  // namespace

@@ -69,6 +69,38 @@ TEST(Predict, MistakesAreOneLineAndWriteNothing) {
   EXPECT_EQ(place.listing(), before);
 }
 
+TEST(Predict, SpreadsTheSpheresOfABinUnlessTheyShallBeAtItsMiddle) {
+  const Workplace place;
+  place.write("sizes.csv", "lower,upper,count\n2,6,30\n");
+  // Spheres of one size stay, or they do not; of several sizes the larger ones leave first.
+  const auto some_stay = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"predict",   "fit.toml", "--sizes",
+                                      "sizes.csv", "--out",    "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(place.run(command(words)).status, 0);
+    const auto json = nlohmann::json::parse(place.read("out/predict.json"));
+    int some = 0;
+    for (const auto& row : json["curve"]) {
+      const double captured = row["captured_fraction"]["value"];
+      some += captured > 1e-9 && captured < 1.0 - 1e-9 ? 1 : 0;
+    }
+    return some > 0;
+  };
+  EXPECT_TRUE(some_stay({}));
+  EXPECT_FALSE(some_stay({"--midpoints"}));
+}
+
+TEST(Predict, MeasuresAtMostAMetreAboveTheSurface) {
+  const Workplace place;
+  place.write("sizes.csv", "diameter,count\n2,30\n");
+  const auto at = [&](const std::string& height) {
+    return place.run(command({"predict", "fit.toml", "--sizes", "sizes.csv", "--height", height}));
+  };
+  EXPECT_EQ(at("1000").status, 0);
+  EXPECT_EQ(at("1001").status, 2);
+  EXPECT_EQ(at("-1").status, 2);
+}
+
 TEST(Report, ShowsMixtureAndCaptureModels) {
   const Workplace place;
   place.write("data/sizes.csv", "diameter,count\n2,30\n4,20\n");

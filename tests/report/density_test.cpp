@@ -60,5 +60,24 @@ TEST(Density, WithoutSpreadThereIsNone) {
   EXPECT_FALSE(contour_around(same, same, {0.0, 2.0}, {0.0, 2.0}, 0.5, {}).has_value());
 }
 
+TEST(Bars, HoldEveryValueOnceSideBySide) {
+  const std::vector<double> values = normal_cloud(1000).x;
+  const Bars bars = bars_of(values, {6.0, 14.0});  // two standard deviations to either side
+  const plot::Boxes& boxes = bars.boxes;
+  double held = 0.0, covered = 0.0;
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    EXPECT_LT(boxes.left[b], boxes.right[b]);
+    EXPECT_LE(b == 0 ? 6.0 : boxes.right[b - 1], boxes.left[b]);
+    EXPECT_EQ(boxes.bottom[b], 0.0);
+    EXPECT_LE(boxes.top[b], bars.highest);
+    held += boxes.top[b];
+    covered += boxes.right[b] - boxes.left[b];
+  }
+  EXPECT_LE(boxes.right.back(), 14.0);
+  EXPECT_GT(covered, 0.9 * 8.0);
+  EXPECT_EQ(held + static_cast<double>(bars.outside), 1000.0);
+  EXPECT_NEAR(held / 1000.0, 0.9545, 0.02);
+}
+
 }  // namespace
 }  // namespace recoil

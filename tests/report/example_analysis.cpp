@@ -269,6 +269,7 @@ Analysis four_diameters() {
   a.datasets = {sphere_dataset("example-molybdenum", "molybdenum", 320e9)};
   ImpactModel& model = a.fitted.model;
   model.contacts = {derive_contact(a.datasets[0].system, 4.9e-6)};
+  model.surroundings = {surroundings_of(a.datasets[0].system, model.contacts[0])};
   const double f0 = model.contacts[0].adhesion_force;
   model.slots = {slot(ParameterRole::hertz_damping, 3e-3, 1.0, true),
                  slot(ParameterRole::adhesion_damping, 3e-2, 10.0, true),
@@ -295,6 +296,7 @@ Analysis two_datasets() {
   ImpactModel& model = a.fitted.model;
   for (const Dataset& dataset : a.datasets) {
     model.contacts.push_back(derive_contact(dataset.system, 4.9e-6));
+    model.surroundings.push_back(surroundings_of(dataset.system, model.contacts.back()));
   }
   model.contacts[1].contradictions = {
       "stiffness_K = 11.4 GPa is stated, but the elastic constants give K = 113 GPa"};

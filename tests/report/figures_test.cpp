@@ -12,7 +12,9 @@
 #include "report/experiment_figures.hpp"
 #include "report/figures_corner.hpp"
 #include "report/figures_corrections.hpp"
+#include "report/figures_diagnosis.hpp"
 #include "report/figures_intervals.hpp"
+#include "report/figures_pairs.hpp"
 #include "report/figures_physics.hpp"
 #include "report/figures_statistics.hpp"
 
@@ -20,6 +22,7 @@ namespace recoil {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 template <class Kind>
@@ -61,13 +64,16 @@ TEST(RestitutionFigures, ShowEveryPointOnce) {
     EXPECT_TRUE(plot.x.logarithmic);
     EXPECT_EQ(plot.x.unit, "m/s");
     EXPECT_EQ(plot.y.from, 0.0);
+    std::size_t here = 0;
     for (const plot::Points& points : layers_of<plot::Points>(plot)) {
-      shown += points.x.size();
+      here += points.x.size();
       for (std::size_t i = 0; i < points.x.size(); ++i) {
         EXPECT_TRUE(inside(points.x[i], plot.x)) << points.x[i];
         EXPECT_TRUE(inside(points.y[i], plot.y)) << points.y[i];
       }
     }
+    EXPECT_THAT(plain_text(figure.caption), HasSubstr(": " + std::to_string(here) + " points."));
+    shown += here;
   }
   EXPECT_EQ(shown, analysis.fitted.data.points.size());
 }
@@ -224,12 +230,74 @@ TEST(ForceHistoryFigures, TheSumIsThatOfTheFourForces) {
   }
 }
 
+TEST(PairFigures, DrawTheFullFitWhereItsOwnSpreadIsOne) {
+  int spreads = 0;
+  for (const plot::Plot& panel : pair_figures(sample::four_diameters()).front().picture.plots) {
+    if (panel.y.label.find("spread") == std::string::npos &&
+        panel.heading.find("spread") == std::string::npos) {
+      continue;
+    }
+    const auto rules = layers_of<plot::Rule>(panel);
+    ASSERT_EQ(rules.size(), 1U);
+    EXPECT_EQ(rules[0].at, 1.0);
+    ++spreads;
+  }
+  EXPECT_EQ(spreads, 2);
+}
+
+CandidateResult candidate(const std::string& id, double delta_aicc) {
+  CandidateResult made;
+  made.candidate.added = {id};
+  made.delta_aicc = delta_aicc;
+  return made;
+}
+
+TEST(RankingFigures, HaveABarForEveryCandidateThatGains) {
+  Diagnosis d;
+  d.candidates = {candidate("gas_film", -3.0), candidate("capillary", 4.0),
+                  candidate("plastic_yield", -20.0)};
+  d.pairs = {candidate("probe_plane", -7.0), candidate("size_law", 1.0)};
+  const plot::Plot ranking = plot_of(ranking_figures(d).at(0));
+  std::vector<std::string> names;
+  for (const auto& tick : ranking.y.ticks) names.push_back(tick.label);
+  EXPECT_THAT(names, ElementsAre("plastic_yield", "probe_plane", "gas_film"));
+  EXPECT_THAT(ranking_figures(Diagnosis{}), IsEmpty());
+}
+
+TEST(RankingFigures, LeaveRoomForTheReasonBehindALongBar) {
+  Diagnosis d;
+  d.candidates = {candidate("gas_film", -19.0), candidate("plastic_yield", -20.0)};
+  d.candidates[0].set_aside = SetAside::not_possible;
+  const double end = *plot_of(ranking_figures(d).at(0)).x.to;
+  EXPECT_GT(end, 22.0);
+  EXPECT_LT(end, 40.0);  // the bars are what the picture is about
+  d.candidates[0].set_aside = SetAside::one_hardly_takes_part;  // many words, on two lines
+  EXPECT_GT(*plot_of(ranking_figures(d).at(0)).x.to, 40.0);
+  EXPECT_LT(*plot_of(ranking_figures(d).at(0)).x.to, 70.0);
+}
+
 TEST(CorrectionFigures, LeaveOutTheRowThatCannotDiffer) {
   const CorrectionStudy study = sample::corrections(1);
   const std::vector<Figure> figures = correction_figures(study, 1);
   ASSERT_EQ(figures.size(), 2U);
   EXPECT_EQ(layers_of<plot::Line>(plot_of(figures[0])).size(), study.rows.size() - 1);
   EXPECT_EQ(plot_of(figures[1]).y.ticks.size(), study.rows.size());
+}
+
+TEST(CorrectionFigures, HaveRoomForEveryErrorBar) {
+  CorrectionStudy study = sample::corrections(1);
+  for (CorrectionRow& row : study.rows) {
+    row.usable = true;
+    row.C_A = study.C_A;
+    row.C_A_sd = 1.5 * study.C_A;  // below zero too
+  }
+  const plot::Plot damping = plot_of(correction_figures(study, 1)[1]);
+  const auto bars = layers_of<plot::Line>(damping);
+  ASSERT_EQ(bars.size(), study.rows.size());
+  for (const plot::Line& bar : bars) {
+    EXPECT_NEAR(bar.x[1] - bar.x[0], 3.0 * study.C_A, 1e-12);  // two standard errors
+    EXPECT_TRUE(inside(bar.x[0], damping.x) && inside(bar.x[1], damping.x));
+  }
 }
 
 TEST(ExperimentPictures, BarsAndOutlineHoldTheSameShare) {

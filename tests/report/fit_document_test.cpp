@@ -16,6 +16,7 @@
 #include "page_checks.hpp"
 #include "report/corrections_document.hpp"
 #include "report/fit_tables.hpp"
+#include "report/materials_tables.hpp"
 
 namespace recoil {
 namespace {
@@ -104,6 +105,19 @@ TEST(FitDocument, HoldsEveryFigureOfAJointFit) {
         "corner-1", "two-point-2", "pairs-2", "adhesion-force-1", "force-history-2"}) {
     EXPECT_THAT(ids, Contains(id));
   }
+}
+
+TEST(FitDocument, GivesWideFiguresTheWidthOfThePage) {
+  const Document page = fit_document(sample::four_diameters());
+  int wide = 0;
+  for (const Section& section : page.sections) {
+    for (const Figure* figure : figures_of(section)) {
+      if (figure->picture.width <= 600) continue;  // two beside each other
+      EXPECT_TRUE(figure->large) << figure->id;
+      ++wide;
+    }
+  }
+  EXPECT_GE(wide, 1);
 }
 
 TEST(FitDocument, SaysWhereThePointsComeFromBeforeAnythingElse) {
@@ -294,6 +308,24 @@ TEST(FitTables, GiveEstimateErrorIntervalAndStartOfAParameter) {
   EXPECT_EQ(words(f0[5]), "fixed");
   EXPECT_EQ(number_in(f0[1]).error, 0.0);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(f0[4]));
+}
+
+TEST(FitTables, SetEveryFreeParameterBesideTheOneOfExactMaterials) {
+  Analysis analysis = sample::four_diameters();
+  ConditionalFit exact{analysis.fitted, analysis.uncertainty.intervals};
+  exact.fitted.theta = {0.0033, 0.0505, 8.9};
+  exact.intervals[1] = {};
+  analysis.uncertainty.conditional = exact;
+  const Table table = conditional_table(analysis);
+  ASSERT_EQ(table.rows.size(), 2U);  // f0 is fixed
+  const auto& C_H = row_of(table, "C_H [s/m]");
+  EXPECT_EQ(number_in(C_H[1]).value, 0.00312);
+  EXPECT_EQ(number_in(C_H[3]).value, 0.0033);
+  EXPECT_THAT(words(C_H[4]), HasSubstr("0.003561]"));
+  const auto& C_A = row_of(table, "C_A [s/m]");
+  EXPECT_EQ(number_in(C_A[3]).value, 0.0505);
+  EXPECT_THAT(words(C_A[2]), HasSubstr("["));
+  EXPECT_EQ(words(C_A[4]), "–");
 }
 
 TEST(FitTables, SayWhatIsMissing) {

@@ -196,6 +196,17 @@ TEST(JsonReport, DescribesAJointFitAsOneAndLists) {
   EXPECT_THAT(warnings, testing::Contains(HasSubstr("stiffness_K = 11.4 GPa")));
 }
 
+TEST(JsonReport, HasTheContactOfEveryDataset) {
+  const PlainJson fit = PlainJson::parse(json_report(sample::two_datasets()));
+  const PlainJson& contacts = fit["model"]["contacts"];
+  ASSERT_EQ(contacts.size(), 2U);
+  // By hand: 4/3 over (1 - 0.33^2) / 1.2 GPa + (1 - 0.31^2) / 320 GPa, or 131 GPa.
+  EXPECT_EQ(contacts[0]["dataset"], "example-molybdenum");
+  EXPECT_NEAR(contacts[0]["stiffness_K_derived_Pa"].get<double>(), 1.7887e9, 1e5);
+  EXPECT_EQ(contacts[1]["dataset"], "example-silicon");
+  EXPECT_NEAR(contacts[1]["stiffness_K_derived_Pa"].get<double>(), 1.7790e9, 1e5);
+}
+
 TEST(JsonReport, WithoutABootstrapStaysWhole) {
   Analysis analysis = sample::four_diameters();
   analysis.uncertainty = UncertaintyResult{};

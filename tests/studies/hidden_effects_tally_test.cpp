@@ -95,6 +95,28 @@ TEST(HiddenEffectsTally, KeepsWhatWasHiddenApartByStrengthAndDesign) {
   EXPECT_EQ(tally.alarms[0].low_p.k, 1);
 }
 
+TEST(HiddenEffectsTally, AsksWhatTheManualSays) {
+  EXPECT_EQ(wanted_of(Bar::named).share, 0.8);
+  EXPECT_TRUE(wanted_of(Bar::named).at_least);
+  EXPECT_EQ(wanted_of(Bar::listed).share, 0.95);
+  EXPECT_EQ(wanted_of(Bar::false_alarm).share, 0.05);
+  EXPECT_FALSE(wanted_of(Bar::false_alarm).at_least);
+  EXPECT_FALSE(wanted_of(Bar::wrong).at_least);
+}
+
+TEST(HiddenEffectsTally, AnotherMarginCountsAsRivalsWhatLiesWithinIt) {
+  Answered yield = answer("wall", {"plastic_yield"}, 20.0, "cause_named", {"plastic_yield"});
+  yield.contenders = {{"plastic_yield", 0.0}, {"gas_film", 3.0}, {"capillary", 8.0}};
+  EXPECT_EQ(mark_with_margin(yield, 2.0), Mark::named);
+  EXPECT_EQ(mark_with_margin(yield, 4.0), Mark::inside);
+  EXPECT_EQ(mark_with_margin(yield, 9.0), Mark::inside);
+  yield.contenders = {{"gas_film", 0.0}, {"plastic_yield", 3.0}};
+  EXPECT_EQ(mark_with_margin(yield, 2.0), Mark::wrong);
+  EXPECT_EQ(mark_with_margin(yield, 4.0), Mark::inside);
+  yield.contenders = {{"gas_film", 0.0}, {"capillary", 1.0}};
+  EXPECT_EQ(mark_with_margin(yield, 2.0), Mark::outside);
+}
+
 TEST(HiddenEffectsTally, ComesBackFromItsJson) {
   StudyTally tally = tally_of(answers(), 10, {});
   tally.stamp = {"hidden-effects", "recoil_study hidden-effects", "0123", ""};

@@ -68,6 +68,18 @@ TEST(Capture, StudentizedAndDeltaRestOnTheSameError) {
   }
 }
 
+TEST(Capture, SaysWhetherAParameterRestsOnItsBound) {
+  Case c = noisy_case();
+  CaptureEstimate at = assess_uncertainty(c.fitted, c.datasets, small(0)).capture.front();
+  for (const bool resting : {false, true}) {
+    c.fitted.at_bound.assign(c.fitted.theta.size(), false);
+    c.fitted.at_bound[0] = resting;
+    recommend_capture(c.fitted, true, at);
+    EXPECT_EQ(at.recommended, CaptureIntervalKind::percentile);
+    EXPECT_EQ(at.because, resting ? CaptureBecause::at_bound : CaptureBecause::bend);
+  }
+}
+
 /// The relative change of the loss 1 - e^2 per unit of a slot, largest over the points, by
 /// differences.
 double largest_effect(const Case& c, std::size_t slot) {
@@ -109,6 +121,27 @@ TEST(Identifiability, AKnownUpperLimitIsKnowledge) {
   EXPECT_TRUE(verdict.parameter[0].identifiable);
   EXPECT_TRUE(verdict.parameter[0].upper_limit);
   EXPECT_FALSE(verdict.parameter[1].upper_limit);
+}
+
+TEST(Identifiability, ComparesEveryImpactWithTheCaptureOfItsOwnSize) {
+  const Case c = noisy_case();
+  UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
+  const auto slowest_over = [&](double first, double others) {
+    for (CaptureEstimate& at : result.capture) {
+      double slowest = INFINITY;
+      for (const Observation& point : c.fitted.data.points) {
+        if (point.diameter == at.diameter) slowest = std::min(slowest, point.velocity);
+      }
+      at.found = true;
+      at.value = slowest / (&at == &result.capture.front() ? first : others);
+    }
+    return judge_identifiability(c.fitted, result.intervals, result.capture).slowest;
+  };
+  ASSERT_GT(result.capture.size(), 1U);
+  ASSERT_TRUE(slowest_over(4.0, 6.0));
+  EXPECT_NEAR(*slowest_over(4.0, 6.0), 4.0, 1e-12);
+  EXPECT_NEAR(*slowest_over(6.0, 4.0), 4.0, 1e-12);
+  EXPECT_FALSE(slowest_over(6.0, 1.2));
 }
 
 TEST(Identifiability, DoesNotTrustSurvivorsOfImpactsThatDifferMuch) {

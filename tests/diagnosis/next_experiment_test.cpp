@@ -1,0 +1,98 @@
+#include "diagnosis/next_experiment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "estimate/predictor.hpp"
+#include "support/synthetic.hpp"
+
+namespace recoil {
+namespace {
+
+/// Rivals that differ, as a search would have left them, beside a fit with errors of 0.01 in e.
+class NextExperiments : public testing::Test {
+ protected:
+  NextExperiments() {
+    const FitSpec spec = synthetic::spec();
+    base_ = fit(make_model(spec, data_), gather(data_, spec.noise));
+    for (const auto& [id, value] :
+         std::vector<std::pair<std::string, double>>{{"plastic_yield", 2e8},
+                                                     {"electrostatic_image", 2e6},
+                                                     {"jkr_hysteresis", 0.5},
+                                                     {"gas_film", 1.0},
+                                                     {"bulk_viscoelastic", 3e-9}}) {
+      CandidateResult rival;
+      rival.candidate = make_candidate(spec, data_, {id});
+      rival.refit.theta = rival.candidate.model.initial();
+      rival.refit.theta.at(3) = value;
+      rivals_.push_back(rival);
+    }
+  }
+
+  std::vector<NextExperiment> of_first(std::size_t count) const {
+    std::vector<const CandidateResult*> first;
+    for (std::size_t k = 0; k < count; ++k) first.push_back(&rivals_[k]);
+    return next_experiments(base_, first);
+  }
+
+  double restitution(const std::string& name, const NextExperiment& at) const {
+    for (const CandidateResult& rival : rivals_) {
+      if (rival.candidate.name() != name) continue;
+      const auto impact = predict(rival.candidate.model, rival.refit.theta, at.dataset, at.diameter,
+                                  at.velocity, false);
+      return std::sqrt(std::max(0.0, impact.restitution_squared));
+    }
+    ADD_FAILURE() << name;
+    return NAN;
+  }
+
+  const std::vector<Dataset> data_ = {synthetic::dataset({})};
+  FitResult base_;
+  std::vector<CandidateResult> rivals_;
+};
+
+std::set<std::string> names_in(const std::vector<NextExperiment>& all) {
+  std::set<std::string> names;
+  for (const NextExperiment& experiment : all) names.insert({experiment.one, experiment.other});
+  return names;
+}
+
+TEST_F(NextExperiments, AreForTheBestFourAndForFewerToo) {
+  EXPECT_TRUE(of_first(0).empty());
+  EXPECT_TRUE(of_first(1).empty());
+  EXPECT_EQ(names_in(of_first(2)), (std::set<std::string>{"plastic_yield", "electrostatic_image"}));
+  EXPECT_EQ(names_in(of_first(5)), names_in(of_first(4)));
+  EXPECT_EQ(names_in(of_first(5)).size(), 4U);
+}
+
+TEST_F(NextExperiments, TakeAsManyImpactsAsOddsOfNinetyNineToOneNeed) {
+  const std::vector<NextExperiment> all = of_first(4);
+  int points = 0;
+  for (const NextExperiment& experiment : all) {
+    EXPECT_GE(experiment.log_odds, std::log(99.0) * (1.0 - 1e-12));
+    const double each = experiment.log_odds / experiment.events;
+    EXPECT_TRUE(experiment.events == 1 || each * (experiment.events - 1) < std::log(99.0));
+    if (experiment.kind != ExperimentKind::points) continue;
+    ++points;
+    EXPECT_NEAR(experiment.difference,
+                restitution(experiment.one, experiment) - restitution(experiment.other, experiment),
+                1e-9);
+    // Every point is one impact with an error of 0.01 in e.
+    EXPECT_NEAR(each, 0.5 * std::pow(experiment.difference / 0.01, 2), 1e-6 * each);
+  }
+  EXPECT_EQ(points, 6);
+}
+
+TEST_F(NextExperiments, WatchACauseWhileItIsTakenAway) {
+  bool pumped = false;
+  for (const NextExperiment& experiment : of_first(4)) {
+    if (experiment.kind != ExperimentKind::condition || experiment.one != "gas_film") continue;
+    pumped = pumped || experiment.condition == Condition::ambient_pressure;
+  }
+  EXPECT_TRUE(pumped);
+}
+
+}  // namespace
+}  // namespace recoil

@@ -1,0 +1,47 @@
+// What is asked of the command besides a diagnosis, with a stand-in for it.
+#include "studies/diagnosis_answer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "studies/program_run.hpp"
+
+namespace {
+
+using namespace hidden;
+namespace fs = std::filesystem;
+
+/// Diagnoses nothing, and leaves a misfit of 2 with whatever it fits.
+fs::path stand_in(const ScratchFolder& scratch) {
+  const fs::path program = scratch.path() / "stand-in";
+  recoil::write_whole_file(program,
+                           "#!/bin/sh\n"
+                           "test \"$1\" = fit || exit 3\n"
+                           "while [ \"$1\" != --out ]; do shift; done\n"
+                           "mkdir -p \"$2\"\n"
+                           "echo '{\"goodness\": {\"chi2\": 4.0}}' >\"$2/fit.json\"\n");
+  fs::permissions(program, fs::perms::owner_all);
+  return program;
+}
+
+TEST(NearestRival, IsSoughtForOneVisibleEffectOfTheCatalogueInSeveralSizes) {
+  const ScratchFolder scratch;
+  const fs::path program = stand_in(scratch);
+  const Answered visible_one = ask({"wall", {"gas_film"}, 10.0, 0}, program, {});
+  ASSERT_TRUE(visible_one.reached);
+  EXPECT_EQ(visible_one.status, 3);
+  EXPECT_NE(visible_one.nearest_rival.id, "");
+  EXPECT_NE(visible_one.nearest_rival.id, "gas_film");
+  EXPECT_NEAR(visible_one.nearest_rival.misfit, 2.0, 1e-12);
+  for (const CaseOrder& other :
+       std::vector<CaseOrder>{{"wall", {"gas_film"}, 5.0, 0},
+                              {"wall", {"dip"}, 20.0, 0},
+                              {"wall", {"gas_film", "plastic_yield"}, 20.0},
+                              {"wall-one", {"jkr_hysteresis"}, 10.0, 0}}) {
+    const Answered answered = ask(other, program, {});
+    EXPECT_TRUE(answered.reached) << other.key();
+    EXPECT_EQ(answered.nearest_rival.id, "") << other.key();
+  }
+}
+
+}  // namespace
