@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Optional
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Optional
 
 from . import _recoil
 from ._facts import Facts, facts_of
 
-Array = npt.NDArray[np.float64]
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,8 @@ class Impacts:
     def gradient(self, name: str) -> Array:
         """d e / d p = (d e^2 / d p) / (2 e) [1 / unit of p] of the parameter ``name``; 0 where the
         sphere is captured."""
+        import numpy as np
+
         if self.slopes is None:
             raise ValueError("the gradient was not asked for; simulate with gradient=True")
         slope = self.slopes[name]
@@ -74,6 +77,8 @@ class Model:
         Raises ``InputError`` when a velocity is not between 1e-7 and 1e4 m/s, or a diameter not
         between 1e-3 and 1e6 um.
         """
+        import numpy as np
+
         velocity, diameter = np.broadcast_arrays(
             np.asarray(V, dtype=np.float64), np.asarray(d, dtype=np.float64)
         )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 
-from ._draw import draw
 from ._facts import Facts, facts_of
 
 if TYPE_CHECKING:
@@ -39,6 +38,8 @@ class _Pictures:
         return {picture.name: picture.title for picture in self._all_pictures()}
 
     def _draw(self, kind: str, which: int, ax: Any) -> Any:
+        from ._draw import draw
+
         found = [p for p in self._all_pictures() if re.fullmatch(kind + r"(-\d+)?", p.name)]
         if not 1 <= which <= len(found):
             there = f"there are {len(found)}" if found else "this result has none"
@@ -47,6 +48,8 @@ class _Pictures:
 
     def plot_picture(self, name: str, ax: "On" = None) -> "Drawn":
         """The picture of that name, one of ``pictures``."""
+        from ._draw import draw
+
         for picture in self._all_pictures():
             if picture.name == name:
                 return draw(picture, ax)

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import html
+import math
 import os
 import tempfile
 from pathlib import Path
-from typing import Any, Iterator, Optional, Union
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
 
 from . import _recoil
 from ._facts import Facts, facts_of
-from ._impacts import Array, Impacts, Model
+from ._impacts import Impacts, Model
 from ._pictures import DiagnosisPictures, FitPictures, MixturePictures
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from ._impacts import Array
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -68,6 +71,13 @@ def write_whole(path: Path, text: str) -> None:
         raise
 
 
+def _numbers(values: list[Optional[float]]) -> Array:
+    """As an array, NaN where there is no number."""
+    import numpy as np
+
+    return np.array([math.nan if v is None else v for v in values], dtype=np.float64)
+
+
 class Parameter:
     """A parameter of a fit under the names that lmfit has for its parts."""
 
@@ -79,8 +89,8 @@ class Parameter:
         self.unit: str = facts.unit
         self.init_value: Optional[float] = options.initial
         bounds = options.bounds
-        self.min: float = -np.inf if bounds[0] is None else bounds[0]
-        self.max: float = np.inf if bounds[1] is None else bounds[1]
+        self.min: float = -math.inf if bounds[0] is None else bounds[0]
+        self.max: float = math.inf if bounds[1] is None else bounds[1]
         self.facts = facts
 
     @property
@@ -209,11 +219,8 @@ class FitResult(FitPictures, _Result):
     @property
     def covar(self) -> Array:
         """Covariance of ``var_names``, NaN where there is none."""
-        rows = self.facts.covariance
-        names = self.var_names
-        return np.array(
-            [[np.nan if rows[a][b] is None else rows[a][b] for b in names] for a in names]
-        ).reshape(len(names), len(names))
+        rows, names = self.facts.covariance, self.var_names
+        return _numbers([rows[a][b] for a in names for b in names]).reshape(len(names), len(names))
 
     @property
     def chisqr(self) -> float:
@@ -248,15 +255,12 @@ class FitResult(FitPictures, _Result):
     @property
     def residual(self) -> Array:
         """The weighted residuals of e^2, in the order of ``residuals``."""
-        values = [np.nan if r.weighted_residual is None else r.weighted_residual
-                  for r in self.residuals]
-        return np.array(values, dtype=np.float64)
+        return _numbers([r.weighted_residual for r in self.residuals])
 
     @property
     def best_fit(self) -> Array:
         """e of the model at every point [1], in the order of ``residuals``; 0: captured."""
-        predicted = [np.nan if r.predicted is None else r.predicted for r in self.residuals]
-        return np.array(predicted, dtype=np.float64)
+        return _numbers([r.predicted for r in self.residuals])
 
     def eval(self, V: npt.ArrayLike, d: npt.ArrayLike, *, dataset: str = "") -> Array:  # noqa: N803
         """e at ``V`` [m/s] and ``d`` [um] [1]; 0: captured."""
