@@ -145,6 +145,16 @@ TEST(RoundTrip, LiggghtsHasTheConstantRestitutionAndItsStatedError) {
   expect_the_stated_error(trip, said, [&](double v) { return trip.liggghts("out", v); });
 }
 
+TEST(RoundTrip, TwoLikeBodiesInLiggghtsAreAsStiffAsTheTwoUnlike) {
+  const RoundTrip trip(kRing);
+  trip.write("liggghts", "out");
+  // By hand: 1 / E* = (1 - 0.35^2) / 2.56 GPa + (1 - 0.28^2) / 131 GPa, and E* = E / (2 (1 -
+  // nu^2)).
+  const double E =
+      number_after(trip.place().read("out/impact.liggghts"), "youngsModulus peratomtype ");
+  EXPECT_NEAR(E, 2.0 * (1.0 - 0.25 * 0.25) * 2.858707e9, 1e6);
+}
+
 TEST(RoundTrip, StockModelsHaveTheirStatedError) {
   const RoundTrip trip(kRing);
   const std::string lammps = trip.write("lammps", "lammps", "0.5,25", {"--stock"});

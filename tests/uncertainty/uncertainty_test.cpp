@@ -124,8 +124,11 @@ TEST(Identifiability, AKnownUpperLimitIsKnowledge) {
 }
 
 TEST(Identifiability, ComparesEveryImpactWithTheCaptureOfItsOwnSize) {
-  const Case c = noisy_case();
+  Case c = noisy_case();
   UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, small(0));
+  for (Observation& point : c.fitted.data.points) {  // every size at velocities of its own
+    point.velocity *= point.diameter / 1e-6;
+  }
   const auto slowest_over = [&](double first, double others) {
     for (CaptureEstimate& at : result.capture) {
       double slowest = INFINITY;
