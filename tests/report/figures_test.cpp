@@ -231,8 +231,9 @@ TEST(ForceHistoryFigures, TheSumIsThatOfTheFourForces) {
 }
 
 TEST(PairFigures, DrawTheFullFitWhereItsOwnSpreadIsOne) {
+  const std::vector<Figure> figures = pair_figures(sample::four_diameters());
   int spreads = 0;
-  for (const plot::Plot& panel : pair_figures(sample::four_diameters()).front().picture.plots) {
+  for (const plot::Plot& panel : figures.front().picture.plots) {
     if (panel.y.label.find("spread") == std::string::npos &&
         panel.heading.find("spread") == std::string::npos) {
       continue;
