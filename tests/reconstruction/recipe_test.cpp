@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"negative_seed", wall, "seed = ", "seed = -", "whole number"},
         Mistake{"text_for_number", wall, "floor = 0.01", "floor = \"0.01\"", "not a number"},
         Mistake{"nan", wall, "floor = 0.01", "floor = nan", "not a finite number"},
-        Mistake{"negative", wall, "density = 1350", "density = -1350", "above zero"},
+        Mistake{"negative", wall, "density = 1350", "density = -1350", "has to be positive"},
         Mistake{"no_noise", ring_adhesion_made, "relative = 0.02", "relative = 0",
                 "standard deviation"},
         Mistake{"poisson", wall, "poisson_ratio = 0.33", "poisson_ratio = 0.8", "isotropic"},
@@ -67,10 +67,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "diameter = 1.27e-6\ndrop_heights = [1.0]\nvelocity", "one of the two"},
         Mistake{"comma_in_name", ring_adhesion_made, "\"1.27 um\"", "\"1,27 um\"", "cell"},
         Mistake{"sizes_upside_down", mixed, "upper = 110e-6", "upper = 10e-6", "whole micrometres"},
-        Mistake{"bad_angle", mixed, "angle = 0.13962634", "angle = -8", "above zero"},
+        Mistake{"bad_angle", mixed, "angle = 0.13962634", "angle = -8", "has to be positive"},
         Mistake{"pairing_without_passages", ring_adhesion_made, "[[series]]",
                 "[pairing]\nheight = 1e-3\nangle = 0.1\nper_bin = 40\n[[series]]", "passages"},
-        Mistake{"bad_height", mixed, "[0.01, ", "[-0.01, ", "above zero"}),
+        Mistake{"bad_height", mixed, "[0.01, ", "[-0.01, ", "has to be positive"}),
     [](const auto& instance) { return instance.param.name; });
 
 TEST(Recipe, MissingOnesAreSaid) {
