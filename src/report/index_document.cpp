@@ -122,6 +122,23 @@ Cell interval_cell(const ParameterSummary& parameter) {
   return NumberRange{parameter.interval->lower, parameter.interval->upper, significant(3)};
 }
 
+/// The law of adhesion with the lowest AICc, and by how much the others are above it.
+void add_laws(std::vector<ComparedFit> laws, Table& table) {
+  std::erase_if(laws, [](const ComparedFit& law) { return !law.aicc(); });
+  if (laws.size() < 2) return;
+  std::stable_sort(laws.begin(), laws.end(), [](const ComparedFit& a, const ComparedFit& b) {
+    return *a.aicc() < *b.aicc();
+  });
+  std::vector<std::string> others;
+  for (const ComparedFit& law : laws) {
+    if (&law == &laws.front()) continue;
+    const double above = *law.aicc() - *laws.front().aicc();
+    others.push_back(fmt::format("{} +{}", law.adhesion, number(above, 3)));
+  }
+  table.rows.push_back({"law of adhesion, AICc", Sentence(laws.front().adhesion),
+                        Sentence(fmt::format("{}", fmt::join(others, ", "))), ""});
+}
+
 Sentence subtitle_of(const FitSummary& fit) {
   const std::string points = fmt::format("{} points", fit.points);
   if (fit.datasets.size() > 1) {
@@ -146,7 +163,6 @@ Section card_of(const IndexEntry& entry) {
     card.blocks.emplace_back(Figures{{{"picture", "", {}, entry.picture}}});
   }
   card.blocks.emplace_back(summary_table(fit));
-  for (Block& block : laws_card(fit.laws)) card.blocks.push_back(std::move(block));
   card.blocks.emplace_back(Paragraph{link("All plots and numbers", entry.page)});
   return card;
 }
@@ -256,6 +272,7 @@ Table summary_table(const FitSummary& fit) {
     table.rows.push_back(
         {"chi² / dof", say("{} / {}", number(fit.chi2, 4), fit.dof), std::move(p), ""});
   }
+  add_laws(fit.laws, table);
   return table;
 }
 

@@ -90,12 +90,6 @@ Section laws_section(const std::vector<ComparedFit>& laws) {
   return section;
 }
 
-std::vector<Block> laws_card(const std::vector<ComparedFit>& laws) {
-  if (laws.size() < 2) return {};
-  std::vector<Section> sections = comparison_sections(laws);
-  return {std::move(sections[0].blocks.front()), std::move(sections[1].blocks.front())};
-}
-
 std::string laws_json(const std::vector<ComparedFit>& laws) {
   Json all = Json::array();
   for (const ComparedFit& fit : laws) {

@@ -18,9 +18,6 @@ std::vector<ComparedFit> compared_laws(const std::vector<LawFit>& laws,
 /// The laws side by side, and what depends on the choice. Nothing to say of fewer than two.
 Section laws_section(const std::vector<ComparedFit>& laws);
 
-/// The same in a few lines, for a card of the index.
-std::vector<Block> laws_card(const std::vector<ComparedFit>& laws);
-
 /// laws.json: what `laws_section` says, for scripts and for the index of a later run.
 std::string laws_json(const std::vector<ComparedFit>& laws);
 

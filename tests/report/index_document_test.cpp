@@ -53,6 +53,24 @@ TEST(Index, ShowsEstimateIntervalAndTwoPoints) {
   EXPECT_EQ(joint.parameters[0].two_point->upper, 0.0046);
 }
 
+TEST(Index, NamesTheLawWithTheLowestCriterion) {
+  FitSummary summary = summary_of(sample::four_diameters());
+  const std::size_t rows = summary_table(summary).rows.size();
+  for (const auto& [law, chi2] : {std::pair("dmt", 25.0), {"ring", 10.0}, {"jkr", 1010.0}}) {
+    ComparedFit fit;
+    fit.adhesion = law;
+    fit.chi2 = chi2;
+    fit.points = 20;
+    fit.free_parameters = 2;  // of all: AICc differs as chi2 does
+    fit.sd_stated = true;
+    summary.laws.push_back(fit);
+  }
+  const Table table = summary_table(summary);
+  ASSERT_EQ(table.rows.size(), rows + 1);
+  EXPECT_EQ(plain_text(std::get<Sentence>(table.rows.back()[1])), "ring");
+  EXPECT_EQ(plain_text(std::get<Sentence>(table.rows.back()[2])), "dmt +15, jkr +1000");
+}
+
 TEST(Index, ReadsFromItsFilesWhatItWouldHaveBeenHanded) {
   for (const Analysis& analysis : {sample::four_diameters(), sample::two_datasets()}) {
     const FitSummary made = summary_of(analysis);
