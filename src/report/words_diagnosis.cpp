@@ -82,9 +82,16 @@ std::string value_words(const FoundParameter& p) {
                     : fmt::format("{:.3g}", p.value);
 }
 
-/// "C_x = 3 m"; of more than `most_values`, as a parameter per series may be, the range.
+/// "C_x = 3 m" of those that were fitted; of more than `most_values`, as a parameter per series may
+/// be, the range.
 std::string parameters_words(const CandidateResult& candidate) {
-  const auto& all = candidate.parameters;
+  std::vector<FoundParameter> all = candidate.parameters;
+  std::erase_if(all, [&](const FoundParameter& p) {
+    const auto& slots = candidate.candidate.model.slots;
+    return std::any_of(slots.begin(), slots.end(), [&](const ParameterSlot& slot) {
+      return slot.label() == p.label && !slot.free;
+    });
+  });
   if (all.size() > most_values) {
     const auto [low, high] = std::minmax_element(
         all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
@@ -92,7 +99,7 @@ std::string parameters_words(const CandidateResult& candidate) {
                        low->value, high->label, high->value);
   }
   std::vector<std::string> words;
-  for (const FoundParameter& p : candidate.parameters) {
+  for (const FoundParameter& p : all) {
     words.push_back(fmt::format("{} = {}{}", p.label, value_words(p), unit_suffix(p.unit)));
   }
   return fmt::format("{}", fmt::join(words, ", "));
