@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,8 @@ inline Answer ask(const Surroundings& at, const std::vector<std::string>& ids,
   ExtendedImpacts impacts(chain_of(ids), {{&at, diameter, velocity}});
   std::vector<double> values = {base.C_H, base.C_A, base.f0};
   values.insert(values.end(), own.begin(), own.end());
+  if (values.size() != impacts.value_count())
+    throw std::invalid_argument("values of the mechanisms");
   ImpactOptions options;
   options.adhesion = at.adhesion;
   options.gradient = gradient;

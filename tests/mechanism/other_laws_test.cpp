@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 #include "impact/reference_solver.hpp"
@@ -29,9 +30,9 @@ Surroundings under(AdhesionLaw law) {
 std::vector<double> strengths_of(const Mechanism& m) {
   std::vector<double> values;
   for (const Parameter& p : m.info.parameters) values.push_back(p.initial);
-  if (m.info.id == "plastic_yield") values = {1.2e8, 0.1};
-  if (m.info.id == "elastic_waves") values = {100.0};
-  if (m.info.id == "plate_flexure") values = {1e4};
+  if (m.info.id == "plastic_yield") std::tie(values[0], values[1]) = std::pair(1.2e8, 0.1);
+  if (m.info.id == "elastic_waves") values.front() = 100.0;
+  if (m.info.id == "plate_flexure") values.front() = 1e4;
   return values;
 }
 
