@@ -123,6 +123,19 @@ TEST(Export, TheSameBytesAtAnyThreadCount) {
   }
 }
 
+TEST(Export, SaysWhichSizeItTookWhereItHoldsOneOnly) {
+  const Workplace place;  // two sizes
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--replicates", "0", "--out", "fitted"}).status, 0);
+  for (const auto& [target, one] : std::vector<std::pair<std::string, bool>>{
+           {"lammps", true}, {"simbody", true}, {"table", false}, {"fluent", false}}) {
+    const Outcome run = export_to(place, target, {"--parameters", "fitted/fit.json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const bool said =
+        run.out.find("no --diameter was given; 4 um is the middle one") != std::string::npos;
+    EXPECT_EQ(said, one) << target << "\n" << run.out;
+  }
+}
+
 TEST(Export, MistakesAreOneLineAndWriteNothing) {
   const Workplace place;
   place.write("taken", "a file");

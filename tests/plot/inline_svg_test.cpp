@@ -82,6 +82,17 @@ TEST(InlineSvg, OnlyUsedDefinitionsStay) {
   EXPECT_THAT(svg, Not(HasSubstr("filter")));
 }
 
+TEST(InlineSvg, WhatPointsNowhereIsNoDot) {
+  std::string dots;
+  for (const char* place : {"1,1", "2,1", "3,1"}) {
+    dots += std::string("<use xlink:href='#b' transform='translate(") + place + ") scale(2)'/>";
+  }
+  const std::string round = "<circle id='a' r='1'/>";
+  const std::string pointer = "<use xlink:href='#a' id='b' fill='currentColor'/>";
+  EXPECT_THAT(inlined("<defs>" + round + pointer + "</defs>" + dots), HasSubstr("stroke-linecap"));
+  EXPECT_THAT(inlined("<defs>" + pointer + "</defs>" + dots), Not(HasSubstr("stroke-linecap")));
+}
+
 TEST(InlineSvg, ColoursAreNoReferences) {
   const std::string svg =
       inlined("<defs><path id='abc' d='M0,0'/></defs><rect fill='#abc' stroke='#0072B2'/>");

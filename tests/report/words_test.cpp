@@ -109,5 +109,20 @@ TEST(Words, WarnWhereRefitsFailed) {
   EXPECT_EQ(warnings(), before + 1);
 }
 
+TEST(Words, SayWhoseBoundTheReplicatesRestOn) {
+  const Analysis analysis = sample::four_diameters();
+  const std::string other = analysis.fitted.model.slots[1].label();
+  IntervalSet set;
+  set.disagreement = Disagreement{};
+  set.disagreement->on_bound = Disagreement::OnBound{0, 0.3, 0.0};
+  const std::string own = disagreement_words(analysis.fitted, 0, set);
+  EXPECT_NE(own.find("30 % of the replicates rest on a bound"), std::string::npos) << own;
+  set.disagreement->on_bound = Disagreement::OnBound{1, 0.3, -0.8};
+  const std::string others = disagreement_words(analysis.fitted, 0, set);
+  EXPECT_NE(others.find("30 % of the replicates have " + other + " on its bound"),
+            std::string::npos)
+      << others;
+}
+
 }  // namespace
 }  // namespace recoil
