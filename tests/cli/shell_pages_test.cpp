@@ -11,6 +11,13 @@ namespace {
 using support::Outcome;
 using support::Workplace;
 
+TEST(HelpPages, SayWhereALinkLeads) {
+  const Outcome page = Workplace().run({"help", "data"});
+  EXPECT_EQ(page.status, 0) << page.err;
+  EXPECT_NE(page.out.find("(https://specs.frictionlessdata.io/data-package/)"), std::string::npos)
+      << page.out;
+}
+
 std::string script_for(const Workplace& place, const std::string& shell) {
   const Outcome made = place.run({"help", "--completion", shell});
   EXPECT_EQ(made.status, 0) << made.err;

@@ -46,6 +46,7 @@ TEST(Ticks, OfALogarithmicAxisLieInItsRange) {
   ASSERT_EQ(decades.size(), 5U);
   EXPECT_DOUBLE_EQ(decades.front(), 0.1);
   EXPECT_DOUBLE_EQ(decades.back(), 1000.0);
+  EXPECT_EQ(log_ticks({1.0, 6.0}), (std::vector<double>{1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0}));
 }
 
 TEST(Ticks, AreRoundAndAboutAsManyAsAsked) {

@@ -83,6 +83,13 @@ std::size_t longest_line(const std::string& text) {
   return longest;
 }
 
+TEST(FitDocument, HasTheNameOfItsDataOrOfItsFit) {
+  const Analysis one = sample::four_diameters();
+  EXPECT_EQ(plain_text(fit_document(one).heading), one.datasets.front().title);
+  const Analysis joint = sample::two_datasets();
+  EXPECT_EQ(plain_text(fit_document(joint).heading), joint.spec.id);
+}
+
 TEST(FitDocument, HoldsEveryFigureOfOneDataset) {
   const Document page = fit_document(sample::four_diameters());
   EXPECT_THAT(figure_ids(page),
