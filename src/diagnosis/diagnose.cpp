@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "diagnosis/expected_effects.hpp"
 #include "diagnosis/judge.hpp"
 #include "diagnosis/misfit_map.hpp"
 #include "diagnosis/next_measurement.hpp"
@@ -335,6 +336,7 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   diagnosis.spec = base.spec;
   diagnosis.datasets = base.datasets;
   diagnosis.base = base.fitted;
+  diagnosis.expected = expected_effects(base);
   Progress progress("diagnosis",
                     static_cast<std::size_t>((options.simulated + 9) / 10 + options.compared));
   test_base(base, diagnosis, progress);

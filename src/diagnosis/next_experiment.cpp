@@ -26,6 +26,28 @@ Curve curve_of(const Candidate& candidate, const std::vector<double>& theta,
   return curve;
 }
 
+/// Has this dataset impacts from which a condition takes the mechanism away already?
+bool was_taken_away(const Candidate& candidate, const Mechanism& mechanism, std::size_t dataset) {
+  return std::any_of(
+      candidate.impacts.begin(), candidate.impacts.end(), [&](const PointConditions& at) {
+        return at.dataset == dataset && is_taken_away(candidate.model, mechanism, at);
+      });
+}
+
+/// The series whose impacts are most like `experiment`, in ln d and then in ln V.
+std::size_t most_like(const Observations& data, const NextExperiment& experiment) {
+  std::size_t series = 0;
+  double least = INFINITY;
+  for (const Observation& point : data.points) {
+    if (point.dataset != experiment.dataset) continue;
+    const double away = 10.0 * std::abs(std::log(point.diameter / experiment.diameter)) +
+                        std::abs(std::log(point.velocity / experiment.velocity));
+    if (away < least) series = point.series;
+    least = std::min(least, away);
+  }
+  return series;
+}
+
 bool has(const CandidateResult& rival, const std::string& id) {
   const auto& ids = rival.candidate.added;
   return std::find(ids.begin(), ids.end(), id) != ids.end();
@@ -79,6 +101,7 @@ void add_changes(const Search& search, const CandidateResult& one, const Candida
         curve_of(one.candidate, without_mechanism(one.candidate.model, one.refit.theta, mechanism),
                  search.grid());
     if (!search.place(with, rest, change)) continue;
+    if (was_taken_away(one.candidate, mechanism, change.dataset)) continue;
     change.condition = mechanism.info.taken_away->condition;
     change.value = mechanism.info.taken_away->value;
     change.doing = mechanism.info.taken_away->doing;
@@ -112,6 +135,7 @@ std::vector<NextExperiment> next_experiments(const FitResult& base,
       add_changes(search, *rivals[b], *rivals[a], curves[b], all);
     }
   }
+  for (NextExperiment& next : all) next.series = most_like(base.data, next);
   std::stable_sort(all.begin(), all.end(), [](const NextExperiment& a, const NextExperiment& b) {
     return effort(a) < effort(b);
   });

@@ -24,8 +24,9 @@ struct NextExperiment {
   ExperimentKind kind = ExperimentKind::points;
   std::string one, other;  ///< what it separates: names of candidates
   std::size_t dataset = 0;
-  double diameter = 0.0;  ///< [m]
-  double velocity = 0.0;  ///< [m/s]
+  std::size_t series = 0;  ///< of that dataset: the one whose impacts are most like these
+  double diameter = 0.0;   ///< [m]
+  double velocity = 0.0;   ///< [m/s]
   /// Of the two predictions of e there; for a condition, what changing it does to e if the cause
   /// that it takes away acts, and does not if another one does [1].
   double difference = 0.0;

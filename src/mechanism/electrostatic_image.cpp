@@ -45,7 +45,13 @@ Mechanism electrostatic_image() {
                       .plausible = {0.0, 3e6,
                                     "air at a plane breaks down above this, and spheres that "
                                     "nobody charged carry less"},
-                      .starts = {3e6, 1e7}},
+                      .starts = {3e6, 1e7},
+                      .stated_by = StatedBy{Condition::neutralised,
+                                            [](double neutralised, const Surroundings&,
+                                               const Conditions&) -> std::optional<double> {
+                                              if (neutralised == 0.0) return std::nullopt;
+                                              return 0.0;
+                                            }}},
                      {.name = "charge_exponent",
                       .unit = "1",
                       .meaning = "p, exponent of the charge in the diameter",

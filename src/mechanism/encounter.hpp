@@ -19,6 +19,8 @@ struct Surroundings {
   double reference_diameter = 0.0;  ///< where f0 is stated [m]
   double adhesion_energy = 0.0;     ///< W_A of the two bodies, see `ContactProperties` [J/m2]
   double wave_mobility = 0.0;       ///< D of `elastic_waves`, for a half-space [m s / N]
+  double plate_impedance =
+      0.0;  ///< Z / H^2 of `plate_flexure`; 0: its density is unknown [kg/(s m2)]
   Method method = Method::unknown;  ///< how velocities were measured
   AdhesionLaw adhesion = AdhesionLaw::ring;
   double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]

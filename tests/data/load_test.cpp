@@ -69,12 +69,15 @@ TEST(LoadDataset, TheDensityOfTheSurfaceIsOptional) {
 
 TEST(LoadDataset, ReadsTheConditions) {
   const DatasetFolder plain;
-  EXPECT_EQ(load_dataset(plain.path()).system.ambient_pressure, std::nullopt);
+  EXPECT_EQ(load_dataset(plain.path()).system.conditions.of(Condition::ambient_pressure),
+            std::nullopt);
   const DatasetFolder folder(
       changed(example::package, "\"surface\": {",
               "\"conditions\": {\"ambient_pressure\": 0, \"temperature\": 293}, \"surface\": {"));
-  EXPECT_EQ(load_dataset(folder.path()).system.ambient_pressure, 0.0);
-  EXPECT_EQ(load_dataset(folder.path()).system.temperature, 293.0);
+  const Conditions stated = load_dataset(folder.path()).system.conditions;
+  EXPECT_EQ(stated.of(Condition::ambient_pressure), 0.0);
+  EXPECT_EQ(stated.of(Condition::temperature), 293.0);
+  EXPECT_EQ(stated.of(Condition::neutralised), std::nullopt);
 }
 
 TEST(LoadDataset, ReadsTheOverrides) {
