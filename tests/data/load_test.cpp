@@ -87,7 +87,7 @@ TEST(LoadDataset, ReadsTheOverrides) {
               "\"adhesion_force_f0\": 5.74, \"reference_diameter\": 1.28e-6,\n"
               "\"conditions\": { \"ambient_pressure\": 50 },"));
   const Dataset dataset = load_dataset(folder.path());
-  EXPECT_EQ(dataset.system.ambient_pressure.value(), 50.0);
+  EXPECT_EQ(dataset.system.conditions.of(Condition::ambient_pressure), 50.0);
   EXPECT_EQ(dataset.provenance, Provenance::digitised);
   EXPECT_EQ(dataset.system.stiffness_K.value(), 3.745e9);
   EXPECT_EQ(dataset.system.adhesion_energy.value(), 0.0);
