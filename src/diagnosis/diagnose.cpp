@@ -13,6 +13,7 @@
 #include "diagnosis/expected_effects.hpp"
 #include "diagnosis/judge.hpp"
 #include "diagnosis/misfit_map.hpp"
+#include "diagnosis/next_experiments.hpp"
 #include "diagnosis/next_measurement.hpp"
 #include "diagnosis/search.hpp"
 #include "diagnosis/unstated_errors.hpp"
@@ -276,7 +277,7 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   decide(found, one_size, diagnosis);
   if (diagnosis.verdict == Verdict::not_separable) {
     diagnosis.next = next_measurements(diagnosis.base, found);
-    diagnosis.experiments = next_experiments(diagnosis.base, found);
+    diagnosis.experiments = next_experiments(base, found);
   }
   if (diagnosis.extended) extend(base, diagnosis);
 }

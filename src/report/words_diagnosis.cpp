@@ -210,11 +210,11 @@ std::string change_words(const Diagnosis& d) {
       [](const NextExperiment& next) { return next.kind == ExperimentKind::condition; });
   if (change == d.experiments.end()) return "";
   return fmt::format(
-      " Or change the conditions: {}, and repeat {} impact{} of {} at {:.3g} m/s. If the cause is "
-      "{}, e changes there by {:.2g}; if it is {}, e stays the same.",
+      " Or change the conditions: {}, and measure {} impact{} of {} at {:.3g} m/s. If the cause is "
+      "{}, e is {} there by {:.2g} than if it is {}.",
       change->doing, change->events, change->events == 1 ? "" : "s",
-      diameter_words(change->diameter), change->velocity, change->one, std::abs(change->difference),
-      change->other);
+      diameter_words(change->diameter), change->velocity, change->one,
+      change->difference > 0.0 ? "higher" : "lower", std::abs(change->difference), change->other);
 }
 
 std::string next_words(const Diagnosis& d) {
