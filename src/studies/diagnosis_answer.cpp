@@ -92,6 +92,7 @@ void diagnose_in_rounds(Case made, const fs::path& binary, Answered& a) {
     take_further(made, further, static_cast<std::uint64_t>(a.rounds));
     ++a.rounds;
     a.events += further.events;
+    a.taken.push_back(further);
     further = diagnose(made, binary, a);
   }
 }
@@ -99,6 +100,13 @@ void diagnose_in_rounds(Case made, const fs::path& binary, Answered& a) {
 }  // namespace
 
 Json json_of(const Answered& a) {
+  Json taken = Json::array();
+  for (const FurtherImpacts& f : a.taken) {
+    taken.push_back({{"diameter_um", 1e6 * f.diameter},
+                     {"incident_velocity", f.velocity},
+                     {"events", f.events},
+                     {"changed", f.changed.name}});
+  }
   Json contenders = Json::array();
   for (const Contender& c : a.contenders) contenders.push_back({c.id, c.behind});
   return {{"key", a.order.key()},
@@ -114,6 +122,7 @@ Json json_of(const Answered& a) {
           {"most_rounds", a.order.rounds},
           {"rounds", a.rounds},
           {"events", a.events},
+          {"taken", taken},
           {"reached", a.reached},
           {"signal_to_noise", a.signal_to_noise},
           {"status", a.status},
@@ -147,6 +156,12 @@ Answered answered_of(const Json& json) {
              json.value("most_rounds", 0)};
   a.rounds = json.value("rounds", 0);
   a.events = json.value("events", 0LL);
+  for (const Json& f : json.value("taken", Json::array())) {
+    a.taken.push_back({1e-6 * f.at("diameter_um").get<double>(),
+                       f.at("incident_velocity"),
+                       f.at("events"),
+                       {f.at("changed"), 0.0}});
+  }
   a.reached = json.at("reached");
   a.signal_to_noise = json.at("signal_to_noise");
   a.status = json.at("status");
