@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/json.hpp"
+#include "core/row_file.hpp"
 
 namespace recoil {
 namespace {
@@ -54,9 +52,24 @@ std::size_t ReplicateTable::finished() const {
          static_cast<std::size_t>(std::count(state.begin(), state.end(), State::not_run));
 }
 
+void ReplicateTable::take(const ReplicateTable& other) {
+  grow(other.state.size());
+  const auto copy = [](const std::vector<double>& from, std::vector<double>& to, std::size_t i,
+                       std::size_t length) {
+    const auto at = static_cast<std::ptrdiff_t>(i * length);
+    std::copy_n(from.begin() + at, length, to.begin() + at);
+  };
+  for (std::size_t i = 0; i < other.state.size(); ++i) {
+    if (other.state[i] == State::not_run) continue;
+    state[i] = other.state[i];
+    copy(other.theta, theta, i, slots);
+    copy(other.std_error, std_error, i, errors());
+  }
+}
+
 void save_replicates(const std::filesystem::path& file, const std::string& key,
-                     const ReplicateTable& table) {
-  Json rows = Json::array();
+                     const ReplicateTable& table, Json head) {
+  std::vector<Json> rows;
   for (std::size_t i = 0; i < table.state.size(); ++i) {
     if (table.state[i] == ReplicateTable::State::not_run) continue;
     Json row = Json::array({i});
@@ -70,36 +83,18 @@ void save_replicates(const std::filesystem::path& file, const std::string& key,
     }
     rows.push_back(std::move(row));
   }
-  const Json out = {{"what",
-                     "finished replicates of a run that was stopped; the next run goes on "
-                     "from here and removes this file"},
-                    {"key", key},
-                    {"replicates", std::move(rows)}};
-  write_whole_file(file, out.dump() + "\n");
+  head["key"] = key;
+  write_rows(file, std::move(head), rows);
 }
 
-ReplicateTable load_replicates(const std::filesystem::path& file, const std::string& key,
-                               std::size_t slots, std::size_t derived) {
-  ReplicateTable none;
-  none.slots = slots;
-  none.derived = derived;
-  std::error_code failed;
-  if (!std::filesystem::is_regular_file(file, failed)) return none;
-  std::string text;
-  try {
-    text = read_text_file(file);
-  } catch (const InputError&) {
-    return none;
-  }
-  const Json found = Json::parse(text, nullptr, false);
-  if (!found.is_object() || found.value("key", Json()) != key) return none;
-  const Json rows = found.value("replicates", Json());
-  if (!rows.is_array()) return none;
-  ReplicateTable table = none;
-  for (const Json& row : rows) {
-    if (!read_row(row, table)) return none;
-  }
-  return table;
+void load_replicates(const std::filesystem::path& file, const std::string& key,
+                     ReplicateTable& table) {
+  const std::optional<Json> head = read_row_head(file);
+  if (!head || head->value("key", Json()) != key) return;
+  ReplicateTable found;
+  found.slots = table.slots;
+  found.derived = table.derived;
+  if (read_rows(file, [&found](const Json& row) { return read_row(row, found); })) table.take(found);
 }
 
 }  // namespace recoil
