@@ -13,7 +13,7 @@ namespace recoil {
 namespace {
 
 std::filesystem::path replicates_file(const std::filesystem::path& folder) {
-  return folder.empty() ? folder : folder / "replicates.json";
+  return folder.empty() ? folder : folder / "replicates.jsonl";
 }
 
 }  // namespace

@@ -74,9 +74,9 @@ CoverageResult merged(const Prepared& ready, const std::string& folder) {
   std::vector<CoverageTrial> trials;
   for (const Json& row : rows_of(parts_of(ready.origin, folder), ready.origin.pieces)) {
     // A damaged file: what it should have held is computed here.
-    trials.push_back(row.is_null() ? run_coverage_trial(ready.spec, ready.truth, ready.coverage,
-                                                        trials.size())
-                                   : coverage_trial_of(row));
+    trials.push_back(
+        row.is_null() ? run_coverage_trial(ready.spec, ready.truth, ready.coverage, trials.size())
+                      : coverage_trial_of(row));
   }
   return count_coverage(ready.spec, ready.truth, ready.coverage, trials);
 }
@@ -86,9 +86,9 @@ void run(const Options& options) {
     require_writable_folder(std::filesystem::absolute(options.out).parent_path());
   }
   const std::unique_ptr<Prepared> ready = prepare(options);
-  const CoverageResult result =
-      options.shards.merging() ? merged(*ready, options.shards.parts)
-                               : measure_coverage(ready->spec, ready->truth, ready->coverage);
+  const CoverageResult result = options.shards.merging()
+                                    ? merged(*ready, options.shards.parts)
+                                    : measure_coverage(ready->spec, ready->truth, ready->coverage);
   std::string text = coverage_markdown(result, ready->spec, ready->coverage);
   for (const Dataset& dataset : ready->datasets) {
     text += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));

@@ -43,8 +43,8 @@ void run_shard_of_fit(const FitFlags& flags) {
   assess.shard = shard;
   assess.keep = unfinished_path(flags.out, origin, shard);
   const ReplicateTable table = shard_of_bootstrap(analysis.fitted, analysis.datasets, assess);
-  save_replicates(part_path(flags.out, origin, shard),
-                  key_of_bootstrap(analysis.fitted, assess), table, part_head(origin, shard));
+  save_replicates(part_path(flags.out, origin, shard), key_of_bootstrap(analysis.fitted, assess),
+                  table, part_head(origin, shard));
   std::error_code ignored;
   std::filesystem::remove(assess.keep, ignored);
   say_part(flags.out, origin, shard, "replicates");

@@ -21,13 +21,13 @@ std::vector<std::string> words_of(const CLI::App& command) {
   std::vector<std::string> words = {command.get_name()};
   std::vector<std::string> positionals;
   for (const CLI::Option* option : command.get_options()) {
-    if (option->count() == 0) continue;
+    if (option->count() == 0 || option->get_group().empty()) continue;  // not given, or --parts
     if (option->get_positional()) {
       for (const std::string& word : option->results()) positionals.push_back(word);
       continue;
     }
     const std::string name = option->get_name();
-    if (name == "--shard" || name == "--parts" || name == "--out" || name == "--threads") continue;
+    if (name == "--shard" || name == "--out" || name == "--threads") continue;
     words.push_back(name);
     if (option->get_expected_max() == 0) continue;  // a flag
     for (const std::string& word : option->results()) words.push_back(word);
@@ -78,8 +78,15 @@ void add_shard_flags(CLI::App& command, const std::string& pieces, ShardFlags& f
 
 Origin origin_of(const ShardFlags& flags, const std::string& inputs, std::uint64_t seed,
                  std::size_t pieces, const std::string& start) {
-  return {words_of(*flags.command), fs::current_path().string(), version(), program_stamp(), inputs,
-          seed, pieces, arithmetic_fingerprint(), sha256_hex(start)};
+  return {words_of(*flags.command),
+          fs::current_path().string(),
+          version(),
+          program_stamp(),
+          inputs,
+          seed,
+          pieces,
+          arithmetic_fingerprint(),
+          sha256_hex(start)};
 }
 
 std::string inputs_of(const FitSpec& spec, const std::vector<Dataset>& datasets) {
@@ -125,10 +132,10 @@ std::vector<PartFile> parts_of_one_origin(const fs::path& folder) {
         *differs == OriginDifference::start) {
       continue;
     }
-    throw InputError({part.file.string()},
-                     fmt::format("this part does not belong to {}",
-                                 parts.front().file.filename().string()),
-                     difference_words(*differs), "remove the parts that you do not want");
+    throw InputError(
+        {part.file.string()},
+        fmt::format("this part does not belong to {}", parts.front().file.filename().string()),
+        difference_words(*differs), "remove the parts that you do not want");
   }
   return parts;
 }
@@ -153,8 +160,7 @@ std::string missing_words(const MissingShards& missing) {
   const std::string other =
       missing.otherwise == 0
           ? ""
-          : fmt::format(" ({} parts are from processors whose arithmetic gives other digits than "
-                        "this one's)",
+          : fmt::format(" (parts from processors that give other digits than this one: {})",
                         missing.otherwise);
   return fmt::format("{} of {} shards are missing{}; run them again: --array={}",
                      missing.numbers.size(), missing.of, other, array_list(missing.numbers));

@@ -12,8 +12,8 @@ namespace recoil {
 
 /// What makes a command one of several processes, as given.
 struct ShardFlags {
-  std::string shard;                   ///< "3/40"; empty: the whole is computed here
-  std::string parts;                   ///< set by `recoil merge`: the folder whose parts are taken
+  std::string shard;                  ///< "3/40"; empty: the whole is computed here
+  std::string parts;                  ///< set by `recoil merge`: the folder whose parts are taken
   const CLI::App* command = nullptr;  ///< whose words the parts carry
 
   bool one_of_several() const { return !shard.empty(); }

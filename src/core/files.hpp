@@ -13,7 +13,8 @@ std::string read_text_file(const std::filesystem::path& path,
                            std::uintmax_t max_bytes = 256ULL * 1024 * 1024);
 
 /// Writes beside the target, waits for the disk and renames: a reader sees the old file or the new
-/// one, never a part, whoever else writes it. Makes the folder when it is missing. @throws InputError when the place cannot be written.
+/// one, never a part, whoever else writes it. Makes the folder when it is missing. @throws
+/// InputError when the place cannot be written.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
 /// Complains before a long computation, and without making anything, when results could not be

@@ -12,11 +12,10 @@ namespace recoil {
 namespace {
 
 Json json_of(const Origin& origin) {
-  return {{"command", origin.command},       {"folder", origin.folder},
-          {"version", origin.version},       {"program", origin.program},
-          {"inputs", origin.inputs},         {"seed", origin.seed},
-          {"pieces", origin.pieces},         {"arithmetic", origin.arithmetic},
-          {"start", origin.start}};
+  return {
+      {"command", origin.command}, {"folder", origin.folder},         {"version", origin.version},
+      {"program", origin.program}, {"inputs", origin.inputs},         {"seed", origin.seed},
+      {"pieces", origin.pieces},   {"arithmetic", origin.arithmetic}, {"start", origin.start}};
 }
 
 Origin origin_in(const Json& json) {
@@ -38,8 +37,8 @@ Origin origin_in(const Json& json) {
 std::optional<OriginDifference> difference(const Origin& a, const Origin& b) {
   if (a.version != b.version) return OriginDifference::version;
   if (a.program != b.program) return OriginDifference::program;
-  if (a.command != b.command) return OriginDifference::command;
   if (a.seed != b.seed) return OriginDifference::seed;
+  if (a.command != b.command) return OriginDifference::command;
   if (a.pieces != b.pieces) return OriginDifference::pieces;
   if (a.inputs != b.inputs) return OriginDifference::inputs;
   if (a.arithmetic != b.arithmetic) return OriginDifference::arithmetic;

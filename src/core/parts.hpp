@@ -27,11 +27,11 @@ struct Origin {
 };
 
 /// In what two origins differ, the plainest first.
-enum class OriginDifference { version, program, command, seed, pieces, inputs, arithmetic, start };
+enum class OriginDifference { version, program, seed, command, pieces, inputs, arithmetic, start };
 template <>
 struct NamesOf<OriginDifference> {
   static constexpr std::array<std::string_view, 8> names = {
-      "version", "program", "command", "seed", "pieces", "inputs", "arithmetic", "start"};
+      "version", "program", "seed", "command", "pieces", "inputs", "arithmetic", "start"};
 };
 
 /// None where they are the same; the folders may differ.
@@ -52,8 +52,8 @@ std::filesystem::path part_path(const std::filesystem::path& folder, const Origi
 /// The head of the file of a part, to be written with its rows (`write_rows`).
 Json part_head(const Origin& origin, const Shard& shard);
 
-/// Every part in `folder`, by shards and numbers; their heads alone are read. Other files, and those
-/// that are still being written, are none.
+/// Every part in `folder`, by shards and numbers; their heads alone are read. Other files, and
+/// those that are still being written, are none.
 std::vector<PartFile> parts_in(const std::filesystem::path& folder);
 
 /// The part that a file holds.

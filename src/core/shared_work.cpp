@@ -78,10 +78,10 @@ void write_part(const SharedWork& work, const Origin& origin, const Shard& shard
       write_done(unfinished, origin, shard, rows);
       const auto done = std::count_if(left.begin(), left.end(),
                                       [&](std::size_t i) { return !rows[i].is_null(); });
-      throw Interrupted(
-          fmt::format("stopped: {} of {} pieces are kept in {}; the same command goes on from there",
-                      shard.share(work.pieces) - left.size() + static_cast<std::size_t>(done),
-                      shard.share(work.pieces), unfinished.string()));
+      throw Interrupted(fmt::format(
+          "stopped: {} of {} pieces are kept in {}; the same command goes on from there",
+          shard.share(work.pieces) - left.size() + static_cast<std::size_t>(done),
+          shard.share(work.pieces), unfinished.string()));
     }
   }
   write_done(part_path(folder, origin, shard), origin, shard, rows);

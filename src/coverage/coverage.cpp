@@ -120,8 +120,8 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
     const IntervalSet& set = result.intervals[j];
     std::vector<const Interval*> intervals = {&recommended_interval(set)};
     for (const IntervalKind kind : values_of<IntervalKind>()) intervals.push_back(&set[kind]);
-    trial.parameters.push_back(trial_row(result.identifiability.parameter[j].identifiable,
-                                         at.theta[j], intervals));
+    trial.parameters.push_back(
+        trial_row(result.identifiability.parameter[j].identifiable, at.theta[j], intervals));
   }
   for (std::size_t k = 0; k < truth.capture.size(); ++k) {
     const CaptureEstimate& capture = result.capture[k];
@@ -168,10 +168,9 @@ CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
     row.parameter = fmt::format("V*({:.4g} um)", truth.capture[k].diameter / units::um);
     row.unit = "m/s";
     row.truth = truth.capture[k].velocity;
-    row.cells = count(trials, cell_names<CaptureIntervalKind>(),
-                      [k](const CoverageTrial& trial) -> const CoverageTrial::Row& {
-                        return trial.capture[k];
-                      });
+    row.cells = count(
+        trials, cell_names<CaptureIntervalKind>(),
+        [k](const CoverageTrial& trial) -> const CoverageTrial::Row& { return trial.capture[k]; });
     row.identifiable = row.cells.front().offered_identifiable;
     result.rows.push_back(std::move(row));
   }
@@ -179,8 +178,8 @@ CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
 }
 
 Json json_of(const CoverageTrial& trial) {
-  return Json::array({trial.usable, trial.refits_failed, rows_json(trial.parameters),
-                      rows_json(trial.capture)});
+  return Json::array(
+      {trial.usable, trial.refits_failed, rows_json(trial.parameters), rows_json(trial.capture)});
 }
 
 CoverageTrial coverage_trial_of(const Json& json) {

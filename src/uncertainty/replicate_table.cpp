@@ -94,7 +94,8 @@ void load_replicates(const std::filesystem::path& file, const std::string& key,
   ReplicateTable found;
   found.slots = table.slots;
   found.derived = table.derived;
-  if (read_rows(file, [&found](const Json& row) { return read_row(row, found); })) table.take(found);
+  if (read_rows(file, [&found](const Json& row) { return read_row(row, found); }))
+    table.take(found);
 }
 
 }  // namespace recoil
