@@ -13,7 +13,7 @@ const char* const shard_script = R"(#!/bin/sh
 number=$1
 folder=@FOLDER@
 cd @WHERE@ || exit 1
-# Input that was refused (exit status 2) is refused again: no second try.
+# Input that was refused (exit status 2) would be refused again.
 [ -e "$folder/refused-$number" ] && exit 2
 @RECOIL@ @WORDS@ \
   --shard "$number/@SHARDS@" --out "$folder" --threads "${SLURM_CPUS_PER_TASK:-@CPUS@}" &
@@ -37,7 +37,7 @@ const char* const slurm_array = R"(#!/bin/sh
 #SBATCH --array=1-@SHARDS@
 #SBATCH --cpus-per-task=@CPUS@
 #SBATCH --time=@TIME@
-#SBATCH --signal=B:USR1@90
+#SBATCH --signal=B:USR1@AT@90
 #SBATCH --output="@PLAIN_FOLDER@/log-%a.txt"
 #SBATCH --open-mode=append
 exec sh @FOLDER@/shard.sh "$SLURM_ARRAY_TASK_ID"
@@ -71,6 +71,7 @@ if [ "$round" -gt "$rounds" ]; then
   echo "after $rounds rounds these are missing: $missing" >&2
   exit 3
 fi
+echo "round $round: $missing"
 job=$(sbatch --parsable "$missing" "$folder/array.sbatch") || exit
 # afterany: a merge that waits for success (afterok) waits for ever once a shard has failed
 sbatch --dependency="afterany:${job%%;*}" "$folder/run.sh" $((round + 1))
@@ -169,6 +170,7 @@ std::vector<ClusterFile> cluster_scripts(const ClusterJob& job) {
     files.push_back({"array.sbatch", filled(slurm_array, {{"SHARDS", shards},
                                                           {"CPUS", cpus},
                                                           {"TIME", job.time},
+                                                          {"AT", "@"},
                                                           {"PLAIN_FOLDER", plain_folder},
                                                           {"FOLDER", folder}})});
     files.push_back({"run.sh", filled(slurm_run, {{"SHARDS", shards},
