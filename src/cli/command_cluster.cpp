@@ -24,7 +24,7 @@ struct ClusterFlags {
   std::string time = "01:00:00";
 };
 
-const char* const shareable[] = {"fit", "coverage"};
+const char* const shareable[] = {"fit", "coverage", "diagnose", "report"};
 
 /// The words behind those of `cluster` itself: a command, or the fit file of the command fit.
 std::vector<std::string> words_of_job(std::vector<std::string> words) {
@@ -52,6 +52,8 @@ void require_valid(const std::vector<std::string>& words) {
   CLI::App trial("", "recoil");
   add_fit(trial);
   add_coverage(trial);
+  add_diagnose(trial);
+  add_report(trial);
   for (CLI::App* command : trial.get_subcommands({})) command->callback([] {});
   std::vector<std::string> backwards = words;
   backwards.insert(backwards.end(), {"--shard", "1/1", "--out", "."});
@@ -126,7 +128,8 @@ void add_cluster(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "cluster", "write the scripts that run a command in shards on a cluster, and its merge");
   command->footer(
-      "Behind its own words stands a fit file, or a command with its options: fit or coverage.\n"
+      "Behind its own words stands a fit file, or a command with its options: fit, coverage,\n"
+      "diagnose or report.\n"
       "The scripts are plain, and yours to edit. All machines see the folder, the program and the\n"
       "data at the same paths.\n\n"
       "  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big\n"

@@ -71,12 +71,12 @@ void run_shard_of_coverage(const Options& options) {
 }
 
 CoverageResult merged(const Prepared& ready, const std::string& folder) {
-  std::vector<CoverageTrial> trials;
-  for (const Json& row : rows_of(parts_of(ready.origin, folder), ready.origin.pieces)) {
-    // A damaged file: what it should have held is computed here.
-    trials.push_back(
-        row.is_null() ? run_coverage_trial(ready.spec, ready.truth, ready.coverage, trials.size())
-                      : coverage_trial_of(row));
+  std::vector<CoverageTrial> trials(ready.origin.pieces);
+  const std::vector<bool> there =
+      read_parts(parts_of(ready.origin, folder), trials.size(),
+                 [&](std::size_t i, const Json& row) { trials[i] = coverage_trial_of(row); });
+  for (std::size_t i = 0; i < trials.size(); ++i) {  // what a damaged file should have held
+    if (!there[i]) trials[i] = run_coverage_trial(ready.spec, ready.truth, ready.coverage, i);
   }
   return count_coverage(ready.spec, ready.truth, ready.coverage, trials);
 }

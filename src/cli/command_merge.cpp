@@ -6,7 +6,6 @@
 #include "cli/commands.hpp"
 #include "cli/shard_flags.hpp"
 #include "core/arithmetic.hpp"
-#include "core/error.hpp"
 
 namespace recoil {
 namespace {
@@ -34,25 +33,28 @@ void finish(const Origin& origin, const fs::path& folder, int threads) {
   CLI::App again("", "recoil");
   add_fit(again);
   add_coverage(again);
+  add_diagnose(again);
+  add_report(again);
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   again.parse(words);
 }
 
 void merge(const MergeFlags& flags) {
-  const fs::path folder = fs::absolute(flags.folder).lexically_normal();
   const std::vector<PartFile> parts = parts_of_one_origin(flags.folder);
   const MissingShards missing = missing_in(parts, arithmetic_fingerprint());
   if (flags.missing) {
     if (!missing.numbers.empty()) fmt::print("--array={}\n", array_list(missing.numbers));
     return;
   }
-  if (!missing.numbers.empty()) {
-    throw ComputationError(fmt::format("{}: {}", flags.folder, missing_words(missing)));
-  }
+  require_all_shards(flags.folder, missing);
   // Paths in the words count from where the command was given.
   const Origin& origin = parts.front().origin;
-  std::error_code elsewhere;
-  fs::current_path(origin.folder, elsewhere);
+  fs::path folder = flags.folder;
+  if (fs::current_path() != origin.folder) {
+    folder = fs::absolute(folder).lexically_normal();
+    std::error_code elsewhere;
+    fs::current_path(origin.folder, elsewhere);
+  }
   finish(origin, folder, flags.threads);
 }
 

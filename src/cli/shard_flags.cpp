@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-#include <utility>
-
 #include "core/arithmetic.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -34,29 +30,6 @@ std::vector<std::string> words_of(const CLI::App& command) {
   }
   words.insert(words.begin() + 1, positionals.begin(), positionals.end());
   return words;
-}
-
-/// "they come from different versions of recoil".
-std::string difference_words(OriginDifference what) {
-  switch (what) {
-    case OriginDifference::version:
-      return "they come from different versions of recoil";
-    case OriginDifference::program:
-      return "they come from different builds of recoil";
-    case OriginDifference::command:
-      return "their commands differ";
-    case OriginDifference::seed:
-      return "their seeds differ";
-    case OriginDifference::pieces:
-      return "they are parts of different numbers of pieces";
-    case OriginDifference::inputs:
-      return "the fit file or the data have changed between them";
-    case OriginDifference::arithmetic:
-      return "their processors give different digits";
-    case OriginDifference::start:
-      return "they begin with different digits of the fit";
-  }
-  return "";
 }
 
 }  // namespace
@@ -118,70 +91,6 @@ void say_part(const fs::path& folder, const Origin& origin, const Shard& shard,
               const std::string& what) {
   fmt::print("{}: {} of {} {}\n", part_path(folder, origin, shard).string(),
              shard.share(origin.pieces), origin.pieces, what);
-}
-
-std::vector<PartFile> parts_of_one_origin(const fs::path& folder) {
-  std::vector<PartFile> parts = parts_in(folder);
-  if (parts.empty()) {
-    throw InputError({folder.string()}, "there are no parts here",
-                     "a command with --shard K/N --out DIR writes them", "name its folder");
-  }
-  for (const PartFile& part : parts) {
-    const auto differs = difference(parts.front().origin, part.origin);
-    if (!differs || *differs == OriginDifference::arithmetic ||
-        *differs == OriginDifference::start) {
-      continue;
-    }
-    throw InputError(
-        {part.file.string()},
-        fmt::format("this part does not belong to {}", parts.front().file.filename().string()),
-        difference_words(*differs), "remove the parts that you do not want");
-  }
-  return parts;
-}
-
-MissingShards missing_in(const std::vector<PartFile>& parts, const std::string& arithmetic) {
-  MissingShards missing;
-  std::vector<PartFile> usable;
-  std::map<std::size_t, int> count;
-  for (const PartFile& part : parts) {
-    ++count[part.shard.of];
-    if (part.origin.arithmetic == arithmetic) usable.push_back(part);
-  }
-  missing.of = std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) {
-                 return a.second < b.second;
-               })->first;
-  missing.otherwise = parts.size() - usable.size();
-  missing.numbers = missing_shards(usable, parts.front().origin.pieces, missing.of);
-  return missing;
-}
-
-std::string missing_words(const MissingShards& missing) {
-  const std::string other =
-      missing.otherwise == 0
-          ? ""
-          : fmt::format(" (parts from processors that give other digits than this one: {})",
-                        missing.otherwise);
-  return fmt::format("{} of {} shards are missing{}; run them again: --array={}",
-                     missing.numbers.size(), missing.of, other, array_list(missing.numbers));
-}
-
-std::vector<fs::path> parts_of(const Origin& origin, const fs::path& folder) {
-  const std::vector<PartFile> parts = parts_of_one_origin(folder);
-  const MissingShards missing = missing_in(parts, origin.arithmetic);
-  if (!missing.numbers.empty()) {
-    throw ComputationError(fmt::format("{}: {}", folder.string(), missing_words(missing)));
-  }
-  std::vector<fs::path> files;
-  for (const PartFile& part : parts) {
-    if (part.origin.arithmetic != origin.arithmetic) continue;
-    if (const auto differs = difference(origin, part.origin)) {
-      throw InputError({part.file.string()}, "this part is not of what would be computed here now",
-                       difference_words(*differs), "run the shards again, into another folder");
-    }
-    files.push_back(part.file);
-  }
-  return files;
 }
 
 }  // namespace recoil

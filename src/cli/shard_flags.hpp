@@ -7,6 +7,7 @@
 
 #include "cli/analysis.hpp"
 #include "core/parts.hpp"
+#include "report/words_parts.hpp"
 
 namespace recoil {
 
@@ -41,26 +42,5 @@ bool part_is_there(const std::filesystem::path& folder, const Origin& origin, co
 /// One line about the part that was written.
 void say_part(const std::filesystem::path& folder, const Origin& origin, const Shard& shard,
               const std::string& what);
-
-/// The parts of `origin` in `folder`, all of them.
-/// @throws InputError for a part of another origin, ComputationError when some are missing
-std::vector<std::filesystem::path> parts_of(const Origin& origin,
-                                            const std::filesystem::path& folder);
-
-/// The parts in `folder`, which all are of one origin but for their arithmetic.
-/// @throws InputError for others, or when there are none
-std::vector<PartFile> parts_of_one_origin(const std::filesystem::path& folder);
-
-/// The shards, of as many as most parts are of, whose pieces are in no part that was computed with
-/// `arithmetic`.
-struct MissingShards {
-  std::size_t of = 1;
-  std::vector<std::size_t> numbers;
-  std::size_t otherwise = 0;  ///< parts that were computed with another arithmetic
-};
-MissingShards missing_in(const std::vector<PartFile>& parts, const std::string& arithmetic);
-
-/// What to run again, as one line.
-std::string missing_words(const MissingShards& missing);
 
 }  // namespace recoil

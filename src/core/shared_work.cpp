@@ -21,17 +21,18 @@ using SharedClock = std::chrono::steady_clock;
 // a shared file system bears.
 constexpr auto between_keeps = std::chrono::minutes(5);
 
-/// Takes over the rows of a file that is whole, and nothing of another.
-void take_rows(const std::filesystem::path& file, std::vector<Json>& rows) {
+/// Hands on the rows of a file that is whole, and nothing of another.
+void take_rows(const std::filesystem::path& file, std::size_t pieces,
+               const std::function<void(std::size_t piece, Json row)>& take) {
   std::vector<std::pair<std::size_t, Json>> found;
   const bool whole = read_rows(file, [&](const Json& row) {
     const std::size_t piece = row[0].get<std::size_t>();
-    if (piece >= rows.size() || row.size() != 2) return false;
+    if (piece >= pieces || row.size() != 2) return false;
     found.emplace_back(piece, row[1]);
     return true;
   });
   if (!whole) return;
-  for (auto& [piece, row] : found) rows[piece] = std::move(row);
+  for (auto& [piece, row] : found) take(piece, std::move(row));
 }
 
 void write_done(const std::filesystem::path& file, const Origin& origin, const Shard& shard,
@@ -54,7 +55,8 @@ void write_part(const SharedWork& work, const Origin& origin, const Shard& shard
                 const std::filesystem::path& folder) {
   const std::filesystem::path unfinished = unfinished_path(folder, origin, shard);
   std::vector<Json> rows(work.pieces);
-  take_rows(unfinished, rows);
+  take_rows(unfinished, work.pieces,
+            [&rows](std::size_t piece, Json row) { rows[piece] = std::move(row); });
   std::vector<std::size_t> left;
   for (std::size_t i = shard.number - 1; i < work.pieces; i += shard.of) {
     if (rows[i].is_null()) left.push_back(i);
@@ -89,10 +91,16 @@ void write_part(const SharedWork& work, const Origin& origin, const Shard& shard
   std::filesystem::remove(unfinished, ignored);
 }
 
-std::vector<Json> rows_of(const std::vector<std::filesystem::path>& parts, std::size_t pieces) {
-  std::vector<Json> rows(pieces);
-  for (const std::filesystem::path& part : parts) take_rows(part, rows);
-  return rows;
+std::vector<bool> read_parts(const std::vector<std::filesystem::path>& parts, std::size_t pieces,
+                             const std::function<void(std::size_t piece, const Json& row)>& take) {
+  std::vector<bool> there(pieces);
+  for (const std::filesystem::path& part : parts) {
+    take_rows(part, pieces, [&](std::size_t piece, const Json& row) {
+      take(piece, row);
+      there[piece] = true;
+    });
+  }
+  return there;
 }
 
 }  // namespace recoil

@@ -31,8 +31,10 @@ void write_part(const SharedWork& work, const Origin& origin, const Shard& shard
 std::filesystem::path unfinished_path(const std::filesystem::path& folder, const Origin& origin,
                                       const Shard& shard);
 
-/// The rows that `parts` hold, without the number of the piece in front [pieces]; null where none
-/// does, or where a file is damaged.
-std::vector<Json> rows_of(const std::vector<std::filesystem::path>& parts, std::size_t pieces);
+/// Hands the rows that `parts` hold on to `take`, one part after the other; a damaged file gives
+/// none of its rows.
+/// @return whether a piece was handed on [pieces]
+std::vector<bool> read_parts(const std::vector<std::filesystem::path>& parts, std::size_t pieces,
+                             const std::function<void(std::size_t piece, const Json& row)>& take);
 
 }  // namespace recoil

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "support/workplace.hpp"
@@ -258,6 +259,109 @@ TEST(Shards, APartFromAnotherProcessorNeverChangesAByte) {
   }
   EXPECT_EQ(merged.status, 0) << merged.err;
   EXPECT_EQ(merged.out, whole.out);
+}
+
+/// Points that the model cannot follow: the larger spheres lose more than any fit allows them.
+void spoil(const Workplace& place) {
+  place.change("data/points.csv", "4,1.4,0.825", "4,1.4,0.625");
+  place.change("data/points.csv", "4,5,0.937", "4,5,0.737");
+  place.change("data/points.csv", "4,25,0.933", "4,25,0.633");
+}
+
+TEST(Shards, ADiagnosisTakesItsCalibrationFromThem) {
+  for (const bool misfit : {false, true}) {
+    const Workplace place;
+    if (misfit) spoil(place);
+    const Words command = {"diagnose", "fit.toml", "--seed", "3"};
+    const Outcome whole = place.run(with(command, {"--out", "whole"}));
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    const auto answer = nlohmann::json::parse(place.read("whole/diagnosis.json"));
+    EXPECT_EQ(answer["verdict"] == "adequate", !misfit) << answer["verdict"];
+    run_shards(place, command, {1, 2, 3}, 3, "parts");
+    const Outcome merged = place.run({"merge", "parts"});
+    ASSERT_EQ(merged.status, 0) << merged.err;
+    EXPECT_EQ(merged.out, whole.out);
+    for (const char* name : {"diagnosis.json", "diagnosis.html", "extended.toml"}) {
+      EXPECT_EQ(place.read(fs::path("parts") / name), place.read(fs::path("whole") / name)) << name;
+    }
+    // A mark in one row shows that the rows are what the answer rests on.
+    for (const std::string& name : files_in(place, "parts")) {
+      if (!name.starts_with("part-1-")) continue;
+      const std::string text = place.read("parts/" + name);
+      std::string marked = text.substr(0, text.find('\n') + 1);
+      for (std::size_t at = marked.size(); at < text.size(); at = text.find('\n', at) + 1) {
+        const std::size_t end = text.find(',', at);
+        const bool structure = std::stoi(text.substr(at + 1, end - at - 1)) < 999;
+        marked += text.substr(at, end - at) +
+                  (structure ? ",[1,9e9,9e9,9e9,9e9,9e9,9e9,9e9]]\n" : ",[9e9]]\n");
+      }
+      place.write("parts/" + name, marked);
+    }
+    ASSERT_EQ(place.run({"merge", "parts"}).status, 0);
+    const auto other = nlohmann::json::parse(place.read("parts/diagnosis.json"));
+    EXPECT_GT(other["misfit"]["p_value"], 0.3);
+    EXPECT_NE(other["misfit"]["p_value"], answer["misfit"]["p_value"]);
+  }
+}
+
+TEST(Shards, ABatchOfFitsIsSharedPageByPage) {
+  const Workplace place;
+  place.write("second.toml", place.read("fit.toml") + "scheme = \"wild\"\n");
+  place.write("third.toml", place.read("fit.toml") + "scheme = \"case\"\n");
+  const Words command = {"report", "fit.toml", "second.toml", "third.toml"};
+  const Outcome whole = place.run(with(command, {"--out", "pages"}));
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  fs::rename(place.path() / "pages", place.path() / "whole");
+  run_shards(place, command, {2}, 2, "pages");
+  EXPECT_TRUE(place.has("pages/second.html"));
+  EXPECT_FALSE(place.has("pages/fit.html"));
+  EXPECT_FALSE(place.has("pages/index.html"));
+  EXPECT_EQ(place.run({"merge", "pages"}).status, 3);
+  EXPECT_FALSE(place.has("pages/index.html"));
+  run_shards(place, command, {1}, 2, "pages");
+  const Outcome merged = place.run({"merge", "pages"});
+  ASSERT_EQ(merged.status, 0) << merged.err;
+  EXPECT_EQ(merged.out, whole.out);
+  std::size_t compared = 0;
+  for (const std::string& name : place.listing()) {
+    if (!name.starts_with("whole/") || !fs::is_regular_file(place.path() / name)) continue;
+    EXPECT_EQ(place.read("pages" + name.substr(5)), place.read(name)) << name;
+    ++compared;
+  }
+  EXPECT_GE(compared, 3U * 9U + 1U);
+  place.change("third.toml", "\"case\"", "\"wild\"");
+  const Outcome changed = place.run({"merge", "pages"});
+  EXPECT_EQ(changed.status, 2);
+  EXPECT_NE(changed.err.find("third.html"), std::string::npos) << changed.err;
+}
+
+TEST(Shards, AStudyIsSharedDesignByDesign) {
+  const support::TemporaryFolder kept;
+  const fs::path program = fs::path(RECOIL_BINARY).parent_path() / "recoil_study";
+  const auto study = [&](const Words& words) {
+    return support::run_command(with({program.string()}, words), RECOIL_SOURCE_DIR);
+  };
+  const Words command = {"coverage-designs",
+                         "fits/dahneke1975-quartz.toml",
+                         "fits/wall1990-mica.toml",
+                         "--datasets",
+                         "3",
+                         "--replicates",
+                         "9"};
+  const std::string whole = (kept / "whole/study.json").string();
+  const std::string merged = (kept / "merged/study.json").string();
+  const std::string keep = (kept / "keep").string();
+  ASSERT_EQ(study(with(command, {"--out", whole})).status, 0);
+  EXPECT_EQ(study(with(command, {"--shard", "1/2"})).status, 2) << "nowhere to keep it";
+  ASSERT_EQ(study(with(command, {"--keep", keep, "--shard", "2/2"})).status, 0);
+  EXPECT_EQ(study({"merge", keep, "--missing"}).out, "--array=1\n");
+  EXPECT_EQ(study({"merge", keep, "--out", merged}).status, 3);
+  EXPECT_FALSE(kept.has("merged/study.json"));
+  ASSERT_EQ(study(with(command, {"--keep", keep, "--shard", "1/2"})).status, 0);
+  const Outcome done = study({"merge", keep, "--out", merged});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_EQ(kept.read("merged/study.json"), kept.read("whole/study.json"));
+  EXPECT_EQ(kept.read("merged/study.md"), kept.read("whole/study.md"));
 }
 
 TEST(Shards, AutomaticReplicatesAreThoseOfOneProcess) {

@@ -104,6 +104,15 @@ TEST(Parts, OriginsThatDifferNeverShareAFile) {
   EXPECT_TRUE(add(other, {1, 2}));
 }
 
+/// The rows of `parts` [pieces], null where there is none.
+std::vector<Json> rows_of(const std::vector<fs::path>& parts, std::size_t pieces) {
+  std::vector<Json> rows(pieces);
+  const std::vector<bool> there =
+      read_parts(parts, pieces, [&rows](std::size_t piece, const Json& row) { rows[piece] = row; });
+  for (std::size_t i = 0; i < pieces; ++i) EXPECT_EQ(there[i], !rows[i].is_null()) << i;
+  return rows;
+}
+
 SharedWork squares() {
   SharedWork work;
   work.label = "squares";
@@ -193,7 +202,7 @@ TEST(SharedWork, DamagedPartsAreNotTrusted) {
   }
 }
 
-TEST(Arithmetic, TheFingerprintIsThatOfThisProcessorAndNoOther) {
+TEST(Arithmetic, TheFingerprintIsTheSameEveryTime) {
   EXPECT_EQ(arithmetic_fingerprint().size(), 64U);
   EXPECT_EQ(arithmetic_fingerprint(), arithmetic_fingerprint());
 }
