@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "export/filled.hpp"
 
 namespace recoil {
@@ -128,14 +130,32 @@ seq @SHARDS@ | parallel --jobs @JOBS@ --retries 5 --joblog "$folder/parallel.log
 exec sh "$folder/merge.sh"
 )";
 
-/// "01:30:00" in seconds. @pre it is of that form
-long seconds_in(const std::string& time) {
-  return 3600 * std::stol(time.substr(0, time.find(':'))) +
-         60 * std::stol(time.substr(time.find(':') + 1, 2)) +
-         std::stol(time.substr(time.size() - 2));
+std::string clock_time(long seconds) {
+  return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
 }  // namespace
+
+std::optional<long> seconds_named(std::string_view text) {
+  const auto number = [](std::string_view digits) -> std::optional<long> {
+    long value = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto read = std::from_chars(digits.data(), end, value);
+    if (digits.empty() || digits.size() > 4 || read.ec != std::errc{} || read.ptr != end ||
+        value < 0) {
+      return std::nullopt;
+    }
+    return value;
+  };
+  if (text.size() < 7 || text[text.size() - 3] != ':' || text[text.size() - 6] != ':') {
+    return std::nullopt;
+  }
+  const auto hours = number(text.substr(0, text.size() - 6));
+  const auto minutes = number(text.substr(text.size() - 5, 2));
+  const auto seconds = number(text.substr(text.size() - 2));
+  if (!hours || !minutes || !seconds || *minutes > 59 || *seconds > 59) return std::nullopt;
+  return 3600 * *hours + 60 * *minutes + *seconds;
+}
 
 std::string shell_word(std::string_view word) {
   const auto plain = [](char c) {
@@ -169,13 +189,13 @@ std::vector<ClusterFile> cluster_scripts(const ClusterJob& job) {
   if (job.system == ClusterSystem::slurm) {
     files.push_back({"array.sbatch", filled(slurm_array, {{"SHARDS", shards},
                                                           {"CPUS", cpus},
-                                                          {"TIME", job.time},
+                                                          {"TIME", clock_time(job.seconds)},
                                                           {"AT", "@"},
                                                           {"PLAIN_FOLDER", plain_folder},
                                                           {"FOLDER", folder}})});
     files.push_back({"run.sh", filled(slurm_run, {{"SHARDS", shards},
                                                   {"CPUS", cpus},
-                                                  {"TIME", job.time},
+                                                  {"TIME", clock_time(job.seconds)},
                                                   {"PLAIN_FOLDER", plain_folder},
                                                   {"FOLDER", folder},
                                                   {"RECOIL", recoil}})});
@@ -191,11 +211,10 @@ std::vector<ClusterFile> cluster_scripts(const ClusterJob& job) {
                            {"JOBS", fmt::format("$((($(nproc) + {0} - 1) / {0}))", job.cpus)}})});
     return files;
   }
-  files.push_back(
-      {"shards.sub", filled(condor_shards, {{"SHARDS", shards},
-                                            {"CPUS", cpus},
-                                            {"SECONDS", fmt::format("{}", seconds_in(job.time))},
-                                            {"PLAIN_FOLDER", plain_folder}})});
+  files.push_back({"shards.sub", filled(condor_shards, {{"SHARDS", shards},
+                                                        {"CPUS", cpus},
+                                                        {"SECONDS", fmt::format("{}", job.seconds)},
+                                                        {"PLAIN_FOLDER", plain_folder}})});
   files.push_back(
       {"merge.sub", filled(condor_merge, {{"CPUS", cpus}, {"PLAIN_FOLDER", plain_folder}})});
   files.push_back({"run.dag", filled(condor_dag, {{"PLAIN_FOLDER", plain_folder}})});

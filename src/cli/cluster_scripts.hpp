@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +26,8 @@ struct ClusterJob {
   std::filesystem::path folder;    ///< of parts, scripts and results, absolute
   std::vector<std::string> words;  ///< "fit", "my.toml", ...
   std::size_t shards = 1;
-  int cpus = 1;                   ///< of each shard
-  std::string time = "01:00:00";  ///< limit of each shard, hours:minutes:seconds
+  int cpus = 1;         ///< of each shard
+  long seconds = 3600;  ///< limit of each shard [s]
 };
 
 /// A file of the job's folder.
@@ -37,6 +38,9 @@ struct ClusterFile {
 
 /// The scripts of a job, to be read and edited; the one that starts everything is the last.
 std::vector<ClusterFile> cluster_scripts(const ClusterJob& job);
+
+/// "01:30:00" [s]; none for anything else.
+std::optional<long> seconds_named(std::string_view text);
 
 /// `word` as one word of a POSIX shell.
 std::string shell_word(std::string_view word);

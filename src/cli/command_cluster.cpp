@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
+#include <optional>
 
 #include "cli/analysis.hpp"
 #include "cli/cluster_scripts.hpp"
@@ -69,18 +69,14 @@ void require_valid(const std::vector<std::string>& words) {
   }
 }
 
-/// hours:minutes:seconds
+// Slurm's signal before the limit comes up to a minute early, and the shard needs some time, too.
+constexpr long shortest_time = 600;  // [s]
+
 std::string complaint_about_time(const std::string& text) {
-  const std::size_t minutes = text.find(':');
-  const bool form = minutes != std::string::npos && minutes > 0 && minutes < 5 &&
-                    text.size() == minutes + 6 && text[minutes + 3] == ':';
-  bool digits = form;
-  for (std::size_t i = 0; digits && i < text.size(); ++i) {
-    if (i != minutes && i != minutes + 3) {
-      digits = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
-    }
-  }
-  return digits ? "" : fmt::format("{} is not hours:minutes:seconds, for example 01:30:00", text);
+  const std::optional<long> seconds = seconds_named(text);
+  return seconds && *seconds >= shortest_time
+             ? ""
+             : fmt::format("{} is not hours:minutes:seconds from 00:10:00 on", text);
 }
 
 void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& words) {
@@ -105,7 +101,7 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
   job.words = words;
   job.shards = flags.shards;
   job.cpus = flags.cpus;
-  job.time = flags.time;
+  job.seconds = *seconds_named(flags.time);
   for (const ClusterFile& file : cluster_scripts(job)) {
     const fs::path path = job.folder / file.name;
     write_whole_file(path, file.text);
@@ -147,7 +143,9 @@ void add_cluster(CLI::App& program) {
   command->add_option("--cpus", flags->cpus, "threads of each shard")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));
-  command->add_option("--time", flags->time, "limit of each shard, hours:minutes:seconds")
+  command
+      ->add_option("--time", flags->time,
+                   "limit of each shard, hours:minutes:seconds, 00:10:00 or more")
       ->capture_default_str()
       ->check(CLI::Validator(complaint_about_time, ""));
   command->allow_extras();

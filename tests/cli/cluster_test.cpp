@@ -46,6 +46,22 @@ TEST(Cluster, WritesItsScriptsAndChecksEveryOneOfThem) {
   }
 }
 
+TEST(Cluster, TheLimitsAreThoseThatWereAskedFor) {
+  const Workplace place;
+  const Words limits = {"--time", "101:02:03", "--cpus", "4", "fit.toml"};
+  ASSERT_EQ(place.run(cluster("slurm", limits)).status, 0);
+  const std::string array = place.read("job/array.sbatch");
+  for (const char* line : {"#SBATCH --array=1-3\n", "#SBATCH --cpus-per-task=4\n",
+                           "#SBATCH --time=101:02:03\n", "#SBATCH --signal=B:USR1@90\n"}) {
+    EXPECT_NE(array.find(line), std::string::npos) << array;
+  }
+  ASSERT_EQ(place.run(cluster("htcondor", limits)).status, 0);
+  const std::string shards = place.read("job/shards.sub");
+  for (const char* line : {"+MaxRuntime = 363723\n", "request_cpus = 4\n", "queue 3\n"}) {
+    EXPECT_NE(shards.find(line), std::string::npos) << shards;
+  }
+}
+
 TEST(Cluster, AShardIsWhatTheScriptSays) {
   const Workplace place;
   fs::rename(place.path() / "fit.toml", place.path() / "it's mine.toml");
@@ -130,6 +146,9 @@ TEST(Cluster, MistakesAreToldBeforeAThousandShardsRepeatThem) {
         cluster("slurm", {"fit.toml", "--shard", "1/2"}),
         cluster("slurm", {"simulate", "fit.toml"}), cluster("slurm", {"fit.toml", "--time", "5"}),
         cluster("slurm", {"fit.toml", "--time", "aa:00:00"}),
+        cluster("slurm", {"fit.toml", "--time", "00:09:59"}),
+        cluster("slurm", {"fit.toml", "--time", "01:60:00"}),
+        cluster("slurm", {"fit.toml", "--time", "-1:00:00"}),
         Words{"cluster", "slurm", "fit.toml", "--shards", "0", "--out", "job"},
         Words{"cluster", "slurm", "fit.toml", "--shards", "2"},
         Words{"cluster", "slurm", "fit.toml", "--shards", "2", "--out", "50%"},

@@ -143,6 +143,18 @@ TEST(Shards, WhatIsMissingIsToldAndNothingIsWritten) {
   EXPECT_EQ(place.run({"merge", "parts"}).status, 0);
 }
 
+TEST(Shards, SharesOfDifferentNumbersOfShardsAddUp) {
+  const Workplace place;
+  const Words few = with(fit, {"--replicates", "9"});
+  run_shards(place, few, {1}, 2, "parts");
+  run_shards(place, few, {2}, 4, "parts");
+  EXPECT_EQ(place.run({"merge", "parts"}).status, 3);
+  run_shards(place, few, {4}, 4, "parts");
+  ASSERT_EQ(place.run({"merge", "parts"}).status, 0);
+  ASSERT_EQ(place.run(with(few, {"--out", "whole"})).status, 0);
+  EXPECT_EQ(place.read("parts/fit.json"), place.read("whole/fit.json"));
+}
+
 TEST(Shards, TheMergeRefusesWhatDoesNotBelongTogether) {
   const Workplace place;
   const auto refused = [&](const std::string& folder, const std::string& why) {
