@@ -13,8 +13,9 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_titles = 3;  // of tests that found something
-constexpr std::size_t most_values = 8;  // of parameters
+constexpr std::size_t most_titles = 3;    // of tests that found something
+constexpr std::size_t most_values = 8;    // of parameters
+constexpr std::size_t most_expected = 3;  // effects of stated conditions
 
 std::string p_words(double p, int simulated) {
   const double smallest = 1.0 / (simulated + 1.0);
@@ -76,6 +77,13 @@ std::string titles_of(const std::vector<std::string>& ids, const char* between =
   return fmt::format("{}", fmt::join(titles, between));
 }
 
+/// "ambient pressure"
+std::string condition_words(Condition condition) {
+  std::string words(name_of(condition));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
 /// "3.1", "3.1 +/- 0.2"
 std::string value_words(const FoundParameter& p) {
   return p.sd > 0.0 ? fmt::format("{:.3g} +/- {:.2g}", p.value, p.sd)
@@ -86,6 +94,16 @@ std::string value_words(const FoundParameter& p) {
 /// be, the range.
 std::string parameters_words(const CandidateResult& candidate) {
   std::vector<FoundParameter> all = candidate.parameters;
+  if (std::all_of(all.begin(), all.end(), [](const FoundParameter& p) { return p.sd == 0.0; })) {
+    std::erase_if(all, [](const FoundParameter& p) { return !p.stated_by; });
+    std::vector<std::string> words;
+    for (const FoundParameter& p : all) {
+      words.push_back(fmt::format("{} = {:.3g}{}, as the {} says", p.label, p.value,
+                                  unit_suffix(p.unit), condition_words(*p.stated_by)));
+    }
+    if (!words.empty()) return fmt::format("{}", fmt::join(words, "; "));
+    all = candidate.parameters;
+  }
   std::erase_if(all, [&](const FoundParameter& p) {
     const auto& slots = candidate.candidate.model.slots;
     return std::any_of(slots.begin(), slots.end(), [&](const ParameterSlot& slot) {
@@ -170,6 +188,21 @@ std::string common_words(const Diagnosis& d) {
   return text + ".";
 }
 
+/// What the conditions of the data say must be there, the largest effect first.
+std::string expected_words(const Diagnosis& d) {
+  std::string text;
+  std::size_t said = 0;
+  for (const ExpectedEffect& effect : d.expected) {
+    if (said++ == most_expected) break;
+    const ConditionInfo& info = info_of(effect.condition);
+    text += fmt::format(
+        " At the stated {} of {:.4g}{}, {} changes e by {:+.2g} at most ({} at {:.3g} m/s).",
+        condition_words(effect.condition), effect.stated, unit_suffix(info.unit),
+        title_of(effect.id), effect.change, diameter_words(effect.diameter), effect.velocity);
+  }
+  return text;
+}
+
 /// The change of a condition that would tell most for its effort, where one tells anything.
 std::string change_words(const Diagnosis& d) {
   const auto change = std::find_if(
@@ -177,11 +210,11 @@ std::string change_words(const Diagnosis& d) {
       [](const NextExperiment& next) { return next.kind == ExperimentKind::condition; });
   if (change == d.experiments.end()) return "";
   return fmt::format(
-      " Or change the conditions: {}, and repeat {} impact{} of {} at {:.3g} m/s. If the cause is "
-      "{}, e changes there by {:.2g}; if it is {}, e stays the same.",
+      " Or change the conditions: {}, and measure {} impact{} of {} at {:.3g} m/s. If the cause is "
+      "{}, e is {} there by {:.2g} than if it is {}.",
       change->doing, change->events, change->events == 1 ? "" : "s",
-      diameter_words(change->diameter), change->velocity, change->one, std::abs(change->difference),
-      change->other);
+      diameter_words(change->diameter), change->velocity, change->one,
+      change->difference > 0.0 ? "higher" : "lower", std::abs(change->difference), change->other);
 }
 
 std::string next_words(const Diagnosis& d) {
@@ -467,7 +500,7 @@ std::string answer_words(const Diagnosis& d) {
                "The model describes these points: nothing systematic is left in its residuals ({}: "
                "the share of data sets simulated with the model that look as systematic).",
                p) +
-           evidence_words(d) + materials_words(d) + outlying_words(d);
+           evidence_words(d) + materials_words(d) + expected_words(d) + outlying_words(d);
   }
   std::string text =
       fmt::format("The fitted model leaves structure in its residuals ({}){}. ", p, found_words(d));
@@ -510,7 +543,8 @@ std::string answer_words(const Diagnosis& d) {
     case Verdict::adequate:
       break;
   }
-  return text + rival_errors_words(d) + impossible_words(d) + method_words(d) + outlying_words(d);
+  return text + expected_words(d) + rival_errors_words(d) + impossible_words(d) + method_words(d) +
+         outlying_words(d);
 }
 
 }  // namespace recoil
