@@ -169,7 +169,7 @@ void report(const ReportOptions& options) {
     if (merging && !current) {
       throw InputError({files.page.string()}, "this page is not of what is here now",
                        "its fit file or data have changed since its shard ran",
-                       "run the shards again, into another folder");
+                       "run the shards again");
     }
     if (current && (!options.force || merging)) {
       entries.push_back(read_page(files, std::move(entry)));

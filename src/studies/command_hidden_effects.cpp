@@ -68,6 +68,10 @@ void study(const HiddenEffectsRun& options) {
     if (options.run.owns(next++)) orders.push_back(order);
   }
   const std::vector<hidden::Answered> answers = answers_to(orders, options);
+  if (!options.run.shard.empty() && answers.size() < orders.size()) {
+    throw ComputationError(fmt::format("{} of {} cases of this shard are left: run it again",
+                                       orders.size() - answers.size(), orders.size()));
+  }
   if (wrote_part(options.run)) return;
   hidden::StudyTally tally = hidden::tally_of(answers, orders.size(), options.size);
   tally.stamp = options.run.stamp();

@@ -10,32 +10,33 @@ namespace {
 
 constexpr std::size_t most_replicates = 1000000;
 
-/// One row: [index, [theta...], [std_error..., errors of what is derived...]], or [index] when the
-/// refit failed.
-bool read_row(const Json& row, ReplicateTable& table) {
-  if (!row.is_array() || row.empty() || !row[0].is_number_unsigned()) return false;
+/// Is it one row of such a table: [index, [theta...], [std_error..., errors of what is
+/// derived...]], or [index] when the refit failed?
+bool is_row(const Json& row, const ReplicateTable& table) {
+  if (row[0].get<std::size_t>() >= most_replicates) return false;
+  if (row.size() == 1) return true;
+  const auto holds = [](const Json& values, std::size_t length) {
+    return values.is_array() && values.size() == length &&
+           std::all_of(values.begin(), values.end(), [](const Json& v) { return v.is_number(); });
+  };
+  return row.size() == 3 && holds(row[1], table.slots) && holds(row[2], table.errors());
+}
+
+/// @pre is_row(row, table)
+void put_row(const Json& row, ReplicateTable& table) {
   const std::size_t index = row[0].get<std::size_t>();
-  if (index >= most_replicates) return false;
-  if (index >= table.state.size()) table.grow(index + 1);
+  table.grow(index + 1);
   if (row.size() == 1) {
     table.state[index] = ReplicateTable::State::failed;
-    return true;
+    return;
   }
-  const auto read = [&row](std::size_t column, std::size_t length, std::vector<double>& to,
-                           std::size_t at) {
-    if (row[column].size() != length) return false;
-    for (std::size_t j = 0; j < length; ++j) {
-      if (!row[column][j].is_number()) return false;
-      to[at + j] = row[column][j].get<double>();
-    }
-    return true;
-  };
-  if (row.size() != 3 || !read(1, table.slots, table.theta, index * table.slots) ||
-      !read(2, table.errors(), table.std_error, index * table.errors())) {
-    return false;
+  for (std::size_t j = 0; j < table.slots; ++j) {
+    table.theta[index * table.slots + j] = row[1][j].get<double>();
+  }
+  for (std::size_t j = 0; j < table.errors(); ++j) {
+    table.std_error[index * table.errors() + j] = row[2][j].get<double>();
   }
   table.state[index] = ReplicateTable::State::usable;
-  return true;
 }
 
 }  // namespace
@@ -50,21 +51,6 @@ void ReplicateTable::grow(std::size_t count) {
 std::size_t ReplicateTable::finished() const {
   return state.size() -
          static_cast<std::size_t>(std::count(state.begin(), state.end(), State::not_run));
-}
-
-void ReplicateTable::take(const ReplicateTable& other) {
-  grow(other.state.size());
-  const auto copy = [](const std::vector<double>& from, std::vector<double>& to, std::size_t i,
-                       std::size_t length) {
-    const auto at = static_cast<std::ptrdiff_t>(i * length);
-    std::copy_n(from.begin() + at, length, to.begin() + at);
-  };
-  for (std::size_t i = 0; i < other.state.size(); ++i) {
-    if (other.state[i] == State::not_run) continue;
-    state[i] = other.state[i];
-    copy(other.theta, theta, i, slots);
-    copy(other.std_error, std_error, i, errors());
-  }
 }
 
 void save_replicates(const std::filesystem::path& file, const std::string& key,
@@ -91,11 +77,13 @@ void load_replicates(const std::filesystem::path& file, const std::string& key,
                      ReplicateTable& table) {
   const std::optional<Json> head = read_row_head(file);
   if (!head || head->value("key", Json()) != key) return;
-  ReplicateTable found;
-  found.slots = table.slots;
-  found.derived = table.derived;
-  if (read_rows(file, [&found](const Json& row) { return read_row(row, found); }))
-    table.take(found);
+  std::vector<Json> rows;
+  const bool whole = read_rows(file, [&](const Json& row) {
+    rows.push_back(row);
+    return is_row(row, table);
+  });
+  if (!whole) return;
+  for (const Json& row : rows) put_row(row, table);
 }
 
 }  // namespace recoil

@@ -23,8 +23,6 @@ struct ReplicateTable {
   void grow(std::size_t count);
   std::size_t finished() const;
   std::size_t errors() const { return slots + derived; }
-  /// Takes over what `other`, of as many slots and derived quantities, has finished.
-  void take(const ReplicateTable& other);
 };
 
 /// Writes the finished replicates, every digit of them, as a file of rows (core/row_file.hpp) whose

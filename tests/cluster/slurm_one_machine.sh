@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # A real Slurm on this machine, for as long as this script runs: a fit in eight shards on two nodes, of
-# which two are killed, one runs twice and one node is drained, has to give the bytes of one process.
+# which two are killed, one is told of its time limit, one runs twice and one node is drained, has to
+# give the bytes of one process.
 #   sudo tests/cluster/slurm_one_machine.sh [RECOIL]     (default: build/release/recoil)
 # Needs root and the packages slurm-wlm and munge. Its Slurm has ports, keys and folders of its own and
 # leaves nothing behind; one that is installed already is not touched.
 set -uo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 recoil=$(realpath "${1:-$project/build/release/recoil}")
-fit=(fit fits/wall1990-mica.toml --replicates 20000)
+fit=(fit fits/wall1990-mica.toml --replicates 40000)
 shards=8
 
 die() {
@@ -117,6 +118,18 @@ for number in "${victims[@]}"; do
   echo "shard $number: killed"
 done
 wait_until 30 "the next shards" running 1
+told=''
+kept() { [ -n "$(find "$parts" -name 'unfinished-*')" ]; }
+tell_one() {
+  told=$(squeue --noheader --array --states=RUNNING --name=recoil --format=%K | sort -n | head -n 1)
+  [ -n "$told" ] || return 1
+  sleep 0.5 # what has hardly begun has nothing to keep
+  scancel --batch --signal=USR1 "${array}_$told" || return 1
+  sleep 0.5
+  kept
+}
+wait_until 30 "a shard that keeps what is finished" tell_one
+echo "shard $told: told of its time limit, and keeps what is finished"
 scontrol update NodeName=two State=DRAIN Reason="a try" || exit 1
 echo "node two: drained"
 sbatch --parsable --array=5 "$parts/array.sbatch" >/dev/null || exit 1
@@ -131,9 +144,10 @@ wait_until 240 "the end of all jobs" over
 echo "the merge jobs said:"
 sed 's/^/  /' "$parts/log-merge.txt"
 grep -q "^round 2: --array=" "$parts/log-merge.txt" || die "nothing was missing after the kills"
-for number in "${victims[@]}"; do
+for number in "${victims[@]}" "$told"; do
   [ "$(find "$parts" -name "part-$number-of-$shards-*" | wc -l)" = 1 ] || die "no part $number"
 done
+kept && die "what was unfinished is still there"
 
 # ---- the same in one process -----------------------------------------------------------------
 

@@ -90,7 +90,8 @@ TEST(ReplicateTable, DamagedFilesAreNotTrusted) {
   }
 }
 
-TEST(ReplicateTable, TakesOverWhatAnotherHasFinished) {
+TEST(ReplicateTable, FilesAddUp) {
+  const Folder folder;
   ReplicateTable table;
   table.slots = 1;
   table.grow(2);
@@ -104,7 +105,8 @@ TEST(ReplicateTable, TakesOverWhatAnotherHasFinished) {
                  ReplicateTable::State::usable};
   other.theta = {0, 0, 6};
   other.std_error = {0, 0, 7};
-  table.take(other);
+  save_replicates(folder.file(), "key", other);
+  load_replicates(folder.file(), "key", table);
   EXPECT_EQ(table.state, (std::vector<ReplicateTable::State>{ReplicateTable::State::failed,
                                                              ReplicateTable::State::usable,
                                                              ReplicateTable::State::usable}));
