@@ -4,6 +4,7 @@
 
 #include "core/units.hpp"
 #include "diagnosis/diagnosis_result.hpp"
+#include "report/answer_words.hpp"
 #include "report/diagnosis_headline.hpp"
 #include "report/json_values.hpp"
 #include "report/words_diagnosis.hpp"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -36,6 +37,11 @@ std::vector<std::string> changed_conditions(const Case& made) {
   return {names.begin(), names.end()};
 }
 
+bool counts_captures(const Case& made) {
+  return std::any_of(made.points.begin(), made.points.end(),
+                     [](const Point& p) { return p.captured > 0; });
+}
+
 std::string package_text(const Case& made, const std::string& name) {
   const Design& d = made.design;
   const Base& b = d.base;
@@ -51,6 +57,10 @@ std::string package_text(const Case& made, const std::string& name) {
       field("restitution", "number", "1", "mean of the rebounds"),
       field("restitution_sd", "number", "1", "standard error of that mean"),
       field("events", "integer", "1", "rebounds averaged in this point")};
+  if (counts_captures(made)) {
+    resource["schema"]["fields"].push_back(
+        field("captured", "integer", "1", "of the events; empty where nobody counted"));
+  }
   for (const std::string& condition : changed_conditions(made)) {
     const bool plain = condition == "neutralised" || condition == "relative_humidity";
     const char* const unit = plain ? "1" : condition == "ambient_pressure" ? "Pa" : "m";
@@ -78,6 +88,8 @@ std::string package_text(const Case& made, const std::string& name) {
 std::string points_text(const Case& made) {
   const std::vector<std::string> changed = changed_conditions(made);
   std::string text = "series,diameter,incident_velocity,restitution,restitution_sd,events";
+  const bool counts = counts_captures(made);
+  if (counts) text += ",captured";
   for (const std::string& name : changed) text += "," + name;
   text += "\n";
   for (std::size_t i = 0; i < made.points.size(); ++i) {
@@ -89,6 +101,7 @@ std::string points_text(const Case& made) {
                         made.design.decimals + (p.events > 0 ? 2 : 0),
                         printed(p.sd / (1.0 + made.effects.deviations_short), 3),
                         p.events > 0 ? p.events : made.design.events);
+    if (counts) text += p.events > 0 ? fmt::format(",{}", p.captured) : ",";
     for (const std::string& condition : changed) {
       text += p.changed.name == condition ? fmt::format(",{:g}", p.changed.value) : ",";
     }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random.hpp"
 #include "studies/synthetic/case.hpp"
-#include "studies/synthetic/observed_mean.hpp"
 #include "studies/synthetic/purpose.hpp"
 
 namespace hidden {
@@ -25,6 +25,41 @@ double thickness_for(const Base& base, double mobility) {
                           std::sqrt(base.surface_modulus * base.surface_density /
                                     (1.0 - std::pow(base.surface_ratio, 2)));
   return 1.0 / std::sqrt(mobility * per_area);
+}
+
+struct Seen {
+  int rebounds = 0;
+  int captured = 0;
+  double sum = 0.0;  ///< of the readings
+};
+
+/// Each impact by itself: it comes back, stays, or comes back too slowly to be seen.
+Seen impacts_seen(const Design& design, const Effects& effects, const Point& point,
+                  recoil::RandomStream& random) {
+  Seen seen;
+  const bool differ = effects.size_spread > 0.0 || effects.adhesion_spread > 0.0;
+  double square =
+      square_of_restitution(design.base, effects, point.velocity, point.diameter, 1.0, 1.0);
+  const double odd = oddity_factor(effects, point.velocity);
+  for (int i = 0; i < point.events; ++i) {
+    if (differ) {
+      const double size = size_of(effects.size_spread, random.normal());
+      const double adhesion = std::exp(effects.adhesion_spread * random.normal());
+      square = square_of_restitution(design.base, effects, point.velocity, point.diameter, size,
+                                     adhesion);
+    }
+    if (!(square > 0.0)) {
+      ++seen.captured;
+      continue;
+    }
+    const double e = std::sqrt(square) * odd;
+    double reading = std::max(e + design.scatter.of(e) * random.normal(), 0.0);
+    if (random.uniform() < effects.outlier_share) reading = random.uniform();
+    if (reading * point.velocity < effects.slowest_rebound) continue;
+    ++seen.rebounds;
+    seen.sum += reading;
+  }
+  return seen;
 }
 
 }  // namespace
@@ -98,15 +133,17 @@ void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round
   point.events = further.events;
   point.changed = further.changed;
   const Effects effects = under(further.changed, made.effects);
-  const Expected expected = expected_point(design.base, effects, design.scatter, point.velocity,
-                                           point.diameter, point.row);
-  point.restitution = expected.restitution;
-  point.sd = expected.event_sd / std::sqrt(static_cast<double>(point.events));
-  const double reading = observed_mean(design.base, effects, design.scatter, point.velocity,
-                                       point.diameter, point.row, point.events, random);
-  if (!(point.restitution > 0.05) || !(reading > 0.0)) return;  // nothing comes back to be read
+  const Seen seen = impacts_seen(design, effects, point, random);
+  if (seen.rebounds + seen.captured == 0) return;  // too slow to be seen, all of them
+  point.events = seen.rebounds + seen.captured;
+  point.captured = seen.captured;
+  const double e = seen.rebounds > 0 ? seen.sum / seen.rebounds : 0.0;
+  point.restitution = e;
+  // What an experimenter knows of the scatter: that of the other points.
+  point.sd = design.scatter.of(std::max(e, 0.1)) / std::sqrt(std::max(seen.rebounds, 1));
   made.points.push_back(point);
-  made.readings.push_back(reading);
+  made.readings.push_back(
+      e > 0.0 && !effects.series_offset.empty() ? e + effects.series_offset[point.row] : e);
 }
 
 }  // namespace hidden

@@ -178,6 +178,7 @@ std::vector<Point> expected_points(const Design& design, const Effects& effects)
                         e.restitution,
                         e.event_sd / std::sqrt(static_cast<double>(design.events)),
                         0,
+                        0,
                         {}});
     }
   }

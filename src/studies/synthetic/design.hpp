@@ -48,8 +48,9 @@ struct Point {
   double diameter = 0.0;  ///< as stated [m]
   double velocity = 0.0;  ///< [m/s]
   double restitution = 0.0;
-  double sd = 0.0;               ///< of the mean
-  int events = 0;                ///< where they differ from those of the design
+  double sd = 0.0;   ///< of the mean
+  int events = 0;    ///< where they differ from those of the design, captured ones included
+  int captured = 0;  ///< of these
   StatedCondition changed = {};  ///< under which it was taken; of no name: as the others
 };
 
