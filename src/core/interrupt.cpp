@@ -11,6 +11,7 @@ static_assert(std::atomic<int>::is_always_lock_free, "the signal handler writes 
 
 struct sigaction previous_interrupt;
 struct sigaction previous_terminate;
+struct sigaction previous_user;
 
 void remember(int signal) { raised = signal; }
 
@@ -30,11 +31,13 @@ InterruptGuard::InterruptGuard() {
   raised = 0;
   watch(SIGINT, previous_interrupt);
   watch(SIGTERM, previous_terminate);
+  watch(SIGUSR1, previous_user);
 }
 
 InterruptGuard::~InterruptGuard() {
   sigaction(SIGINT, &previous_interrupt, nullptr);
   sigaction(SIGTERM, &previous_terminate, nullptr);
+  sigaction(SIGUSR1, &previous_user, nullptr);
 }
 
 bool stop_requested() { return raised.load(std::memory_order_relaxed) != 0; }

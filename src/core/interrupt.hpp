@@ -11,9 +11,10 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// While one of these lives, the first Ctrl-C (SIGINT) or SIGTERM only raises a flag, so that work
-/// in progress can put what is finished on disk. The second one ends the process as ever. What was
-/// set before comes back at its end.
+/// While one of these lives, the first Ctrl-C (SIGINT), SIGTERM or SIGUSR1 (which clusters send
+/// before a time limit) only raises a flag, so that work in progress can put what is finished on
+/// disk. The second one of a kind ends the process as ever. What was set before comes back at its
+/// end.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -259,6 +259,24 @@ Observations simulate_base(const SearchBase& base, std::uint64_t index) {
   return sample;
 }
 
+std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
+    const SearchBase& base, const StructureStatistics& statistics, std::uint64_t index) {
+  if (const std::vector<double>* const row = base.options.row(index)) {
+    if (row->size() == 1) return std::nullopt;
+    PerValue<StructureQuestion, double> answer{};
+    std::size_t at = 1;
+    for (const StructureQuestion question : values_of<StructureQuestion>()) {
+      answer[question] = row->at(at++);
+    }
+    return answer;
+  }
+  const Observations sample = simulate_base(base, index);
+  const Refit refit =
+      refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
+  if (!refit.usable) return std::nullopt;
+  return statistics(refit.residuals);
+}
+
 std::vector<CandidateResult> try_singles(const SearchBase& base) {
   std::vector<const Mechanism*> untried;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
@@ -295,29 +313,37 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
   return results;
 }
 
+double largest_gain(const SearchBase& base, const std::vector<CandidateResult>& candidates,
+                    std::uint64_t index) {
+  double most = -INFINITY;
+  const Observations sample = simulate_base(base, index);
+  const Refit alone =
+      refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
+  if (!alone.usable) return most;
+  const double criterion = corrected_criterion(sample, alone, base.candidate.free_count);
+  bool spread = false;
+  for (const CandidateResult& c : candidates) {
+    // One spread looks like the other, and takes nine times as long as anything else.
+    if (spreads(c) && std::exchange(spread, true)) continue;
+    const std::vector<double> near =
+        carried_over(base.candidate.model, alone.theta, c.candidate.model);
+    // What chance alone makes of a mechanism is small, and so is the error of its law.
+    const Refit refit = refit_candidate(c.candidate, sample, near, 1, base.refit.discrepancy);
+    if (!refit.usable) continue;
+    const double gain = criterion - corrected_criterion(sample, refit, c.candidate.free_count);
+    most = std::max(most, gain);
+  }
+  return most;
+}
+
 void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
                const std::function<void()>& tick) {
   const auto count = static_cast<std::size_t>(base.options.compared);
   std::vector<double> most(count, -INFINITY);
   const auto gains_more = [&](std::size_t b) {
-    const Observations sample = simulate_base(base, b);
-    const Refit alone =
-        refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
+    const auto* made = base.options.row(static_cast<std::size_t>(base.options.simulated) + b);
+    most[b] = made != nullptr ? made->front() : largest_gain(base, candidates, b);
     tick();
-    if (!alone.usable) return;
-    const double criterion = corrected_criterion(sample, alone, base.candidate.free_count);
-    bool spread = false;
-    for (const CandidateResult& c : candidates) {
-      // One spread looks like the other, and takes nine times as long as anything else.
-      if (spreads(c) && std::exchange(spread, true)) continue;
-      const std::vector<double> near =
-          carried_over(base.candidate.model, alone.theta, c.candidate.model);
-      // What chance alone makes of a mechanism is small, and so is the error of its law.
-      const Refit refit = refit_candidate(c.candidate, sample, near, 1, base.refit.discrepancy);
-      if (!refit.usable) continue;
-      const double gain = criterion - corrected_criterion(sample, refit, c.candidate.free_count);
-      most[b] = std::max(most[b], gain);
-    }
   };
   std::size_t done = 0;
   const auto as_much = [&](const CandidateResult& c) {

@@ -62,11 +62,18 @@ std::vector<hidden::Answered> answers_to(const std::vector<hidden::CaseOrder>& o
 
 void study(const HiddenEffectsRun& options) {
   std::vector<hidden::CaseOrder> orders;
+  std::size_t next = 0;
   for (const hidden::CaseOrder& order : hidden::plan_study(options.size)) {
-    if (order.key().find(options.only) != std::string::npos) orders.push_back(order);
+    if (order.key().find(options.only) == std::string::npos) continue;
+    if (options.run.owns(next++)) orders.push_back(order);
   }
-  hidden::StudyTally tally =
-      hidden::tally_of(answers_to(orders, options), orders.size(), options.size);
+  const std::vector<hidden::Answered> answers = answers_to(orders, options);
+  if (!options.run.shard.empty() && answers.size() < orders.size()) {
+    throw ComputationError(fmt::format("{} of {} cases of this shard are left: run it again",
+                                       orders.size() - answers.size(), orders.size()));
+  }
+  if (wrote_part(options.run)) return;
+  hidden::StudyTally tally = hidden::tally_of(answers, orders.size(), options.size);
   tally.stamp = options.run.stamp();
   publish(options.run, hidden::tally_json(tally), hidden::hidden_effects_page(tally));
 }
@@ -109,6 +116,7 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
                       "is kept)");
   command->add_option("--seed", size.seed, "of the data sets");
   add_run_options(*command, options->run);
+  add_shard_option(*command, options->run);
   command->callback([options] { study(*options); });
 }
 
