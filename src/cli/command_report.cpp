@@ -90,6 +90,7 @@ void report(const ReportOptions& options) {
     const fs::path json = out / id / "fit.json";
     const fs::path text = out / id / "fit.txt";
     const fs::path picture = out / id / "picture.svg";
+    const fs::path picture_data = out / id / "picture.csv";
     const fs::path diagnosed = out / id / "diagnosis.json";
     const fs::path laws = out / id / "laws.json";
     const fs::path stamp = out / id / "inputs.sha256";
@@ -99,10 +100,11 @@ void report(const ReportOptions& options) {
     entry.page = id + ".html";
     entry.diagnosis_page = id + "/diagnosis.html";
     if (!options.force &&
-        is_current(stamp, expected, {page, json, text, picture, diagnosed, laws})) {
+        is_current(stamp, expected, {page, json, text, picture, picture_data, diagnosed, laws})) {
       entry.fit = read_summary(entry.page, read_text_file(json), read_text_file(diagnosed));
       entry.fit.laws = read_laws(entry.page, read_text_file(laws));
       entry.picture = read_text_file(picture);
+      entry.picture_csv = read_text_file(picture_data);
       fmt::print("{}: current\n", page.string());
     } else {
       AnalysisOptions resolved = options.analysis.resolved();
@@ -114,6 +116,7 @@ void report(const ReportOptions& options) {
       const Diagnosis diagnosis = diagnose_for_report(analysis, options.analysis);
       entry.fit = summary_of(analysis, diagnosis);
       entry.picture = thumbnail(analysis);
+      entry.picture_csv = thumbnail_csv(analysis);
       write_whole_file(page,
                        html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page)));
       write_whole_file(out / id / "diagnosis.html", diagnosis_html(diagnosis));
@@ -122,6 +125,7 @@ void report(const ReportOptions& options) {
       write_whole_file(text, text_report(analysis));
       write_whole_file(laws, laws_json(entry.fit.laws));
       write_whole_file(picture, entry.picture);
+      write_whole_file(picture_data, entry.picture_csv);
       write_whole_file(json, json_report(analysis));
       write_whole_file(stamp, expected);
       forget_replicates(resolved.folder);

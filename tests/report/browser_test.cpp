@@ -28,13 +28,14 @@ class Browser : public testing::Test {
   }
 
   /// 0 when Chromium is content with `html`.
-  int open(const std::string& html, int figures) {
+  int open(const std::string& html, int figures, const std::vector<std::string>& options = {}) {
     const fs::path file = folder_ / "page.html";
     folder_.write("page.html", html);
-    return support::run_command({"python3", RECOIL_SOURCE_DIR "/tests/report/open_in_chromium.py",
-                                 "--figures", std::to_string(figures), file.string()},
-                                folder_.path())
-        .status;
+    std::vector<std::string> words = {"python3",
+                                      RECOIL_SOURCE_DIR "/tests/report/open_in_chromium.py",
+                                      "--figures", std::to_string(figures), file.string()};
+    words.insert(words.end(), options.begin(), options.end());
+    return support::run_command(words, folder_.path()).status;
   }
 
   static std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -49,6 +50,14 @@ class Browser : public testing::Test {
 };
 
 TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 15), 0); }
+
+TEST_F(Browser, ShowsThePageWithoutScript) {
+  EXPECT_EQ(open(page_, 15, {"--without-script"}), 0);
+  EXPECT_EQ(
+      open(replaced(page_, "</main>", "<p class='save'>Save</p></main>"), 15, {"--without-script"}),
+      1)
+      << "what only a script can do is not there";
+}
 
 TEST_F(Browser, ShowsWhatCorrectionsDo) {
   Analysis analysis = sample::four_diameters();
