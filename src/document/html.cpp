@@ -126,17 +126,16 @@ std::string data_html(std::string_view look, const std::string& json) {
 }
 
 /// Empty cells, of which there are many where layers share nothing, as their number: four commas
-/// and more as U+E000, how many, U+E000. save.js undoes it.
+/// and more as "&4;", and the sign itself as "&0;". save.js undoes it.
 std::string without_runs_of_commas(const std::string& csv) {
   constexpr std::size_t fewest = 4;
   std::string out;
   for (std::size_t i = 0; i < csv.size();) {
-    const std::size_t end = std::min(csv.find_first_not_of(',', i), csv.size());
-    const std::size_t run = end - i;
+    const std::size_t run = std::min(csv.find_first_not_of(',', i), csv.size()) - i;
     if (run >= fewest) {
-      out += fmt::format("\ue000{}\ue000", run);
+      out += fmt::format("&{};", run);
     } else {
-      out += csv.substr(i, std::max<std::size_t>(run, 1));
+      out += csv[i] == '&' ? "&0;" : csv.substr(i, std::max<std::size_t>(run, 1));
     }
     i += std::max<std::size_t>(run, 1);
   }

@@ -130,10 +130,13 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .cards { grid-template-columns: 1fr 1fr; }
   figcaption { font-size: 8pt; }
   .wide { overflow: visible; break-inside: avoid; }
-  table { font-size: 8pt; }
+  .wide:has(table.compact) { break-inside: auto; }
+  .large .picture { overflow: visible; }
+  table { font-size: 8pt; overflow-wrap: anywhere; }
   th, td { padding: .15rem .4rem; white-space: normal; }
   td.prose { min-width: 0; }
-  table.compact th, table.compact td { white-space: nowrap; padding: .08rem .4rem; }
+  table.compact th, table.compact td { padding: .08rem .4rem; }
+  table.compact td { white-space: nowrap; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
   a { color: inherit; text-decoration: none; }

@@ -42,7 +42,8 @@ document.addEventListener("DOMContentLoaded", () => {
     const data = (figure || picture.parentNode).querySelector("script.csv");
     if (data) {
       links.append(" ", link("CSV", name + ".csv", "text/csv", () =>
-        JSON.parse(data.textContent).replace(/\uE000(\d+)\uE000/g, (_, n) => ",".repeat(n))));
+        JSON.parse(data.textContent)
+            .replace(/&(\d+);/g, (_, n) => (n === "0" ? "&" : ",".repeat(Number(n))))));
     }
     if (figure) figure.append(links); else picture.after(links);
   }

@@ -37,8 +37,8 @@ std::string version();
 /// the blocks that it has, and its failure.
 std::string text_report(const Analysis& analysis);
 
-/// One self-contained page: plots (inline SVG by gnuplot), tables, provenance; no network, less
-/// than 1 MB. Its scripts save the pictures and explore e(V); without them it is complete.
+/// One self-contained page: plots (inline SVG by gnuplot), tables, provenance; no network, about
+/// 1 MB at most. Its scripts save the pictures and explore e(V); without them it is complete.
 /// @param diagnosis the section on what the model gets wrong; empty: there is none
 /// @pre analysis.fitted.usable
 /// @throws ComputationError when gnuplot cannot be run.

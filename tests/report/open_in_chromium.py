@@ -3,11 +3,14 @@
 
 usage: open_in_chromium.py [--figures N] [--pictures DIR] [--without-script] PAGE.html ...
 
-For every page, at desktop width (1200 px) and on a phone (360 px):
+For every page, at desktop width (1200 px), on a phone (360 px) and as printed on A4 (680 px between
+the margins):
   - no console error or warning, no exception, no failed load
   - no request to anything but the page itself
   - every figure holds an SVG with a visible box in which plots are drawn, at least N of them
   - no horizontal scrolling of the page, no duplicate id, no link to a missing anchor
+  - in print no navigation, no links that save, no sliders; the addresses of other pages are readable,
+    and no page ends within a picture or a row of a table
 
 --pictures DIR also writes PNG screenshots of both widths and the printed PDF.
 Only Python's standard library is used; Chromium is driven by the DevTools protocol over a pipe.
@@ -27,7 +30,7 @@ import time
 
 TIME_LIMIT = 60.0  # [s] for one answer of the browser
 
-WIDTHS = {"desktop": (1200, 900, False), "phone": (360, 740, True)}
+WIDTHS = {"desktop": (1200, 900, False), "phone": (360, 740, True), "print": (680, 1000, False)}
 
 # Runs inside the page, given the screen's width; returns a list of complaints and what it counted.
 INSPECT = r"""
@@ -75,6 +78,21 @@ INSPECT = r"""
   // A phone zooms out of a page that is too wide, so its own innerWidth proves nothing.
   if (page.scrollWidth > screen + 1)
     complaints.push('the page scrolls sideways: ' + page.scrollWidth + ' px in ' + screen + ' px');
+  if (matchMedia('print').matches) {
+    for (const element of document.querySelectorAll('nav, .save, details.explore, .explored')) {
+      if (element.getBoundingClientRect().height > 0)
+        complaints.push('prints ' + element.tagName + ' ' + element.getAttribute('class'));
+    }
+    for (const element of document.querySelectorAll('figure, tr')) {
+      if (getComputedStyle(element).breakInside !== 'avoid')
+        complaints.push('a page may end within ' + element.tagName);
+    }
+    for (const link of document.querySelectorAll('a[href^="http"], a[href$=".html"]')) {
+      if (!getComputedStyle(link, '::after').content.includes(link.getAttribute('href')) &&
+          link.getBoundingClientRect().height > 0)
+        complaints.push('does not print where ' + link.getAttribute('href') + ' is');
+    }
+  }
   const made = document.querySelectorAll('.save, .explore:not(script)').length;
   return {complaints: [...new Set(complaints)], drawn, made, height: page.scrollHeight};
 })"""
@@ -205,6 +223,8 @@ def inspect(browser, page, options):
     for name, (width, height, mobile) in WIDTHS.items():
         session, target = open_page(browser, page, width, height, mobile,
                                     not options.without_script)
+        if name == "print":
+            browser.call("Emulation.setEmulatedMedia", session, media="print")
         answer = browser.call("Runtime.evaluate", session, expression=f"{INSPECT}({width})",
                               returnByValue=True)
         if "exceptionDetails" in answer:
