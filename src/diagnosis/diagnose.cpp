@@ -10,8 +10,10 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "diagnosis/expected_effects.hpp"
 #include "diagnosis/judge.hpp"
 #include "diagnosis/misfit_map.hpp"
+#include "diagnosis/next_experiments.hpp"
 #include "diagnosis/next_measurement.hpp"
 #include "diagnosis/search.hpp"
 #include "diagnosis/unstated_errors.hpp"
@@ -275,7 +277,7 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   decide(found, one_size, diagnosis);
   if (diagnosis.verdict == Verdict::not_separable) {
     diagnosis.next = next_measurements(diagnosis.base, found);
-    diagnosis.experiments = next_experiments(diagnosis.base, found);
+    diagnosis.experiments = next_experiments(base, found);
   }
   if (diagnosis.extended) extend(base, diagnosis);
 }
@@ -335,6 +337,7 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   diagnosis.spec = base.spec;
   diagnosis.datasets = base.datasets;
   diagnosis.base = base.fitted;
+  diagnosis.expected = expected_effects(base);
   Progress progress("diagnosis",
                     static_cast<std::size_t>((options.simulated + 9) / 10 + options.compared));
   test_base(base, diagnosis, progress);

@@ -105,10 +105,10 @@ bool rests_on_the_edge(const CandidateResult& result) {
 }
 
 bool can_be_released(const Candidate& candidate) {
-  return std::any_of(candidate.model.slots.begin(), candidate.model.slots.end(),
-                     [&](const ParameterSlot& slot) {
-                       return !slot.free && slot.parameter->searched && candidate.adds(slot);
-                     });
+  return std::any_of(
+      candidate.model.slots.begin(), candidate.model.slots.end(), [&](const ParameterSlot& slot) {
+        return !slot.free && !slot.stated && slot.parameter->searched && candidate.adds(slot);
+      });
 }
 
 /// The same with released parameters, if that is worth it.
@@ -263,6 +263,12 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
     Candidate candidate =
         make_candidate(base.spec, base.datasets, {std::string(untried[k]->info.id)});
     if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 1) return;
+    const std::vector<PointConditions>& impacts = candidate.impacts;
+    if (std::all_of(impacts.begin(), impacts.end(), [&](const PointConditions& at) {
+          return is_taken_away(candidate.model, *untried[k], at);
+        })) {
+      return;
+    }
     const std::vector<double> near =
         carried_over(base.candidate.model, base.refit.theta, candidate.model);
     results[k] = try_one(base, std::move(candidate), near, tries_alone);

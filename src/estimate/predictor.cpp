@@ -66,10 +66,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       nulls_.push_back(0.0);
     }
     for (std::size_t k = 0; k < own.size(); ++k) {
-      const std::vector<std::size_t>& slots = model.slot_own[own[k]][p.dataset];
-      const bool per_series = own_parameters[k]->per_series;
-      const bool known = !per_series || p.series < slots.size();
-      slots_.push_back(known ? slots[per_series ? p.series : 0] : no_slot);
+      slots_.push_back(own_slot(model, own[k], *own_parameters[k], p).value_or(no_slot));
       nulls_.push_back(own_parameters[k]->null_value);
     }
   }
@@ -208,9 +205,8 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
   std::size_t k = 0;
   for (const Mechanism* mechanism : model.chain) {
     for (const Parameter& p : mechanism->info.parameters) {
-      const std::vector<std::size_t>& slots = model.slot_own[k++][point.dataset];
-      const bool known = !p.per_series || point.series < slots.size();
-      values.push_back(known ? theta[slots[p.per_series ? point.series : 0]] : p.null_value);
+      const auto slot = own_slot(model, k++, p, point);
+      values.push_back(slot ? theta[*slot] : p.null_value);
     }
   }
   const Surroundings now = surroundings_under(model, theta, point.dataset);

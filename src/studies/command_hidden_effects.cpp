@@ -96,6 +96,12 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
                       "with nothing hidden and the losses of the base model bent by 3 %");
   command->add_option("--impossible", size.impossible,
                       "of each effect and design, at three times what nature has");
+  command->add_option("--conditions", size.conditions,
+                      "of each effect that a condition takes away, design and visible strength, "
+                      "with its condition stated and again varied");
+  command->add_option("--loop", size.loop,
+                      "of each effect, design and visible strength, asked again after doing what "
+                      "the answer advises, three times at most");
   command->add_option("--only", options->only, "only orders whose key contains this");
   command->add_option("--recoil", options->binary, "the command to be judged");
   command->add_option("--at-most-minutes", options->minutes,
