@@ -184,7 +184,7 @@ TEST(ImportInAir, VacuumKeepsEveryDigit) {
             "input,40,2.69386729,0.753370804,0.00372913886,0.00364036121\n");
   EXPECT_NE(note_of(result.notes, ImportRemark::without_air), nullptr);
   EXPECT_EQ(note_of(result.notes, ImportRemark::air_drag), nullptr);
-  EXPECT_EQ(result.dataset.system.conditions.of(Condition::ambient_pressure), 0.0);
+  EXPECT_EQ(result.dataset.system.conditions.of(recoil::Condition::ambient_pressure), 0.0);
 }
 
 TEST(ImportInAir, TheMediumStandsInThePackageAndIsKept) {
