@@ -30,6 +30,14 @@ LeastSquaresOptions descent() {
   return options;
 }
 
+/// Where that one does not end: along each step, as far as it leads down.
+LeastSquaresOptions careful_descent() {
+  LeastSquaresOptions options = descent();
+  options.search_along_steps = true;
+  options.max_iterations = 500;
+  return options;
+}
+
 /// `near` and what differs from it by an advised start of one parameter of an added mechanism.
 std::vector<std::vector<double>> advised_starts(const Candidate& candidate,
                                                 const std::vector<double>& near) {
@@ -265,6 +273,9 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
   best.discrepancy = std::move(discrepancy);
   for (const std::vector<double>& start : starts) {
     LeastSquaresResult run = minimise(problem, start, options);
+    if (!run.converged && std::isfinite(run.sum_of_squares)) {
+      run = minimise(problem, run.theta, careful_descent());
+    }
     if (!run.converged || !std::isfinite(run.sum_of_squares)) continue;
     if (best.usable && run.sum_of_squares >= best.chi2) continue;
     best.usable = true;

@@ -225,6 +225,22 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
   return base;
 }
 
+namespace {
+
+/// All impacts of `point` were captured, and of their scatter nothing is known: where the model has
+/// them come back, the error of e decides (see `weighted_residual`).
+void draw_capture(Observation& point, double square, RandomStream& random) {
+  const double sd = point.weights.sd;
+  const double error = std::hypot(std::sqrt(2.0) * sd * sd, point.weights.input_sd);
+  const double reading = std::sqrt(std::max(square, 0.0)) + sd * random.normal();
+  if (!(square + error * random.normal() > 0.0) || !(reading > 0.0)) return;
+  point.censored = false;
+  point.captured = 0;
+  point.restitution = reading;
+}
+
+}  // namespace
+
 Observations simulate_base(const SearchBase& base, std::uint64_t index) {
   RandomStream random(base.options.seed, RandomPurpose::diagnosis, index);
   Eigen::VectorXd bend = Eigen::VectorXd::Zero(base.laws.functions.cols());
@@ -238,6 +254,7 @@ Observations simulate_base(const SearchBase& base, std::uint64_t index) {
     point = simulate_observation(point, square + loss * wrong_by(static_cast<Eigen::Index>(i)),
                                  base.noise_scale, sample.noise.student, random);
     if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
+    if (point.censored && !(point.weights.scatter > 0.0)) draw_capture(point, square, random);
   }
   return sample;
 }
