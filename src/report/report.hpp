@@ -29,7 +29,7 @@ struct Analysis {
   bool corrections_outdated = false;         ///< they were made from another fit, dataset or recipe
 };
 
-/// This program's version, "0.1.0".
+/// This program's version, "0.2.0".
 std::string version();
 
 /// The block report that `recoil fit` prints: provenance, fit statistics, variables, correlations,
