@@ -92,12 +92,13 @@ struct PageFiles {
   fs::path json = folder / "fit.json";
   fs::path text = folder / "fit.txt";
   fs::path picture = folder / "picture.svg";
+  fs::path picture_data = folder / "picture.csv";
   fs::path diagnosed = folder / "diagnosis.json";
   fs::path laws = folder / "laws.json";
   fs::path stamp = folder / "inputs.sha256";
 
   bool are_current(const std::string& expected) const {
-    return is_current(stamp, expected, {page, json, text, picture, diagnosed, laws});
+    return is_current(stamp, expected, {page, json, text, picture, picture_data, diagnosed, laws});
   }
 };
 
@@ -105,6 +106,7 @@ IndexEntry read_page(const PageFiles& files, IndexEntry entry) {
   entry.fit = read_summary(entry.page, read_text_file(files.json), read_text_file(files.diagnosed));
   entry.fit.laws = read_laws(entry.page, read_text_file(files.laws));
   entry.picture = read_text_file(files.picture);
+  entry.picture_csv = read_text_file(files.picture_data);
   return entry;
 }
 
@@ -119,6 +121,7 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
   const Diagnosis diagnosis = diagnose_for_report(analysis, flags);
   entry.fit = summary_of(analysis, diagnosis);
   entry.picture = thumbnail(analysis);
+  entry.picture_csv = thumbnail_csv(analysis);
   write_whole_file(files.page,
                    html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page)));
   write_whole_file(files.folder / "diagnosis.html", diagnosis_html(diagnosis));
@@ -127,6 +130,7 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
   write_whole_file(files.text, text_report(analysis));
   write_whole_file(files.laws, laws_json(entry.fit.laws));
   write_whole_file(files.picture, entry.picture);
+  write_whole_file(files.picture_data, entry.picture_csv);
   write_whole_file(files.json, json_report(analysis));
   write_whole_file(files.stamp, expected);
   forget_replicates(resolved.folder);

@@ -7,6 +7,7 @@ namespace recoil {
 namespace {
 
 std::atomic<int> raised{0};
+std::atomic<int> calling_off{0};
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler writes it");
 
 struct sigaction previous_interrupt;
@@ -43,5 +44,10 @@ InterruptGuard::~InterruptGuard() {
 bool stop_requested() { return raised.load(std::memory_order_relaxed) != 0; }
 
 int stop_signal() { return raised; }
+
+CallingOff::CallingOff() { ++calling_off; }
+CallingOff::~CallingOff() { --calling_off; }
+
+bool called_off() { return calling_off.load(std::memory_order_relaxed) != 0; }
 
 }  // namespace recoil

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/interrupt.hpp"
+
 namespace recoil {
 namespace {
 
@@ -74,6 +76,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
 
 long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   assert(theta.size() == model_.slots.size());
+  end_if_called_off();
   const ImpactOptions options = model_.impact_options(gradient);
   for (std::size_t d = 0; d < force_.size(); ++d) {
     force_[d] = adhesion_force_under(model_, theta, d);

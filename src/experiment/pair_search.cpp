@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "core/statistics.hpp"
 #include "experiment/flight.hpp"
 
@@ -45,6 +46,7 @@ std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
   const double ratio = 1.0 + options.diameter_tolerance;
   std::vector<Link> links;
   for (std::size_t i = 0; i < passages.size(); ++i) {
+    end_if_called_off();
     const Passage& down = passages[i];
     if (down.velocity <= 0.0) continue;
     const double latest = down.time + flight::longest_round_trip(down.velocity, highest);

@@ -295,6 +295,7 @@ Document diagnosis_document(const Diagnosis& d) {
   page.title = "Diagnosis of " + d.spec.id;
   page.heading = "What the model gets wrong";
   page.subtitle = page.title;
+  page.name = d.spec.id;
   page.foot = "recoil " + version();
   page.foreword = provenance_banners(d.datasets);
   append(page.foreword, diagnosis_answer(d));
