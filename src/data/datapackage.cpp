@@ -49,8 +49,10 @@ void read_unit(const JsonNode& field, Column& column) {
 
 Column read_field(const JsonNode& field) {
   const std::vector<std::string> names = all_names<Quantity>();
-  const JsonNode name = field.require("name", "it links the field to a column",
-                                      fmt::format("known: {}", join(names)));
+  const JsonNode name =
+      field.require("name", "it links the field to a column",
+                    "known: series, diameter, incident_velocity, restitution, ... "
+                    "(recoil help data)");
   Column column;
   column.name = name.string();
   const auto quantity = value_named<Quantity>(column.name);

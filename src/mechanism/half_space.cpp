@@ -72,8 +72,6 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
   s.reference_diameter = contact.reference_diameter;
   s.adhesion_energy = contact.adhesion_energy;
   s.method = system.method;
-  s.ambient_pressure =
-      system.conditions.of(Condition::ambient_pressure).value_or(s.ambient_pressure);
   // Waves run in the surface: its own density, the sphere's only where none is stated.
   const Material& surface = system.surface;
   s.wave_mobility =

@@ -69,7 +69,7 @@ CaseOrder with_conditions(const char* effect, Circumstances circumstances) {
 std::vector<Question> known_conditions() {
   return {{with_conditions("gas_film", Circumstances::stated), {Mark::named}},
           {with_conditions("gas_film", Circumstances::varied), {Mark::named}},
-          {with_conditions("electrostatic_image", Circumstances::varied), {Mark::named}}};
+          {with_conditions("capillary", Circumstances::varied), {Mark::named}}};
 }
 
 /// Nearly alike: naming the right one or listing it is true, anything else is not. (JKR's work and
