@@ -54,12 +54,20 @@ void require_valid(const std::vector<std::string>& words) {
   add_coverage(trial);
   add_diagnose(trial);
   add_report(trial);
-  for (CLI::App* command : trial.get_subcommands({})) command->callback([] {});
+  // Ends before the command is run. (Its own callback stays: it holds what the options write to.)
+  for (CLI::App* command : trial.get_subcommands({})) {
+    command->parse_complete_callback([] { throw CLI::Success(); });
+  }
   std::vector<std::string> backwards = words;
   backwards.insert(backwards.end(), {"--shard", "1/1", "--out", "."});
   std::reverse(backwards.begin(), backwards.end());
   try {
-    trial.parse(backwards);
+    try {
+      trial.parse(backwards);
+    } catch (const CLI::Success&) {
+      const std::vector<std::string> unknown = trial.remaining(true);
+      if (!unknown.empty()) throw CLI::ExtrasError("recoil", unknown);
+    }
   } catch (const CLI::ParseError& error) {
     throw InputError({}, error.what(), "", fmt::format("see recoil {} --help", words.front()));
   }
