@@ -49,7 +49,8 @@ class Conditions {
   /// These, and of what they leave open that of `others`.
   Conditions or_else(const Conditions& others) const;
   bool operator==(const Conditions&) const = default;
-  auto operator<=>(const Conditions&) const = default;
+  /// An order of no meaning, for maps.
+  bool operator<(const Conditions& other) const { return values_ < other.values_; }
 
  private:
   std::array<std::optional<double>, NamesOf<Condition>::names.size()> values_;
