@@ -13,17 +13,14 @@ namespace recoil {
 namespace {
 
 std::filesystem::path replicates_file(const std::filesystem::path& folder) {
-  return folder.empty() ? folder : folder / "replicates.json";
+  return folder.empty() ? folder : folder / "replicates.jsonl";
 }
 
 }  // namespace
 
 std::string program_stamp() {
-  std::error_code failed;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
-  if (failed) return "";
-  return fmt::format("{}|{}", std::filesystem::file_size(program, failed),
-                     std::filesystem::last_write_time(program, failed).time_since_epoch().count());
+  static const std::string stamp = sha256_of_file("/proc/self/exe");
+  return stamp;
 }
 
 UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options) {
@@ -37,7 +34,7 @@ UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOption
   assess.seed = options.seed.value_or(spec.uncertainty.seed);
   assess.threads = options.threads;
   assess.keep = replicates_file(options.folder);
-  assess.keep_key = fmt::format("{}|{}", version(), program_stamp());
+  if (!options.folder.empty()) assess.keep_key = fmt::format("{}|{}", version(), program_stamp());
   return assess;
 }
 

@@ -19,7 +19,8 @@ struct AnalysisOptions {
   std::filesystem::path folder;
 };
 
-/// Changes whenever this program is built anew, and with it possibly the digits of its results.
+/// SHA-256 of the file of this program: another build may give other digits. Empty when it cannot
+/// be read.
 std::string program_stamp();
 
 /// The options of the uncertainty stage: the fit file's, unless the command line says otherwise.

@@ -7,8 +7,10 @@
 #include "cli/common_options.hpp"
 #include "cli/coverage_words.hpp"
 #include "cli/json_coverage.hpp"
+#include "cli/shard_flags.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/shared_work.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "report/words_dataset.hpp"
 
@@ -22,26 +24,79 @@ struct Options {
   int datasets = 100;
   bool json = false;
   AnalysisFlags analysis;
+  ShardFlags shards;
 };
+
+/// Everything that is ready before the first data set is simulated.
+struct Prepared {
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+  CoverageOptions coverage;
+  CoverageTruth truth;
+  Origin origin;  ///< of the parts, where there are any
+};
+
+/// Not copied: the truth may refer to its specification.
+std::unique_ptr<Prepared> prepare(const Options& options) {
+  auto ready = std::make_unique<Prepared>();
+  ready->spec = load_fit(options.fit_file);
+  ready->datasets = load_datasets(ready->spec);
+  CoverageOptions& coverage = ready->coverage;
+  coverage.datasets = options.datasets;
+  coverage.uncertainty = uncertainty_options(ready->spec, options.analysis.resolved());
+  require_scheme(ready->spec, coverage.uncertainty.scheme, gather(ready->datasets));
+  ready->truth = coverage_truth(ready->spec, ready->datasets, coverage.uncertainty.seed);
+  if (options.shards.one_of_several() || options.shards.merging()) {
+    ready->origin = origin_of(options.shards, inputs_of(ready->spec, ready->datasets),
+                              coverage.uncertainty.seed,
+                              static_cast<std::size_t>(coverage.datasets), digits_of(ready->truth));
+  }
+  return ready;
+}
+
+void run_shard_of_coverage(const Options& options) {
+  require_share(options.out, static_cast<std::size_t>(options.datasets), "data sets");
+  const std::unique_ptr<Prepared> ready = prepare(options);
+  const Shard shard = options.shards.chosen();
+  if (part_is_there(options.out, ready->origin, shard)) return;
+  SharedWork work;
+  work.label = "coverage";
+  work.pieces = ready->origin.pieces;
+  work.threads = ready->coverage.uncertainty.threads;
+  work.run = [&](std::size_t piece) {
+    return json_of(run_coverage_trial(ready->spec, ready->truth, ready->coverage, piece));
+  };
+  write_part(work, ready->origin, shard, options.out);
+  say_part(options.out, ready->origin, shard, "data sets");
+}
+
+CoverageResult merged(const Prepared& ready, const std::string& folder) {
+  std::vector<CoverageTrial> trials(ready.origin.pieces);
+  const std::vector<bool> there =
+      read_parts(parts_of(ready.origin, folder), trials.size(),
+                 [&](std::size_t i, const Json& row) { trials[i] = coverage_trial_of(row); });
+  for (std::size_t i = 0; i < trials.size(); ++i) {  // what a damaged file should have held
+    if (!there[i]) trials[i] = run_coverage_trial(ready.spec, ready.truth, ready.coverage, i);
+  }
+  return count_coverage(ready.spec, ready.truth, ready.coverage, trials);
+}
 
 void run(const Options& options) {
   if (!options.out.empty()) {
     require_writable_folder(std::filesystem::absolute(options.out).parent_path());
   }
-  const FitSpec spec = load_fit(options.fit_file);
-  const std::vector<Dataset> datasets = load_datasets(spec);
-  CoverageOptions coverage;
-  coverage.datasets = options.datasets;
-  coverage.uncertainty = uncertainty_options(spec, options.analysis.resolved());
-  require_scheme(spec, coverage.uncertainty.scheme, gather(datasets));
-  const CoverageTruth truth = coverage_truth(spec, datasets, coverage.uncertainty.seed);
-  const CoverageResult result = measure_coverage(spec, truth, coverage);
-  std::string text = coverage_markdown(result, spec, coverage);
-  for (const Dataset& dataset : datasets) {
+  const std::unique_ptr<Prepared> ready = prepare(options);
+  const CoverageResult result = options.shards.merging()
+                                    ? merged(*ready, options.shards.parts)
+                                    : measure_coverage(ready->spec, ready->truth, ready->coverage);
+  std::string text = coverage_markdown(result, ready->spec, ready->coverage);
+  for (const Dataset& dataset : ready->datasets) {
     text += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));
   }
   if (!options.out.empty()) write_whole_file(options.out, text);
-  fmt::print("{}", options.json ? coverage_json(result, spec, coverage, datasets) : text);
+  fmt::print("{}", options.json
+                       ? coverage_json(result, ready->spec, ready->coverage, ready->datasets)
+                       : text);
 }
 
 /// Grids and summaries belong to the program of the studies; who asks for them here is told so.
@@ -76,12 +131,21 @@ void add_coverage(CLI::App& program) {
   command->add_option("--datasets", options->datasets, "simulated data sets")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--out", options->out, "also write the table to this file")
+  command
+      ->add_option("--out", options->out,
+                   "also write the table to this file; with --shard, the folder of the parts")
       ->type_name("FILE");
+  add_shard_flags(*command, "data sets", options->shards);
   point_to_studies(*command);
   add_analysis_flags(*command, options->analysis);
   add_json_flag(*command, options->json);
-  command->callback([options] { run(*options); });
+  command->callback([options] {
+    if (options->shards.one_of_several()) {
+      run_shard_of_coverage(*options);
+    } else {
+      run(*options);
+    }
+  });
 }
 
 }  // namespace recoil

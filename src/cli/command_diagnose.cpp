@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/recipe_words.hpp"
+#include "cli/shard_flags.hpp"
 #include "core/files.hpp"
+#include "core/shared_work.hpp"
+#include "diagnosis/calibration.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "diagnosis/extended_toml.hpp"
@@ -22,15 +26,68 @@ struct DiagnoseFlags {
   int threads = 0;
   std::int64_t seed = -1;
   bool json = false;
+  ShardFlags shards;
+
+  DiagnosisOptions options(const FitSpec& spec) const {
+    DiagnosisOptions chosen;
+    chosen.threads = threads;
+    chosen.seed = seed >= 0 ? static_cast<std::uint64_t>(seed) : spec.uncertainty.seed;
+    return chosen;
+  }
 };
+
+Origin origin_of_calibration(const DiagnoseFlags& flags, const FitInputs& inputs,
+                             const Calibration& calibration) {
+  return origin_of(flags.shards, inputs_of(inputs.spec, inputs.datasets),
+                   flags.options(inputs.spec).seed, calibration.pieces(), calibration.digits());
+}
+
+/// JSON has no number for an infinite gain.
+Json row_json(const std::vector<double>& row) {
+  Json json = Json::array();
+  for (const double value : row) {
+    json.push_back(std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value)));
+  }
+  return json;
+}
+
+std::vector<double> row_of(const Json& json) {
+  std::vector<double> row;
+  for (const Json& value : json) {
+    row.push_back(value.is_number() ? value.get<double>() : std::stod(value.get<std::string>()));
+  }
+  return row;
+}
+
+void run_shard_of_calibration(const DiagnoseFlags& flags) {
+  require_share(flags.out, 1, "data sets");
+  const FitInputs inputs = load_inputs(flags.fit);
+  const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
+  const Origin origin = origin_of_calibration(flags, inputs, calibration);
+  const Shard shard = flags.shards.chosen();
+  if (part_is_there(flags.out, origin, shard)) return;
+  const SharedWork work = {"diagnosis", calibration.pieces(), flags.threads,
+                           [&](std::size_t piece) { return row_json(calibration.run(piece)); }};
+  write_part(work, origin, shard, flags.out);
+  say_part(flags.out, origin, shard, "data sets of the calibration");
+}
+
+std::shared_ptr<const std::vector<std::vector<double>>> merged_calibration(
+    const DiagnoseFlags& flags, const FitInputs& inputs) {
+  const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
+  const Origin origin = origin_of_calibration(flags, inputs, calibration);
+  auto rows = std::make_shared<std::vector<std::vector<double>>>(origin.pieces);
+  read_parts(parts_of(origin, flags.shards.parts), rows->size(),
+             [&](std::size_t piece, const Json& row) { (*rows)[piece] = row_of(row); });
+  return rows;
+}
 
 void run_diagnosis(const DiagnoseFlags& flags) {
   if (!flags.out.empty()) require_writable_folder(flags.out);
-  const FitSpec spec = load_fit(flags.fit);
-  DiagnosisOptions options;
-  options.threads = flags.threads;
-  options.seed = flags.seed >= 0 ? static_cast<std::uint64_t>(flags.seed) : spec.uncertainty.seed;
-  Diagnosis diagnosis = diagnose(spec, load_datasets(spec), options);
+  const FitInputs inputs = load_inputs(flags.fit);
+  DiagnosisOptions options = flags.options(inputs.spec);
+  if (flags.shards.merging()) options.calibration = merged_calibration(flags, inputs);
+  Diagnosis diagnosis = diagnose(inputs.spec, inputs.datasets, options);
   diagnosis.remarks = recipe_remarks(diagnosis.datasets);
   const std::string result = diagnosis_json(diagnosis);
   if (!flags.out.empty()) {
@@ -72,8 +129,15 @@ void add_diagnose(CLI::App& program) {
       ->add_option("--seed", flags->seed,
                    "seed of the simulated data sets (default: the fit file's)")
       ->check(CLI::NonNegativeNumber);
+  add_shard_flags(*command, "calibration's data sets", flags->shards);
   add_json_flag(*command, flags->json);
-  command->callback([flags] { run_diagnosis(*flags); });
+  command->callback([flags] {
+    if (flags->shards.one_of_several()) {
+      run_shard_of_calibration(*flags);
+    } else {
+      run_diagnosis(*flags);
+    }
+  });
 }
 
 }  // namespace recoil

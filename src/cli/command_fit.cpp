@@ -5,11 +5,74 @@
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/shard_flags.hpp"
 #include "core/files.hpp"
+#include "core/shared_work.hpp"
 #include "report/json_report.hpp"
 #include "report/posterior_report.hpp"
+#include "uncertainty/bootstrap.hpp"
+#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
+namespace {
+
+struct FitFlags {
+  std::string fit_file;
+  std::string out;
+  bool json = false;
+  AnalysisFlags analysis;
+  ShardFlags shards;
+};
+
+Origin origin_of_replicates(const ShardFlags& shards, const Analysis& analysis,
+                            const UncertaintyOptions& assess) {
+  return origin_of(shards, inputs_of(analysis.spec, analysis.datasets), assess.seed,
+                   replicates_at_most(assess), key_of_bootstrap(analysis.fitted, assess));
+}
+
+void run_shard_of_fit(const FitFlags& flags) {
+  AnalysisOptions resolved = flags.analysis.resolved();
+  resolved.folder = flags.out;
+  FitInputs inputs = load_inputs(flags.fit_file);
+  UncertaintyOptions assess = uncertainty_options(inputs.spec, resolved);
+  require_share(flags.out, replicates_at_most(assess), "replicates");
+  const Analysis analysis = analyse_fit(std::move(inputs), resolved);
+  const Origin origin = origin_of_replicates(flags.shards, analysis, assess);
+  const Shard shard = flags.shards.chosen();
+  if (part_is_there(flags.out, origin, shard)) return;
+  assess.shard = shard;
+  assess.keep = unfinished_path(flags.out, origin, shard);
+  const ReplicateTable table = shard_of_bootstrap(analysis.fitted, analysis.datasets, assess);
+  save_replicates(part_path(flags.out, origin, shard), key_of_bootstrap(analysis.fitted, assess),
+                  table, part_head(origin, shard));
+  std::error_code ignored;
+  std::filesystem::remove(assess.keep, ignored);
+  say_part(flags.out, origin, shard, "replicates");
+}
+
+void run_fit(const FitFlags& flags) {
+  if (!flags.out.empty()) require_writable_folder(flags.out);
+  AnalysisOptions resolved = flags.analysis.resolved();
+  resolved.folder = flags.out;
+  Analysis analysis = analyse_fit(load_inputs(flags.fit_file), resolved);
+  UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
+  if (flags.shards.merging()) {
+    assess.parts =
+        parts_of(origin_of_replicates(flags.shards, analysis, assess), flags.shards.parts);
+  }
+  analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
+  const std::string result = json_report(analysis);
+  if (!flags.out.empty()) {
+    const std::filesystem::path folder = flags.out;
+    write_whole_file(folder / "fit.json", result);
+    const std::string draws = posterior_csv(analysis);
+    if (!draws.empty()) write_whole_file(folder / "posterior.csv", draws);
+    forget_replicates(folder);
+  }
+  fmt::print("{}", flags.json ? result : text_report(analysis));
+}
+
+}  // namespace
 
 void add_fit(CLI::App& program) {
   CLI::App* command =
@@ -19,29 +82,19 @@ void add_fit(CLI::App& program) {
       "data and the seed, not on the number of threads. Ctrl-C keeps finished replicates in DIR,\n"
       "and the same command goes on from there.\n\n"
       "  recoil fit fits/dahneke1975-quartz.toml --out results");
-  const auto options = std::make_shared<AnalysisFlags>();
-  const auto out = std::make_shared<std::string>();
-  const auto fit_file = std::make_shared<std::string>();
-  command->add_option("FIT", *fit_file, "a fit file")->required();
-  command->add_option("--out", *out, "folder for fit.json (default: nothing is written)")
+  const auto flags = std::make_shared<FitFlags>();
+  command->add_option("FIT", flags->fit_file, "a fit file")->required();
+  command->add_option("--out", flags->out, "folder for fit.json (default: nothing is written)")
       ->type_name("DIR");
-  add_analysis_flags(*command, *options);
-  const auto json = std::make_shared<bool>(false);
-  add_json_flag(*command, *json);
-  command->callback([=] {
-    if (!out->empty()) require_writable_folder(*out);
-    AnalysisOptions resolved = options->resolved();
-    resolved.folder = *out;
-    const Analysis analysis = analyse(load_inputs(*fit_file), resolved);
-    const std::string result = json_report(analysis);
-    if (!out->empty()) {
-      const std::filesystem::path folder = *out;
-      write_whole_file(folder / "fit.json", result);
-      const std::string draws = posterior_csv(analysis);
-      if (!draws.empty()) write_whole_file(folder / "posterior.csv", draws);
-      forget_replicates(*out);
+  add_shard_flags(*command, "bootstrap's replicates", flags->shards);
+  add_analysis_flags(*command, flags->analysis);
+  add_json_flag(*command, flags->json);
+  command->callback([flags] {
+    if (flags->shards.one_of_several()) {
+      run_shard_of_fit(*flags);
+    } else {
+      run_fit(*flags);
     }
-    fmt::print("{}", *json ? result : text_report(analysis));
   });
 }
 

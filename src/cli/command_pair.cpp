@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/paired_passages.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
@@ -160,15 +161,12 @@ void run_pair(PairCommand command) {
                                 command.positive == "away"};
   const PassageTable table = read_passages(command.events, format);
   if (!command.into.empty()) provenance_of(command, table);  // complain before the work
-  const PairingResult pairs = pair_passages(table.passages, command.pairing);
-  const Averages averages = average(table.passages, table.series, pairs, command.averaging);
+  const PairRequest request = {command.events, command.pairing, command.averaging};
+  const PairedPassages paired = pair_and_average(table, request);
+  const PairingResult& pairs = paired.pairs;
+  const Averages& averages = paired.averages;
   if (!command.json) fmt::print("{}", pairing_text(table, pairs, averages));
-  if (pairs.impacts.empty()) {
-    throw ComputationError(fmt::format(
-        "{}: no impacts found (no passage up follows a passage down within the time that a plane "
-        "{:g} mm above the surface allows); check --height, the units and --positive",
-        command.events, command.height_mm));
-  }
+  require_impacts(paired, request);
   if (command.json) fmt::print("{}", pairing_json(table, pairs, averages));
   const std::string points = points_csv(averages);
   if (!command.into.empty()) write_dataset(command, table, pairs, points);

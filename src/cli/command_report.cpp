@@ -7,8 +7,10 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/recipe_words.hpp"
+#include "cli/shard_flags.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/row_file.hpp"
 #include "data/folder_names.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/extended_toml.hpp"
@@ -28,6 +30,7 @@ struct ReportOptions {
   std::string out = "reports";
   bool force = false;
   AnalysisFlags analysis;
+  ShardFlags shards;
 };
 
 std::vector<fs::path> fits_to_report(const ReportOptions& options) {
@@ -80,55 +83,111 @@ Diagnosis diagnose_for_report(const Analysis& analysis, const AnalysisFlags& fla
   return diagnosis;
 }
 
+/// The files of one fit's page.
+struct PageFiles {
+  PageFiles(const fs::path& out, const std::string& id)
+      : page(out / (id + ".html")), folder(out / id) {}
+
+  fs::path page, folder;
+  fs::path json = folder / "fit.json";
+  fs::path text = folder / "fit.txt";
+  fs::path picture = folder / "picture.svg";
+  fs::path picture_data = folder / "picture.csv";
+  fs::path diagnosed = folder / "diagnosis.json";
+  fs::path laws = folder / "laws.json";
+  fs::path stamp = folder / "inputs.sha256";
+
+  bool are_current(const std::string& expected) const {
+    return is_current(stamp, expected, {page, json, text, picture, picture_data, diagnosed, laws});
+  }
+};
+
+IndexEntry read_page(const PageFiles& files, IndexEntry entry) {
+  entry.fit = read_summary(entry.page, read_text_file(files.json), read_text_file(files.diagnosed));
+  entry.fit.laws = read_laws(entry.page, read_text_file(files.laws));
+  entry.picture = read_text_file(files.picture);
+  entry.picture_csv = read_text_file(files.picture_data);
+  return entry;
+}
+
+IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::string& expected,
+                     const PageFiles& files, IndexEntry entry) {
+  AnalysisOptions resolved = flags.resolved();
+  resolved.folder = files.folder;
+  Analysis analysis = analyse(std::move(inputs), resolved);
+  add_predictions(analysis);
+  add_corrections(analysis);
+  analysis.laws = fit_under_every_law(analysis.spec, analysis.datasets, analysis.fitted);
+  const Diagnosis diagnosis = diagnose_for_report(analysis, flags);
+  entry.fit = summary_of(analysis, diagnosis);
+  entry.picture = thumbnail(analysis);
+  entry.picture_csv = thumbnail_csv(analysis);
+  write_whole_file(files.page,
+                   html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page)));
+  write_whole_file(files.folder / "diagnosis.html", diagnosis_html(diagnosis));
+  write_whole_file(files.diagnosed, diagnosis_json(diagnosis));
+  write_whole_file(files.folder / "extended.toml", extended_toml(diagnosis, files.folder));
+  write_whole_file(files.text, text_report(analysis));
+  write_whole_file(files.laws, laws_json(entry.fit.laws));
+  write_whole_file(files.picture, entry.picture);
+  write_whole_file(files.picture_data, entry.picture_csv);
+  write_whole_file(files.json, json_report(analysis));
+  write_whole_file(files.stamp, expected);
+  forget_replicates(resolved.folder);
+  return entry;
+}
+
+/// The pages of one shard are the work itself; its part says that they are there.
+Origin origin_of_pages(const ReportOptions& options, const std::vector<fs::path>& fits) {
+  std::string names;
+  for (const fs::path& fit : fits) names += fit.string() + "\n";
+  return origin_of(options.shards, sha256_hex(names), 0, fits.size(), "");
+}
+
+void write_part_of_pages(const ReportOptions& options, const Origin& origin) {
+  const Shard shard = options.shards.chosen();
+  std::vector<Json> rows;
+  for (std::size_t i = shard.number - 1; i < origin.pieces; i += shard.of) rows.push_back({i});
+  write_rows(part_path(options.out, origin, shard), part_head(origin, shard), rows);
+  say_part(options.out, origin, shard, "pages");
+}
+
 void report(const ReportOptions& options) {
   const fs::path out = options.out;
   require_writable_folder(out);
+  const std::vector<fs::path> fits = fits_to_report(options);
+  const Origin origin = origin_of_pages(options, fits);
+  const bool merging = options.shards.merging();
+  if (merging) parts_of(origin, options.shards.parts);
   std::vector<IndexEntry> entries;
-  for (const fs::path& fit_file : fits_to_report(options)) {
-    const std::string id = fit_file.stem().string();
-    const fs::path page = out / (id + ".html");
-    const fs::path json = out / id / "fit.json";
-    const fs::path text = out / id / "fit.txt";
-    const fs::path picture = out / id / "picture.svg";
-    const fs::path diagnosed = out / id / "diagnosis.json";
-    const fs::path laws = out / id / "laws.json";
-    const fs::path stamp = out / id / "inputs.sha256";
-    FitInputs inputs = load_inputs(fit_file);
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (!options.shards.chosen().owns(i)) continue;
+    const std::string id = fits[i].stem().string();
+    const PageFiles files(out, id);
+    FitInputs inputs = load_inputs(fits[i]);
     const std::string expected = fingerprint(inputs, options.analysis);
     IndexEntry entry;
     entry.page = id + ".html";
     entry.diagnosis_page = id + "/diagnosis.html";
-    if (!options.force &&
-        is_current(stamp, expected, {page, json, text, picture, diagnosed, laws})) {
-      entry.fit = read_summary(entry.page, read_text_file(json), read_text_file(diagnosed));
-      entry.fit.laws = read_laws(entry.page, read_text_file(laws));
-      entry.picture = read_text_file(picture);
-      fmt::print("{}: current\n", page.string());
-    } else {
-      AnalysisOptions resolved = options.analysis.resolved();
-      resolved.folder = out / id;
-      Analysis analysis = analyse(std::move(inputs), resolved);
-      add_predictions(analysis);
-      add_corrections(analysis);
-      analysis.laws = fit_under_every_law(analysis.spec, analysis.datasets, analysis.fitted);
-      const Diagnosis diagnosis = diagnose_for_report(analysis, options.analysis);
-      entry.fit = summary_of(analysis, diagnosis);
-      entry.picture = thumbnail(analysis);
-      write_whole_file(page,
-                       html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page)));
-      write_whole_file(out / id / "diagnosis.html", diagnosis_html(diagnosis));
-      write_whole_file(diagnosed, diagnosis_json(diagnosis));
-      write_whole_file(out / id / "extended.toml", extended_toml(diagnosis, out / id));
-      write_whole_file(text, text_report(analysis));
-      write_whole_file(laws, laws_json(entry.fit.laws));
-      write_whole_file(picture, entry.picture);
-      write_whole_file(json, json_report(analysis));
-      write_whole_file(stamp, expected);
-      forget_replicates(resolved.folder);
-      fmt::print("{}: written\n", page.string());
+    const bool current = files.are_current(expected);
+    if (merging && !current) {
+      throw InputError({files.page.string()}, "this page is not of what is here now",
+                       "its fit file or data have changed since its shard ran",
+                       "run the shards again");
     }
+    if (current && (!options.force || merging)) {
+      entries.push_back(read_page(files, std::move(entry)));
+    } else {
+      entries.push_back(
+          make_page(std::move(inputs), options.analysis, expected, files, std::move(entry)));
+    }
+    fmt::print("{}: {}\n", files.page.string(),
+               current && !options.force && !merging ? "current" : "written");
     std::fflush(stdout);
-    entries.push_back(std::move(entry));
+  }
+  if (options.shards.one_of_several()) {
+    write_part_of_pages(options, origin);
+    return;
   }
   write_whole_file(out / "index.html", html_index(entries));
   fmt::print("{}: written\n", (out / "index.html").string());
@@ -152,6 +211,7 @@ void add_report(CLI::App& program) {
       ->type_name("DIR");
   command->add_flag("--force", options->force,
                     "write every page again, even if nothing has changed");
+  add_shard_flags(*command, "fits", options->shards);
   add_analysis_flags(*command, options->analysis);
   command->callback([options] { report(*options); });
 }

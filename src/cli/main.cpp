@@ -86,6 +86,8 @@ int main(int argc, char** argv) {
   recoil::add_export(program);
   recoil::add_compare(program);
   recoil::add_report(program);
+  recoil::add_merge(program);
+  recoil::add_cluster(program);
   recoil::add_pair(program);
   recoil::add_help(program);
   try {

@@ -1,16 +1,44 @@
 #include "core/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sha256.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <system_error>
 
 #include "core/error.hpp"
 
 namespace recoil {
+namespace {
+
+/// ".part-HOST-PROCESS": on a folder that machines share, two of them may have the same process.
+std::string unique_ending() {
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  return fmt::format(".part-{}-{}", host, static_cast<long>(getpid()));
+}
+
+/// Writes `text` and waits until it is on the disk. @return whether it is
+bool write_to_disk(const std::filesystem::path& path, std::string_view text) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) return false;
+  bool written = true;
+  while (written && !text.empty()) {
+    const ssize_t some = write(file, text.data(), text.size());
+    if (some < 0 && errno == EINTR) continue;
+    written = some > 0;
+    if (written) text.remove_prefix(static_cast<std::size_t>(some));
+  }
+  // What cannot be synchronised, such as a pipe, is written all the same.
+  if (written && fsync(file) != 0) written = errno == EINVAL || errno == EROFS;
+  return close(file) == 0 && written;
+}
+
+}  // namespace
 
 std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max_bytes) {
   const Location where{path.string()};
@@ -54,17 +82,11 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
   const Location where{path.string()};
   std::error_code failed;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
-  const std::filesystem::path beside =
-      path.string() + fmt::format(".part-{}", static_cast<long>(getpid()));
-  {
-    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out) {
-      std::filesystem::remove(beside, failed);
-      throw InputError(where, "the file cannot be written", "",
-                       "check its folder's permissions and the disk");
-    }
+  const std::filesystem::path beside = path.string() + unique_ending();
+  if (!write_to_disk(beside, text)) {
+    std::filesystem::remove(beside, failed);
+    throw InputError(where, "the file cannot be written", "",
+                     "check its folder's permissions and the disk");
   }
   std::filesystem::rename(beside, path, failed);
   if (failed) {
@@ -96,6 +118,11 @@ std::string sha256_hex(std::string_view bytes) {
   char digest[SHA256_DIGEST_STRING_LENGTH];
   SHA256Data(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), digest);
   return digest;
+}
+
+std::string sha256_of_file(const std::filesystem::path& path) {
+  char digest[SHA256_DIGEST_STRING_LENGTH];
+  return SHA256File(path.c_str(), digest) == nullptr ? "" : digest;
 }
 
 }  // namespace recoil

@@ -12,8 +12,9 @@ namespace recoil {
 std::string read_text_file(const std::filesystem::path& path,
                            std::uintmax_t max_bytes = 256ULL * 1024 * 1024);
 
-/// Writes beside the target and renames: a reader sees the old file or the new one, never a part.
-/// Makes the folder when it is missing. @throws InputError when the place cannot be written.
+/// Writes beside the target, waits for the disk and renames: a reader sees the old file or the new
+/// one, never a part, whoever else writes it. Makes the folder when it is missing. @throws
+/// InputError when the place cannot be written.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
 /// Complains before a long computation, and without making anything, when results could not be
@@ -22,5 +23,8 @@ void require_writable_folder(const std::filesystem::path& folder);
 
 /// SHA-256 of `bytes` as 64 lower-case hexadecimal digits (FIPS 180-4).
 std::string sha256_hex(std::string_view bytes);
+
+/// The same of what a file holds; empty for one that cannot be read.
+std::string sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace recoil

@@ -7,10 +7,12 @@ namespace recoil {
 namespace {
 
 std::atomic<int> raised{0};
+std::atomic<int> calling_off{0};
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler writes it");
 
 struct sigaction previous_interrupt;
 struct sigaction previous_terminate;
+struct sigaction previous_user;
 
 void remember(int signal) { raised = signal; }
 
@@ -30,15 +32,22 @@ InterruptGuard::InterruptGuard() {
   raised = 0;
   watch(SIGINT, previous_interrupt);
   watch(SIGTERM, previous_terminate);
+  watch(SIGUSR1, previous_user);
 }
 
 InterruptGuard::~InterruptGuard() {
   sigaction(SIGINT, &previous_interrupt, nullptr);
   sigaction(SIGTERM, &previous_terminate, nullptr);
+  sigaction(SIGUSR1, &previous_user, nullptr);
 }
 
 bool stop_requested() { return raised.load(std::memory_order_relaxed) != 0; }
 
 int stop_signal() { return raised; }
+
+CallingOff::CallingOff() { ++calling_off; }
+CallingOff::~CallingOff() { --calling_off; }
+
+bool called_off() { return calling_off.load(std::memory_order_relaxed) != 0; }
 
 }  // namespace recoil

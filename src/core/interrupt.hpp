@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 
 namespace recoil {
@@ -11,9 +12,10 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// While one of these lives, the first Ctrl-C (SIGINT) or SIGTERM only raises a flag, so that work
-/// in progress can put what is finished on disk. The second one ends the process as ever. What was
-/// set before comes back at its end.
+/// While one of these lives, the first Ctrl-C (SIGINT), SIGTERM or SIGUSR1 (which clusters send
+/// before a time limit) only raises a flag, so that work in progress can put what is finished on
+/// disk. The second one of a kind ends the process as ever. What was set before comes back at its
+/// end.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -27,5 +29,28 @@ bool stop_requested();
 
 /// The signal that raised the flag, 0 when none did.
 int stop_signal();
+
+/// Thrown out of work that was called off: nothing of it is kept.
+class CalledOff : public std::exception {
+ public:
+  const char* what() const noexcept override { return "called off"; }
+};
+
+/// While one of these lives, all long work of this process ends where it next asks, within some
+/// milliseconds. For a program that has Ctrl-C to itself, as Python has.
+class CallingOff {
+ public:
+  CallingOff();
+  ~CallingOff();
+  CallingOff(const CallingOff&) = delete;
+  CallingOff& operator=(const CallingOff&) = delete;
+};
+
+bool called_off();
+
+/// @throws CalledOff when the work that asks is to end.
+inline void end_if_called_off() {
+  if (called_off()) throw CalledOff();
+}
 
 }  // namespace recoil

@@ -8,10 +8,13 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/interrupt.hpp"
+
 namespace recoil {
 
 /// Calls body(i) for i in [0, count) on `threads` threads (0: all cores). Each call writes only its
 /// own slot, so no result depends on the number of threads.
+/// @throws CalledOff between two calls
 template <class Body>
 void parallel_over(std::size_t count, int threads, const Body& body) {
   // More threads than cores are somebody's choice; TBB would warn on stderr and run fewer.
@@ -24,7 +27,10 @@ void parallel_over(std::size_t count, int threads, const Body& body) {
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1),
                       [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+                        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                          end_if_called_off();
+                          body(i);
+                        }
                       });
   });
 }

@@ -11,7 +11,7 @@ struct Unit {
   double factor;
 };
 
-constexpr std::array<Unit, 16> known_units = {{
+constexpr std::array<Unit, 22> known_units = {{
     {Dimension::count, "1", 1.0},
     {Dimension::ratio, "1", 1.0},
     {Dimension::ratio, "%", 1e-2},
@@ -28,6 +28,12 @@ constexpr std::array<Unit, 16> known_units = {{
     {Dimension::time, "ms", units::ms},
     {Dimension::time, "us", units::us},
     {Dimension::time, "µs", units::us},
+    {Dimension::pressure, "Pa", 1.0},
+    {Dimension::pressure, "hPa", 100.0},
+    {Dimension::pressure, "kPa", 1e3},
+    {Dimension::pressure, "mbar", 100.0},
+    {Dimension::pressure, "bar", 1e5},
+    {Dimension::temperature, "K", 1.0},
 }};
 
 }  // namespace

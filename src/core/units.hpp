@@ -27,12 +27,12 @@ inline constexpr double GPa = 1e9;
 inline constexpr double standard_gravity = 9.80665;
 
 /// What a column of a data file or a value on the command line measures. Texts have no unit.
-enum class Dimension { text, count, ratio, length, velocity, time };
+enum class Dimension { text, count, ratio, length, velocity, time, pressure, temperature };
 
 template <>
 struct NamesOf<Dimension> {
-  static constexpr std::array<std::string_view, 6> names = {"text",   "count",    "ratio",
-                                                            "length", "velocity", "time"};
+  static constexpr std::array<std::string_view, 8> names = {
+      "text", "count", "ratio", "length", "velocity", "time", "pressure", "temperature"};
 };
 
 /// The factor to SI of a unit name ("um", "cm/s", "%"), or nothing when `unit` does not belong to

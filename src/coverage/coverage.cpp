@@ -15,128 +15,198 @@
 namespace recoil {
 namespace {
 
-/// One data set's intervals, kept only as long as it takes to count them.
-struct Trial {
-  bool usable = false;
-  CoverageTruth::At truth;
-  int refits_failed = 0;
-  std::vector<IntervalSet> intervals;
-  std::vector<ParameterIdentifiability> identifiable;
-  std::vector<CaptureEstimate> capture;
-};
+CoverageTrial::Row trial_row(bool identifiable, double truth,
+                             const std::vector<const Interval*>& intervals) {
+  CoverageTrial::Row row{identifiable, {}};
+  for (const Interval* interval : intervals) {
+    auto& cell = row.cells.emplace_back();
+    if (interval->available()) {
+      cell = {interval->contains(truth), *interval->upper - *interval->lower};
+    }
+  }
+  return row;
+}
 
-Trial run_trial(const FitSpec& spec, const CoverageTruth& truth, const UncertaintyOptions& options,
-                std::uint64_t index) {
-  Trial trial;
+/// Names of the cells of a row: the recommended interval, then every kind.
+template <NamedEnum Kind>
+std::vector<std::string> cell_names() {
+  std::vector<std::string> names = {"recommended"};
+  for (const Kind kind : values_of<Kind>()) names.emplace_back(name_of(kind));
+  return names;
+}
+
+/// Counts over the usable trials; `row_of` looks into one of them.
+template <class RowOf>
+std::vector<CoverageCell> count(const std::vector<CoverageTrial>& trials,
+                                const std::vector<std::string>& names, const RowOf& row_of) {
+  std::vector<CoverageCell> cells;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    CoverageCell cell;
+    cell.interval = names[c];
+    std::vector<double> widths;
+    for (const CoverageTrial& trial : trials) {
+      if (!trial.usable) continue;
+      const CoverageTrial::Row& row = row_of(trial);
+      if (!row.cells[c]) continue;
+      const int held = row.cells[c]->held ? 1 : 0;
+      ++cell.offered;
+      cell.held += held;
+      if (row.identifiable) {
+        ++cell.offered_identifiable;
+        cell.held_identifiable += held;
+      }
+      widths.push_back(row.cells[c]->width);
+    }
+    if (!widths.empty()) {
+      const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+      std::nth_element(widths.begin(), middle, widths.end());
+      cell.median_width = *middle;
+    }
+    cells.push_back(std::move(cell));
+  }
+  return cells;
+}
+
+Json rows_json(const std::vector<CoverageTrial::Row>& rows) {
+  Json all = Json::array();
+  for (const CoverageTrial::Row& row : rows) {
+    Json cells = Json::array();
+    for (const auto& cell : row.cells) {
+      cells.push_back(cell ? Json::array({cell->held, cell->width}) : Json(nullptr));
+    }
+    all.push_back(Json::array({row.identifiable, std::move(cells)}));
+  }
+  return all;
+}
+
+std::vector<CoverageTrial::Row> trial_rows(const Json& json) {
+  std::vector<CoverageTrial::Row> rows;
+  for (const Json& from : json) {
+    CoverageTrial::Row row{from.at(0).get<bool>(), {}};
+    for (const Json& cell : from.at(1)) {
+      auto& to = row.cells.emplace_back();
+      // An interval without an end is infinitely wide, which JSON has no number for.
+      if (!cell.is_null()) {
+        to = {cell.at(0).get<bool>(), cell.at(1).is_null() ? INFINITY : cell.at(1).get<double>()};
+      }
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth,
+                                 const CoverageOptions& options, std::uint64_t index) {
+  CoverageTrial trial;
   const std::vector<Dataset> datasets = truth.simulate(index);
   const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec));
   if (!fitted.usable) return trial;
-  UncertaintyOptions own = options;
-  own.seed = options.seed + index;
+  UncertaintyOptions own = options.uncertainty;
+  own.seed = options.uncertainty.seed + index;
   own.threads = 1;  // the data sets themselves run in parallel
   own.curves = false;
   own.budget = false;
   own.posterior = false;
   own.two_point = false;
   const UncertaintyResult result = assess_uncertainty(fitted, datasets, own);
+  const CoverageTruth::At at =
+      truth.at ? truth.at(index) : CoverageTruth::At{truth.theta, truth.capture};
   trial.usable = true;
-  trial.truth = truth.at ? truth.at(index) : CoverageTruth::At{truth.theta, truth.capture};
   trial.refits_failed = result.bootstrap.failed;
-  trial.intervals = result.intervals;
-  trial.identifiable = result.identifiability.parameter;
-  for (const CaptureEstimate& at : result.capture) trial.capture.push_back(at);
+  for (std::size_t j = 0; j < fitted.model.slots.size(); ++j) {
+    if (!fitted.model.slots[j].free) continue;
+    const IntervalSet& set = result.intervals[j];
+    std::vector<const Interval*> intervals = {&recommended_interval(set)};
+    for (const IntervalKind kind : values_of<IntervalKind>()) intervals.push_back(&set[kind]);
+    trial.parameters.push_back(
+        trial_row(result.identifiability.parameter[j].identifiable, at.theta[j], intervals));
+  }
+  for (std::size_t k = 0; k < truth.capture.size(); ++k) {
+    const CaptureEstimate& capture = result.capture[k];
+    std::vector<const Interval*> intervals = {&capture.interval};
+    for (const CaptureIntervalKind kind : values_of<CaptureIntervalKind>()) {
+      intervals.push_back(&capture[kind]);
+    }
+    // V* has no verdict of its own but what stands beside its interval.
+    trial.capture.push_back(trial_row(!capture.interval.note, at.capture[k].velocity, intervals));
+  }
   return trial;
 }
 
-/// Counts over the usable trials; `interval_of` and `identifiable` look into one of them.
-template <class TruthOf, class IntervalOf, class Identifiable>
-CoverageCell count(const std::vector<Trial>& trials, std::string_view name, const TruthOf& truth_of,
-                   const IntervalOf& interval_of, const Identifiable& identifiable) {
-  CoverageCell cell;
-  cell.interval = name;
-  std::vector<double> widths;
-  for (const Trial& trial : trials) {
-    if (!trial.usable) continue;
-    const Interval& interval = interval_of(trial);
-    if (!interval.available()) continue;
-    const int held = interval.contains(truth_of(trial)) ? 1 : 0;
-    ++cell.offered;
-    cell.held += held;
-    if (identifiable(trial)) {
-      ++cell.offered_identifiable;
-      cell.held_identifiable += held;
-    }
-    widths.push_back(*interval.upper - *interval.lower);
-  }
-  if (!widths.empty()) {
-    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-    std::nth_element(widths.begin(), middle, widths.end());
-    cell.median_width = *middle;
-  }
-  return cell;
-}
-
-}  // namespace
-
-CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
-                                const CoverageOptions& options) {
-  std::vector<Trial> trials(static_cast<std::size_t>(options.datasets));
-  {
-    Progress progress("coverage", trials.size());
-    parallel_over(trials.size(), options.uncertainty.threads, [&](std::size_t i) {
-      trials[i] = run_trial(spec, truth, options.uncertainty, i);
-      progress.advance();
-    });
-  }
+CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
+                              const CoverageOptions& options,
+                              const std::vector<CoverageTrial>& trials) {
   CoverageResult result;
   result.datasets = options.datasets;
   result.truth_origin = truth.origin;
-  for (const Trial& trial : trials) {
+  for (const CoverageTrial& trial : trials) {
     result.failed += trial.usable ? 0 : 1;
     result.refits_failed += trial.refits_failed;
   }
   const ImpactModel model = make_model(spec, truth.simulate(0));
+  std::size_t free = 0;
   for (std::size_t j = 0; j < model.slots.size(); ++j) {
     if (!model.slots[j].free) continue;
     CoverageRow row;
     row.parameter = model.slots[j].label();
     row.unit = model.slots[j].parameter->unit;
     row.truth = truth.theta[j];
-    for (const Trial& trial : trials) {
-      if (trial.usable && trial.identifiable[j].identifiable) ++row.identifiable;
-    }
-    const auto add = [&](std::string_view name, const auto& of) {
-      row.cells.push_back(count(
-          trials, name, [j](const Trial& t) { return t.truth.theta[j]; },
-          [&](const Trial& t) -> const Interval& { return of(t.intervals[j]); },
-          [&](const Trial& t) { return t.identifiable[j].identifiable; }));
+    const auto row_of = [free](const CoverageTrial& trial) -> const CoverageTrial::Row& {
+      return trial.parameters[free];
     };
-    add("recommended", recommended_interval);
-    for (const IntervalKind kind : values_of<IntervalKind>()) {
-      add(name_of(kind), [kind](const IntervalSet& set) -> const Interval& { return set[kind]; });
+    for (const CoverageTrial& trial : trials) {
+      if (trial.usable && row_of(trial).identifiable) ++row.identifiable;
     }
+    row.cells = count(trials, cell_names<IntervalKind>(), row_of);
     result.rows.push_back(std::move(row));
+    ++free;
   }
   for (std::size_t k = 0; k < truth.capture.size(); ++k) {
     CoverageRow row;
     row.parameter = fmt::format("V*({:.4g} um)", truth.capture[k].diameter / units::um);
     row.unit = "m/s";
     row.truth = truth.capture[k].velocity;
-    const auto add = [&](std::string_view name, const auto& of) {
-      row.cells.push_back(count(
-          trials, name, [k](const Trial& t) { return t.truth.capture[k].velocity; },
-          [&](const Trial& t) -> const Interval& { return of(t.capture[k]); },
-          // V* has no verdict of its own but what stands beside its interval.
-          [&](const Trial& t) { return !t.capture[k].interval.note; }));
-    };
-    add("recommended", [](const CaptureEstimate& at) -> const Interval& { return at.interval; });
-    for (const CaptureIntervalKind kind : values_of<CaptureIntervalKind>()) {
-      add(name_of(kind), [kind](const CaptureEstimate& at) -> const Interval& { return at[kind]; });
-    }
+    row.cells = count(
+        trials, cell_names<CaptureIntervalKind>(),
+        [k](const CoverageTrial& trial) -> const CoverageTrial::Row& { return trial.capture[k]; });
     row.identifiable = row.cells.front().offered_identifiable;
     result.rows.push_back(std::move(row));
   }
   return result;
+}
+
+Json json_of(const CoverageTrial& trial) {
+  return Json::array(
+      {trial.usable, trial.refits_failed, rows_json(trial.parameters), rows_json(trial.capture)});
+}
+
+CoverageTrial coverage_trial_of(const Json& json) {
+  return {json.at(0).get<bool>(), json.at(1).get<int>(), trial_rows(json.at(2)),
+          trial_rows(json.at(3))};
+}
+
+std::string digits_of(const CoverageTruth& truth) {
+  std::string digits{name_of(truth.origin)};
+  for (const double value : truth.theta) digits += fmt::format("|{:a}", value);
+  for (const CoverageTruth::Capture& capture : truth.capture) {
+    digits += fmt::format("|{:a} {:a}", capture.diameter, capture.velocity);
+  }
+  return digits;
+}
+
+CoverageResult measure_coverage(const FitSpec& spec, const CoverageTruth& truth,
+                                const CoverageOptions& options) {
+  std::vector<CoverageTrial> trials(static_cast<std::size_t>(options.datasets));
+  {
+    Progress progress("coverage", trials.size());
+    parallel_over(trials.size(), options.uncertainty.threads, [&](std::size_t i) {
+      trials[i] = run_coverage_trial(spec, truth, options, i);
+      progress.advance();
+    });
+  }
+  return count_coverage(spec, truth, options, trials);
 }
 
 }  // namespace recoil

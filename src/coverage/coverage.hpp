@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/json.hpp"
 #include "core/names.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit.hpp"
@@ -75,6 +77,40 @@ struct CoverageTruth {
   /// The data sets of simulation number `index`; called from any thread.
   std::function<std::vector<Dataset>(std::uint64_t index)> simulate;
 };
+
+/// What one simulated data set says about the intervals.
+struct CoverageTrial {
+  /// One kind of interval of one parameter.
+  struct Cell {
+    bool held = false;
+    double width = 0.0;  ///< [parameter's unit]
+  };
+  struct Row {
+    bool identifiable = false;
+    std::vector<std::optional<Cell>> cells;  ///< [kinds]; none: no such interval
+  };
+  bool usable = false;  ///< else its fit gave no answer, and the rest is empty
+  int refits_failed = 0;
+  std::vector<Row> parameters;  ///< those that are free
+  std::vector<Row> capture;     ///< in the order of UncertaintyResult::capture
+};
+
+/// Simulation number `index`, fitted as a user would: a pure function of it.
+CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth,
+                                 const CoverageOptions& options, std::uint64_t index);
+
+/// What comes of `options.datasets` trials, all of which are there.
+CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
+                              const CoverageOptions& options,
+                              const std::vector<CoverageTrial>& trials);
+
+/// Every digit of a trial, and back. @throws nlohmann::json::exception for another thing
+Json json_of(const CoverageTrial& trial);
+CoverageTrial coverage_trial_of(const Json& json);
+
+/// What the trials begin with, to the last digit: parts with other digits here are no parts of one
+/// study.
+std::string digits_of(const CoverageTruth& truth);
 
 /// Fits every simulated data set as a user would and counts how often each interval of each free
 /// parameter contains the truth. Deterministic in (seed, number of data sets).

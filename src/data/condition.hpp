@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "core/names.hpp"
@@ -9,7 +10,7 @@ namespace recoil {
 
 /// What an experimenter can set beside velocities, diameters and materials.
 enum class Condition {
-  ambient_pressure,       ///< [Pa]
+  ambient_pressure,       ///< of the air around; 0 is vacuum [Pa]
   relative_humidity,      ///< [1]
   temperature,            ///< [K]
   target_thickness,       ///< [m]
@@ -24,6 +25,34 @@ struct NamesOf<Condition> {
   static constexpr std::array<std::string_view, 7> names = {
       "ambient_pressure", "relative_humidity", "temperature",          "target_thickness",
       "probe_height",     "neutralised",       "surface_rms_roughness"};
+};
+
+/// What a condition may be, in SI, and what a value outside of it usually means.
+struct ConditionInfo {
+  std::string_view unit;
+  std::string_view meaning;
+  double lower = 0.0;
+  double upper = 0.0;
+  std::string_view hint;
+};
+const ConditionInfo& info_of(Condition condition);
+
+/// The conditions that are stated of some impacts.
+class Conditions {
+ public:
+  std::optional<double> of(Condition condition) const {
+    return values_[static_cast<std::size_t>(condition)];
+  }
+  void set(Condition condition, double value) {
+    values_[static_cast<std::size_t>(condition)] = value;
+  }
+  /// These, and of what they leave open that of `others`.
+  Conditions or_else(const Conditions& others) const;
+  bool operator==(const Conditions&) const = default;
+  auto operator<=>(const Conditions&) const = default;
+
+ private:
+  std::array<std::optional<double>, NamesOf<Condition>::names.size()> values_;
 };
 
 }  // namespace recoil

@@ -12,13 +12,11 @@
 namespace recoil {
 namespace {
 
-bool is_count(Quantity quantity) {
-  return quantity == Quantity::events || quantity == Quantity::captured;
-}
+bool is_count(Quantity quantity) { return dimension_of(quantity) == Dimension::count; }
 
 /// Frictionless `type` of a field. @returns whether it asks for whole numbers.
 bool read_type(const JsonNode& field, Quantity quantity) {
-  const bool text = quantity == Quantity::series;
+  const bool text = dimension_of(quantity) == Dimension::text;
   const JsonNode type = field.require("type", "it says how the cells are read",
                                       text ? "write \"string\"" : "write \"number\"");
   const std::string word = type.string();
@@ -62,7 +60,7 @@ Column read_field(const JsonNode& field) {
   }
   column.quantity = *quantity;
   column.integer = read_type(field, *quantity);
-  if (*quantity != Quantity::series) read_unit(field, column);
+  if (dimension_of(*quantity) != Dimension::text) read_unit(field, column);
   return column;
 }
 
@@ -198,6 +196,9 @@ Dimension dimension_of(Quantity quantity) {
       return Dimension::text;
     case Quantity::diameter:
     case Quantity::diameter_sd:
+    case Quantity::target_thickness:
+    case Quantity::probe_height:
+    case Quantity::surface_rms_roughness:
       return Dimension::length;
     case Quantity::incident_velocity:
     case Quantity::rebound_velocity:
@@ -205,12 +206,23 @@ Dimension dimension_of(Quantity quantity) {
       return Dimension::velocity;
     case Quantity::restitution:
     case Quantity::restitution_sd:
+    case Quantity::relative_humidity:
       return Dimension::ratio;
     case Quantity::events:
     case Quantity::captured:
+    case Quantity::neutralised:
       return Dimension::count;
+    case Quantity::ambient_pressure:
+      return Dimension::pressure;
+    case Quantity::temperature:
+      return Dimension::temperature;
   }
   return Dimension::text;
+}
+
+Quantity quantity_of(Condition condition) {
+  return static_cast<Quantity>(static_cast<std::size_t>(Quantity::ambient_pressure) +
+                               static_cast<std::size_t>(condition));
 }
 
 std::optional<JsonNode> find_resource(const JsonNode& root, const std::string& path) {

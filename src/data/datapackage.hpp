@@ -28,19 +28,44 @@ enum class Quantity {
   events,
   captured,
   setting,
+  // The conditions, in the order of `Condition`.
+  ambient_pressure,
+  relative_humidity,
+  temperature,
+  target_thickness,
+  probe_height,
+  neutralised,
+  surface_rms_roughness,
 };
 
 /// Their names in a schema.
 template <>
 struct NamesOf<Quantity> {
-  static constexpr std::array<std::string_view, 11> names = {
-      "series",         "diameter",    "incident_velocity", "restitution", "rebound_velocity",
-      "restitution_sd", "velocity_sd", "diameter_sd",       "events",      "captured",
-      "setting"};
+  static constexpr std::array<std::string_view, 18> names = {"series",
+                                                             "diameter",
+                                                             "incident_velocity",
+                                                             "restitution",
+                                                             "rebound_velocity",
+                                                             "restitution_sd",
+                                                             "velocity_sd",
+                                                             "diameter_sd",
+                                                             "events",
+                                                             "captured",
+                                                             "setting",
+                                                             "ambient_pressure",
+                                                             "relative_humidity",
+                                                             "temperature",
+                                                             "target_thickness",
+                                                             "probe_height",
+                                                             "neutralised",
+                                                             "surface_rms_roughness"};
 };
 
 /// What a quantity measures; a series is a text.
 Dimension dimension_of(Quantity quantity);
+
+/// The column of a condition.
+Quantity quantity_of(Condition condition);
 
 /// One field of the schema.
 struct Column {

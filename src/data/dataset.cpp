@@ -54,6 +54,11 @@ void require_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
+Conditions conditions_of(const Dataset& dataset, std::size_t series) {
+  if (series >= dataset.series_conditions.size()) return dataset.system.conditions;
+  return dataset.series_conditions[series].or_else(dataset.system.conditions);
+}
+
 std::vector<double> distinct_diameters(const Dataset& dataset) {
   std::vector<double> diameters;
   for (const ImpactPoint& point : dataset.points) diameters.push_back(point.diameter);

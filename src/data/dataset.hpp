@@ -65,14 +65,20 @@ struct Dataset {
   std::string title;  ///< for people
   Provenance provenance = Provenance::measured;
   ImpactSystem system;
-  std::vector<std::string> series;       ///< names, in order of appearance
-  std::vector<ImpactPoint> points;       ///< in file order
-  std::vector<DataColumn> columns;       ///< as the schema lists them
-  std::vector<std::string> sources;      ///< one line each: title and address
-  std::vector<DatasetWarning> warnings;  ///< by remark, those that there are
-  std::string sha256;                    ///< of datapackage.json and the points, as hexadecimal
+  /// Names, in order of appearance. Points of one series in the file that differ in a condition
+  /// are of different series here.
+  std::vector<std::string> series;
+  std::vector<Conditions> series_conditions;  ///< that the points of each series state themselves
+  std::vector<ImpactPoint> points;            ///< in file order
+  std::vector<DataColumn> columns;            ///< as the schema lists them
+  std::vector<std::string> sources;           ///< one line each: title and address
+  std::vector<DatasetWarning> warnings;       ///< by remark, those that there are
+  std::string sha256;  ///< of datapackage.json and the points, as hexadecimal
   std::filesystem::path folder;
 };
+
+/// The conditions of a series: its own, and of what it leaves open those of all points.
+Conditions conditions_of(const Dataset& dataset, std::size_t series);
 
 /// The distinct diameters of the points [m], ascending.
 std::vector<double> distinct_diameters(const Dataset& dataset);

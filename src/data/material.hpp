@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/names.hpp"
+#include "data/condition.hpp"
 #include "data/method.hpp"
 
 namespace recoil {
@@ -68,8 +69,7 @@ struct ImpactSystem {
   std::optional<double> adhesion_energy;    ///< W_A [J/m2], instead of 2 sqrt(gamma1 gamma2)
   std::optional<double> adhesion_force_f0;  ///< f0 [N/m] at `reference_diameter`, instead of eq. 12
   std::optional<double> reference_diameter;  ///< [m]
-  std::optional<double> ambient_pressure;    ///< of the air around [Pa]; 0: vacuum, absent: unknown
-  std::optional<double> temperature;         ///< [K]
+  Conditions conditions;                     ///< of all points that do not state their own
   Method method = Method::unknown;           ///< how velocities were measured
   std::vector<ConstantError> errors;         ///< of the constants that state one; others are exact
 

@@ -50,6 +50,7 @@ class PointReader {
       throw InputError({file_, header_line_, 1}, "there is a header but no point below it", "",
                        "write one line for each point");
     }
+    name_series();
     for (const auto& [remark, warning] : warnings_) dataset_.warnings.push_back(warning);
   }
 
@@ -177,6 +178,21 @@ class PointReader {
     return static_cast<int>(value(quantity, range).value_or(fallback));
   }
 
+  /// What this row states of its conditions.
+  Conditions conditions() const {
+    Conditions stated;
+    for (const Condition condition : values_of<Condition>()) {
+      const ConditionInfo& info = info_of(condition);
+      const std::string hint(info.hint);
+      const auto found =
+          value(quantity_of(condition),
+                {info.lower, info.upper, unit_suffix(std::string(info.unit)), hint, hint});
+      if (found) stated.set(condition, *found);
+    }
+    return stated;
+  }
+
+  /// The series of this row: the one that it names, under the conditions that it states.
   std::size_t series_index() {
     const CsvField* const field = cell(Quantity::series);
     if (field == nullptr) {
@@ -187,9 +203,36 @@ class PointReader {
       fail(*field, "the name of the series has control characters", "",
            "use letters, digits and blanks");
     }
-    const auto [known, added] = series_of_.try_emplace(field->text, dataset_.series.size());
-    if (added) dataset_.series.push_back(field->text);
+    const Conditions stated = conditions();
+    const auto [known, added] =
+        series_of_.try_emplace(std::pair(field->text, stated), dataset_.series.size());
+    if (added) {
+      dataset_.series.push_back(field->text);
+      dataset_.series_conditions.push_back(stated);
+    }
     return known->second;
+  }
+
+  /// Series of one name in the file are told apart by the conditions in which they differ.
+  void name_series() {
+    const std::vector<std::string> names = dataset_.series;
+    for (std::size_t s = 0; s < names.size(); ++s) {
+      std::string differing;
+      for (const Condition condition : values_of<Condition>()) {
+        const auto mine = dataset_.series_conditions[s].of(condition);
+        bool differs = false;
+        for (std::size_t other = 0; other < names.size(); ++other) {
+          differs = differs || (names[other] == names[s] &&
+                                dataset_.series_conditions[other].of(condition) != mine);
+        }
+        if (!differs) continue;
+        differing += differing.empty() ? "" : ", ";
+        differing += mine ? fmt::format("{} {:g}{}", name_of(condition), *mine,
+                                        unit_suffix(info_of(condition).unit))
+                          : fmt::format("{} not stated", name_of(condition));
+      }
+      if (!differing.empty()) dataset_.series[s] += fmt::format(" ({})", differing);
+    }
   }
 
   /// e, or nothing when the cell is empty.
@@ -282,7 +325,7 @@ class PointReader {
   int header_line_ = 1;
   std::vector<std::size_t> header_;  ///< per field of a row: its index in package_.columns
   std::map<Quantity, std::size_t> field_of_;
-  std::map<std::string, std::size_t> series_of_;
+  std::map<std::pair<std::string, Conditions>, std::size_t> series_of_;
   std::set<std::tuple<std::size_t, double, double, double>> seen_;
   std::map<PointRemark, DatasetWarning> warnings_;
 };

@@ -156,13 +156,19 @@ void read_overrides(const JsonNode& recoil, ImpactSystem& system) {
 }
 
 void read_conditions(const JsonNode& conditions, ImpactSystem& system) {
-  conditions.allow_only({"ambient_pressure", "temperature"});
-  system.ambient_pressure = bounded_if_any(
-      conditions, "ambient_pressure",
-      {0.0, limits::highest_pressure, "Pa", "give it in Pa: 1 atm is 101325 Pa, 0 is vacuum"});
-  system.temperature = bounded_if_any(conditions, "temperature",
-                                      {limits::lowest_temperature, limits::highest_temperature, "K",
-                                       "give it in K: 20 degrees Celsius is 293 K"});
+  conditions.allow_only(all_names<Condition>());
+  for (const Condition condition : values_of<Condition>()) {
+    const ConditionInfo& info = info_of(condition);
+    const std::string name(name_of(condition));
+    const Allowed range{info.lower, info.upper, std::string(info.unit), std::string(info.hint)};
+    const auto stated = bounded_if_any(conditions, name, range);
+    if (!stated) continue;
+    if (condition == Condition::neutralised && *stated != std::trunc(*stated)) {
+      conditions.find(name)->fail(fmt::format("{} = {:g}", name, *stated), "",
+                                  std::string(info.hint));
+    }
+    system.conditions.set(condition, *stated);
+  }
 }
 
 }  // namespace

@@ -30,6 +30,14 @@ LeastSquaresOptions descent() {
   return options;
 }
 
+/// Where that one does not end: along each step, as far as it leads down.
+LeastSquaresOptions careful_descent() {
+  LeastSquaresOptions options = descent();
+  options.search_along_steps = true;
+  options.max_iterations = 500;
+  return options;
+}
+
 /// `near` and what differs from it by an advised start of one parameter of an added mechanism.
 std::vector<std::vector<double>> advised_starts(const Candidate& candidate,
                                                 const std::vector<double>& near) {
@@ -122,6 +130,16 @@ std::optional<double> scatter_of_slow_rebounds(const std::vector<Dataset>& datas
   return std::sqrt(sum / static_cast<double>(stated.size()));
 }
 
+/// The place of a mechanism's first parameter among those of the chain.
+std::size_t first_parameter(const ImpactModel& model, const Mechanism& mechanism) {
+  std::size_t first = 0;
+  for (const Mechanism* before : model.chain) {
+    if (before == &mechanism) break;
+    first += before->info.parameters.size();
+  }
+  return first;
+}
+
 /// Which rebounds are too slow to be seen depends on how they scatter, and the points say so.
 void take_stated_scatter(const std::vector<Dataset>& datasets, ParameterSpec& spec) {
   const std::optional<double> stated = scatter_of_slow_rebounds(datasets);
@@ -137,16 +155,25 @@ bool Candidate::adds(const ParameterSlot& slot) const {
 
 std::string Candidate::name() const { return fmt::format("{}", fmt::join(added, " + ")); }
 
+const ParameterSlot& strength_at(const ImpactModel& model, const Mechanism& mechanism,
+                                 const PointConditions& at) {
+  const Parameter& strength = mechanism.info.parameters.front();
+  return model.slots[*own_slot(model, first_parameter(model, mechanism), strength, at)];
+}
+
+bool is_taken_away(const ImpactModel& model, const Mechanism& mechanism,
+                   const PointConditions& at) {
+  if (!mechanism.info.parameters.front().stated_by) return false;
+  const ParameterSlot& strength = strength_at(model, mechanism, at);
+  return strength.stated && strength.initial == strength.parameter->null_value;
+}
+
 AllowedValues allowed_values(const Candidate& candidate, std::span<const double> theta,
                              std::size_t j) {
   const ImpactModel& model = candidate.model;
   const Parameter& parameter = *model.slots[j].parameter;
   const std::vector<Parameter>& parameters = parameter.mechanism->info.parameters;
-  std::size_t first = 0;  // of the mechanism's parameters among those of the chain
-  for (const Mechanism* mechanism : model.chain) {
-    if (mechanism == parameter.mechanism) break;
-    first += mechanism->info.parameters.size();
-  }
+  const std::size_t first = first_parameter(model, *parameter.mechanism);
   const auto k = static_cast<std::size_t>(&parameter - parameters.data());
   std::vector<double> own;
   std::vector<Encounter<double>> spheres;
@@ -155,7 +182,8 @@ AllowedValues allowed_values(const Candidate& candidate, std::span<const double>
     if (std::find(slots.begin(), slots.end(), j) == slots.end()) continue;
     if (own.empty()) {
       for (std::size_t i = 0; i < parameters.size(); ++i) {
-        own.push_back(theta[model.slot_own[first + i][at.dataset].front()]);
+        const auto slot = own_slot(model, first + i, parameters[i], at);
+        own.push_back(slot ? theta[*slot] : parameters[i].null_value);
       }
     }
     spheres.push_back(plain_sphere(model.surroundings[at.dataset], at.diameter, at.velocity));
@@ -245,6 +273,9 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
   best.discrepancy = std::move(discrepancy);
   for (const std::vector<double>& start : starts) {
     LeastSquaresResult run = minimise(problem, start, options);
+    if (!run.converged && std::isfinite(run.sum_of_squares)) {
+      run = minimise(problem, run.theta, careful_descent());
+    }
     if (!run.converged || !std::isfinite(run.sum_of_squares)) continue;
     if (best.usable && run.sum_of_squares >= best.chi2) continue;
     best.usable = true;

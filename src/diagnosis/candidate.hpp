@@ -28,6 +28,14 @@ struct Candidate {
   bool adds(const ParameterSlot& slot) const;
 };
 
+/// The slot of the strength of `mechanism`, which is the first of its parameters.
+/// @pre it is in the chain, and its strength is not one per series.
+const ParameterSlot& strength_at(const ImpactModel& model, const Mechanism& mechanism,
+                                 const PointConditions& at);
+
+/// Does a stated condition take `mechanism` away from this impact?
+bool is_taken_away(const ImpactModel& model, const Mechanism& mechanism, const PointConditions& at);
+
 /// What values the parameter of slot `j`, of a mechanism, can have in the impacts of `candidate`
 /// while the others are at `theta`.
 AllowedValues allowed_values(const Candidate& candidate, std::span<const double> theta,

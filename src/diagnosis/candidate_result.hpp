@@ -29,6 +29,7 @@ struct FoundParameter {
   /// Standard error, the errors of the laws included; 0 where it is fixed or rests on a bound.
   double sd = 0.0;
   double null_value = 0.0;
+  std::optional<Condition> stated_by;      ///< a condition of the data says its value
   std::optional<Implausible> implausible;  ///< none where its value is possible
   /// Plausible, or no further outside than half the range, or a factor of two: limits of what is
   /// plausible are not sharp.

@@ -10,8 +10,10 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "diagnosis/expected_effects.hpp"
 #include "diagnosis/judge.hpp"
 #include "diagnosis/misfit_map.hpp"
+#include "diagnosis/next_experiments.hpp"
 #include "diagnosis/next_measurement.hpp"
 #include "diagnosis/search.hpp"
 #include "diagnosis/unstated_errors.hpp"
@@ -31,10 +33,7 @@ void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress)
   const auto count = static_cast<std::size_t>(diagnosis.options.simulated);
   std::vector<std::optional<PerValue<StructureQuestion, double>>> answers(count);
   parallel_over(count, diagnosis.options.threads, [&](std::size_t b) {
-    const Observations sample = simulate_base(base, b);
-    const Refit refit =
-        refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
-    if (refit.usable) answers[b] = statistics(refit.residuals);
+    answers[b] = structure_of_sample(base, statistics, b);
     if (b % 10 == 0) progress.advance();
   });
   std::vector<PerValue<StructureQuestion, double>> simulated;
@@ -275,7 +274,7 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   decide(found, one_size, diagnosis);
   if (diagnosis.verdict == Verdict::not_separable) {
     diagnosis.next = next_measurements(diagnosis.base, found);
-    diagnosis.experiments = next_experiments(diagnosis.base, found);
+    diagnosis.experiments = next_experiments(base, found);
   }
   if (diagnosis.extended) extend(base, diagnosis);
 }
@@ -311,22 +310,6 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
 
 namespace {
 
-std::vector<Dataset> without(std::vector<Dataset> datasets,
-                             const std::vector<OutlyingPoint>& outlying) {
-  std::size_t index = 0;  // of the observations, which are the points of all datasets in order
-  for (Dataset& dataset : datasets) {
-    std::vector<ImpactPoint> kept;
-    for (const ImpactPoint& point : dataset.points) {
-      const bool odd = std::any_of(outlying.begin(), outlying.end(),
-                                   [&](const OutlyingPoint& o) { return o.index == index; });
-      if (!odd) kept.push_back(point);
-      ++index;
-    }
-    dataset.points = std::move(kept);
-  }
-  return datasets;
-}
-
 /// Steps 1 to 4 on all points of `base`.
 Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& base_intervals) {
   const DiagnosisOptions& options = base.options;
@@ -335,6 +318,7 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   diagnosis.spec = base.spec;
   diagnosis.datasets = base.datasets;
   diagnosis.base = base.fitted;
+  diagnosis.expected = expected_effects(base);
   Progress progress("diagnosis",
                     static_cast<std::size_t>((options.simulated + 9) / 10 + options.compared));
   test_base(base, diagnosis, progress);
@@ -368,10 +352,12 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
       std::any_of(for_all.unstated.begin(), for_all.unstated.end(),
                   [](const UnstatedErrors& errors) { return errors.leave_nothing(); });
   if (outlying.empty() || errors_do) return for_all;
-  const std::vector<Dataset> others = without(datasets, outlying);
+  const std::vector<Dataset> others = without_points(datasets, outlying);
   const FitResult refitted = fit(make_model(spec, others), gather(others, spec));
   if (!refitted.usable) return for_all;
-  const SearchBase of_others = search_base(spec, others, refitted, options);
+  DiagnosisOptions options_of_others = options;
+  options_of_others.first_piece += options.pieces();
+  const SearchBase of_others = search_base(spec, others, refitted, options_of_others);
   if (!of_others.refit.usable) return for_all;
   Diagnosis diagnosis = diagnose_all(of_others, {});
   diagnosis.outlying = outlying;

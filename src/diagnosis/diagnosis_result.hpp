@@ -7,6 +7,7 @@
 #include "core/names.hpp"
 #include "diagnosis/candidate_result.hpp"
 #include "diagnosis/diagnosis_options.hpp"
+#include "diagnosis/expected_effect.hpp"
 #include "diagnosis/misfit_map.hpp"
 #include "diagnosis/next_experiment.hpp"
 #include "diagnosis/next_measurement.hpp"
@@ -74,6 +75,7 @@ struct Diagnosis {
   std::vector<CaptureChange> capture;
   std::vector<NextMeasurement> next;
   std::vector<NextExperiment> experiments;  ///< the least effort first
+  std::vector<ExpectedEffect> expected;     ///< of what the conditions state, the largest first
   std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate
   std::optional<MaterialsExplain> materials;  ///< of an adequate model, where its constants matter
   std::string outdone;  ///< the best explanation, where unstated errors do better; else empty

@@ -32,9 +32,10 @@ toml::array paths_from(const FitSpec& spec, const std::filesystem::path& folder)
 /// at its null value instead, which is its default.
 void start_at_estimate(toml::table& parameters, const ParameterSpec& spec,
                        const FitResult& fitted) {
-  const auto slot =
-      std::find_if(fitted.model.slots.begin(), fitted.model.slots.end(),
-                   [&](const ParameterSlot& s) { return s.parameter == spec.parameter; });
+  const auto slot = std::find_if(
+      fitted.model.slots.begin(), fitted.model.slots.end(), [&](const ParameterSlot& s) {
+        return s.parameter == spec.parameter && !s.stated;  // the data state those
+      });
   if (slot == fitted.model.slots.end() || !slot->series.empty()) return;
   const bool derived = spec.is_derived() && !spec.free;
   toml::table& entry = subtable(parameters, spec.parameter->name);

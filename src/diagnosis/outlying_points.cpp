@@ -157,4 +157,20 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
   return found;
 }
 
+std::vector<Dataset> without_points(std::vector<Dataset> datasets,
+                                    const std::vector<OutlyingPoint>& outlying) {
+  std::size_t index = 0;  // of the observations, which are the points of all datasets in order
+  for (Dataset& dataset : datasets) {
+    std::vector<ImpactPoint> kept;
+    for (const ImpactPoint& point : dataset.points) {
+      const bool odd = std::any_of(outlying.begin(), outlying.end(),
+                                   [&](const OutlyingPoint& o) { return o.index == index; });
+      if (!odd) kept.push_back(point);
+      ++index;
+    }
+    dataset.points = std::move(kept);
+  }
+  return datasets;
+}
+
 }  // namespace recoil

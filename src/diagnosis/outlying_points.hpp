@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "data/dataset.hpp"
+
 namespace recoil {
 
 struct SearchBase;
@@ -33,5 +35,9 @@ struct OutlyingPoint {
 /// stated: where all points scatter more than that says, none is odd. At most a fifth of the points
 /// are.
 std::vector<OutlyingPoint> outlying_points(const SearchBase& base);
+
+/// The datasets of a fit without these points.
+std::vector<Dataset> without_points(std::vector<Dataset> datasets,
+                                    const std::vector<OutlyingPoint>& outlying);
 
 }  // namespace recoil

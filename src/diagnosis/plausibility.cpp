@@ -98,6 +98,7 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
     parameter.value = refit.theta[j];
     parameter.sd = errors[j];
     parameter.null_value = slot.parameter->null_value;
+    if (slot.stated) parameter.stated_by = slot.parameter->stated_by->condition;
     const bool vanishes = std::abs(parameter.value - slot.parameter->null_value) <=
                           at_null * (slot.upper - slot.lower);
     if (slot.free && !vanishes) judge(candidate, refit, j, errors[j], parameter);

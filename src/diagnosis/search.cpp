@@ -105,10 +105,10 @@ bool rests_on_the_edge(const CandidateResult& result) {
 }
 
 bool can_be_released(const Candidate& candidate) {
-  return std::any_of(candidate.model.slots.begin(), candidate.model.slots.end(),
-                     [&](const ParameterSlot& slot) {
-                       return !slot.free && slot.parameter->searched && candidate.adds(slot);
-                     });
+  return std::any_of(
+      candidate.model.slots.begin(), candidate.model.slots.end(), [&](const ParameterSlot& slot) {
+        return !slot.free && !slot.stated && slot.parameter->searched && candidate.adds(slot);
+      });
 }
 
 /// The same with released parameters, if that is worth it.
@@ -225,6 +225,22 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
   return base;
 }
 
+namespace {
+
+/// All impacts of `point` were captured, and of their scatter nothing is known: where the model has
+/// them come back, the error of e decides (see `weighted_residual`).
+void draw_capture(Observation& point, double square, RandomStream& random) {
+  const double sd = point.weights.sd;
+  const double error = std::hypot(std::sqrt(2.0) * sd * sd, point.weights.input_sd);
+  const double reading = std::sqrt(std::max(square, 0.0)) + sd * random.normal();
+  if (!(square + error * random.normal() > 0.0) || !(reading > 0.0)) return;
+  point.censored = false;
+  point.captured = 0;
+  point.restitution = reading;
+}
+
+}  // namespace
+
 Observations simulate_base(const SearchBase& base, std::uint64_t index) {
   RandomStream random(base.options.seed, RandomPurpose::diagnosis, index);
   Eigen::VectorXd bend = Eigen::VectorXd::Zero(base.laws.functions.cols());
@@ -238,8 +254,27 @@ Observations simulate_base(const SearchBase& base, std::uint64_t index) {
     point = simulate_observation(point, square + loss * wrong_by(static_cast<Eigen::Index>(i)),
                                  base.noise_scale, sample.noise.student, random);
     if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
+    if (point.censored && !(point.weights.scatter > 0.0)) draw_capture(point, square, random);
   }
   return sample;
+}
+
+std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
+    const SearchBase& base, const StructureStatistics& statistics, std::uint64_t index) {
+  if (const std::vector<double>* const row = base.options.row(index)) {
+    if (row->size() == 1) return std::nullopt;
+    PerValue<StructureQuestion, double> answer{};
+    std::size_t at = 1;
+    for (const StructureQuestion question : values_of<StructureQuestion>()) {
+      answer[question] = row->at(at++);
+    }
+    return answer;
+  }
+  const Observations sample = simulate_base(base, index);
+  const Refit refit =
+      refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
+  if (!refit.usable) return std::nullopt;
+  return statistics(refit.residuals);
 }
 
 std::vector<CandidateResult> try_singles(const SearchBase& base) {
@@ -263,6 +298,12 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
     Candidate candidate =
         make_candidate(base.spec, base.datasets, {std::string(untried[k]->info.id)});
     if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 1) return;
+    const std::vector<PointConditions>& impacts = candidate.impacts;
+    if (std::all_of(impacts.begin(), impacts.end(), [&](const PointConditions& at) {
+          return is_taken_away(candidate.model, *untried[k], at);
+        })) {
+      return;
+    }
     const std::vector<double> near =
         carried_over(base.candidate.model, base.refit.theta, candidate.model);
     results[k] = try_one(base, std::move(candidate), near, tries_alone);
@@ -272,29 +313,37 @@ std::vector<CandidateResult> try_singles(const SearchBase& base) {
   return results;
 }
 
+double largest_gain(const SearchBase& base, const std::vector<CandidateResult>& candidates,
+                    std::uint64_t index) {
+  double most = -INFINITY;
+  const Observations sample = simulate_base(base, index);
+  const Refit alone =
+      refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
+  if (!alone.usable) return most;
+  const double criterion = corrected_criterion(sample, alone, base.candidate.free_count);
+  bool spread = false;
+  for (const CandidateResult& c : candidates) {
+    // One spread looks like the other, and takes nine times as long as anything else.
+    if (spreads(c) && std::exchange(spread, true)) continue;
+    const std::vector<double> near =
+        carried_over(base.candidate.model, alone.theta, c.candidate.model);
+    // What chance alone makes of a mechanism is small, and so is the error of its law.
+    const Refit refit = refit_candidate(c.candidate, sample, near, 1, base.refit.discrepancy);
+    if (!refit.usable) continue;
+    const double gain = criterion - corrected_criterion(sample, refit, c.candidate.free_count);
+    most = std::max(most, gain);
+  }
+  return most;
+}
+
 void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
                const std::function<void()>& tick) {
   const auto count = static_cast<std::size_t>(base.options.compared);
   std::vector<double> most(count, -INFINITY);
   const auto gains_more = [&](std::size_t b) {
-    const Observations sample = simulate_base(base, b);
-    const Refit alone =
-        refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
+    const auto* made = base.options.row(static_cast<std::size_t>(base.options.simulated) + b);
+    most[b] = made != nullptr ? made->front() : largest_gain(base, candidates, b);
     tick();
-    if (!alone.usable) return;
-    const double criterion = corrected_criterion(sample, alone, base.candidate.free_count);
-    bool spread = false;
-    for (const CandidateResult& c : candidates) {
-      // One spread looks like the other, and takes nine times as long as anything else.
-      if (spreads(c) && std::exchange(spread, true)) continue;
-      const std::vector<double> near =
-          carried_over(base.candidate.model, alone.theta, c.candidate.model);
-      // What chance alone makes of a mechanism is small, and so is the error of its law.
-      const Refit refit = refit_candidate(c.candidate, sample, near, 1, base.refit.discrepancy);
-      if (!refit.usable) continue;
-      const double gain = criterion - corrected_criterion(sample, refit, c.candidate.free_count);
-      most[b] = std::max(most[b], gain);
-    }
   };
   std::size_t done = 0;
   const auto as_much = [&](const CandidateResult& c) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/candidate_result.hpp"
@@ -30,9 +31,19 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
 /// size that `laws` allows.
 Observations simulate_base(const SearchBase& base, std::uint64_t index);
 
+/// The structure in replicate `index`, refitted; none without a fit. Taken from the options' rows
+/// where it is there.
+std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
+    const SearchBase& base, const StructureStatistics& statistics, std::uint64_t index);
+
 /// Every mechanism of the catalogue that `spec` does not have, refitted, with its structure and its
 /// plausibility; the best first. Mechanisms that cannot be fitted are left out.
 std::vector<CandidateResult> try_singles(const SearchBase& base);
+
+/// What the best of `candidates` gains over the base, in its criterion, on replicate `index`;
+/// -infinity where nothing can be fitted.
+double largest_gain(const SearchBase& base, const std::vector<CandidateResult>& candidates,
+                    std::uint64_t index);
 
 /// Fills the p-values of `candidates`: (1 + number of simulated data sets in which the best of all
 /// candidates gains as much) / (1 + number of data sets). The data sets end early once chance has

@@ -70,6 +70,8 @@ struct Figure {
   std::string svg{};   ///< ready to inline; empty: not drawn yet
   bool large = false;  ///< takes the whole width of the page; scrolls in its box on a phone
   plot::Picture picture{};
+  std::string csv{};       ///< its data; empty: those of `picture`
+  std::string explored{};  ///< JSON for the script of the page, which makes controls of it
 };
 
 Figure figure_of(plot::Picture picture, Sentence caption, bool large = false);
@@ -145,8 +147,10 @@ struct Document {
   Sentence subtitle{};
   std::vector<Block> foreword{};  ///< above the contents
   std::vector<Section> sections{};
-  std::string foot{};  ///< who made it
-  bool cards = false;  ///< the sections stand side by side, without a list of contents
+  std::string foot{};    ///< who made it
+  bool cards = false;    ///< the sections stand side by side, without a list of contents
+  std::string name{};    ///< what the files that a reader saves from the page begin with
+  std::string script{};  ///< JavaScript of the page, beside that which saves pictures
 };
 
 /// Draws every figure that has no SVG yet, all at once.

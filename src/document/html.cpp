@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
 
 #include "document/html_style.hpp"
+#include "document/save_script.hpp"
+#include "plot/csv.hpp"
 #include "plot/xml.hpp"
 
 namespace recoil {
@@ -115,13 +118,49 @@ std::string table_html(const Table& full) {
   return out + "</tbody>\n</table></div>\n";
 }
 
+/// JSON for a script, within which no markup can begin or end.
+std::string data_html(std::string_view look, const std::string& json) {
+  std::string safe;
+  for (const char c : json) safe += c == '<' ? "\\u003c" : std::string(1, c);
+  return fmt::format("<script type=\"application/json\" class=\"{}\">{}</script>\n", look, safe);
+}
+
+/// Empty cells, of which there are many where layers share nothing, as their number: four commas
+/// and more as "&4;", and the sign itself as "&0;". save.js undoes it.
+std::string without_runs_of_commas(const std::string& csv) {
+  constexpr std::size_t fewest = 4;
+  std::string out;
+  for (std::size_t i = 0; i < csv.size();) {
+    const std::size_t run = std::min(csv.find_first_not_of(',', i), csv.size()) - i;
+    if (run >= fewest) {
+      out += fmt::format("&{};", run);
+    } else {
+      out += csv[i] == '&' ? "&0;" : csv.substr(i, std::max<std::size_t>(run, 1));
+    }
+    i += std::max<std::size_t>(run, 1);
+  }
+  return out;
+}
+
+/// What the page's script needs: the data of the picture as a file, and what explores it.
+std::string data_of_figure(const Figure& figure) {
+  const std::string csv = figure.csv.empty() ? plot::csv_of(figure.picture) : figure.csv;
+  std::string out;
+  if (!csv.empty()) out += data_html("csv", nlohmann::json(without_runs_of_commas(csv)).dump());
+  if (!figure.explored.empty()) out += data_html("explore", figure.explored);
+  return out;
+}
+
 std::string figure_html(const Figure& figure) {
-  if (figure.caption.empty()) return fmt::format("<div class=\"picture\">{}</div>\n", figure.svg);
+  if (figure.caption.empty()) {
+    return fmt::format("<div class=\"picture\">{}</div>\n{}", figure.svg, data_of_figure(figure));
+  }
   return fmt::format(
       "<figure id=\"figure-{}\"{}><div class=\"picture\"{}>{}</div>\n<figcaption>{}</figcaption>"
-      "</figure>\n",
+      "\n{}</figure>\n",
       escape_html(figure.id), figure.large ? " class=\"large\"" : "",
-      figure.large ? " tabindex=\"0\"" : "", figure.svg, html_of(figure.caption));
+      figure.large ? " tabindex=\"0\"" : "", figure.svg, html_of(figure.caption),
+      data_of_figure(figure));
 }
 
 std::string figures_html(std::vector<Figure> figures) {
@@ -241,15 +280,22 @@ std::string html_page(Document document) {
     if (empty(section)) continue;
     body += document.cards ? card_html(section) : section_html(section);
   }
+  // Only of a page with pictures: nothing else can be saved or explored.
+  const bool pictures = body.find("<svg ") != std::string::npos;
+  const std::string scripts =
+      pictures ? fmt::format("<script type=\"text/javascript\">\n{}{}</script>\n", save_script(),
+                             document.script)
+               : "";
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n"
-      "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n{}</header>\n"
-      "<main{}>\n{}</main>\n<footer>{}</footer>\n</body>\n</html>\n",
-      escape_html(document.title), style_sheet(), head, document.cards ? " class=\"cards\"" : "",
-      body, escape_html(document.foot));
+      "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body{}>\n{}</header>\n"
+      "<main{}>\n{}</main>\n<footer>{}</footer>\n{}</body>\n</html>\n",
+      escape_html(document.title), style_sheet(),
+      document.name.empty() ? "" : fmt::format(" data-name=\"{}\"", escape_html(document.name)),
+      head, document.cards ? " class=\"cards\"" : "", body, escape_html(document.foot), scripts);
 }
 
 }  // namespace recoil

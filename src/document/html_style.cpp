@@ -54,6 +54,17 @@ figure { margin: 0; background: var(--card); border: 1px solid var(--line); bord
 .large .picture svg { min-width: 40rem; max-width: 54rem; margin: 0 auto; }
 figcaption { padding: .5rem .9rem .8rem; font-size: .88rem; line-height: 1.45;
   color: var(--quiet); border-top: 1px solid var(--line); }
+.save { margin: 0; padding: .3rem .9rem; font-size: .82rem; color: var(--quiet); max-width: none; }
+.save a { margin-right: .5rem; }
+.explore { padding: 0 .9rem .6rem; font-size: .88rem; }
+.explore .control { display: grid; grid-template-columns: 9.5rem 1fr 7rem;
+  gap: .1rem .7rem; align-items: center; margin: .3rem 0; }
+.explore input { width: 100%; min-width: 0; margin: 0; font: inherit; color: var(--ink);
+  accent-color: var(--accent); }
+.explore input[type=number] { background: var(--paper); border: 1px solid var(--line);
+  border-radius: .25rem; padding: .15rem .35rem; }
+.explore button { font: inherit; margin: .3rem 0 0; }
+.explored-result { margin: .5rem 0 0; }
 .wide { width: fit-content; max-width: 100%; overflow-x: auto; margin: .75rem 0 1.25rem; border: 1px solid var(--line);
   border-radius: .4rem; background: var(--card); }
 table { border-collapse: collapse; width: 100%; font-size: .93rem;
@@ -99,6 +110,8 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   th, td { padding: .38rem .6rem; }
   tbody th { white-space: normal; min-width: 6.5rem; }
   td.prose { min-width: 11rem; }
+  .explore .control { grid-template-columns: 1fr 7.5rem; }
+  .explore .control span { grid-column: 1 / -1; }
 }
 @media print {
   :root { --paper: #fff; --ground: #fff; --ink: #000; --quiet: #333; --line: #bbb;
@@ -106,7 +119,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
     --doubt: #000; }
   @page { margin: 15mm; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
-  nav, .card > p:last-child { display: none; }
+  nav, .card > p:last-child, .save, .explore, .explored { display: none; }
   h1 { font-size: 17pt; }
   h2 { font-size: 12.5pt; margin-top: 1.4rem; break-after: avoid; }
   h3 { break-after: avoid; }
@@ -116,14 +129,18 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .large .picture svg { min-width: 0; }
   .cards { grid-template-columns: 1fr 1fr; }
   figcaption { font-size: 8pt; }
-  .wide { overflow: visible; }
-  table { font-size: 8pt; }
+  .wide { overflow: visible; break-inside: avoid; }
+  .wide:has(table.compact) { break-inside: auto; }
+  .large .picture { overflow: visible; }
+  table { font-size: 8pt; overflow-wrap: anywhere; }
   th, td { padding: .15rem .4rem; white-space: normal; }
   td.prose { min-width: 0; }
-  table.compact th, table.compact td { white-space: nowrap; padding: .08rem .4rem; }
+  table.compact th, table.compact td { padding: .08rem .4rem; }
+  table.compact td { white-space: nowrap; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
   a { color: inherit; text-decoration: none; }
+  a[href^="http"]::after, a[href$=".html"]::after { content: " (" attr(href) ")"; }
 }
 )css";
 }

@@ -276,6 +276,7 @@ class FitReader : private TomlReader {
       ParameterSpec spec = default_of(*parameter);
       const toml::node* const node =
           parameters == nullptr ? nullptr : parameters->get(parameter->name);
+      spec.mentioned = node != nullptr;
       if (node != nullptr) read_parameter(*node, spec);
       fit_.spec.parameters.push_back(spec);
     }

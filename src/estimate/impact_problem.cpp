@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/interrupt.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 
@@ -57,6 +58,7 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
   problem.evaluate = [predictor, &model, &data, handovers](std::span<const double> theta,
                                                            std::span<double> residuals,
                                                            std::span<double> jacobian) {
+    if (called_off()) return false;  // the minimiser ends; its caller is told when it next asks
     const std::size_t p = theta.size();
     const long handed_over = predictor->evaluate(theta, !jacobian.empty());
     if (handovers != nullptr) *handovers += handed_over;

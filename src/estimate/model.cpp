@@ -32,22 +32,68 @@ std::size_t add_slot(ImpactModel& model, const ParameterSpec& spec, const std::s
   return model.slots.size() - 1;
 }
 
+/// A slot whose value a condition states.
+std::size_t add_stated_slot(ImpactModel& model, const ParameterSpec& spec,
+                            const std::string& dataset, const std::string& series, double value) {
+  const std::size_t slot = add_slot(model, spec, dataset, series, value);
+  model.slots[slot].free = false;
+  model.slots[slot].log_scale = false;
+  model.slots[slot].stated = true;
+  return slot;
+}
+
+/// What the conditions of each series of a dataset say of a parameter, and last those of a sphere
+/// of no series.
+std::vector<std::optional<double>> said_by_conditions(const ImpactModel& model,
+                                                      const ParameterSpec& spec,
+                                                      const Dataset& dataset, std::size_t d) {
+  std::vector<std::optional<double>> said(dataset.series.size() + 1);
+  if (spec.mentioned) return said;
+  for (std::size_t s = 0; s < said.size(); ++s) {
+    said[s] = stated_value(*spec.parameter, model.surroundings[d], conditions_of(dataset, s));
+  }
+  return said;
+}
+
 /// The slots of one parameter of a mechanism, per dataset: one, or one per series.
 std::vector<std::vector<std::size_t>> add_own_slots(ImpactModel& model, const ParameterSpec& spec,
                                                     const std::vector<Dataset>& datasets) {
   std::vector<std::vector<std::size_t>> all;
   const bool several = datasets.size() > 1;
-  for (const Dataset& dataset : datasets) {
+  std::optional<std::size_t> common;  // of what no condition states
+  const auto open_slot = [&](const Dataset& dataset) {
+    if (spec.per_dataset) return add_slot(model, spec, several ? dataset.id : "", "", spec.initial);
+    if (!common) common = add_slot(model, spec, "", "", spec.initial);
+    return *common;
+  };
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    const Dataset& dataset = datasets[d];
     std::vector<std::size_t>& slots = all.emplace_back();
     if (spec.parameter->per_series) {
       for (const std::string& series : dataset.series) {
         slots.push_back(add_slot(model, spec, several ? dataset.id : "", series, spec.initial));
       }
-    } else if (all.size() == 1 || spec.per_dataset) {
-      const std::string id = several && spec.per_dataset ? dataset.id : "";
-      slots.push_back(add_slot(model, spec, id, "", spec.initial));
-    } else {
-      slots = all.front();
+      continue;
+    }
+    const std::string id = several ? dataset.id : "";
+    const auto said = said_by_conditions(model, spec, dataset, d);
+    const bool alike = std::all_of(said.begin(), said.end() - 1,
+                                   [&](const auto& value) { return value == said.front(); });
+    if (alike) {
+      slots.push_back(said.front() ? add_stated_slot(model, spec, id, "", *said.front())
+                                   : open_slot(dataset));
+      continue;
+    }
+    std::optional<std::size_t> open;  // of this dataset
+    for (std::size_t s = 0; s < said.size(); ++s) {
+      const bool of_series = s < dataset.series.size();
+      if (said[s]) {
+        slots.push_back(
+            add_stated_slot(model, spec, id, of_series ? dataset.series[s] : "any", *said[s]));
+      } else {
+        if (!open) open = open_slot(dataset);
+        slots.push_back(*open);
+      }
     }
   }
   return all;
@@ -159,6 +205,15 @@ std::string ParameterSlot::label() const {
   }
   return dataset.empty() ? fmt::format("{}[{}]", name, series)
                          : fmt::format("{}[{}/{}]", name, dataset, series);
+}
+
+std::optional<std::size_t> own_slot(const ImpactModel& model, std::size_t k,
+                                    const Parameter& parameter, const PointConditions& at) {
+  const std::vector<std::size_t>& slots = model.slot_own[k][at.dataset];
+  if (parameter.per_series) {
+    return at.series < slots.size() ? std::optional(slots[at.series]) : std::nullopt;
+  }
+  return slots[std::min(at.series, slots.size() - 1)];
 }
 
 std::vector<double> ImpactModel::initial() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
 #include "estimate/material_constants.hpp"
+#include "estimate/point_conditions.hpp"
 #include "estimate/solver_settings.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/extended_impacts.hpp"
@@ -28,6 +30,7 @@ struct ParameterSlot {
   bool log_scale = false;
   bool derived = false;  ///< its value is what the materials give; while it is not free it follows
                          ///< their constants
+  bool stated = false;   ///< its value follows from a condition that the dataset states
 
   /// A constant of the materials: not free, but moved by every fit as far as its error allows.
   bool is_constant() const { return parameter->role == ParameterRole::material_constant; }
@@ -51,7 +54,8 @@ struct ImpactModel {
 
   std::vector<const Mechanism*> chain;     ///< in the order in which they act
   std::vector<Surroundings> surroundings;  ///< per dataset
-  /// [parameter of the chain][dataset]: index into `slots`, one or one per series.
+  /// [parameter of the chain][dataset]: index into `slots`: one, or one per series. Where series
+  /// differ in a condition that states the parameter, a last one holds for spheres of no series.
   std::vector<std::vector<std::vector<std::size_t>>> slot_own;
 
   /// The constants that are known with an error. They are the last slots, in this order.
@@ -70,6 +74,11 @@ struct ImpactModel {
   /// What solves them.
   SimulateImpacts simulator() const;
 };
+
+/// The slot of parameter number `k` of the chain for a sphere; none where every series has its own
+/// and the sphere is of no series.
+std::optional<std::size_t> own_slot(const ImpactModel& model, std::size_t k,
+                                    const Parameter& parameter, const PointConditions& at);
 
 /// What the materials of `dataset` say of its parameter of adhesion: f0 [N/m] or W [J/m2].
 double derived_adhesion(const ImpactModel& model, std::size_t dataset);

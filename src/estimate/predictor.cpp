@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/interrupt.hpp"
+
 namespace recoil {
 namespace {
 
@@ -64,10 +66,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       nulls_.push_back(0.0);
     }
     for (std::size_t k = 0; k < own.size(); ++k) {
-      const std::vector<std::size_t>& slots = model.slot_own[own[k]][p.dataset];
-      const bool per_series = own_parameters[k]->per_series;
-      const bool known = !per_series || p.series < slots.size();
-      slots_.push_back(known ? slots[per_series ? p.series : 0] : no_slot);
+      slots_.push_back(own_slot(model, own[k], *own_parameters[k], p).value_or(no_slot));
       nulls_.push_back(own_parameters[k]->null_value);
     }
   }
@@ -77,6 +76,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
 
 long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
   assert(theta.size() == model_.slots.size());
+  end_if_called_off();
   const ImpactOptions options = model_.impact_options(gradient);
   for (std::size_t d = 0; d < force_.size(); ++d) {
     force_[d] = adhesion_force_under(model_, theta, d);
@@ -205,9 +205,8 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
   std::size_t k = 0;
   for (const Mechanism* mechanism : model.chain) {
     for (const Parameter& p : mechanism->info.parameters) {
-      const std::vector<std::size_t>& slots = model.slot_own[k++][point.dataset];
-      const bool known = !p.per_series || point.series < slots.size();
-      values.push_back(known ? theta[slots[p.per_series ? point.series : 0]] : p.null_value);
+      const auto slot = own_slot(model, k++, p, point);
+      values.push_back(slot ? theta[*slot] : p.null_value);
     }
   }
   const Surroundings now = surroundings_under(model, theta, point.dataset);

@@ -41,6 +41,7 @@ class PointPredictor {
 
   /// Simulates every point under `theta`, with gradients when asked for.
   /// @return how many impacts the fast solver handed over to the reference
+  /// @throws CalledOff
   long evaluate(std::span<const double> theta, bool gradient);
 
   std::size_t size() const { return points_.size(); }

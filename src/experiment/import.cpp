@@ -114,6 +114,7 @@ void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
 
 ImportResult import_points(const ImportRequest& request) {
   require_free(request);
+  read_text_file(request.file);  // a missing file is complained of before anything is asked for
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();
   ImportResult result;

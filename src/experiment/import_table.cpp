@@ -110,8 +110,13 @@ void ImportTable::add(const std::string& entry, const std::vector<ImportQuantity
   const auto quantity = std::find_if(
       known.begin(), known.end(), [&](const ImportQuantity& q) { return q.name == pair->first; });
   if (quantity == known.end()) {
+    // "velocity" is near to velocity_sd, but what has to be there is meant: incident_velocity.
+    const auto meant = std::find_if(known.begin(), known.end(), [&](const ImportQuantity& q) {
+      return q.needed && q.name.ends_with("_" + pair->first);
+    });
     throw InputError({}, fmt::format("--map: unknown quantity {}", quote(pair->first)),
-                     "this format does not have this quantity", did_you_mean(pair->first, names));
+                     "this format does not have this quantity",
+                     did_you_mean(meant == known.end() ? pair->first : meant->name, names));
   }
   std::string column = pair->second;
   if (column.size() > 1 && column.front() == '"' && column.back() == '"') {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "core/statistics.hpp"
 #include "experiment/flight.hpp"
 
@@ -35,26 +36,6 @@ double densest(std::vector<double> values, double width) {
   return centre;
 }
 
-/// The implied heights of candidates whose passages have no other candidate; of all of them when
-/// such pairs are too few to tell.
-std::vector<double> telling_heights(const std::vector<Link>& candidates, std::size_t passages) {
-  std::vector<std::uint8_t> uses(passages, 0);
-  const auto add = [&](std::uint32_t i) {
-    uses[i] = static_cast<std::uint8_t>(std::min(uses[i] + 1, 2));
-  };
-  for (const Link& link : candidates) {
-    add(link.from);
-    add(link.to);
-  }
-  std::vector<double> alone;
-  std::vector<double> all;
-  for (const Link& link : candidates) {
-    all.push_back(link.first);
-    if (uses[link.from] == 1 && uses[link.to] == 1) alone.push_back(link.first);
-  }
-  return alone.size() >= 30 ? alone : all;
-}
-
 }  // namespace
 
 std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
@@ -65,6 +46,7 @@ std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
   const double ratio = 1.0 + options.diameter_tolerance;
   std::vector<Link> links;
   for (std::size_t i = 0; i < passages.size(); ++i) {
+    end_if_called_off();
     const Passage& down = passages[i];
     if (down.velocity <= 0.0) continue;
     const double latest = down.time + flight::longest_round_trip(down.velocity, highest);
@@ -118,7 +100,9 @@ Refined refine_height(const std::vector<Link>& candidates, const std::vector<Pas
   Refined result;
   result.model.diameter_sd = LocalSpread(std::min(0.05, options.diameter_tolerance / 3.0));
   if (options.refine && candidates.size() >= fewest_to_refine) {
-    result.model.log_height = densest(telling_heights(candidates, passages.size()), 0.1);
+    std::vector<double> heights;
+    for (const Link& link : candidates) heights.push_back(link.first);
+    result.model.log_height = densest(std::move(heights), 0.1);
   }
   for (int round = 0; round < 4; ++round) {
     const std::vector<Link> links = agreeing(candidates, passages, result.model);

@@ -3,6 +3,8 @@
 namespace recoil {
 namespace {
 
+constexpr double polished = 1e-9;  // [m]
+
 struct AsperityLoss {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
@@ -32,8 +34,14 @@ Mechanism asperity_loss() {
             .upper = 1e-3,
             .plausible = {0.0, 1e-11,
                           "a contact of 0.1 um that flows by 10 nm under 1 GPa takes 3e-13 J"},
-            .starts = {1e-15, 1e-13, 1e-12}}},
-      .taken_away = TakenAway{Condition::surface_rms_roughness, 1e-9,
+            .starts = {1e-15, 1e-13, 1e-12},
+            .stated_by = StatedBy{Condition::surface_rms_roughness,
+                                  [](double roughness, const Surroundings&,
+                                     const Conditions&) -> std::optional<double> {
+                                    if (roughness > polished) return std::nullopt;
+                                    return 0.0;
+                                  }}}},
+      .taken_away = TakenAway{Condition::surface_rms_roughness, polished,
                               "polish the target to a roughness of 1 nm"},
   });
 }

@@ -5,6 +5,17 @@ namespace {
 
 constexpr double water_surface_tension = 0.0728;  // [N/m] at 293 K (IAPWS)
 
+/// Radius of the meniscus of water at rest in air of this humidity [m], gamma V_m / (R T ln(1 / h))
+/// (Thomson 1871): 0 in dry air, without end where water condenses anyhow. A bridge of it pulls
+/// with 4 pi r gamma (1 - D / (2 r_K)) at the distance D, so l = r_K.
+double kelvin_radius(double humidity, double temperature) {
+  constexpr double molar_volume = 1.805e-5;     // of water at 293 K [m3/mol] (IAPWS)
+  constexpr double gas_constant = 8.314462618;  // [J/(mol K)], CODATA 2018
+  if (!(humidity > 0.0)) return 0.0;
+  return water_surface_tension * molar_volume /
+         (gas_constant * temperature * std::max(-std::log(humidity), 1e-9));
+}
+
 struct Capillary {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
@@ -21,7 +32,7 @@ Mechanism capillary() {
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
       .formula = "loss 4 pi r gamma l: the force of the bridge over the length l at which it "
-                 "breaks, gamma = 0.0728 N/m",
+                 "breaks, gamma = 0.0728 N/m; where the humidity is stated, l is the Kelvin radius",
       .source = "Israelachvili, J. N., Intermolecular and Surface Forces (force of a liquid bridge "
                 "at small contact angle)",
       .fingerprint =
@@ -37,7 +48,13 @@ Mechanism capillary() {
             .plausible =
                 {0.0, 2e-8,
                  "adsorbed water is 0.3 nm to a few nm thick; a bridge breaks at a few times that"},
-            .starts = {1e-10, 1e-8}}},
+            .starts = {1e-10, 1e-8},
+            .stated_by = StatedBy{Condition::relative_humidity,
+                                  [](double humidity, const Surroundings&,
+                                     const Conditions& all) -> std::optional<double> {
+                                    return kelvin_radius(
+                                        humidity, all.of(Condition::temperature).value_or(293.15));
+                                  }}}},
       .taken_away = TakenAway{Condition::relative_humidity, 0.0, "dry the chamber"},
   });
 }

@@ -13,12 +13,15 @@ namespace recoil {
 
 /// What every impact of one dataset shares.
 struct Surroundings {
-  double density = 0.0;             ///< of the sphere [kg/m3]
-  double stiffness = 0.0;           ///< K [Pa]
-  double reduced_modulus = 0.0;     ///< E* = (3/4) K [Pa]
-  double reference_diameter = 0.0;  ///< where f0 is stated [m]
-  double adhesion_energy = 0.0;     ///< W_A of the two bodies, see `ContactProperties` [J/m2]
-  double wave_mobility = 0.0;       ///< D of `elastic_waves`, for a half-space [m s / N]
+  double density = 0.0;                ///< of the sphere [kg/m3]
+  double stiffness = 0.0;              ///< K [Pa]
+  double reduced_modulus = 0.0;        ///< E* = (3/4) K [Pa]
+  double reference_diameter = 0.0;     ///< where f0 is stated [m]
+  double adhesion_energy = 0.0;        ///< W_A of the two bodies, see `ContactProperties` [J/m2]
+  double wave_mobility = 0.0;          ///< D of `elastic_waves`, for a half-space [m s / N]
+  double ambient_pressure = 101325.0;  ///< of the gas; that of open air where none is stated [Pa]
+  double plate_impedance =
+      0.0;  ///< Z / H^2 of `plate_flexure`; 0: its density is unknown [kg/(s m2)]
   Method method = Method::unknown;  ///< how velocities were measured
   AdhesionLaw adhesion = AdhesionLaw::ring;
   double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]

@@ -7,6 +7,7 @@ namespace recoil {
 namespace {
 
 constexpr double earth_gravity = 9.80665;  // standard [m/s2]
+constexpr double no_drag_below = 10.0;     // [Pa]
 
 // Air at 293 K (Hinds, Aerosol Technology): viscosity [Pa s], density over pressure [kg/(m3 Pa)],
 // free path times pressure [m Pa].
@@ -135,9 +136,17 @@ Mechanism flight_drag() {
                                     [](const Encounter<double>& sphere, std::span<const double>) {
                                       const double v = sphere.velocity;
                                       return v * v / (2.0 * earth_gravity) / 20.0;
-                                    }}}},
+                                    }},
+                      // Flights through stated air may have been reduced already.
+                      .stated_by = StatedBy{Condition::ambient_pressure,
+                                            [](double pressure, const Surroundings&,
+                                               const Conditions&) -> std::optional<double> {
+                                              if (pressure > no_drag_below) return std::nullopt;
+                                              return 0.0;
+                                            }}}},
       .methods = {Method::drop_heights, Method::bounce_intervals},
-      .taken_away = TakenAway{Condition::ambient_pressure, 10.0, "pump the chamber to below 10 Pa"},
+      .taken_away =
+          TakenAway{Condition::ambient_pressure, no_drag_below, "pump the chamber to below 10 Pa"},
   });
 }
 

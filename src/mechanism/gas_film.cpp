@@ -104,7 +104,8 @@ Mechanism gas_film() {
             .upper = 1e7,
             .plausible = {0.0, 1.1e5,
                           "an experiment in open air has 1e5 Pa, one in vacuum almost none"},
-            .starts = {3e3, 1e5}},
+            .starts = {3e3, 1e5},
+            .stated_by = StatedBy{Condition::ambient_pressure}},
            {.name = "measuring_distance",
             .unit = "m",
             .meaning = "L, from the measuring plane to the surface",
@@ -115,7 +116,8 @@ Mechanism gas_film() {
             .plausible =
                 {0.0, 1e-2,
                  "laser beams cross between a few sphere diameters and a few mm above the surface"},
-            .free = false}},
+            .free = false,
+            .stated_by = StatedBy{Condition::probe_height}}},
       .taken_away = TakenAway{Condition::ambient_pressure, 10.0, "pump the chamber to below 10 Pa"},
   });
 }

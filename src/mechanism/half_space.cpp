@@ -72,11 +72,17 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
   s.reference_diameter = contact.reference_diameter;
   s.adhesion_energy = contact.adhesion_energy;
   s.method = system.method;
+  s.ambient_pressure =
+      system.conditions.of(Condition::ambient_pressure).value_or(s.ambient_pressure);
   // Waves run in the surface: its own density, the sphere's only where none is stated.
   const Material& surface = system.surface;
   s.wave_mobility =
       half_space_mobility(surface.youngs_modulus, surface.poisson_ratio,
                           surface.density > 0.0 ? surface.density : system.particle.density);
+  // Zener, C. (1941), Phys. Rev. 59, 669-673.
+  s.plate_impedance = 4.0 / std::sqrt(3.0) *
+                      std::sqrt(surface.youngs_modulus * surface.density /
+                                (1.0 - surface.poisson_ratio * surface.poisson_ratio));
   return s;
 }
 

@@ -103,6 +103,18 @@ const Parameter& parameter_of(Body body, Constant constant) {
   return all.front().parameter;
 }
 
+std::optional<double> stated_value(const Parameter& parameter, const Surroundings& at,
+                                   const Conditions& conditions) {
+  if (!parameter.stated_by) return std::nullopt;
+  const auto condition = conditions.of(parameter.stated_by->condition);
+  if (!condition) return std::nullopt;
+  const auto value = parameter.stated_by->value == nullptr
+                         ? condition
+                         : parameter.stated_by->value(*condition, at, conditions);
+  if (!value) return std::nullopt;
+  return std::clamp(*value, parameter.lower, parameter.upper);
+}
+
 std::vector<const Parameter*> parameters_with(const std::vector<std::string>& ids,
                                               AdhesionLaw law) {
   std::vector<const Parameter*> parameters;

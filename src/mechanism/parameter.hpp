@@ -1,11 +1,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "data/condition.hpp"
 #include "data/material.hpp"
 #include "impact/impact.hpp"
 
@@ -34,6 +36,17 @@ struct PlausibleLimit {
   /// The quantity [1] of a sphere as it arrives, `own` being the parameters of the mechanism. It
   /// rises with the parameter that has this limit. Null: there is no limit.
   double (*of)(const Encounter<double>& sphere, std::span<const double> own) = nullptr;
+};
+
+struct Surroundings;
+
+/// The condition that says what a parameter is, where it is stated.
+struct StatedBy {
+  Condition condition = Condition::ambient_pressure;
+  /// The value [unit of the parameter] under the condition [its unit] in these surroundings; empty
+  /// where the condition leaves it open. Null: the condition is the parameter.
+  std::optional<double> (*value)(double stated, const Surroundings& at,
+                                 const Conditions& all) = nullptr;
 };
 
 /// What a parameter is to the base model.
@@ -65,6 +78,7 @@ struct Parameter {
   /// The relative scatter of single slow rebounds: starts at what the points state of it.
   bool is_scatter_of_rebounds = false;
   PlausibleLimit limit = {};  ///< beside `plausible`
+  std::optional<StatedBy> stated_by = {};
   ParameterRole role = ParameterRole::of_mechanism;
   const Mechanism* mechanism = nullptr;  ///< to which it belongs (set by the catalogue); null for
                                          ///< the base model
@@ -79,6 +93,10 @@ struct Parameter {
 
 /// C_H, C_A and f0, in this order; under another law than the ring's W stands for f0.
 const std::vector<Parameter>& base_parameters(AdhesionLaw law = AdhesionLaw::ring);
+
+/// What `conditions` say of a parameter; empty where they leave it open.
+std::optional<double> stated_value(const Parameter& parameter, const Surroundings& at,
+                                   const Conditions& conditions);
 
 /// A constant of the materials as a parameter: "particle.youngs_modulus".
 const Parameter& parameter_of(Body body, Constant constant);

@@ -36,7 +36,13 @@ Mechanism plate_flexure() {
             .plausible =
                 {0.0, 1e3,
                  "a silicon wafer of 0.5 mm has 0.1 s/kg, a mica sheet of 10 um about 300 s/kg"},
-            .starts = {1.0, 10.0, 100.0}}},
+            .starts = {1.0, 10.0, 100.0},
+            .stated_by = StatedBy{Condition::target_thickness,
+                                  [](double thickness, const Surroundings& at,
+                                     const Conditions&) -> std::optional<double> {
+                                    if (!(at.plate_impedance > 0.0)) return std::nullopt;
+                                    return 1.0 / (at.plate_impedance * thickness * thickness);
+                                  }}}},
       .taken_away =
           TakenAway{
               Condition::target_thickness, 0.05,

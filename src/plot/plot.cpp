@@ -12,16 +12,27 @@ std::string quantity(const Axis& axis, const char* otherwise) {
   return axis.label.empty() ? otherwise : axis.label;
 }
 
+/// The ticks of an axis that are names of things, not numbers.
+std::vector<Tick> named_ticks(const Axis& axis) {
+  std::vector<Tick> named;
+  for (const Tick& tick : axis.ticks) {
+    const bool number = tick.label.empty() || tick.label.find_first_of("-0123456789") == 0 ||
+                        tick.label.starts_with("\u2212");
+    if (!number) named.push_back(tick);
+  }
+  return named;
+}
+
 /// The columns of one layer; none where it shows no data.
 std::vector<Column> columns_of(const Layer& layer, const Plot& plot) {
   const std::string x = quantity(plot.x, "x");
   const std::string y = quantity(plot.y, "y");
   const std::string value = plot.colours ? plot.colours->label : std::string("value");
   const auto across = [&](const std::string& what, const std::vector<double>& values) {
-    return Column{what.empty() ? x : x + ", " + what, plot.x.unit, values};
+    return Column{what.empty() ? x : x + ", " + what, plot.x.unit, values, named_ticks(plot.x)};
   };
   const auto up = [&](const std::string& what, const std::vector<double>& values) {
-    return Column{what.empty() ? y : y + ", " + what, plot.y.unit, values};
+    return Column{what.empty() ? y : y + ", " + what, plot.y.unit, values, named_ticks(plot.y)};
   };
   return std::visit(
       [&](const auto& shown) -> std::vector<Column> {
@@ -91,10 +102,10 @@ std::string Axis::title() const {
 
 std::vector<DataTable> data_of(const Picture& picture) {
   std::vector<DataTable> tables;
-  for (const Plot& plot : picture.plots) {
-    for (const Layer& layer : plot.layers) {
-      std::vector<Column> columns = columns_of(layer, plot);
-      if (!columns.empty()) tables.push_back({name_of(layer), std::move(columns)});
+  for (std::size_t p = 0; p < picture.plots.size(); ++p) {
+    for (const Layer& layer : picture.plots[p].layers) {
+      std::vector<Column> columns = columns_of(layer, picture.plots[p]);
+      if (!columns.empty()) tables.push_back({name_of(layer), std::move(columns), p});
     }
   }
   return tables;

@@ -196,10 +196,12 @@ struct Column {
   std::string name;
   std::string unit;
   std::vector<double> values;
+  std::vector<Tick> named = {};  ///< values that the axis calls by a name instead
 };
 struct DataTable {
   std::string name;  ///< of the layer; empty where it has none
   std::vector<Column> columns;
+  std::size_t plot = 0;  ///< in which of the plots it stands
 };
 /// What a picture shows in numbers: a table per layer that holds data.
 std::vector<DataTable> data_of(const Picture& picture);

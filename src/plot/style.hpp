@@ -18,7 +18,7 @@ inline constexpr std::string_view orange = "#E69F00";
 inline constexpr std::string_view purple = "#CC79A7";
 inline constexpr std::string_view sky = "#56B4E9";
 inline constexpr std::string_view ink = "#222222";
-inline constexpr std::string_view grey = "#777777";
+inline constexpr std::string_view grey = "#6b6b6b";
 inline constexpr std::string_view pale = "#c4c4c4";
 
 enum class Mark {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -33,12 +34,7 @@ ManyImpacts simulate_many(const ImpactModel& model, std::size_t dataset,
   require_within(velocity, units::m, "velocity", "m/s", velocity_limits);
   require_within(diameter, units::um, "diameter", "um", diameter_limits_um);
   const std::size_t count = velocity.size();
-  std::vector<PointConditions> points;
-  points.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) points.push_back({dataset, diameter[i], velocity[i]});
-  PointPredictor predictor(model, std::move(points));
   const std::vector<double> theta = model.initial();
-  predictor.evaluate(theta, slopes);
   const std::size_t slots = theta.size();
   ManyImpacts out;
   out.restitution_squared.assign(count, std::numeric_limits<double>::quiet_NaN());
@@ -48,16 +44,25 @@ ManyImpacts simulate_many(const ImpactModel& model, std::size_t dataset,
                       std::vector<double>(count, std::numeric_limits<double>::quiet_NaN()));
   }
   std::vector<double> row(slots);
-  for (std::size_t i = 0; i < count; ++i) {
-    const ImpactResult& result = predictor.at(i);
-    if (!result.usable()) continue;
-    out.restitution_squared[i] = result.restitution_squared;
-    out.captured[i] = result.restitution_squared > 0.0 ? 0 : 1;
-    if (!slopes) continue;
-    predictor.gradient_row(i, 1.0, row);
-    for (std::size_t s = 0; s < slots; ++s) out.slopes[s][i] = row[s];
-    out.slopes[slots][i] = predictor.velocity_slope(i);
-    out.slopes[slots + 1][i] = predictor.diameter_slope(i);
+  // Part by part, as a large array can be called off between two of them.
+  constexpr std::size_t part = 20000;
+  for (std::size_t begin = 0; begin < count; begin += part) {
+    const std::size_t end = std::min(count, begin + part);
+    std::vector<PointConditions> points;
+    for (std::size_t i = begin; i < end; ++i) points.push_back({dataset, diameter[i], velocity[i]});
+    PointPredictor predictor(model, std::move(points));
+    predictor.evaluate(theta, slopes);
+    for (std::size_t i = begin; i < end; ++i) {
+      const ImpactResult& result = predictor.at(i - begin);
+      if (!result.usable()) continue;
+      out.restitution_squared[i] = result.restitution_squared;
+      out.captured[i] = result.restitution_squared > 0.0 ? 0 : 1;
+      if (!slopes) continue;
+      predictor.gradient_row(i - begin, 1.0, row);
+      for (std::size_t s = 0; s < slots; ++s) out.slopes[s][i] = row[s];
+      out.slopes[slots][i] = predictor.velocity_slope(i - begin);
+      out.slopes[slots + 1][i] = predictor.diameter_slope(i - begin);
+    }
   }
   return out;
 }

@@ -22,6 +22,8 @@
 #include "document/terminal.hpp"
 #include "predict/polydisperse.hpp"
 #include "python/impacts.hpp"
+#include "python/interruptible.hpp"
+#include "python/pairs.hpp"
 #include "python/picture_json.hpp"
 #include "report/comparison_document.hpp"
 #include "report/diagnosis_document.hpp"
@@ -38,13 +40,6 @@ namespace py = pybind11;
 
 namespace recoil {
 namespace {
-
-/// The interpreter runs on while `work` does.
-template <class Work>
-auto without_interpreter(const Work& work) {
-  const py::gil_scoped_release release;
-  return work();
-}
 
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -119,7 +114,7 @@ py::tuple simulate_columns(const Valued& valued, const Numbers& velocity,
                            const Numbers& diameter_um, const std::string& dataset, bool slopes) {
   const std::vector<double> v = values_in(velocity, units::m);
   const std::vector<double> d = values_in(diameter_um, units::um);
-  const ManyImpacts many = without_interpreter([&] {
+  const ManyImpacts many = interruptible([&] {
     return simulate_many(valued.model, choose_dataset(valued.datasets, dataset), v, d, slopes);
   });
   py::list columns;
@@ -215,6 +210,8 @@ void translate(std::exception_ptr thrown) {
                                           error.suggestion()));
   } catch (const ComputationError& error) {
     raise_as("ComputationError", py::make_tuple(error.what()));
+  } catch (const CalledOff&) {  // by a Ctrl-C while another thread called
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
   }
 }
 
@@ -280,17 +277,31 @@ void bind_results(py::module_& module) {
           "pictures", [](const Analysis& a) { return text_of(pictures_json(fit_document(a))); },
           Released())
       .def("model", [](const Analysis& a) { return model_of(a); })
-      .def("predict", &predict_for, py::arg("sizes"), py::arg("unit"), py::arg("height_mm"),
-           py::arg("midpoints"), py::arg("dataset"), Released())
-      .def("diagnose", &diagnosis_of, py::arg("seed"), py::arg("threads"), Released());
+      .def(
+          "predict",
+          [](const Analysis& a, const std::string& sizes, const std::string& unit,
+             std::optional<double> height_mm, bool midpoints, const std::string& dataset) {
+            return interruptible(
+                [&] { return predict_for(a, sizes, unit, height_mm, midpoints, dataset); });
+          },
+          py::arg("sizes"), py::arg("unit"), py::arg("height_mm"), py::arg("midpoints"),
+          py::arg("dataset"))
+      .def(
+          "diagnose",
+          [](const Analysis& a, std::optional<std::uint64_t> seed, int threads) {
+            return interruptible([&] { return diagnosis_of(a, seed, threads); });
+          },
+          py::arg("seed"), py::arg("threads"));
   module.def(
       "fit",
       [](const FitInputs& inputs, const AnalysisOptions& options) {
-        auto analysis = std::make_shared<Analysis>(analyse(inputs, options));
-        add_predictions(*analysis);
-        return analysis;
+        return interruptible([&] {
+          auto analysis = std::make_shared<Analysis>(analyse(inputs, options));
+          add_predictions(*analysis);
+          return analysis;
+        });
       },
-      py::arg("inputs"), py::arg("options"), Released());
+      py::arg("inputs"), py::arg("options"));
 
   py::class_<Predicted>(module, "Predicted")
       .def_readonly("json", &Predicted::json)
@@ -310,9 +321,46 @@ void bind_results(py::module_& module) {
       .def("extended_toml",
            [](const Diagnosis& d, const std::string& folder) { return extended_toml(d, folder); });
 
-  module.def("coverage", &coverage_of, py::arg("inputs"), py::arg("datasets"), py::arg("options"),
-             Released());
+  module.def(
+      "coverage",
+      [](const FitInputs& inputs, int datasets, const AnalysisOptions& options) {
+        return interruptible([&] { return coverage_of(inputs, datasets, options); });
+      },
+      py::arg("inputs"), py::arg("datasets"), py::arg("options"));
   module.def("compare", &compared, py::arg("named_texts"), Released());
+}
+
+void bind_pairs(py::module_& module) {
+  py::class_<PairArguments>(module, "PairArguments")
+      .def(py::init<>())
+      .def_readwrite("units", &PairArguments::units)
+      .def_readwrite("columns", &PairArguments::columns)
+      .def_readwrite("positive_away", &PairArguments::positive_away)
+      .def_readwrite("height", &PairArguments::height)
+      .def_readwrite("height_range", &PairArguments::height_range)
+      .def_readwrite("keep_height", &PairArguments::keep_height)
+      .def_readwrite("diameter_tolerance", &PairArguments::diameter_tolerance)
+      .def_readwrite("velocity_tolerance", &PairArguments::velocity_tolerance)
+      .def_readwrite("keep_later", &PairArguments::keep_later)
+      .def_readwrite("threshold", &PairArguments::threshold)
+      .def_readwrite("angle", &PairArguments::angle)
+      .def_readwrite("lost_share", &PairArguments::lost_share)
+      .def_readwrite("per_bin", &PairArguments::per_bin)
+      .def_readwrite("size_classes", &PairArguments::size_classes)
+      .def_readwrite("size_edges", &PairArguments::size_edges)
+      .def_readwrite("mean_diameter", &PairArguments::mean_diameter);
+  py::class_<PairTexts>(module, "PairTexts")
+      .def_readonly("json", &PairTexts::json)
+      .def_readonly("text", &PairTexts::text)
+      .def_readonly("points", &PairTexts::points)
+      .def_readonly("impacts", &PairTexts::impacts)
+      .def_readonly("pictures", &PairTexts::pictures);
+  module.def(
+      "pair",
+      [](const std::string& file, const PairArguments& arguments) {
+        return interruptible([&] { return pair_texts(file, arguments); });
+      },
+      py::arg("file"), py::arg("arguments"));
 }
 
 }  // namespace
@@ -325,4 +373,5 @@ PYBIND11_MODULE(_recoil, module) {
   recoil::bind_inputs(module);
   recoil::bind_models(module);
   recoil::bind_results(module);
+  recoil::bind_pairs(module);
 }

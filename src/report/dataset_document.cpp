@@ -86,12 +86,21 @@ Sentence override_words(const ImpactSystem& system) {
 
 Sentence condition_words(const ImpactSystem& system) {
   std::vector<Sentence> stated;
-  if (system.ambient_pressure == 0.0) {
-    stated.push_back("vacuum");
-  } else if (system.ambient_pressure) {
-    stated.push_back(say("{:g} Pa", *system.ambient_pressure));
+  for (const Condition condition : values_of<Condition>()) {
+    const auto value = system.conditions.of(condition);
+    if (!value) continue;
+    if (condition == Condition::ambient_pressure && *value == 0.0) {
+      stated.push_back("vacuum");
+    } else if (condition == Condition::neutralised) {
+      stated.push_back(*value > 0.0 ? "neutralised" : "not neutralised");
+    } else {
+      std::string name(name_of(condition));
+      std::replace(name.begin(), name.end(), '_', ' ');
+      const std::string_view unit = info_of(condition).unit;
+      stated.push_back(
+          say("{} {:g}{}", name, *value, unit == "1" ? std::string() : " " + std::string(unit)));
+    }
   }
-  if (system.temperature) stated.push_back(say("{:g} K", *system.temperature));
   return join(stated, ", ");
 }
 

@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
+#include "report/answer_words.hpp"
 #include "report/diagnosis_headline.hpp"
 #include "report/figures_diagnosis.hpp"
 #include "report/fit_document.hpp"
@@ -54,6 +55,12 @@ Paragraph gain_summary(const Diagnosis& d) {
   return {say("Together: {} instead of {}, {:.0f} % less (95 % interval {:.0f} to {:.0f} %).",
               number(d.gain->rmse_extended, 3), number(d.gain->rmse_base, 3),
               100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper)};
+}
+
+List notes_of(const Diagnosis& d) {
+  List list;
+  for (const std::string& note : answer_notes(d)) list.entries.emplace_back(note);
+  return list;
 }
 
 List warnings_of(const Diagnosis& d) {
@@ -209,9 +216,49 @@ Table next_measurement_table(const Diagnosis& d) {
   return table;
 }
 
+Table next_experiment_table(const Diagnosis& d) {
+  Table table;
+  if (d.experiments.empty()) return table;
+  table.compact = true;
+  table.caption =
+      "What to do next, the least effort first: so many impacts are expected to give the right one "
+      "of two causes odds of 99 to 1, as far as the parameters and the laws of both are known";
+  table.columns = {{"do", "", true},          {"impacts"},         {say("{d}"), "um"},
+                   {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
+                   {say("difference in {e}")}};
+  for (const NextExperiment& next : d.experiments) {
+    table.rows.push_back({Sentence(next.kind == ExperimentKind::condition ? std::string(next.doing)
+                                                                          : "more impacts"),
+                          Number{static_cast<double>(next.events), fixed(0)},
+                          Sentence(diameter_text(next.diameter)),
+                          Number{next.velocity, significant(3)}, Sentence(next.one),
+                          Sentence(next.other), Number{next.difference, signed_fixed(3)}});
+  }
+  return table;
+}
+
+Table expected_table(const Diagnosis& d) {
+  Table table;
+  if (d.expected.empty()) return table;
+  table.caption =
+      "Effects of which the stated conditions leave nothing open, where they do most to a point; "
+      "theory has them there, also where they are too small to be seen";
+  table.columns = {{"mechanism"},      {"dataset", "", true}, {"condition", "", true}, {"value"},
+                   {say("{d}"), "um"}, {say("{V}"), "m/s"},   {say("change of {e}")}};
+  for (const ExpectedEffect& effect : d.expected) {
+    table.rows.push_back(
+        {Sentence(effect.id), Sentence(d.datasets[effect.dataset].id),
+         Sentence(condition_words(effect.condition)), Number{effect.stated, significant(4)},
+         Sentence(diameter_text(effect.diameter)), Number{effect.velocity, significant(3)},
+         Number{effect.change, significant(2)}});
+  }
+  return table;
+}
+
 std::vector<Block> diagnosis_answer(const Diagnosis& d) {
-  std::vector<Block> blocks = {Paragraph{strong(headline(d) + ".")},
-                               Paragraph{answer_words(d), true}};
+  std::vector<Block> blocks = {
+      Paragraph{strong(headline(d) + ".")},
+      Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " ")), true}};
   for (const std::string& remark : d.remarks) blocks.emplace_back(Paragraph{remark});
   return blocks;
 }
@@ -221,23 +268,25 @@ std::vector<Section> diagnosis_sections(const Diagnosis& d) {
   answer.blocks = {Paragraph{to_string(d.verdict)}, Paragraph{answer_words(d)}};
   append(answer.blocks, provenance_banners(d.datasets));
   for (const std::string& remark : d.remarks) answer.blocks.emplace_back(Paragraph{remark});
-  return {std::move(answer),
-          {"residuals", "Residuals of the base model", {}, {structure_table(d)}},
-          {"misfit", "Where it misses", {}, {misfit_table(d)}},
-          {"causes",
-           "Causes",
-           {},
-           {candidates_table(d.candidates, most_on_terminal),
-            found_parameters_table(d.candidates, most_on_terminal)}},
-          {"pairs",
-           "Two causes at once",
-           {},
-           {candidates_table(d.pairs, most_on_terminal),
-            found_parameters_table(d.pairs, most_on_terminal)}},
-          {"gain", "Gain on held-out blocks", {}, {held_out_table(d), gain_summary(d)}},
-          {"parameters", "Parameters", {}, {both_models_table(d), capture_change_table(d)}},
-          {"next", "What to measure next", {}, {next_measurement_table(d)}},
-          {"warnings", "Warnings", {}, {warnings_of(d)}}};
+  return {
+      std::move(answer),
+      {"residuals", "Residuals of the base model", {}, {structure_table(d)}},
+      {"misfit", "Where it misses", {}, {misfit_table(d)}},
+      {"causes",
+       "Causes",
+       {},
+       {candidates_table(d.candidates, most_on_terminal),
+        found_parameters_table(d.candidates, most_on_terminal)}},
+      {"pairs",
+       "Two causes at once",
+       {},
+       {candidates_table(d.pairs, most_on_terminal),
+        found_parameters_table(d.pairs, most_on_terminal)}},
+      {"gain", "Gain on held-out blocks", {}, {held_out_table(d), gain_summary(d)}},
+      {"parameters", "Parameters", {}, {both_models_table(d), capture_change_table(d)}},
+      {"next", "What to measure next", {}, {next_experiment_table(d), next_measurement_table(d)}},
+      {"expected", "What the conditions say must be there", {}, {expected_table(d)}},
+      {"warnings", "Warnings", {}, {warnings_of(d)}}};
 }
 
 Document diagnosis_document(const Diagnosis& d) {
@@ -246,6 +295,7 @@ Document diagnosis_document(const Diagnosis& d) {
   page.title = "Diagnosis of " + d.spec.id;
   page.heading = "What the model gets wrong";
   page.subtitle = page.title;
+  page.name = d.spec.id;
   page.foot = "recoil " + version();
   page.foreword = provenance_banners(d.datasets);
   append(page.foreword, diagnosis_answer(d));
@@ -253,23 +303,24 @@ Document diagnosis_document(const Diagnosis& d) {
   tried.insert(tried.end(), d.pairs.begin(),
                d.pairs.begin() + static_cast<std::ptrdiff_t>(std::min(d.pairs.size(), most_pairs)));
   page.sections = {
-      {"misfit",
-       "Where it misses",
+      {"misfit", "Where it misses", {}, {Figures{misfit_figures(d)}}},
+      {"before-after", "Before and after", {}, {Figures{before_after_figures(d)}}},
+      {"causes", "What could explain it", {}, {Figures{ranking_figures(d)}}},
+      {"notes", "What else there is to know", {}, {notes_of(d)}},
+      {"residuals",
+       "What was asked of the residuals",
        {},
-       {Figures{misfit_figures(d)}, structure_table(d),
-        Details{"The misfit in numbers", {misfit_table(d)}}}},
-      {"causes",
-       "What could explain it",
+       {structure_table(d), Details{"The misfit in numbers", {misfit_table(d)}}}},
+      {"tried",
+       "Every cause that was tried",
        {},
-       {Figures{ranking_figures(d)}, candidates_table(tried, all),
+       {candidates_table(tried, all),
         Details{"The values that each would need, and what speaks against it",
                 {found_parameters_table(tried, all)}}}},
-      {"before-after",
-       "Before and after",
-       {},
-       {Figures{before_after_figures(d)}, both_models_table(d), capture_change_table(d)}},
+      {"parameters", "Parameters", {}, {both_models_table(d), capture_change_table(d)}},
       {"gain", "What was gained", {}, {held_out_table(d), gain_summary(d)}},
-      {"next", "What to measure next", {}, {next_measurement_table(d)}},
+      {"next", "What to measure next", {}, {next_experiment_table(d), next_measurement_table(d)}},
+      {"expected", "What the conditions say must be there", {}, {expected_table(d)}},
       {"warnings", "Warnings", {}, {warnings_of(d)}}};
   return page;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/explore.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
 
@@ -12,6 +13,8 @@ namespace recoil {
 namespace {
 
 constexpr int panel_key_rows = 2;
+// Where the axes stand, which what explores the picture has to know [px].
+constexpr plot::Frame restitution_frame = {73.0, 462.0, 108.0, 299.0};
 constexpr double hidden_sd = 0.012;  // an error bar within the mark's radius [1]
 constexpr std::string_view dark_green = "#00684c";
 
@@ -68,6 +71,7 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
   shown.x = velocity_axis(axes.velocity);
   shown.y = restitution_axis(axes.top);
   shown.key = {plot::KeyPlace::below, panel_key_rows};
+  shown.frame = restitution_frame;
   if (panel.capture != nullptr) {
     shown.remark = capture_words(*panel.capture, axes);
     shown.remark_colour = dark_green;
@@ -132,7 +136,9 @@ std::vector<Figure> restitution_figures(const Analysis& analysis) {
     plot::Picture picture =
         restitution_picture(analysis, panels[i], axes_of(analysis, panels, panels[i].dataset));
     picture.name = fmt::format("restitution-{}", i + 1);
+    std::string explored = explored_panel(analysis, panels[i], picture);
     figures.push_back(figure_of(std::move(picture), restitution_caption(analysis, panels[i])));
+    figures.back().explored = std::move(explored);
   }
   return figures;
 }

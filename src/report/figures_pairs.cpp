@@ -17,7 +17,7 @@ constexpr double picture_width = 860.0;
 constexpr double row_height = 205.0;
 constexpr double key_height = 58.0;
 constexpr double foot_height = 62.0;
-constexpr std::size_t most_pictures = 4;  // per page, so that it stays under 1 MB
+constexpr std::size_t most_pictures = 4;  // per page, so that it stays about 1 MB
 constexpr std::size_t columns = 2;
 
 // From dark to light, after viridis, without the yellow that fades on white.

@@ -8,8 +8,10 @@
 #include "core/error.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
+#include "plot/csv.hpp"
 #include "plot/draw.hpp"
 #include "report/corrections_document.hpp"
+#include "report/explore.hpp"
 #include "report/figures.hpp"
 #include "report/figures_budget.hpp"
 #include "report/figures_corner.hpp"
@@ -436,6 +438,8 @@ Document fit_document(const Analysis& a, std::vector<Block> diagnosis) {
   page.heading = page.title;
   page.subtitle = subtitle_of(a);
   page.foot = "recoil " + version();
+  page.name = a.spec.id;
+  page.script = explore_script();
   page.foreword = provenance_banners(a.datasets);
   page.foreword.emplace_back(Paragraph{fit_summary(a), true});
   page.sections = {{"warnings", "Warnings", {}, {list_of_sentences(all_warnings(a))}}};
@@ -485,6 +489,10 @@ std::string html_report(const Analysis& analysis, std::vector<Block> diagnosis) 
 
 std::string thumbnail(const Analysis& analysis) {
   return plot::draw_svg(restitution_overview(analysis, analysis.spec.id));
+}
+
+std::string thumbnail_csv(const Analysis& analysis) {
+  return plot::csv_of(restitution_overview(analysis, analysis.spec.id));
 }
 
 }  // namespace recoil

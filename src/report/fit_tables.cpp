@@ -14,7 +14,7 @@ namespace recoil {
 namespace {
 
 constexpr double least_correlation = 0.1;
-constexpr std::size_t most_residuals = 1000;  // in the table, so that the page stays under 1 MB
+constexpr std::size_t most_residuals = 1000;  // in the table, so that the page stays about 1 MB
 
 bool rests_on_bound(const FitResult& fitted, std::size_t s) {
   return s < fitted.at_bound.size() && fitted.at_bound[s];

@@ -160,7 +160,9 @@ Section card_of(const IndexEntry& entry) {
                link(fit.headline.empty() ? words_of(name) : fit.headline, entry.diagnosis_page)});
   }
   if (!entry.picture.empty()) {
-    card.blocks.emplace_back(Figures{{{"picture", "", {}, entry.picture}}});
+    Figure picture{"picture", "", {}, entry.picture};
+    picture.csv = entry.picture_csv;
+    card.blocks.emplace_back(Figures{{std::move(picture)}});
   }
   card.blocks.emplace_back(summary_table(fit));
   card.blocks.emplace_back(Paragraph{link("All plots and numbers", entry.page)});

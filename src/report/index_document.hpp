@@ -63,6 +63,7 @@ struct IndexEntry {
   FitSummary fit;
   std::string picture;              ///< an SVG thumbnail to inline, may be empty
   std::string diagnosis_page = {};  ///< relative address of the page of the diagnosis
+  std::string picture_csv = {};     ///< the numbers in the picture
 };
 
 Table summary_table(const FitSummary& fit);

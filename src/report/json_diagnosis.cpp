@@ -4,6 +4,7 @@
 
 #include "core/units.hpp"
 #include "diagnosis/diagnosis_result.hpp"
+#include "report/answer_words.hpp"
 #include "report/diagnosis_headline.hpp"
 #include "report/json_values.hpp"
 #include "report/words_diagnosis.hpp"
@@ -43,11 +44,13 @@ Json cell_json(const Diagnosis& d, const MisfitCell& cell) {
 Json parameters_json(const CandidateResult& candidate) {
   Json parameters = Json::object();
   for (const FoundParameter& p : candidate.parameters) {
-    parameters[p.label] = {{"value", number_or_null(p.value)},
-                           {"sd", p.sd > 0.0 ? number_or_null(p.sd) : Json(nullptr)},
-                           {"unit", p.unit},
-                           {"null_value", p.null_value},
-                           {"plausible", p.plausible()}};
+    parameters[p.label] = {
+        {"value", number_or_null(p.value)},
+        {"sd", p.sd > 0.0 ? number_or_null(p.sd) : Json(nullptr)},
+        {"unit", p.unit},
+        {"null_value", p.null_value},
+        {"stated_by", p.stated_by ? Json(to_string(*p.stated_by)) : Json(nullptr)},
+        {"plausible", p.plausible()}};
   }
   return parameters;
 }
@@ -140,6 +143,7 @@ Json experiments_json(const Diagnosis& d) {
       entry["doing"] = next.doing;
     }
     entry["dataset"] = d.datasets[next.dataset].id;
+    entry["series"] = d.datasets[next.dataset].series[next.series];
     entry["diameter_um"] = next.diameter / units::um;
     entry["incident_velocity"] = next.velocity;
     entry["events"] = next.events;
@@ -147,6 +151,20 @@ Json experiments_json(const Diagnosis& d) {
     entry["expected_difference"] = number_or_null(next.difference);
     entry["expected_log_odds"] = number_or_null(next.log_odds);
     out.push_back(std::move(entry));
+  }
+  return out;
+}
+
+Json expected_json(const Diagnosis& d) {
+  Json out = Json::array();
+  for (const ExpectedEffect& effect : d.expected) {
+    out.push_back({{"id", effect.id},
+                   {"dataset", d.datasets[effect.dataset].id},
+                   {"condition", to_string(effect.condition)},
+                   {"value", effect.stated},
+                   {"diameter_um", effect.diameter / units::um},
+                   {"incident_velocity", effect.velocity},
+                   {"change", number_or_null(effect.change)}});
   }
   return out;
 }
@@ -239,6 +257,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   out["capture_velocity"] = capture_json(d);
   out["next_measurement"] = next_json(d);
   out["next_experiment"] = experiments_json(d);
+  out["expected_effects"] = expected_json(d);
   out["unstated_errors"] = unstated_json(d);
   out["settings"] = {
       {"level", d.options.level},       {"chance", d.options.chance},

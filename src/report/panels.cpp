@@ -8,7 +8,7 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_panels = 24;  // per page, so that it stays under 1 MB
+constexpr std::size_t most_panels = 24;  // per page, so that it stays about 1 MB
 constexpr std::size_t most_curve_points = 120;
 
 /// Every point goes to the panel of its dataset with the nearest diameter and, among equals, its

@@ -29,7 +29,7 @@ struct Analysis {
   bool corrections_outdated = false;         ///< they were made from another fit, dataset or recipe
 };
 
-/// This program's version, "0.1.0".
+/// This program's version, "0.2.0".
 std::string version();
 
 /// The block report that `recoil fit` prints: provenance, fit statistics, variables, correlations,
@@ -37,8 +37,8 @@ std::string version();
 /// the blocks that it has, and its failure.
 std::string text_report(const Analysis& analysis);
 
-/// One self-contained page: plots (inline SVG by gnuplot), tables, provenance; no network, no
-/// script, less than 1 MB.
+/// One self-contained page: plots (inline SVG by gnuplot), tables, provenance; no network, about
+/// 1 MB at most. Its scripts save the pictures and explore e(V); without them it is complete.
 /// @param diagnosis the section on what the model gets wrong; empty: there is none
 /// @pre analysis.fitted.usable
 /// @throws ComputationError when gnuplot cannot be run.
@@ -47,5 +47,7 @@ std::string html_report(const Analysis& analysis, std::vector<Block> diagnosis =
 /// A small e(V) picture of the whole fit as SVG, for the index.
 /// @throws ComputationError when gnuplot cannot be run.
 std::string thumbnail(const Analysis& analysis);
+/// The numbers in it, as comma-separated values.
+std::string thumbnail_csv(const Analysis& analysis);
 
 }  // namespace recoil

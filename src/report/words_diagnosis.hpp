@@ -8,8 +8,21 @@
 /// What a diagnosis has to say, in words.
 namespace recoil {
 
-/// The answer in one paragraph for someone who was not there.
-std::string answer_words(const Diagnosis& diagnosis);
+/// "p = 0.03", or "p < 0.002" where no simulated data set looked as systematic.
+std::string p_words(double p, int simulated);
+
+/// "4.9 um", "42 mm"
+std::string diameter_words(double diameter);
+
+/// "ambient pressure"
+std::string condition_words(Condition condition);
+
+/// Why a candidate that is set aside is.
+std::string because_words(const CandidateResult& candidate);
+
+/// "C_x = 3 m" of those that were fitted, or that a condition states; of many, as a parameter per
+/// series may be, the range.
+std::string parameters_words(const CandidateResult& candidate);
 
 /// Where the base model misses most, in one sentence; empty where it misses nowhere.
 std::string where_words(const Diagnosis& diagnosis);

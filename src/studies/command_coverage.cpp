@@ -38,10 +38,15 @@ CoverageOptions coverage_options(const CoverageRun& options, const FitSpec& spec
 }
 
 void study_grid(const CoverageRun& options) {
-  const std::vector<GridDesign> designs = designs_named(options.designs);
+  std::size_t next = 0;
+  std::vector<GridDesign> designs;
+  for (const GridDesign& design : designs_named(options.designs)) {
+    if (options.run.owns(next++)) designs.push_back(design);
+  }
   const FitSpec spec = load_fit(options.fit_files.front());
   CoverageStudy study = measure_grid(spec, load_datasets(spec).front(), designs,
                                      coverage_options(options, spec), options.run.keep);
+  if (wrote_part(options.run)) return;
   study.stamp = options.run.stamp();
   publish(options.run, coverage_study_json(study), coverage_page(study, study.stamp.study));
 }
@@ -56,8 +61,10 @@ void study_designs(const CoverageRun& options) {
   }
   CoverageStudy study;
   for (std::size_t k = 0; k < specs.size(); ++k) {
+    if (!options.run.owns(k)) continue;
     add_design(study, specs[k], datasets[k], coverage_options(options, specs[k]), options.run.keep);
   }
+  if (wrote_part(options.run)) return;
   study.stamp = options.run.stamp();
   publish(options.run, coverage_study_json(study), coverage_page(study, ""));
 }
@@ -72,6 +79,7 @@ CLI::App* add_command(CLI::App& program, const char* name, const char* what,
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
   add_run_options(*command, options->run);
+  add_shard_option(*command, options->run);
   return command;
 }
 

@@ -62,11 +62,18 @@ std::vector<hidden::Answered> answers_to(const std::vector<hidden::CaseOrder>& o
 
 void study(const HiddenEffectsRun& options) {
   std::vector<hidden::CaseOrder> orders;
+  std::size_t next = 0;
   for (const hidden::CaseOrder& order : hidden::plan_study(options.size)) {
-    if (order.key().find(options.only) != std::string::npos) orders.push_back(order);
+    if (order.key().find(options.only) == std::string::npos) continue;
+    if (options.run.owns(next++)) orders.push_back(order);
   }
-  hidden::StudyTally tally =
-      hidden::tally_of(answers_to(orders, options), orders.size(), options.size);
+  const std::vector<hidden::Answered> answers = answers_to(orders, options);
+  if (!options.run.shard.empty() && answers.size() < orders.size()) {
+    throw ComputationError(fmt::format("{} of {} cases of this shard are left: run it again",
+                                       orders.size() - answers.size(), orders.size()));
+  }
+  if (wrote_part(options.run)) return;
+  hidden::StudyTally tally = hidden::tally_of(answers, orders.size(), options.size);
   tally.stamp = options.run.stamp();
   publish(options.run, hidden::tally_json(tally), hidden::hidden_effects_page(tally));
 }
@@ -96,6 +103,12 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
                       "with nothing hidden and the losses of the base model bent by 3 %");
   command->add_option("--impossible", size.impossible,
                       "of each effect and design, at three times what nature has");
+  command->add_option("--conditions", size.conditions,
+                      "of each effect that a condition takes away, design and visible strength, "
+                      "with its condition stated and again varied");
+  command->add_option("--loop", size.loop,
+                      "of each effect, design and visible strength, asked again after doing what "
+                      "the answer advises, three times at most");
   command->add_option("--only", options->only, "only orders whose key contains this");
   command->add_option("--recoil", options->binary, "the command to be judged");
   command->add_option("--at-most-minutes", options->minutes,
@@ -103,6 +116,7 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
                       "is kept)");
   command->add_option("--seed", size.seed, "of the data sets");
   add_run_options(*command, options->run);
+  add_shard_option(*command, options->run);
   command->callback([options] { study(*options); });
 }
 

@@ -9,6 +9,7 @@
 #include "studies/hidden_effects_plan.hpp"
 #include "studies/program_run.hpp"
 #include "studies/synthetic/case_files.hpp"
+#include "studies/synthetic/circumstances.hpp"
 
 namespace hidden {
 namespace {
@@ -38,17 +39,33 @@ std::vector<Contender> contenders_of(const Json& candidates) {
   return found;
 }
 
-void diagnose(const Case& made, const fs::path& binary, Answered& a) {
+/// The first of what the answer advises to do next; of no events where it advises nothing.
+FurtherImpacts advice_of(const Json& answer) {
+  FurtherImpacts further;
+  const Json& all = answer.at("next_experiment");
+  if (all.empty()) return further;
+  const Json& first = all.front();
+  further.diameter = 1e-6 * first.at("diameter_um").get<double>();
+  further.velocity = first.at("incident_velocity");
+  further.events = first.at("events");
+  if (first.at("kind") == "condition") {
+    further.changed = {first.at("condition"), first.at("value")};
+  }
+  return further;
+}
+
+/// @return what the answer advises to do next
+FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
   const ScratchFolder scratch;
   const fs::path fit = write_case(made, scratch.path());
   const fs::path out = scratch.path() / "answer";
   const ProgramRun run = run_program({binary.string(), "diagnose", fit.string(), "--out",
                                       out.string(), "--threads", "1", "--seed", "20260101"});
   a.status = run.status;
-  a.seconds = run.seconds;
+  a.seconds += run.seconds;
   if (run.status != 0) {
     a.complaint = run.complaint.substr(0, 400);
-    return;
+    return {};
   }
   std::ifstream in(out / "diagnosis.json");
   const Json answer = Json::parse(in);
@@ -58,16 +75,38 @@ void diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.rivals = answer.at("rivals").get<std::vector<std::string>>();
   a.resembles = answer.at("resembles").get<std::vector<std::string>>();
   a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
-  if (answer.at("shared_cause").is_string()) a.shared_cause = answer["shared_cause"];
+  a.shared_cause = answer.at("shared_cause").is_string() ? answer["shared_cause"] : "";
+  a.errors_told = false;
   for (const auto& errors : answer.at("unstated_errors")) {
     a.errors_told = a.errors_told || errors.at("rival").get<bool>();
   }
   a.contenders = contenders_of(answer.at("candidates"));
+  return advice_of(answer);
+}
+
+/// Asks, and does what is advised, until a cause is certain or nothing is advised.
+void diagnose_in_rounds(Case made, const fs::path& binary, Answered& a) {
+  FurtherImpacts further = diagnose(made, binary, a);
+  while (a.rounds < a.order.rounds && a.verdict == "not_separable" && a.shared_cause.empty() &&
+         further.events > 0) {
+    take_further(made, further, static_cast<std::uint64_t>(a.rounds));
+    ++a.rounds;
+    a.events += further.events;
+    a.taken.push_back(further);
+    further = diagnose(made, binary, a);
+  }
 }
 
 }  // namespace
 
 Json json_of(const Answered& a) {
+  Json taken = Json::array();
+  for (const FurtherImpacts& f : a.taken) {
+    taken.push_back({{"diameter_um", 1e6 * f.diameter},
+                     {"incident_velocity", f.velocity},
+                     {"events", f.events},
+                     {"changed", f.changed.name}});
+  }
   Json contenders = Json::array();
   for (const Contender& c : a.contenders) contenders.push_back({c.id, c.behind});
   return {{"key", a.order.key()},
@@ -79,6 +118,11 @@ Json json_of(const Answered& a) {
           {"law_bend", a.order.law_bend},
           {"base_bend", a.order.base_bend},
           {"beyond", a.order.beyond},
+          {"circumstances", recoil::to_string(a.order.circumstances)},
+          {"most_rounds", a.order.rounds},
+          {"rounds", a.rounds},
+          {"events", a.events},
+          {"taken", taken},
           {"reached", a.reached},
           {"signal_to_noise", a.signal_to_noise},
           {"status", a.status},
@@ -106,7 +150,18 @@ Answered answered_of(const Json& json) {
              json.at("seed"),
              json.at("law_bend"),
              json.at("base_bend"),
-             json.at("beyond")};
+             json.at("beyond"),
+             recoil::value_named<Circumstances>(json.value("circumstances", "unstated"))
+                 .value_or(Circumstances::unstated),
+             json.value("most_rounds", 0)};
+  a.rounds = json.value("rounds", 0);
+  a.events = json.value("events", 0LL);
+  for (const Json& f : json.value("taken", Json::array())) {
+    a.taken.push_back({1e-6 * f.at("diameter_um").get<double>(),
+                       f.at("incident_velocity"),
+                       f.at("events"),
+                       {f.at("changed"), 0.0}});
+  }
   a.reached = json.at("reached");
   a.signal_to_noise = json.at("signal_to_noise");
   a.status = json.at("status");
@@ -178,7 +233,7 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   const Case made = make_case(order);
   a.reached = made.reached;
   a.signal_to_noise = made.refit.signal_to_noise;
-  if (made.reached) diagnose(made, binary, a);
+  if (made.reached) diagnose_in_rounds(made, binary, a);
   if (made.reached && arm_of(order) == Arm::effect && order.signal_to_noise >= visible) {
     a.nearest_rival = nearest_rival(made, binary);
   }

@@ -10,6 +10,7 @@
 
 #include "core/names.hpp"
 #include "studies/nearest_rival.hpp"
+#include "studies/synthetic/circumstances.hpp"
 
 namespace hidden {
 
@@ -27,6 +28,9 @@ struct Answered {
   int status = 0;                ///< of the command
   std::string complaint;         ///< when that is not 0
   double seconds = 0.0;
+  int rounds = 0;        ///< of further impacts that were taken
+  long long events = 0;  ///< how many those were
+  std::vector<FurtherImpacts> taken;
   std::string verdict;
   double p_value = 1.0;
   std::vector<std::string> named;

@@ -64,6 +64,10 @@ Sentence bar_words(Bar bar) {
       return "nothing hidden, losses of the base model bent by 3 %: alarms";
     case Bar::impossible_named:
       return "effect of impossible size: a cause named";
+    case Bar::loop_named:
+      return "after doing what the answer advises, three times at most: named, or the cause told";
+    case Bar::loop_wrong:
+      return "the same: a wrong cause named or told";
   }
   return "";
 }
@@ -263,6 +267,16 @@ Sentence times_words(const std::optional<Times>& times) {
       times->median, times->nine_of_ten, times->longest, times->n);
 }
 
+Sentence loop_words(const StudyTally& tally) {
+  const LoopEffort effort = tally.loop.value_or(LoopEffort{});
+  return say(
+      "Where no cause is certain, the first of {} is done, simulated by the hidden truth with the "
+      "same noise per impact, and all points are diagnosed again. {} were told at once; {} after "
+      "further impacts, {:.0f} in the median, in {:g} rounds.",
+      code("next_experiment"), effort.at_once, effort.n, effort.median_events,
+      effort.median_rounds);
+}
+
 Block complaints_block(const StudyTally& tally) {
   if (tally.complaints.empty()) return Paragraph{"Every diagnosis gave an answer."};
   List list;
@@ -319,6 +333,13 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
                {Paragraph{"At three times the largest strength that nature or a careful "
                           "experimenter still has."}},
                {Arm::impossible});
+  arms_section("Doing what the answer advises", {Paragraph{loop_words(tally)}}, {Arm::loop});
+  arms_section("A condition is known",
+               {Paragraph{"First what the effect depends on is stated for all points (the pressure "
+                          "of the gas, the thickness of the plate); then nothing of that, but the "
+                          "whole experiment is made again under a change that takes the effect "
+                          "away, which the points state."}},
+               {Arm::stated, Arm::varied});
   section("Confusion",
           {Paragraph{say("What was answered (several causes named count once each; {} by whether "
                          "the truth is listed).",

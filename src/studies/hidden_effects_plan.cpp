@@ -16,6 +16,7 @@ constexpr double some_bend = 0.1;  // of a law
 constexpr double great_bend = 0.2;
 constexpr double slight_bend = 0.03;  // of the losses of the base model
 constexpr double too_strong = 3.0;    // times what nature has
+constexpr int most_rounds = 3;        // of further impacts
 
 CaseOrder bent_by(double law, double base) {
   CaseOrder order;
@@ -30,6 +31,18 @@ CaseOrder times_possible(double factor) {
   return order;
 }
 
+CaseOrder under_circumstances(Circumstances circumstances) {
+  CaseOrder order;
+  order.circumstances = circumstances;
+  return order;
+}
+
+CaseOrder in_rounds(int rounds) {
+  CaseOrder order;
+  order.rounds = rounds;
+  return order;
+}
+
 class Plan {
  public:
   explicit Plan(std::uint64_t seed) : seed_(seed) {}
@@ -37,7 +50,8 @@ class Plan {
            const CaseOrder& like = {}) {
     for (int i = 0; i < count; ++i) {
       orders.push_back({design, effects, strength, static_cast<std::uint64_t>(i), seed_,
-                        like.law_bend, like.base_bend, like.beyond});
+                        like.law_bend, like.base_bend, like.beyond, like.circumstances,
+                        like.rounds});
     }
   }
   std::vector<CaseOrder> orders;
@@ -53,6 +67,9 @@ Arm arm_of(const CaseOrder& order) {
   if (order.effects.empty()) return order.base_bend > 0.0 ? Arm::base_bent : Arm::correct;
   if (order.beyond > 0.0) return Arm::impossible;
   if (order.law_bend > 0.0) return order.law_bend > some_bend ? Arm::bent_more : Arm::bent;
+  if (order.circumstances == Circumstances::stated) return Arm::stated;
+  if (order.circumstances == Circumstances::varied) return Arm::varied;
+  if (order.rounds > 0) return Arm::loop;
   if (order.effects.size() > 1) return Arm::pair;
   switch (find_hidden_effect(order.effects.front()).kind) {
     case EffectKind::outside:
@@ -86,6 +103,13 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
         plan.add(design, effect, strength, size.bent / 2, bent_by(great_bend, 0.0));
       }
       plan.add(design, effect, 0.0, size.impossible, times_possible(too_strong));
+      for (const double strength : {10.0, 20.0}) {
+        plan.add(design, effect, strength, size.loop, in_rounds(most_rounds));
+        if (change_against(effect.front()).name.empty()) continue;
+        for (const Circumstances circumstances : {Circumstances::stated, Circumstances::varied}) {
+          plan.add(design, effect, strength, size.conditions, under_circumstances(circumstances));
+        }
+      }
     }
     for (const double strength : {10.0, 20.0}) {
       for (const char* design : {"wall-one", "dahneke"}) {

@@ -19,6 +19,10 @@ struct StudySize {
   int bent = 2;         ///< of each effect, design and visible strength, with laws bent by 10 %
   int base_bent = 100;  ///< with nothing hidden and the losses of the base model bent by 3 %
   int impossible = 1;   ///< of each effect and design, at three times what nature has
+  int conditions = 1;  ///< of each effect that a condition takes away, design and visible strength,
+                       ///< with its condition stated, and again varied
+  int loop = 1;        ///< of each effect, design and visible strength, asked again after doing
+                       ///< what the answer advises
   std::uint64_t seed = 20260101;
 };
 
@@ -40,6 +44,9 @@ enum class Arm {
   bent_more,   ///< by 20 %
   base_bent,   ///< nothing hidden, the losses of the base model wrong by 3 %
   impossible,  ///< an effect beyond what nature has
+  stated,      ///< an effect whose condition is stated
+  varied,      ///< an effect whose condition is changed for half of the points
+  loop,        ///< an effect that is asked for again after doing what the answer advises
 };
 Arm arm_of(const CaseOrder& order);
 
@@ -51,7 +58,7 @@ std::vector<CaseOrder> plan_study(const StudySize& size);
 
 template <>
 struct recoil::NamesOf<hidden::Arm> {
-  static constexpr std::array<std::string_view, 10> names = {
-      "effect",   "correct", "pair",      "outside",   "single",
-      "careless", "bent",    "bent_more", "base_bent", "impossible"};
+  static constexpr std::array<std::string_view, 13> names = {
+      "effect",    "correct",   "pair",       "outside", "single", "careless", "bent",
+      "bent_more", "base_bent", "impossible", "stated",  "varied", "loop"};
 };

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/statistics.hpp"
 
 namespace hidden {
 namespace {
@@ -40,6 +41,10 @@ Test marked(const std::vector<Mark>& marks) {
 }
 
 bool is_visible(const Answered& a) { return a.order.signal_to_noise >= visible; }
+/// Named, or its cause of which all that is listed are laws.
+bool is_told(const Answered& a) {
+  return mark_of(a) == Mark::named || (mark_of(a) == Mark::inside && !a.shared_cause.empty());
+}
 bool can_be_named(const Answered& a) { return a.nearest_rival.misfit >= separable; }
 
 Test in(Arm arm) {
@@ -59,17 +64,16 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
       those(all, [](const Answered& a) { return in(Arm::single)(a) && !a.order.effects.empty(); });
   const Answers bent = those(all, in(Arm::bent));
   const Test named = marked({Mark::named});
+  const Answers loop = those(all, in(Arm::loop));
   const Test wrong = [](const Answered& a) {
     return mark_of(a) == Mark::wrong || (mark_of(a) == Mark::outside && !a.shared_cause.empty());
   };
   return {
       {Bar::named, count(effects, named)},
       {Bar::separable_named, count(nameable, named)},
-      {Bar::named_or_law, count(effects,
-                                [](const Answered& a) {
-                                  return mark_of(a) == Mark::named ||
-                                         (mark_of(a) == Mark::inside && !a.shared_cause.empty());
-                                })},
+      {Bar::named_or_law, count(effects, is_told)},
+      {Bar::loop_named, count(loop, is_told)},
+      {Bar::loop_wrong, count(loop, wrong)},
       {Bar::listed, count(effects, marked({Mark::named, Mark::inside}))},
       {Bar::wrong, count(effects, wrong)},
       {Bar::false_alarm, count(those(all, in(Arm::correct)),
@@ -200,6 +204,29 @@ std::optional<Times> times_of(const std::vector<Answered>& all) {
   return Times{at(0.5), at(0.9), seconds.back(), static_cast<int>(seconds.size())};
 }
 
+std::optional<LoopEffort> loop_of(const std::vector<Answered>& all) {
+  LoopEffort effort;
+  std::vector<double> events;
+  std::vector<double> rounds;
+  const Answers loop = those(all, in(Arm::loop));
+  for (const Answered* a : loop) {
+    if (!is_told(*a)) continue;
+    if (a->rounds == 0) {
+      ++effort.at_once;
+      continue;
+    }
+    events.push_back(static_cast<double>(a->events));
+    rounds.push_back(a->rounds);
+  }
+  if (loop.empty()) return std::nullopt;
+  effort.n = static_cast<int>(events.size());
+  if (effort.n > 0) {
+    effort.median_events = recoil::median(std::move(events));
+    effort.median_rounds = recoil::median(std::move(rounds));
+  }
+  return effort;
+}
+
 // ---- JSON ------------------------------------------------------------------------------------
 
 Json json_of(const Count& count) { return {{"k", count.k}, {"n", count.n}}; }
@@ -300,6 +327,11 @@ StudyTally tally_from(const Json& json) {
     tally.times =
         Times{times.at("median"), times.at("nine_of_ten"), times.at("longest"), times.at("n")};
   }
+  if (json.contains("loop") && !json["loop"].is_null()) {
+    const Json& loop = json["loop"];
+    tally.loop = LoopEffort{loop.at("median_events"), loop.at("median_rounds"), loop.at("at_once"),
+                            loop.at("n")};
+  }
   tally.complaints = json.at("complaints").get<std::vector<std::string>>();
   for (const Json& row : json.at("unreached")) tally.unreached.push_back(unreached_row_of(row));
   return tally;
@@ -310,10 +342,12 @@ StudyTally tally_from(const Json& json) {
 Wanted wanted_of(Bar bar) {
   switch (bar) {
     case Bar::listed:
+    case Bar::loop_named:
       return {0.95, true};
     case Bar::bent_listed:
       return {0.90, true};
     case Bar::wrong:
+    case Bar::loop_wrong:
       return {0.02, false};
     case Bar::bent_wrong:
     case Bar::unstated_named:
@@ -347,6 +381,7 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
   tally.errors_told_astray =
       count(those(answers, seen(Arm::effect)), [](const Answered& a) { return a.errors_told; });
   tally.times = times_of(answers);
+  tally.loop = loop_of(answers);
   for (const Answered& a : answers) {
     if (a.reached && a.status != 0) {
       tally.complaints.push_back(a.order.key() + ": exit status " + std::to_string(a.status) +
@@ -438,6 +473,12 @@ std::string tally_json(const StudyTally& tally) {
                      {"nine_of_ten", tally.times->nine_of_ten},
                      {"longest", tally.times->longest},
                      {"n", tally.times->n}};
+  }
+  if (tally.loop) {
+    json["loop"] = {{"median_events", tally.loop->median_events},
+                    {"median_rounds", tally.loop->median_rounds},
+                    {"at_once", tally.loop->at_once},
+                    {"n", tally.loop->n}};
   }
   json["complaints"] = tally.complaints;
   json["unreached"] = Json::array();

@@ -48,7 +48,10 @@ enum class Bar {
   bent_wrong,           ///< the same: a wrong cause named
   bent_unexplained,     ///< the same: unexplained
   base_alarm,           ///< anything but adequate where the losses are bent by 3 %
-  impossible_named      ///< a cause named for an effect of impossible size
+  impossible_named,     ///< a cause named for an effect of impossible size
+  loop_named,           ///< named, or its cause told, after doing what is advised, three times at
+                        ///< most
+  loop_wrong            ///< the same: a wrong cause
 };
 
 /// The share that is wanted: at least, or at most.
@@ -105,6 +108,14 @@ struct Times {
   int n = 0;
 };
 
+/// What was done in the rounds of those that were told after one or more.
+struct LoopEffort {
+  double median_events = 0.0;
+  double median_rounds = 0.0;
+  int at_once = 0;  ///< were told without any
+  int n = 0;        ///< after one or more
+};
+
 /// All that the page and the picture of the study show.
 struct StudyTally {
   recoil::StudyStamp stamp;
@@ -123,6 +134,7 @@ struct StudyTally {
   std::vector<AlarmRow> alarms;
   Count errors_told_astray;  ///< told of unstated errors where a visible effect is hidden
   std::optional<Times> times;
+  std::optional<LoopEffort> loop;
   std::vector<std::string> complaints;  ///< of diagnoses without an answer
   std::vector<UnreachedRow> unreached;
 };
@@ -139,7 +151,7 @@ StudyTally read_tally(const std::filesystem::path& file);
 
 template <>
 struct recoil::NamesOf<hidden::Bar> {
-  static constexpr std::array<std::string_view, 16> names = {"named",
+  static constexpr std::array<std::string_view, 18> names = {"named",
                                                              "separable_named",
                                                              "named_or_law",
                                                              "listed",
@@ -154,5 +166,7 @@ struct recoil::NamesOf<hidden::Bar> {
                                                              "bent_wrong",
                                                              "bent_unexplained",
                                                              "base_alarm",
-                                                             "impossible_named"};
+                                                             "impossible_named",
+                                                             "loop_named",
+                                                             "loop_wrong"};
 };

@@ -15,7 +15,8 @@ namespace {
 std::string plain_command(const std::vector<std::string>& words) {
   std::string plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--out" || words[i] == "--keep" || words[i] == "--threads") {
+    if (words[i] == "--out" || words[i] == "--keep" || words[i] == "--threads" ||
+        words[i] == "--shard") {
       ++i;
     } else {
       plain += (plain.empty() ? "" : " ") + words[i];
@@ -45,6 +46,7 @@ int run_study_program(const std::vector<std::string>& words) {
   add_hidden_effects(program, plain);
   add_pairing(program, plain);
   add_pairing_events(program);
+  add_study_merge(program);
   try {
     program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return 0;

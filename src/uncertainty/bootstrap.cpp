@@ -27,7 +27,10 @@ using State = ReplicateTable::State;
 // Between two batches finished replicates can be put on disk; waiting for the slowest of a batch
 // costs about one refit in so many.
 constexpr std::size_t batch = 500;
-constexpr auto between_saves = std::chrono::seconds(10);
+// Many shards write to one file system.
+std::chrono::seconds between_saves(const Shard& shard) {
+  return std::chrono::seconds(shard.of > 1 ? 300 : 10);
+}
 // Tolerance of the impacts in refits over that of the fit. It moves the estimates of a replicate by
 // about 1e-8 of themselves (measured on 60 points, f0 free), where they scatter by percents, and
 // saves a third of the time.
@@ -132,9 +135,14 @@ Bootstrap::Bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>
       reference_covariance_(reference_covariance(fitted, plan_)) {
   table_.slots = fitted.theta.size();
   table_.derived = options.capture ? capture.size() : 0;
-  if (options.keep.empty()) return;
+  if (options.keep.empty() && options.parts.empty()) return;
   key_ = bootstrap_key(fitted, plan_, options);
-  table_ = load_replicates(options.keep, key_, table_.slots, table_.derived);
+  load_replicates(options.keep, key_, table_);
+  for (const std::filesystem::path& part : options.parts) load_replicates(part, key_, table_);
+}
+
+std::string key_of_bootstrap(const FitResult& fitted, const UncertaintyOptions& options) {
+  return bootstrap_key(fitted, plan_resampling(fitted, options.scheme), options);
 }
 
 void Bootstrap::keep() const { save_replicates(options_.keep, key_, table_); }
@@ -153,7 +161,7 @@ void Bootstrap::extend(int count) {
   }
   capture_velocity_.resize(std::max(capture_velocity_.size(), count_));
   const auto run = [&](std::size_t i) {
-    if (table_.state[i] != State::not_run || (guard && stop_requested())) return;
+    if (guard && stop_requested()) return;
     Workspace& workspace = *workspaces.local();
     const LeastSquaresResult found = workspace.refit(options_.seed, i);
     const bool usable = has_answer(found, fitted_);
@@ -173,20 +181,24 @@ void Bootstrap::extend(int count) {
     }
     table_.state[i] = usable ? State::usable : State::failed;
   };
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (table_.state[i] == State::not_run && options_.shard.owns(i)) left.push_back(i);
+  }
   const auto start = Clock::now();
   auto saved = start;
   bool changed = false;
   {
-    Progress progress("bootstrap", count_);
-    for (std::size_t first = 0; first < count_; first += batch) {
-      const std::size_t size = std::min(batch, count_ - first);
+    Progress progress("bootstrap", left.size());
+    for (std::size_t first = 0; first < left.size(); first += batch) {
+      const std::size_t size = std::min(batch, left.size() - first);
       parallel_over(size, options_.threads, [&](std::size_t k) {
-        run(first + k);
+        run(left[first + k]);
         progress.advance();
       });
       if (!guard) continue;
       changed = true;
-      if (stop_requested() || Clock::now() - saved > between_saves) {
+      if (stop_requested() || Clock::now() - saved > between_saves(options_.shard)) {
         keep();
         saved = Clock::now();
         changed = false;
@@ -199,6 +211,7 @@ void Bootstrap::extend(int count) {
         fmt::format("stopped: {} replicates are kept in {}; the same command goes on from there",
                     table_.finished(), options_.keep.string()));
   }
+  if (options_.shard.of > 1) return;
   if (guard && changed && Clock::now() - start > worth_keeping) keep();
 
   if (!options_.capture) return;

@@ -19,21 +19,25 @@ namespace recoil {
 class Bootstrap {
  public:
   /// Prepares the scheme and takes over what an earlier run of the same bootstrap has left in
-  /// `options.keep`. Fit, data and options have to outlive the object.
+  /// `options.keep`, and shards of it in `options.parts`. Fit, data and options have to outlive the
+  /// object.
   Bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
             const UncertaintyOptions& options);
 
-  /// Runs what is missing of the first `count` replicates.
+  /// Runs what is missing of the first `count` replicates, and of `options.shard`'s.
   /// @throws Interrupted when the user stops it and `options.keep` says where to keep the finished
   ///   ones; they are there then.
   void extend(int count);
 
   /// The first replicates, as many as the last `extend` asked for, in order.
+  /// @pre the shard is the only one
   BootstrapResult result() const;
+
+  const ReplicateTable& table() const { return table_; }
 
   const ResamplingPlan& plan() const { return plan_; }
 
-  /// Of everything that decides a replicate's digits; empty without `options.keep`.
+  /// Of everything that decides a replicate's digits; empty without `options.keep` and `parts`.
   const std::string& key() const { return key_; }
 
  private:
@@ -49,6 +53,9 @@ class Bootstrap {
   std::size_t count_ = 0;
   std::vector<std::vector<double>> capture_velocity_;  // [count][diameters]
 };
+
+/// The key of the bootstrap of `fitted` (`Bootstrap::key`).
+std::string key_of_bootstrap(const FitResult& fitted, const UncertaintyOptions& options);
 
 /// Runs the paper's two-point iteration on the same resampled data as the replicates of `result`
 /// (the first 999 of them), and adds what came out of it.

@@ -3,41 +3,40 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/json.hpp"
+#include "core/row_file.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr std::size_t most_replicates = 1000000;
 
-/// One row: [index, [theta...], [std_error..., errors of what is derived...]], or [index] when the
-/// refit failed.
-bool read_row(const Json& row, ReplicateTable& table) {
-  if (!row.is_array() || row.empty() || !row[0].is_number_unsigned()) return false;
+/// Is it one row of such a table: [index, [theta...], [std_error..., errors of what is
+/// derived...]], or [index] when the refit failed?
+bool is_row(const Json& row, const ReplicateTable& table) {
+  if (row[0].get<std::size_t>() >= most_replicates) return false;
+  if (row.size() == 1) return true;
+  const auto holds = [](const Json& values, std::size_t length) {
+    return values.is_array() && values.size() == length &&
+           std::all_of(values.begin(), values.end(), [](const Json& v) { return v.is_number(); });
+  };
+  return row.size() == 3 && holds(row[1], table.slots) && holds(row[2], table.errors());
+}
+
+/// @pre is_row(row, table)
+void put_row(const Json& row, ReplicateTable& table) {
   const std::size_t index = row[0].get<std::size_t>();
-  if (index >= most_replicates) return false;
-  if (index >= table.state.size()) table.grow(index + 1);
+  table.grow(index + 1);
   if (row.size() == 1) {
     table.state[index] = ReplicateTable::State::failed;
-    return true;
+    return;
   }
-  const auto read = [&row](std::size_t column, std::size_t length, std::vector<double>& to,
-                           std::size_t at) {
-    if (row[column].size() != length) return false;
-    for (std::size_t j = 0; j < length; ++j) {
-      if (!row[column][j].is_number()) return false;
-      to[at + j] = row[column][j].get<double>();
-    }
-    return true;
-  };
-  if (row.size() != 3 || !read(1, table.slots, table.theta, index * table.slots) ||
-      !read(2, table.errors(), table.std_error, index * table.errors())) {
-    return false;
+  for (std::size_t j = 0; j < table.slots; ++j) {
+    table.theta[index * table.slots + j] = row[1][j].get<double>();
+  }
+  for (std::size_t j = 0; j < table.errors(); ++j) {
+    table.std_error[index * table.errors() + j] = row[2][j].get<double>();
   }
   table.state[index] = ReplicateTable::State::usable;
-  return true;
 }
 
 }  // namespace
@@ -55,8 +54,8 @@ std::size_t ReplicateTable::finished() const {
 }
 
 void save_replicates(const std::filesystem::path& file, const std::string& key,
-                     const ReplicateTable& table) {
-  Json rows = Json::array();
+                     const ReplicateTable& table, Json head) {
+  std::vector<Json> rows;
   for (std::size_t i = 0; i < table.state.size(); ++i) {
     if (table.state[i] == ReplicateTable::State::not_run) continue;
     Json row = Json::array({i});
@@ -70,36 +69,21 @@ void save_replicates(const std::filesystem::path& file, const std::string& key,
     }
     rows.push_back(std::move(row));
   }
-  const Json out = {{"what",
-                     "finished replicates of a run that was stopped; the next run goes on "
-                     "from here and removes this file"},
-                    {"key", key},
-                    {"replicates", std::move(rows)}};
-  write_whole_file(file, out.dump() + "\n");
+  head["key"] = key;
+  write_rows(file, std::move(head), rows);
 }
 
-ReplicateTable load_replicates(const std::filesystem::path& file, const std::string& key,
-                               std::size_t slots, std::size_t derived) {
-  ReplicateTable none;
-  none.slots = slots;
-  none.derived = derived;
-  std::error_code failed;
-  if (!std::filesystem::is_regular_file(file, failed)) return none;
-  std::string text;
-  try {
-    text = read_text_file(file);
-  } catch (const InputError&) {
-    return none;
-  }
-  const Json found = Json::parse(text, nullptr, false);
-  if (!found.is_object() || found.value("key", Json()) != key) return none;
-  const Json rows = found.value("replicates", Json());
-  if (!rows.is_array()) return none;
-  ReplicateTable table = none;
-  for (const Json& row : rows) {
-    if (!read_row(row, table)) return none;
-  }
-  return table;
+void load_replicates(const std::filesystem::path& file, const std::string& key,
+                     ReplicateTable& table) {
+  const std::optional<Json> head = read_row_head(file);
+  if (!head || head->value("key", Json()) != key) return;
+  std::vector<Json> rows;
+  const bool whole = read_rows(file, [&](const Json& row) {
+    rows.push_back(row);
+    return is_row(row, table);
+  });
+  if (!whole) return;
+  for (const Json& row : rows) put_row(row, table);
 }
 
 }  // namespace recoil

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/json.hpp"
+
 namespace recoil {
 
 /// Replicates by index, some of them not run yet. Rows are written from different threads.
@@ -23,13 +25,14 @@ struct ReplicateTable {
   std::size_t errors() const { return slots + derived; }
 };
 
-/// Writes the finished replicates under `key`, every digit of them, as JSON: whole or not at all.
+/// Writes the finished replicates, every digit of them, as a file of rows (core/row_file.hpp) whose
+/// `head` gets `key`: whole or not at all.
 void save_replicates(const std::filesystem::path& file, const std::string& key,
-                     const ReplicateTable& table);
+                     const ReplicateTable& table, Json head = Json::object());
 
 /// Takes over what `file` holds, if it was written under `key`; a file that is missing, damaged or
-/// of another key leaves the table empty. Replicates are cheap, wrong ones are not.
-ReplicateTable load_replicates(const std::filesystem::path& file, const std::string& key,
-                               std::size_t slots, std::size_t derived = 0);
+/// of another key leaves the table as it is. Replicates are cheap, wrong ones are not.
+void load_replicates(const std::filesystem::path& file, const std::string& key,
+                     ReplicateTable& table);
 
 }  // namespace recoil

@@ -257,4 +257,16 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   return result;
 }
 
+std::size_t replicates_at_most(const UncertaintyOptions& options) {
+  return static_cast<std::size_t>(options.replicates_auto ? most_automatic : options.replicates);
+}
+
+ReplicateTable shard_of_bootstrap(const FitResult& fitted, const std::vector<Dataset>& datasets,
+                                  const UncertaintyOptions& options) {
+  Bootstrap boot(fitted, capture_estimates(noise_alternatives(fitted), options.level, datasets),
+                 options);
+  boot.extend(static_cast<int>(replicates_at_most(options)));
+  return boot.table();
+}
+
 }  // namespace recoil

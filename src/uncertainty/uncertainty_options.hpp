@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "core/shard.hpp"
 #include "estimate/scheme.hpp"
 
 namespace recoil {
@@ -32,6 +34,9 @@ struct UncertaintyOptions {
   /// removes it.
   std::filesystem::path keep;
   std::string keep_key;  ///< what else the replicates depend on: the program that makes them
+  Shard shard;           ///< whose replicates `shard_of_bootstrap` runs
+  /// Files in which shards have left their replicates, and from which they are taken over.
+  std::vector<std::filesystem::path> parts;
 };
 
 }  // namespace recoil

@@ -56,7 +56,7 @@ TEST(Install, AnotherProjectFindsTheEstimatorAndTheLibrary) {
   place.write("CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.25)
 project(mine LANGUAGES CXX)
 set(CMAKE_CXX_STANDARD 20)
-find_package(recoil 0.1 REQUIRED)
+find_package(recoil 0.2 REQUIRED)
 add_executable(fits fits.cpp)
 target_link_libraries(fits PRIVATE recoil::estimator)
 add_executable(hits hits.cpp)

@@ -69,12 +69,15 @@ TEST(LoadDataset, TheDensityOfTheSurfaceIsOptional) {
 
 TEST(LoadDataset, ReadsTheConditions) {
   const DatasetFolder plain;
-  EXPECT_EQ(load_dataset(plain.path()).system.ambient_pressure, std::nullopt);
+  EXPECT_EQ(load_dataset(plain.path()).system.conditions.of(Condition::ambient_pressure),
+            std::nullopt);
   const DatasetFolder folder(
       changed(example::package, "\"surface\": {",
               "\"conditions\": {\"ambient_pressure\": 0, \"temperature\": 293}, \"surface\": {"));
-  EXPECT_EQ(load_dataset(folder.path()).system.ambient_pressure, 0.0);
-  EXPECT_EQ(load_dataset(folder.path()).system.temperature, 293.0);
+  const Conditions stated = load_dataset(folder.path()).system.conditions;
+  EXPECT_EQ(stated.of(Condition::ambient_pressure), 0.0);
+  EXPECT_EQ(stated.of(Condition::temperature), 293.0);
+  EXPECT_EQ(stated.of(Condition::neutralised), std::nullopt);
 }
 
 TEST(LoadDataset, ReadsTheOverrides) {
@@ -84,7 +87,7 @@ TEST(LoadDataset, ReadsTheOverrides) {
               "\"adhesion_force_f0\": 5.74, \"reference_diameter\": 1.28e-6,\n"
               "\"conditions\": { \"ambient_pressure\": 50 },"));
   const Dataset dataset = load_dataset(folder.path());
-  EXPECT_EQ(dataset.system.ambient_pressure.value(), 50.0);
+  EXPECT_EQ(dataset.system.conditions.of(Condition::ambient_pressure), 50.0);
   EXPECT_EQ(dataset.provenance, Provenance::digitised);
   EXPECT_EQ(dataset.system.stiffness_K.value(), 3.745e9);
   EXPECT_EQ(dataset.system.adhesion_energy.value(), 0.0);

@@ -34,12 +34,24 @@ TEST(Plausibility, RefusesAYieldPressureOfSteelInAPolymer) {
   EXPECT_FALSE(found("plastic_yield", 5e5).front().plausible());  // 4e-4 of E*
 }
 
-TEST(Plausibility, RefusesAChargeThatAPlaneCouldNotHold) {
-  const FoundParameter charge = found("electrostatic_image", 1e7).front();
+/// Peek's field around the larger sphere: 2.72e6 (1 + 0.54 / sqrt(2.45e-4)) V/m.
+constexpr double kBreakdown = 9.65576e7;
+
+TEST(Plausibility, RefusesAChargeThatTheAirWouldTakeOff) {
+  const FoundParameter charge = found("electrostatic_image", 1.2e8).front();
   EXPECT_FALSE(charge.plausible());
-  EXPECT_EQ(charge.implausible, Implausible::outside_range);
-  EXPECT_EQ(charge.upper, 3e6);
-  EXPECT_TRUE(found("electrostatic_image", 2e6).front().plausible());
+  EXPECT_EQ(charge.implausible, Implausible::beyond_limit);
+  EXPECT_NEAR(charge.upper / kBreakdown, 1.0, 1e-5);
+  EXPECT_NEAR(charge.quantity, 1.2e8 / kBreakdown, 1e-5);
+  EXPECT_TRUE(found("electrostatic_image", 2e7).front().plausible());
+}
+
+TEST(Plausibility, AVacuumHoldsWhatElectronsDoNotLeave) {
+  std::vector<Dataset> data = {synthetic::dataset({})};
+  data[0].system.conditions.set(Condition::ambient_pressure, 1e-3);
+  const Candidate candidate = make_candidate(synthetic::spec(), data, {"electrostatic_image"});
+  const AllowedValues allowed = allowed_values(candidate, candidate.model.initial(), 3);
+  EXPECT_EQ(allowed.upper, 1e9);
 }
 
 TEST(Plausibility, KnowsOnePowerOfTheSize) {
@@ -49,14 +61,14 @@ TEST(Plausibility, KnowsOnePowerOfTheSize) {
 }
 
 TEST(Plausibility, AllowsTwoStandardErrors) {
-  // The standard error is 0.1 % of the value: 3.005e6 is 1.7 of them above 3e6.
-  EXPECT_TRUE(found("electrostatic_image", 3.005e6).front().plausible());
-  EXPECT_FALSE(found("electrostatic_image", 3.02e6).front().plausible());
+  // The standard error is 0.1 % of the value.
+  EXPECT_TRUE(found("electrostatic_image", 1.0017 * kBreakdown).front().plausible());
+  EXPECT_FALSE(found("electrostatic_image", 1.0050 * kBreakdown).front().plausible());
 }
 
 TEST(Plausibility, KnowsWhatLiesJustBeyond) {
-  EXPECT_TRUE(found("electrostatic_image", 4e6).front().near_plausible);  // half of 0 to 3e6 beyond
-  EXPECT_FALSE(found("electrostatic_image", 5e6).front().near_plausible);
+  EXPECT_TRUE(found("electrostatic_image", 1.4 * kBreakdown).front().near_plausible);
+  EXPECT_FALSE(found("electrostatic_image", 1.6 * kBreakdown).front().near_plausible);
   EXPECT_FALSE(
       found("plastic_yield", 3e9).front().near_plausible);  // no solid: that limit is sharp
 }
@@ -84,7 +96,7 @@ TEST(Plausibility, PairsStayWithinWhatTheirImpactsAllow) {
                                         {"electrostatic_image", "jkr_hysteresis"}, false, true);
   for (const ParameterSlot& slot : pair.model.slots) {
     if (slot.parameter->name == "surface_field") {
-      EXPECT_NEAR(slot.upper, 1.2 * 3e6, 1.0);
+      EXPECT_NEAR(slot.upper / (1.2 * kBreakdown), 1.0, 1e-5);
     }
     if (slot.parameter->name == "jkr_factor") {
       EXPECT_EQ(slot.lower, 0.0);  // the way to nothing stays open

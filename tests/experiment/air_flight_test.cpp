@@ -184,7 +184,7 @@ TEST(ImportInAir, VacuumKeepsEveryDigit) {
             "input,40,2.69386729,0.753370804,0.00372913886,0.00364036121\n");
   EXPECT_NE(note_of(result.notes, ImportRemark::without_air), nullptr);
   EXPECT_EQ(note_of(result.notes, ImportRemark::air_drag), nullptr);
-  EXPECT_EQ(result.dataset.system.ambient_pressure, 0.0);
+  EXPECT_EQ(result.dataset.system.conditions.of(recoil::Condition::ambient_pressure), 0.0);
 }
 
 TEST(ImportInAir, TheMediumStandsInThePackageAndIsKept) {
@@ -253,7 +253,7 @@ TEST(ImportInAir, TheCommandSaysHowMuchItWas) {
   ASSERT_EQ(air.status, 0) << air.err;
   EXPECT_THAT(air.out, HasSubstr("note: the drag of the air (101325 Pa, 293 K) was taken out; it "
                                  "had lowered e by 3.1 % at 2.5 m/s and by 5.7 % at 3.36 m/s"));
-  EXPECT_THAT(air.out, HasSubstr("conditions         = 101325 Pa, 293 K"));
+  EXPECT_THAT(air.out, HasSubstr("conditions         = ambient pressure 101325 Pa, temperature 293 K"));
   words.insert(words.end(), {"--replace", "--ambient-pressure", "0"});
   const support::Outcome vacuum = at.run(words);
   ASSERT_EQ(vacuum.status, 0) << vacuum.err;

@@ -13,6 +13,7 @@ using import_folder::complaint;
 using import_folder::Place;
 using recoil::Dataset;
 using recoil::ImportFormat;
+using testing::AllOf;
 using testing::HasSubstr;
 
 const char* const kTable =
@@ -119,7 +120,16 @@ TEST(Table, WhatNobodySaidIsAskedFor) {
   EXPECT_THAT(without([](Request& r) { r.map = {"incident_velocity=Vx:cm/s"}; }),
               HasSubstr("input.csv:1:1: no column is called 'Vx'"));
   EXPECT_THAT(without([](Request& r) { r.map = {"velocity=Vi:cm/s"}; }),
-              HasSubstr("unknown quantity 'velocity'"));
+              AllOf(HasSubstr("unknown quantity 'velocity'"),
+                    HasSubstr("did you mean 'incident_velocity'?")));
+  EXPECT_THAT(without([](Request& r) { r.map = {"velocity_se=Vi:cm/s"}; }),
+              HasSubstr("did you mean 'velocity_sd'?"));
+  EXPECT_THAT(without([](Request& r) {
+                r.particle.clear();
+                r.file = r.file.parent_path() / "nowhere.csv";
+              }),
+              HasSubstr("nowhere.csv"))
+      << "the file is missed before the materials";
   EXPECT_THAT(without([](Request& r) { r.map = {"incident_velocity=Vi:kg"}; }),
               HasSubstr("unknown unit 'kg' of incident_velocity"));
   EXPECT_THAT(without([](Request& r) { r.diameters = {"none=3um"}; }),

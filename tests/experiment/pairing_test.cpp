@@ -214,6 +214,39 @@ TEST(PairingOfStreams, SecondImpactsAreKeptOutOrAnalysed) {
   EXPECT_GE(analysed.score.purity(), 0.99);
 }
 
+TEST(PairingOfStreams, ScatterOfAPreciseVelocimeterIsFound) {
+  for (const double velocity_sd : {0.001, 0.003, 0.01}) {
+    stream::Design design;
+    design.velocity_sd = velocity_sd;
+    design.volume_sd = 1e-6;
+    design.rate = 100.0;
+    const PairingResult result = run(design).result;
+    EXPECT_NEAR(result.velocity_spread / velocity_sd, 1.0, 0.1);
+    // The narrower the tolerance of a return, the fewer are found by chance, of some 610.
+    EXPECT_LT(result.expected_returns, velocity_sd < 0.005 ? 5.0 : 40.0) << velocity_sd;
+  }
+}
+
+/// What the simulated instrument writes down of slow rebounds: the study rests on it.
+TEST(Streams, AReboundIsSeenWhereItClearsTheProbeVolume) {
+  for (const auto& [deviations, seen] : {std::pair{3.6, false}, std::pair{4.4, true}}) {
+    stream::Design design;
+    design.spheres = 50;
+    design.drop_heights = {0.02};
+    design.capture_at_20um = 1e-12;
+    design.restitution_sd = 0.0;
+    design.seen = 1.0;
+    design.damaged = design.duplicated = 0.0;
+    // They rise to e^2 times the drop height: so many deviations of the volume above its middle.
+    design.top_restitution =
+        std::sqrt((design.probe_height + deviations * design.volume_sd) / design.drop_heights[0]);
+    const PassageTable table = stream::read(stream::simulate(design));
+    const auto up = std::count_if(table.passages.begin(), table.passages.end(),
+                                  [](const Passage& p) { return p.velocity < 0.0; });
+    EXPECT_EQ(up, seen ? 50 : 0) << deviations;
+  }
+}
+
 TEST(PairingOfStreams, WithoutUsableReturnsItSaysSo) {
   stream::Design design;
   design.return_time = 1e-6;

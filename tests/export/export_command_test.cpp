@@ -112,6 +112,34 @@ TEST(Export, SaysWhatTheNumbersAreInTheFileItself) {
   }
 }
 
+double value_of(const std::string& text, const std::string& variable) {
+  const std::string before = "variable " + variable + " equal ";
+  const std::size_t at = text.find(before);
+  if (at == std::string::npos) {
+    ADD_FAILURE() << "no " << before;
+    return 0.0;
+  }
+  return std::stod(text.substr(at + before.size()));
+}
+
+/// With a_p^3 = pi W R^2 / (6 K) and u = a_p^2 / R the force K a_p^3 / R is pi W R / 6.
+TEST(Export, LengthsAndForcesOfLammpsAreInItsUnits) {
+  const Workplace place;
+  place.write("fit.toml",
+              "dataset = \"data\"\n[model]\nadhesion = \"jkr\"\n[parameters]\n"
+              "C_H = { initial = 4e-3, free = true }\nC_A = { initial = 0.03, free = false }\n"
+              "W = { free = false }\n");
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--replicates", "0", "--out", "fitted"}).status, 0);
+  ASSERT_EQ(
+      export_to(place, "lammps", {"--parameters", "fitted/fit.json", "--diameter", "4"}).status, 0);
+  const std::string text = place.read("out/impact.lammps");
+  EXPECT_NEAR(value_of(text, "R"), 2.0, 1e-12);  // um
+  const std::size_t at = text.find("\n# W = ");
+  ASSERT_NE(at, std::string::npos);
+  const double W = std::stod(text.substr(at + 7));
+  EXPECT_NEAR(value_of(text, "P") / (M_PI * W * 2e-6 / 6.0 * 1e9), 1.0, 1e-9);  // nN
+}
+
 TEST(Export, TheSameBytesAtAnyThreadCount) {
   const Workplace place;
   std::string first;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "plot/csv.hpp"
 #include "plot/gnuplot_script.hpp"
 
 namespace recoil::plot {
@@ -80,6 +81,48 @@ TEST(Data, OfAPictureAreColumnsWithUnits) {
   EXPECT_EQ(tables[0].columns[1].values, points.y);
   EXPECT_EQ(tables[0].columns[3].name, "e, upper");
   EXPECT_NEAR(tables[0].columns[3].values[1], 0.8, 1e-12);
+}
+
+TEST(Csv, SharesTheRowsOfLayersOverTheSamePlaces) {
+  Plot plot;
+  plot.x = {"V", "m/s"};
+  plot.y = {"e"};
+  Points points{{1.0, 2.5}, {0.5, NAN}};
+  points.name = "measured, by hand";
+  Line fit{{1.0, 2.0, 3.0}, {0.123456, 0.25, 1.0 / 3.0}};
+  fit.name = "the \"fit\"";
+  Line other{{1.0, 2.0, 3.0}, {0.0, -0.0, 2e-7}};
+  plot.layers = {fit, Rule{}, points, other, Line{{1.0, 2.0, 3.0}, {7.0, 8.0, 9.0}}};
+  EXPECT_EQ(csv_of({"p", "", 1, 1, {plot}}),
+            "V [m/s],\"the \"\"fit\"\": e\",\"measured, by hand: e\",e,e (2)\n"
+            "1,0.12346,,0,7\n"
+            "2,0.25,,0,8\n"
+            "3,0.33333,,2e-07,9\n"
+            "1,,0.5,,\n"
+            "2.5,,,,\n");
+}
+
+TEST(Csv, HasTheNamesThatAnAxisGivesAndTheHeadingsOfPlots) {
+  Plot plot;
+  plot.heading = "one\nof two";
+  plot.x = {"C_H", "s/m"};
+  plot.y.ticks = {{0.0, "Wald"}, {1.0, "BCa"}, {2.0, "2"}};
+  plot.layers = {Spans{{1.0, 0.0, 2.0}, {1.0, 3.0, 5.0}, {2.0, 4.0, 6.0}}};
+  Plot second;
+  second.layers = {Discs{{1.0}, {2.0}, {3.0}}};
+  EXPECT_EQ(csv_of({"p", "", 1, 1, {plot, second}}),
+            "one of two: y,\"one of two: C_H, lower [s/m]\",\"one of two: C_H, upper [s/m]\","
+            "plot 2: x,plot 2: y,plot 2: value\n"
+            "BCa,1,2,,,\n"
+            "Wald,3,4,,,\n"
+            "2,5,6,,,\n"
+            ",,,1,2,3\n");
+}
+
+TEST(Csv, OfAPictureWithoutDataIsEmpty) {
+  Plot plot;
+  plot.layers = {Rule{}, Region{}};
+  EXPECT_EQ(csv_of({"p", "", 1, 1, {plot}}), "");
 }
 
 }  // namespace

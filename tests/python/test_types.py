@@ -32,6 +32,7 @@ def test_the_stub_has_the_names_of_the_module_and_no_other():
         if isinstance(node, ast.ClassDef):
             stated.add(node.name)
             members[node.name] = {f.name for f in node.body if isinstance(f, ast.FunctionDef)}
+            members[node.name] |= {f.target.id for f in node.body if isinstance(f, ast.AnnAssign)}
         elif isinstance(node, ast.FunctionDef):
             stated.add(node.name)
     there = {name for name in dir(_recoil) if not name.startswith("_")}

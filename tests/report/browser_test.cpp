@@ -28,13 +28,16 @@ class Browser : public testing::Test {
   }
 
   /// 0 when Chromium is content with `html`.
-  int open(const std::string& html, int figures) {
+  int open(const std::string& html, int figures, const std::vector<std::string>& options = {}) {
     const fs::path file = folder_ / "page.html";
     folder_.write("page.html", html);
-    return support::run_command({"python3", RECOIL_SOURCE_DIR "/tests/report/open_in_chromium.py",
-                                 "--figures", std::to_string(figures), file.string()},
-                                folder_.path())
-        .status;
+    std::vector<std::string> words = {"python3",
+                                      RECOIL_SOURCE_DIR "/tests/report/open_in_chromium.py",
+                                      "--figures", std::to_string(figures), file.string()};
+    words.insert(words.end(), options.begin(), options.end());
+    const support::Outcome outcome = support::run_command(words, folder_.path());
+    last_words_ = outcome.out + outcome.err;
+    return outcome.status;
   }
 
   static std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -45,15 +48,24 @@ class Browser : public testing::Test {
 
   static inline std::string page_;
   static inline std::string index_;
+  std::string last_words_;  // of the browser
   support::TemporaryFolder folder_;
 };
 
 TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 15), 0); }
 
+TEST_F(Browser, ShowsThePageWithoutScript) {
+  EXPECT_EQ(open(page_, 15, {"--without-script"}), 0);
+  EXPECT_EQ(
+      open(replaced(page_, "</main>", "<p class='save'>Save</p></main>"), 15, {"--without-script"}),
+      1)
+      << "what only a script can do is not there";
+}
+
 TEST_F(Browser, ShowsWhatCorrectionsDo) {
   Analysis analysis = sample::four_diameters();
   analysis.corrections = {sample::corrections(1), sample::corrections(4)};
-  EXPECT_EQ(open(html_report(analysis), 19), 0);  // two pictures of each
+  EXPECT_EQ(open(html_report(analysis), 19), 0) << last_words_;  // two pictures of each
 }
 
 TEST_F(Browser, ShowsThePicturesOfAnExperiment) {
@@ -127,6 +139,17 @@ TEST_F(Browser, ComplainsOfAPageThatScrollsSideways) {
   EXPECT_EQ(open(replaced(page_, "</main>", "<div style='width:2000px'>.</div></main>"), 1), 1);
   EXPECT_EQ(open(replaced(page_, "</main>", "<div style='width:600px'>.</div></main>"), 1), 1)
       << "too wide for a phone only";
+}
+
+TEST_F(Browser, ComplainsOfWhatDoesNotBelongOnPaper) {
+  EXPECT_EQ(open(replaced(page_, "</style>", ".save { display: block !important }</style>"), 1), 1)
+      << "links that save";
+  EXPECT_EQ(
+      open(replaced(page_, "</style>", "figure { break-inside: auto !important }</style>"), 1), 1)
+      << "a page that ends within a picture";
+  EXPECT_EQ(open(replaced(index_, "</style>", "a::after { content: none !important }</style>"), 1),
+            1)
+      << "links that lead nowhere on paper";
 }
 
 }  // namespace

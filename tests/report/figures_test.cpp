@@ -21,6 +21,7 @@
 namespace recoil {
 namespace {
 
+using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -263,6 +264,26 @@ TEST(RankingFigures, HaveABarForEveryCandidateThatGains) {
   for (const auto& tick : ranking.y.ticks) names.push_back(tick.label);
   EXPECT_THAT(names, ElementsAre("plastic_yield", "probe_plane", "gas_film"));
   EXPECT_THAT(ranking_figures(Diagnosis{}), IsEmpty());
+}
+
+TEST(MisfitFigures, ShowEveryPointAtItsDiameter) {
+  Diagnosis d;
+  for (const double diameter : {3e-6, 8e-6}) {
+    Observation point;
+    point.diameter = diameter;
+    point.velocity = 2.0;
+    point.restitution = 0.5;
+    point.weights.sd = 0.05;
+    d.base.data.points.push_back(point);
+    d.base.prediction_squared.push_back(0.36);
+  }
+  d.datasets.resize(1);
+  const plot::Plot map = plot_of(misfit_figures(d).at(0));
+  const plot::Discs discs = layers_of<plot::Discs>(map).at(0);
+  EXPECT_THAT(discs.y, ElementsAre(DoubleNear(3.0, 1e-9), DoubleNear(8.0, 1e-9)));  // um
+  EXPECT_THAT(discs.x, ElementsAre(2.0, 2.0));
+  EXPECT_EQ(map.y.unit, "µm");
+  EXPECT_TRUE(inside(3.0, map.y) && inside(8.0, map.y));
 }
 
 TEST(RankingFigures, LeaveRoomForTheReasonBehindALongBar) {

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """Opens pages in headless Chromium and fails on whatever a reader would see go wrong.
 
-usage: open_in_chromium.py [--figures N] [--pictures DIR] PAGE.html ...
+usage: open_in_chromium.py [--figures N] [--pictures DIR] [--without-script] PAGE.html ...
 
-For every page, at desktop width (1200 px) and on a phone (390 px):
+For every page, at desktop width (1200 px), on a phone (360 px) and as printed on A4 (680 px between
+the margins):
   - no console error or warning, no exception, no failed load
   - no request to anything but the page itself
   - every figure holds an SVG with a visible box in which plots are drawn, at least N of them
   - no horizontal scrolling of the page, no duplicate id, no link to a missing anchor
+  - in print no navigation, no links that save, no sliders; the addresses of other pages are readable,
+    and no page ends within a picture or a row of a table
 
 --pictures DIR also writes PNG screenshots of both widths and the printed PDF.
 Only Python's standard library is used; Chromium is driven by the DevTools protocol over a pipe.
@@ -27,7 +30,7 @@ import time
 
 TIME_LIMIT = 60.0  # [s] for one answer of the browser
 
-WIDTHS = {"desktop": (1200, 900, False), "phone": (390, 844, True)}
+WIDTHS = {"desktop": (1200, 900, False), "phone": (360, 740, True), "print": (680, 1000, False)}
 
 # Runs inside the page, given the screen's width; returns a list of complaints and what it counted.
 INSPECT = r"""
@@ -75,7 +78,23 @@ INSPECT = r"""
   // A phone zooms out of a page that is too wide, so its own innerWidth proves nothing.
   if (page.scrollWidth > screen + 1)
     complaints.push('the page scrolls sideways: ' + page.scrollWidth + ' px in ' + screen + ' px');
-  return {complaints: [...new Set(complaints)], drawn, height: page.scrollHeight};
+  if (matchMedia('print').matches) {
+    for (const element of document.querySelectorAll('nav, .save, details.explore, .explored')) {
+      if (element.getBoundingClientRect().height > 0)
+        complaints.push('prints ' + element.tagName + ' ' + element.getAttribute('class'));
+    }
+    for (const element of document.querySelectorAll('figure, tr')) {
+      if (getComputedStyle(element).breakInside !== 'avoid')
+        complaints.push('a page may end within ' + element.tagName);
+    }
+    for (const link of document.querySelectorAll('a[href^="http"], a[href$=".html"]')) {
+      if (!getComputedStyle(link, '::after').content.includes(link.getAttribute('href')) &&
+          link.getBoundingClientRect().height > 0)
+        complaints.push('does not print where ' + link.getAttribute('href') + ' is');
+    }
+  }
+  const made = document.querySelectorAll('.save, .explore:not(script)').length;
+  return {complaints: [...new Set(complaints)], drawn, made, height: page.scrollHeight};
 })"""
 
 
@@ -171,7 +190,7 @@ def complaints_in(events, address):
             found.append("log: " + params["entry"]["text"])
         elif method == "Network.requestWillBeSent":
             url = params["request"]["url"]
-            if url.split("#")[0] != address and not url.startswith("data:"):
+            if url.split("#")[0] != address and not url.startswith(("data:", "blob:")):
                 found.append("request to " + url)
         elif method == "Network.loadingFailed":
             found.append("load failed: " + params["errorText"])
@@ -180,33 +199,48 @@ def complaints_in(events, address):
     return found
 
 
-def inspect(browser, page, least_figures, pictures):
+def open_page(browser, page, width, height, mobile, with_script=True):
+    """The session and the target of a new tab that has loaded `page`."""
+    browser.events.clear()
+    target = browser.call("Target.createTarget", url="about:blank")["targetId"]
+    session = browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+    for domain in ("Page", "Runtime", "Log", "Network"):
+        browser.call(domain + ".enable", session)
+    if not with_script:
+        browser.call("Emulation.setScriptExecutionDisabled", session, value=True)
+    browser.call("Emulation.setDeviceMetricsOverride", session, width=width, height=height,
+                 deviceScaleFactor=1, mobile=mobile)
+    browser.call("Page.navigate", session, url=page.resolve().as_uri())
+    browser.wait_for("Page.loadEventFired")
+    return session, target
+
+
+def inspect(browser, page, options):
     """Complaints about one page, each prefixed with the width at which it was seen."""
     address = page.resolve().as_uri()
     found = []
     summary = ""
     for name, (width, height, mobile) in WIDTHS.items():
-        browser.events.clear()
-        target = browser.call("Target.createTarget", url="about:blank")["targetId"]
-        session = browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
-        for domain in ("Page", "Runtime", "Log", "Network"):
-            browser.call(domain + ".enable", session)
-        browser.call("Emulation.setDeviceMetricsOverride", session, width=width, height=height,
-                     deviceScaleFactor=1, mobile=mobile)
-        browser.call("Page.navigate", session, url=address)
-        browser.wait_for("Page.loadEventFired")
+        session, target = open_page(browser, page, width, height, mobile,
+                                    not options.without_script)
+        if name == "print":
+            browser.call("Emulation.setEmulatedMedia", session, media="print")
         answer = browser.call("Runtime.evaluate", session, expression=f"{INSPECT}({width})",
                               returnByValue=True)
         if "exceptionDetails" in answer:
             raise RuntimeError("the inspection itself failed: " + json.dumps(answer)[:400])
         result = answer["result"]["value"]
         complaints = complaints_in(browser.events, address) + result["complaints"]
-        if result["drawn"] < least_figures:
-            complaints.append(f"{result['drawn']} drawn figures, at least {least_figures} expected")
+        if result["drawn"] < options.figures:
+            complaints.append(f"{result['drawn']} drawn figures, at least {options.figures} "
+                              "expected")
+        if options.without_script and result["made"] > 0:
+            complaints.append(f"{result['made']} things that only a script makes")
         found += [f"{name}: {complaint}" for complaint in complaints]
         summary = f"{result['drawn']} figures"
-        if pictures:
-            take_pictures(browser, session, pictures / page.stem, name, width, result["height"])
+        if options.pictures:
+            stem = options.pictures / page.stem
+            take_pictures(browser, session, stem, name, width, result["height"])
         browser.call("Target.closeTarget", targetId=target)
     return found, summary
 
@@ -224,14 +258,21 @@ def take_pictures(browser, session, stem, name, width, height):
         pathlib.Path(f"{stem}-print.pdf").write_bytes(base64.b64decode(printed["data"]))
 
 
+def installed_chromium():
+    """The path of the browser, or None."""
+    return next((p for p in map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))
+                 if p), None)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("pages", nargs="+", type=pathlib.Path, metavar="PAGE.html")
     parser.add_argument("--figures", type=int, default=1, help="least number of drawn figures")
     parser.add_argument("--pictures", type=pathlib.Path, help="write screenshots and PDF here")
+    parser.add_argument("--without-script", action="store_true",
+                        help="as a browser in which scripts are switched off")
     options = parser.parse_args()
-    program = next((p for p in map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))
-                    if p), None)
+    program = installed_chromium()
     if program is None:
         print("Chromium is not installed (package chromium)", file=sys.stderr)
         return 2
@@ -243,7 +284,7 @@ def main():
                 print(f"{page}: no such file")
                 failed = True
                 continue
-            complaints, summary = inspect(browser, page, options.figures, options.pictures)
+            complaints, summary = inspect(browser, page, options)
             for complaint in complaints:
                 print(f"{page}: {complaint}")
             print(f"{page}: {'FAILED' if complaints else 'ok'}, {summary}")

@@ -59,6 +59,19 @@ std::vector<Question> clear_causes() {
   return all;
 }
 
+CaseOrder with_conditions(const char* effect, Circumstances circumstances) {
+  CaseOrder order{"wall", {effect}, 20.0, 0};
+  order.circumstances = circumstances;
+  return order;
+}
+
+/// A condition that is known, or changed, tells what velocities and sizes alone may not.
+std::vector<Question> known_conditions() {
+  return {{with_conditions("gas_film", Circumstances::stated), {Mark::named}},
+          {with_conditions("gas_film", Circumstances::varied), {Mark::named}},
+          {with_conditions("electrostatic_image", Circumstances::varied), {Mark::named}}};
+}
+
 /// Nearly alike: naming the right one or listing it is true, anything else is not. (JKR's work and
 /// hysteresis per area, deepened by adhesion, leave a misfit of 1.6 of one another where each alone
 /// leaves 20.)
@@ -145,6 +158,7 @@ TEST(CarelessBar, ErrorsThatNobodyStatedAreToldAndNoCauseIs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ClearCause, Bar, testing::ValuesIn(clear_causes()), test_name);
+INSTANTIATE_TEST_SUITE_P(KnownConditions, Bar, testing::ValuesIn(known_conditions()), test_name);
 INSTANTIATE_TEST_SUITE_P(CloseCause, Bar, testing::ValuesIn(close_causes()), test_name);
 INSTANTIATE_TEST_SUITE_P(NothingHidden, Bar, testing::ValuesIn(nothing_hidden()), test_name);
 INSTANTIATE_TEST_SUITE_P(BentLaw, Bar, testing::ValuesIn(bent_laws()), test_name);

@@ -24,6 +24,16 @@ struct Folder : support::TemporaryFolder {
   fs::path file() const { return path() / "replicates.json"; }
 };
 
+/// What a file of replicates gives to an empty table.
+ReplicateTable loaded(const fs::path& file, const std::string& key, std::size_t slots,
+                      std::size_t derived = 0) {
+  ReplicateTable table;
+  table.slots = slots;
+  table.derived = derived;
+  load_replicates(file, key, table);
+  return table;
+}
+
 TEST(Bootstrap, ExtendingIsTheSameAsOneRun) {
   const Case c = noisy_case();
   for (const Scheme scheme : {Scheme::parametric, Scheme::residual, Scheme::wild, Scheme::cases}) {
@@ -52,31 +62,91 @@ TEST(ReplicateTable, EveryDigitComesBackUnderItsKeyOnly) {
   table.theta = {1.0 / 3.0, 1e-300, 0, 0, 0, 0, M_PI, 0.1};
   table.std_error = {0.1 + 0.2, 0, 0, 0, 0, 0, 1e17 + 1, 5e-324};
   save_replicates(folder.file(), "key", table);
-  const ReplicateTable back = load_replicates(folder.file(), "key", 2);
+  const ReplicateTable back = loaded(folder.file(), "key", 2);
   EXPECT_EQ(back.state, table.state);
   EXPECT_EQ(back.theta, table.theta);
   EXPECT_EQ(back.std_error, table.std_error);
   EXPECT_EQ(back.finished(), 3U);
-  EXPECT_EQ(load_replicates(folder.file(), "other", 2).finished(), 0U);
-  EXPECT_EQ(load_replicates(folder.file(), "key", 3).finished(), 0U);
+  EXPECT_EQ(loaded(folder.file(), "other", 2).finished(), 0U);
+  EXPECT_EQ(loaded(folder.file(), "key", 3).finished(), 0U);
   // Errors of what is derived come back beside them, and only together.
   table.derived = 1;
   table.std_error = {1, 2, 3, 0, 0, 0, 0, 0, 0, 4, 5, 6.5};
   save_replicates(folder.file(), "key", table);
-  EXPECT_EQ(load_replicates(folder.file(), "key", 2, 1).std_error, table.std_error);
-  EXPECT_EQ(load_replicates(folder.file(), "key", 2).finished(), 0U);
+  EXPECT_EQ(loaded(folder.file(), "key", 2, 1).std_error, table.std_error);
+  EXPECT_EQ(loaded(folder.file(), "key", 2).finished(), 0U);
 }
 
 TEST(ReplicateTable, DamagedFilesAreNotTrusted) {
   const Folder folder;
-  for (const char* text :
-       {"", "{", "[1]", R"({"key": "key"})", R"({"key": "key", "replicates": [[0, [1], []]]})",
-        R"({"key": "key", "replicates": [[-1]]})", R"({"key": "key", "replicates": [7]})",
-        R"({"key": "key", "replicates": [[99999999999]]})",
-        R"({"key": "key", "replicates": [[0, ["a"], [1]]]})"}) {
+  const std::string head = R"({"key": "key", "rows": 1})"
+                           "\n";
+  for (const std::string& text :
+       {std::string(), std::string("{"), std::string("[1]"), std::string(R"({"key": "key"})"), head,
+        head + "[0, [1], []]", head + "[-1]", head + "7", head + "[99999999999]",
+        head + R"([0, ["a"], [1]])", head + "[0]\n[1]", head + "[0, [1], [1]]\n[0, [1]"}) {
     folder.write("replicates.json", text);
-    EXPECT_EQ(load_replicates(folder.file(), "key", 1).finished(), 0U) << text;
+    EXPECT_EQ(loaded(folder.file(), "key", 1).finished(), 0U) << text;
   }
+}
+
+TEST(ReplicateTable, FilesAddUp) {
+  const Folder folder;
+  ReplicateTable table;
+  table.slots = 1;
+  table.grow(2);
+  table.state[1] = ReplicateTable::State::usable;
+  table.theta = {0, 4};
+  table.std_error = {0, 5};
+  ReplicateTable other;
+  other.slots = 1;
+  other.grow(3);
+  other.state = {ReplicateTable::State::failed, ReplicateTable::State::not_run,
+                 ReplicateTable::State::usable};
+  other.theta = {0, 0, 6};
+  other.std_error = {0, 0, 7};
+  save_replicates(folder.file(), "key", other);
+  load_replicates(folder.file(), "key", table);
+  EXPECT_EQ(table.state, (std::vector<ReplicateTable::State>{ReplicateTable::State::failed,
+                                                             ReplicateTable::State::usable,
+                                                             ReplicateTable::State::usable}));
+  EXPECT_EQ(table.theta, (std::vector<double>{0, 4, 6}));
+  EXPECT_EQ(table.std_error, (std::vector<double>{0, 5, 7}));
+}
+
+TEST(Bootstrap, ShardsRunTheirOwnReplicatesAndNoOther) {
+  const Case c = noisy_case();
+  const Folder folder;
+  UncertaintyOptions options = small(1);
+  Bootstrap whole(c.fitted, {}, options);
+  whole.extend(20);
+  options.keep = folder.path() / "unfinished.jsonl";
+  std::vector<fs::path> parts;
+  for (std::size_t number = 1; number <= 3; ++number) {
+    options.shard = {number, 3};
+    Bootstrap own(c.fitted, {}, options);
+    own.extend(20);
+    EXPECT_EQ(own.table().finished(), number == 3 ? 6U : 7U);
+    for (std::size_t i = 0; i < 20; ++i) {
+      EXPECT_EQ(own.table().state[i] != ReplicateTable::State::not_run, i % 3 == number - 1) << i;
+    }
+    parts.push_back(folder.path() / std::to_string(number));
+    save_replicates(parts.back(), own.key(), own.table());
+  }
+  UncertaintyOptions all = small(1);
+  all.parts = parts;
+  // A mark in one part shows that its replicates are taken over, not made anew.
+  ReplicateTable marked = loaded(parts[1], key_of_bootstrap(c.fitted, options), 3);
+  marked.theta[3 * 4] = 0.125;
+  Bootstrap merged(c.fitted, {}, all);
+  merged.extend(20);
+  EXPECT_EQ(merged.result().theta, whole.result().theta);
+  EXPECT_EQ(merged.result().std_error, whole.result().std_error);
+  save_replicates(parts[1], key_of_bootstrap(c.fitted, options), marked);
+  Bootstrap with_mark(c.fitted, {}, all);
+  with_mark.extend(20);
+  EXPECT_EQ(with_mark.result().theta[4][0], 0.125);
+  EXPECT_EQ(with_mark.result().theta[5], whole.result().theta[5]);
 }
 
 TEST(Bootstrap, GoesOnFromFinishedReplicates) {

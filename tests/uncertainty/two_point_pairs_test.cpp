@@ -186,6 +186,29 @@ TEST(TwoPointPairs, NoiseThatDrownsThePointsLeavesNoAnswerAndIsCounted) {
       << "a simulated point that was captured";
 }
 
+TEST(TwoPointPairs, ASimulatedCaptureEndsItsPair) {
+  Design design;
+  design.velocities = {1.25, 2.5, 6.5, 25.0, 90.0};  // 4.9 um stay on the surface below 1.1 m/s
+  Case c;
+  c.datasets = {synthetic::dataset(design)};
+  for (ImpactPoint& point : c.datasets[0].points) {
+    point.events = 3;
+    point.counted = true;
+    point.captured = point.restitution == 0.0 ? 3 : point.incident_velocity < 2.0 ? 1 : 0;
+  }
+  c.data = gather(c.datasets);
+  c.fitted = fit(make_model(synthetic::spec(), c.datasets), c.data);
+  ASSERT_TRUE(c.fitted.usable);
+  // Impacts that scatter so widely that three in a row stay in one of twenty simulated sets.
+  for (Observation& point : c.fitted.data.points) {
+    if (point.weights.scatter > 0.0) point.weights.scatter = 1.0;
+  }
+  const PairStudy found = study(c, 200).front();
+  const PairQuality& paper = found.pairs[found.paper];
+  ASSERT_EQ(c.data.points[paper.low_point].velocity, 1.25);
+  EXPECT_GT(paper.ended[static_cast<std::size_t>(TwoPointStatus::too_few_points)], 2);
+}
+
 TEST(TwoPointPairs, LeavesOutWhatCannotBeCalibrated) {
   Case c;
   Design design;

@@ -22,7 +22,7 @@ from ._datasets import Dataset
 from ._errors import ComputationError, InputError
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._results import Comparison, Diagnosis, FitResult, Parameter, Prediction
+from ._results import Comparison, Diagnosis, FitResult, Pairing, Parameter, Prediction
 
 __version__: str = _recoil.__version__
 
@@ -36,6 +36,7 @@ __all__ = [
     "Impacts",
     "InputError",
     "Model",
+    "Pairing",
     "Parameter",
     "Prediction",
     "compare",
@@ -43,6 +44,7 @@ __all__ = [
     "fit",
     "load_dataset",
     "model",
+    "pair",
     "schema",
 ]
 
@@ -214,6 +216,78 @@ def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
         problem = "a comparison needs two or more fits"
         raise InputError(problem, problem=problem)
     return Comparison(*_recoil.compare(named))
+
+
+def _refuse(problem: str, suggestion: str) -> None:
+    raise InputError(f"{problem}; {suggestion}", problem=problem, suggestion=suggestion)
+
+
+def _within(name: str, value: Optional[float], least: float, most: float) -> None:
+    if value is not None and not least <= value <= most:
+        _refuse(f"{name} is {value!r}", f"give a number from {least:g} to {most:g}")
+
+
+def pair(
+    passages: PathLike,
+    *,
+    units: Optional[Mapping[str, str]] = None,
+    columns: Optional[Mapping[str, str]] = None,
+    positive: str = "towards",
+    height: float = 1.0,
+    height_range: float = 1.5,
+    keep_height: bool = False,
+    diameter_tolerance: float = 0.2,
+    velocity_tolerance: float = 0.15,
+    keep_later: bool = False,
+    threshold: Optional[float] = None,
+    angle: Optional[float] = None,
+    lost_share: Optional[float] = None,
+    per_bin: int = 40,
+    size_classes: int = 1,
+    size_edges: Sequence[float] = (),
+    mean_diameter: bool = False,
+) -> Pairing:
+    """Finds the impacts in the passages that a phase Doppler instrument records, and makes points
+    of them: ``recoil pair``, with its options, their units and their defaults.
+
+    ``passages``: a CSV file, one row per passage: ``time``, ``velocity``, ``diameter``, optional
+    ``tangential_velocity`` and ``series``. ``units={"time": "s", "velocity": "m/s"}`` where no
+    datapackage.json beside the file states them; ``columns={"velocity": "LDA1"}`` for other names;
+    ``positive``: ``"towards"`` the surface or ``"away"``; ``height`` of the plane [mm];
+    ``threshold`` [m/s]; ``angle`` [degrees]; ``size_edges`` [um]. ``recoil help pair`` explains
+    them.
+
+    Raises ``InputError`` for a mistake in the file or an option, ``ComputationError`` when no
+    impact is found.
+    """
+    if positive not in ("towards", "away"):
+        _refuse(f"positive is {positive!r}", "choose one of towards, away")
+    _within("height", height, 1e-3, 1e3)
+    _within("height_range", height_range, 1.01, 10)
+    _within("diameter_tolerance", diameter_tolerance, 1e-3, 2)
+    _within("velocity_tolerance", velocity_tolerance, 1e-3, 0.5)
+    _within("threshold", threshold, 0, 1e4)
+    _within("angle", angle, 0, 90)
+    _within("lost_share", lost_share, 0, 0.9)
+    _within("per_bin", per_bin, 2, 1000000)
+    _within("size_classes", size_classes, 1, 100)
+    edges = [float(edge) for edge in size_edges]
+    if len(edges) == 1 or any(not low < high for low, high in zip([0.0, *edges], edges)):
+        _refuse(f"size_edges is {edges!r}", "give two limits or more that ascend: [20, 40, 60]")
+    if edges and size_classes != 1:
+        _refuse("size_edges and size_classes are both given", "remove one")
+    arguments = _recoil.PairArguments()
+    arguments.units = dict(units or {})
+    arguments.columns = dict(columns or {})
+    arguments.positive_away = positive == "away"
+    arguments.height, arguments.height_range = height, height_range
+    arguments.keep_height, arguments.keep_later = keep_height, keep_later
+    arguments.diameter_tolerance = diameter_tolerance
+    arguments.velocity_tolerance = velocity_tolerance
+    arguments.threshold, arguments.angle, arguments.lost_share = threshold, angle, lost_share
+    arguments.per_bin, arguments.size_classes = int(per_bin), int(size_classes)
+    arguments.size_edges, arguments.mean_diameter = edges, mean_diameter
+    return Pairing(_recoil.pair(os.fspath(passages), arguments))
 
 
 def schema(name: str) -> dict[str, Any]:

@@ -167,7 +167,7 @@ def _discs(ax: "Axes", layer: Facts, plot: Facts) -> None:
         c=values,
         cmap=colour_map,
         norm=norm,
-        edgecolors="#777777",
+        edgecolors="#6b6b6b",
         linewidths=0.5,
         label=layer.name and _set_symbols(layer.name),
     )

@@ -155,3 +155,21 @@ class MixturePictures(_Pictures):
     def plot_captured(self, which: int = 1, ax: "On" = None) -> "Drawn":
         """How many spheres stay, or are not seen again."""
         return self._draw("mixture-captured", which, ax)
+
+
+class PairingPictures(_Pictures):
+    """The pictures of an experiment, after those of Li, Dunn & Brach (1999)."""
+
+    def plot_sizes(self, which: int = 1, ax: "On" = None) -> "Drawn":
+        """The diameters of the incoming spheres."""
+        return self._draw("sizes", which, ax)
+
+    def plot_velocities(self, which: int = 1, ax: "On" = None) -> "Drawn":
+        """The velocities of all passages (1) and of the impacts (2)."""
+        return self._draw("velocities-(raw|paired)", which, ax)
+
+    def plot_restitution(self, which: int = 1, ax: "On" = None) -> "Drawn":
+        """The points: e against V."""
+        return self._draw("restitution", which, ax)
+
+    plot = plot_restitution

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import io
 import math
 import os
 import tempfile
@@ -12,10 +13,11 @@ from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
 from . import _recoil
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._pictures import DiagnosisPictures, FitPictures, MixturePictures
+from ._pictures import DiagnosisPictures, FitPictures, MixturePictures, PairingPictures
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+    import pandas
 
     from ._impacts import Array
 
@@ -361,4 +363,43 @@ class Comparison(_Result):
         return iter(self.facts.fits)
 
 
-__all__ = ["Comparison", "Diagnosis", "FitResult", "Parameter", "Prediction"]
+class Pairing(PairingPictures, _Result):
+    """Impacts found in passages: the names of the JSON of ``recoil pair`` are attributes."""
+
+    def __init__(self, texts: _recoil.PairTexts) -> None:
+        self._texts = texts
+        self._json = texts.json
+        self._text = texts.text
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """The points as a frame, one row each, columns as in points.csv (diameters in um,
+        velocities in m/s): ``Dataset.from_pandas`` takes it."""
+        return self._frame(self._texts.points)
+
+    def impacts_to_pandas(self) -> "pandas.DataFrame":
+        """Every impact and every passage without one, as ``recoil pair --impacts`` writes them."""
+        return self._frame(self._texts.impacts)
+
+    @staticmethod
+    def _frame(csv: str) -> "pandas.DataFrame":
+        import pandas
+
+        return pandas.read_csv(io.StringIO(csv))
+
+    def save(self, file: PathLike) -> Path:
+        """Writes the points into ``file`` (CSV), as ``recoil pair --out``, and returns its path."""
+        path = Path(file)
+        write_whole(path, self._texts.points)
+        return path
+
+    def _read_pictures(self) -> str:
+        return self._texts.pictures
+
+    def __repr__(self) -> str:
+        return f"<recoil.Pairing: {self._texts.points.count(chr(10)) - 1} points>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(self._text)}</pre>"
+
+
+__all__ = ["Comparison", "Diagnosis", "FitResult", "Pairing", "Parameter", "Prediction"]

@@ -31,12 +31,13 @@ std::string joined(const std::vector<std::string>& effects) {
 /// printed one if that is uncertain.
 double reading_of(const Case& made, const Point& p, recoil::RandomStream& random) {
   const double scatter = made.effects.velocity_scatter;
+  const Effects effects = under(p.changed, made.effects);
   double reading = 0.0;
   for (int i = 0; i < 100 && !(reading > 0.0); ++i) {  // somebody wants a rebound
     const double velocity =
         scatter > 0.0 ? p.velocity * (1.0 + scatter * random.normal()) : p.velocity;
-    reading = observed_mean(made.design.base, made.effects, made.design.scatter, velocity,
-                            p.diameter, p.row, made.design.events, random);
+    reading = observed_mean(made.design.base, effects, made.design.scatter, velocity, p.diameter,
+                            p.row, made.design.events, random);
     if (scatter == 0.0) break;
   }
   return reading;
@@ -49,7 +50,12 @@ std::string CaseOrder::key() const {
   if (law_bend > 0.0) bends += fmt::format("~{:g}%", 100.0 * law_bend);
   if (base_bend > 0.0) bends += fmt::format("~base{:g}%", 100.0 * base_bend);
   if (beyond > 0.0) bends += fmt::format("*{:g}", beyond);
-  return fmt::format("{}{}{}@{:g}#{}", design, joined(effects), bends, signal_to_noise, index);
+  if (circumstances != Circumstances::unstated) {
+    bends += fmt::format("|{}", recoil::name_of(circumstances));
+  }
+  const std::string again = rounds > 0 ? fmt::format("^{}", rounds) : "";
+  return fmt::format("{}{}{}@{:g}#{}{}", design, joined(effects), bends, signal_to_noise, index,
+                     again);
 }
 
 std::uint64_t CaseOrder::experiment_seed() const {
@@ -104,6 +110,19 @@ Case make_case(const CaseOrder& order) {
     return made;
   }
   made.refit = refit_base(made.design, made.points);
+  if (order.circumstances == Circumstances::stated) {
+    for (const std::string& id : order.effects) {
+      for (StatedCondition& c : conditions_behind(id, made.design.base, made.effects)) {
+        made.conditions.push_back(std::move(c));
+      }
+    }
+  } else if (order.circumstances == Circumstances::varied && !order.effects.empty()) {
+    const StatedCondition change = change_against(order.effects.front());
+    for (Point& again : expected_points(made.design, under(change, made.effects))) {
+      again.changed = change;
+      made.points.push_back(std::move(again));
+    }
+  }
   // Readings of different strengths have noise of their own.
   const std::uint64_t readings_seed = number_of(order.key(), seed);
   for (std::size_t i = 0; i < made.points.size(); ++i) {

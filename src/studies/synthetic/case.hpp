@@ -5,10 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "core/names.hpp"
 #include "studies/synthetic/hidden_effect.hpp"
 #include "studies/synthetic/strength.hpp"
 
 namespace hidden {
+
+/// What the table says of the conditions.
+enum class Circumstances {
+  unstated,
+  stated,  ///< of all points, those behind the effects
+  varied  ///< not of these, but the same rows again under a change that takes the first effect away
+};
 
 /// What to make. Equal orders give equal digits.
 struct CaseOrder {
@@ -21,9 +29,12 @@ struct CaseOrder {
   double base_bend = 0.0;  ///< the losses of the base model likewise
   /// Above 0: the one effect at so many times the largest strength that nature has.
   double beyond = 0.0;
+  Circumstances circumstances = Circumstances::unstated;
+  int rounds = 0;  ///< how often the first of what the answer advises is done, and asked again
 
   /// wall+plastic_yield+probe_plane@10#3; bent by 10 % and 3 %: wall+plastic_yield~10%~base3%@20#0;
-  /// three times what is possible: wall+velocity_offset*3@0#0
+  /// three times what is possible: wall+velocity_offset*3@0#0; with its condition varied, and asked
+  /// again up to three times: wall+gas_film|varied@10#0^3
   std::string key() const;
   /// The same for all strengths of one experiment, so that these differ in strength only.
   std::uint64_t experiment_seed() const;
@@ -35,9 +46,10 @@ struct Case {
   bool reached = false;           ///< all strengths lie within what nature has
   std::vector<double> strengths;  ///< one per effect, with sign
   Effects effects;
-  std::vector<Point> points;     ///< without noise
-  Refit refit;                   ///< of the base to them, all effects at work
-  std::vector<double> readings;  ///< the mean of the events of each point, with noise
+  std::vector<StatedCondition> conditions;  ///< of all points
+  std::vector<Point> points;                ///< without noise
+  Refit refit;                              ///< of the base to them, all effects at work
+  std::vector<double> readings;             ///< the mean of the events of each point, with noise
 };
 
 /// Nuisances the experiment, tunes every effect by itself to the wanted misfit, and takes the
@@ -49,3 +61,8 @@ Case make_case(const CaseOrder& order);
 std::string neutral_name(const CaseOrder& order);
 
 }  // namespace hidden
+
+template <>
+struct recoil::NamesOf<hidden::Circumstances> {
+  static constexpr std::array<std::string_view, 3> names = {"unstated", "stated", "varied"};
+};

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/files.hpp"
 #include "core/json.hpp"
@@ -26,6 +28,20 @@ Json field(const char* name, const char* type, const char* unit, const char* des
   return f;
 }
 
+/// The conditions that some of the points state.
+std::vector<std::string> changed_conditions(const Case& made) {
+  std::set<std::string> names;
+  for (const Point& p : made.points) {
+    if (!p.changed.name.empty()) names.insert(p.changed.name);
+  }
+  return {names.begin(), names.end()};
+}
+
+bool counts_captures(const Case& made) {
+  return std::any_of(made.points.begin(), made.points.end(),
+                     [](const Point& p) { return p.captured > 0; });
+}
+
 std::string package_text(const Case& made, const std::string& name) {
   const Design& d = made.design;
   const Base& b = d.base;
@@ -41,6 +57,16 @@ std::string package_text(const Case& made, const std::string& name) {
       field("restitution", "number", "1", "mean of the rebounds"),
       field("restitution_sd", "number", "1", "standard error of that mean"),
       field("events", "integer", "1", "rebounds averaged in this point")};
+  if (counts_captures(made)) {
+    resource["schema"]["fields"].push_back(
+        field("captured", "integer", "1", "of the events; empty where nobody counted"));
+  }
+  for (const std::string& condition : changed_conditions(made)) {
+    const bool plain = condition == "neutralised" || condition == "relative_humidity";
+    const char* const unit = plain ? "1" : condition == "ambient_pressure" ? "Pa" : "m";
+    resource["schema"]["fields"].push_back(
+        field(condition.c_str(), "number", unit, "of the impacts of this point"));
+  }
   package["resources"].push_back(resource);
   Json& own = package["recoil"];
   own["provenance"] = "synthetic";
@@ -53,21 +79,33 @@ std::string package_text(const Case& made, const std::string& name) {
                     {"youngs_modulus", b.surface_modulus},
                     {"poisson_ratio", b.surface_ratio}};
   if (d.stiffness_K > 0.0) own["stiffness_K"] = d.stiffness_K;
+  for (const StatedCondition& c : made.conditions) own["conditions"][c.name] = c.value;
   own["adhesion_force_f0"] = b.adhesion_force;
   own["reference_diameter"] = b.reference_diameter;
   return package.dump(2) + "\n";
 }
 
 std::string points_text(const Case& made) {
-  std::string text = "series,diameter,incident_velocity,restitution,restitution_sd,events\n";
+  const std::vector<std::string> changed = changed_conditions(made);
+  std::string text = "series,diameter,incident_velocity,restitution,restitution_sd,events";
+  const bool counts = counts_captures(made);
+  if (counts) text += ",captured";
+  for (const std::string& name : changed) text += "," + name;
+  text += "\n";
   for (std::size_t i = 0; i < made.points.size(); ++i) {
     const Point& p = made.points[i];
     const std::string& name = made.design.rows[p.row].name;
     const bool quoted = name.find(',') != std::string::npos;
-    text += fmt::format(
-        "{0}{1}{0},{2:g},{3},{4:.{5}f},{6},{7}\n", quoted ? "\"" : "", name, 1e6 * p.diameter,
-        printed(p.velocity, 3), made.readings[i], made.design.decimals,
-        printed(p.sd / (1.0 + made.effects.deviations_short), 3), made.design.events);
+    text += fmt::format("{0}{1}{0},{2:g},{3},{4:.{5}f},{6},{7}", quoted ? "\"" : "", name,
+                        1e6 * p.diameter, printed(p.velocity, 3), made.readings[i],
+                        made.design.decimals + (p.events > 0 ? 2 : 0),
+                        printed(p.sd / (1.0 + made.effects.deviations_short), 3),
+                        p.events > 0 ? p.events : made.design.events);
+    if (counts) text += p.events > 0 ? fmt::format(",{}", p.captured) : ",";
+    for (const std::string& condition : changed) {
+      text += p.changed.name == condition ? fmt::format(",{:g}", p.changed.value) : ",";
+    }
+    text += "\n";
   }
   return text;
 }

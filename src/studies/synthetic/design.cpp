@@ -172,8 +172,14 @@ std::vector<Point> expected_points(const Design& design, const Effects& effects)
       const Expected e =
           expected_point(design.base, effects, design.scatter, velocity, row.diameter, r);
       if (!(e.restitution > 0.05) || !(e.restitution < 1.0)) return {};
-      points.push_back({r, row.diameter, velocity, e.restitution,
-                        e.event_sd / std::sqrt(static_cast<double>(design.events))});
+      points.push_back({r,
+                        row.diameter,
+                        velocity,
+                        e.restitution,
+                        e.event_sd / std::sqrt(static_cast<double>(design.events)),
+                        0,
+                        0,
+                        {}});
     }
   }
   return points;

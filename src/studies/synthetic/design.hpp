@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "studies/synthetic/circumstances.hpp"
 #include "studies/synthetic/effects.hpp"
 
 namespace hidden {
@@ -47,7 +48,10 @@ struct Point {
   double diameter = 0.0;  ///< as stated [m]
   double velocity = 0.0;  ///< [m/s]
   double restitution = 0.0;
-  double sd = 0.0;  ///< of the mean
+  double sd = 0.0;   ///< of the mean
+  int events = 0;    ///< where they differ from those of the design, captured ones included
+  int captured = 0;  ///< of these
+  StatedCondition changed = {};  ///< under which it was taken; of no name: as the others
 };
 
 /// The points that such an experiment would take if `effects` were at work, without noise. Empty

@@ -1,0 +1,90 @@
+#include "diagnosis/calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <mutex>
+#include <utility>
+
+#include "core/error.hpp"
+#include "diagnosis/outlying_points.hpp"
+#include "diagnosis/search.hpp"
+#include "diagnosis/structure.hpp"
+
+namespace recoil {
+/// Everything refers to what stands before it.
+struct Calibration::Side {
+  Side(const FitSpec& fit_spec, std::vector<Dataset> data, FitResult fit_result,
+       const DiagnosisOptions& given)
+      : spec(fit_spec),
+        datasets(std::move(data)),
+        fitted(std::move(fit_result)),
+        options(given),
+        base(search_base(spec, datasets, fitted, options)),
+        statistics(fitted.data, base.refit, fitted.prediction_squared) {}
+
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+  FitResult fitted;
+  DiagnosisOptions options;
+  SearchBase base;
+  StructureStatistics statistics;
+  std::once_flag tried;
+  std::vector<CandidateResult> candidates;
+};
+
+Calibration::Calibration(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                         const DiagnosisOptions& options) {
+  FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+  if (!fitted.usable) {
+    throw ComputationError(
+        fmt::format("{}: the fit has no usable answer: {}", spec.file.string(), fitted.failure));
+  }
+  DiagnosisOptions own = options;
+  own.calibration.reset();
+  sides_.push_back(std::make_unique<Side>(spec, datasets, std::move(fitted), own));
+  if (!sides_.front()->base.refit.usable) {
+    throw ComputationError(
+        fmt::format("{}: the fit cannot be repeated from its own answer", spec.file.string()));
+  }
+  const std::vector<OutlyingPoint> outlying = outlying_points(sides_.front()->base);
+  if (outlying.empty()) return;
+  const std::vector<Dataset> others = without_points(datasets, outlying);
+  FitResult refitted = fit(make_model(spec, others), gather(others, spec));
+  if (!refitted.usable) return;
+  auto side = std::make_unique<Side>(spec, others, std::move(refitted), own);
+  if (side->base.refit.usable) sides_.push_back(std::move(side));
+}
+
+Calibration::~Calibration() = default;
+
+std::size_t Calibration::pieces() const { return sides_.size() * sides_.front()->options.pieces(); }
+
+std::vector<double> Calibration::run(std::size_t piece) const {
+  const std::size_t of_each = sides_.front()->options.pieces();
+  Side& side = *sides_[piece / of_each];
+  const std::size_t index = piece % of_each;
+  const auto simulated = static_cast<std::size_t>(side.options.simulated);
+  if (index >= simulated) {
+    std::call_once(side.tried, [&side] { side.candidates = try_singles(side.base); });
+    return {largest_gain(side.base, side.candidates, index - simulated)};
+  }
+  const auto answer = structure_of_sample(side.base, side.statistics, index);
+  if (!answer) return {0.0};
+  std::vector<double> row = {1.0};
+  for (const StructureQuestion question : values_of<StructureQuestion>()) {
+    row.push_back((*answer)[question]);
+  }
+  return row;
+}
+
+std::string Calibration::digits() const {
+  std::string digits;
+  for (const auto& side : sides_) {
+    for (const double value : side->base.refit.theta) digits += fmt::format("{:a}|", value);
+    for (const double value : side->base.refit.residuals) digits += fmt::format("{:a}|", value);
+    digits += fmt::format("{:a};", side->base.criterion);
+  }
+  return digits;
+}
+
+}  // namespace recoil

@@ -1,0 +1,111 @@
+#include "diagnosis/predicted_spread.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/discrepancy.hpp"
+#include "estimate/impact_problem.hpp"
+#include "estimate/predictor.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double least_restitution = 0.05;  // below it e^2 says nothing of e to first order
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The points of `base` and after them the possible impacts, as if each had been made once and read
+/// as predicted.
+Observations with_possible(const Observations& data, const PossibleImpacts& possible,
+                           const std::vector<double>& restitution) {
+  Observations all = data;
+  for (std::size_t i = 0; i < possible.at.size(); ++i) {
+    const PointConditions& at = possible.at[i];
+    Observation point;
+    point.dataset = at.dataset;
+    point.diameter = at.diameter;
+    point.velocity = at.velocity;
+    point.series = at.series;
+    point.events = 1;
+    point.restitution = std::isnan(restitution[i]) ? least_restitution
+                                                   : std::max(restitution[i], least_restitution);
+    point.weights.sd = possible.sd[i];
+    all.points.push_back(point);
+  }
+  return all;
+}
+
+/// Slopes of the weighted residuals of all points in what is not known: the moving parameters, then
+/// the errors of the laws. Empty without an answer.
+std::optional<Eigen::MatrixXd> slopes_at(const CandidateResult& rival, const Observations& all,
+                                         const std::vector<double>& theta, const LawErrors& laws) {
+  const ImpactModel& model = rival.candidate.model;
+  const LeastSquaresProblem problem = impact_problem(model, all);
+  std::vector<double> residuals(problem.residual_count);
+  std::vector<double> jacobian(problem.residual_count * theta.size());
+  if (!problem.evaluate(theta, residuals, jacobian)) return std::nullopt;
+  const auto columns = law_error_columns(rival.candidate, all, theta, laws);
+  if (!columns) return std::nullopt;
+  const auto rows = static_cast<Eigen::Index>(problem.residual_count);
+  const Eigen::Map<const RowMajor> J(jacobian.data(), rows,
+                                     static_cast<Eigen::Index>(theta.size()));
+  std::vector<Eigen::Index> moving;
+  for (std::size_t j = 0; j < rival.refit.moving.size(); ++j) {
+    if (rival.refit.moving[j]) moving.push_back(static_cast<Eigen::Index>(j));
+  }
+  const auto p = static_cast<Eigen::Index>(moving.size());
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(rows, p + columns->cols());
+  for (Eigen::Index k = 0; k < p; ++k) both.col(k) = J.col(moving[static_cast<std::size_t>(k)]);
+  both.topRightCorner(columns->rows(), columns->cols()) = *columns;
+  return both;
+}
+
+}  // namespace
+
+PredictedSpread predicted_spread(const SearchBase& base, const CandidateResult& rival,
+                                 const PossibleImpacts& possible, const Mechanism* without) {
+  const ImpactModel& model = rival.candidate.model;
+  const std::vector<double>& theta = rival.refit.theta;
+  const std::vector<double> changed =
+      without == nullptr ? theta : without_mechanism(model, theta, *without);
+  PredictedSpread found;
+  for (const Prediction& at : predict(model, changed, possible.at, false)) {
+    found.restitution.push_back(at.usable() ? at.restitution() : NAN);
+  }
+  found.variance.assign(possible.at.size(), NAN);
+  const Observations& data = base.fitted.data;
+  const Observations all = with_possible(data, possible, found.restitution);
+  LawErrors laws = base.laws;
+  laws.functions = smooth_functions(all);
+  const auto here = slopes_at(rival, all, theta, laws);
+  const auto there = without == nullptr ? here : slopes_at(rival, all, changed, laws);
+  if (!here || !there) return found;
+  const auto n = static_cast<Eigen::Index>(data.points.size());
+  const auto g = static_cast<Eigen::Index>(possible.at.size());
+  const Eigen::Index errors =
+      laws.functions.cols() * static_cast<Eigen::Index>(1 + model.chain.size());
+  const Eigen::Index p = here->cols() - errors;
+  // The points, and behind them the constants of the materials with what is stated of them.
+  Eigen::MatrixXd known(here->rows() - g, here->cols());
+  known << here->topRows(n), here->bottomRows(here->rows() - n - g);
+  Eigen::MatrixXd asked = there->middleRows(n, g);
+  // Columns of unit length: the units of the parameters lie twenty decades apart.
+  for (Eigen::Index k = 0; k < p; ++k) {
+    const double length = known.col(k).norm();
+    if (!(length > 0.0)) return found;
+    known.col(k) /= length;
+    asked.col(k) /= length;
+  }
+  Eigen::MatrixXd information = known.transpose() * known;
+  information.diagonal().tail(errors).array() += 1.0;
+  information.diagonal().head(p).array() += 1e-12;
+  const Eigen::LLT<Eigen::MatrixXd> factor(information);
+  if (factor.info() != Eigen::Success) return found;
+  const Eigen::MatrixXd reduced = factor.matrixL().solve(asked.transpose());
+  for (Eigen::Index i = 0; i < g; ++i) {
+    found.variance[static_cast<std::size_t>(i)] = reduced.col(i).squaredNorm();
+  }
+  return found;
+}
+
+}  // namespace recoil

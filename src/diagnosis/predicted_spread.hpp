@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "diagnosis/candidate_result.hpp"
+#include "diagnosis/search.hpp"
+
+namespace recoil {
+
+/// Impacts that could be made, and the standard deviation of e of one of them [1].
+struct PossibleImpacts {
+  std::vector<PointConditions> at;
+  std::vector<double> sd;
+};
+
+/// What a rival predicts of possible impacts.
+struct PredictedSpread {
+  std::vector<double> restitution;  ///< e, 0 where captured; NaN without an answer
+  /// Of the prediction, in units of the variance of one impact: how far the parameters are known
+  /// from the points, and how wrong the laws may be there, given how they do on the points.
+  std::vector<double> variance;
+};
+
+/// The predictive distribution of `rival` after the points of `base`, linear in the parameters that
+/// move and in the errors of the laws (`LawErrors`), normal: with A the weighted slopes of the
+/// points in both, it has the covariance (A'A + I')^(-1), I' of the errors of laws alone, which are
+/// one a priori.
+/// @param without a mechanism that a changed condition takes away from the possible impacts; null:
+///   none
+PredictedSpread predicted_spread(const SearchBase& base, const CandidateResult& rival,
+                                 const PossibleImpacts& possible,
+                                 const Mechanism* without = nullptr);
+
+}  // namespace recoil

@@ -1,0 +1,50 @@
+// Saves the pictures of a page: beside each a link to it as SVG and one to its data as CSV, made of
+// what is in the page. The data of a picture are a JSON string in the script of class csv after it,
+// with runs of commas counted (html.cpp).
+"use strict";
+
+document.addEventListener("DOMContentLoaded", () => {
+  // "Restitution against V, d = 2.58 µm": restitution-against-v-d-2.58-um
+  const fileName = text => text.toLowerCase().replace(/µ/g, "u").replace(/[^a-z0-9.]+/g, "-")
+                               .replace(/^[-.]+|[-.]+$/g, "");
+  const page = document.body.dataset.name;
+
+  // The file is made when it is asked for: a picture may have changed since the page was read.
+  function link(label, file, type, content) {
+    const made = document.createElement("a");
+    made.textContent = label;
+    made.title = file;
+    made.download = file;
+    made.href = "data:,";
+    made.addEventListener("click", () => {
+      const address = URL.createObjectURL(new Blob([content()], {type}));
+      made.href = address;
+      setTimeout(() => URL.revokeObjectURL(address), 60000);
+    });
+    return made;
+  }
+
+  for (const picture of document.querySelectorAll(".picture")) {
+    const svg = picture.querySelector("svg");
+    if (!svg) continue;
+    const figure = picture.closest("figure");
+    const title = fileName(svg.getAttribute("aria-label") || svg.id);
+    const name = page ? page + "-" + title : title;
+    const links = document.createElement("p");
+    links.className = "save";
+    links.append("Save: ", link("SVG", name + ".svg", "image/svg+xml", () => {
+      const alone = svg.cloneNode(true);
+      const [, , width, height] = svg.getAttribute("viewBox").split(" ");
+      alone.setAttribute("width", width);
+      alone.setAttribute("height", height);
+      return new XMLSerializer().serializeToString(alone);
+    }));
+    const data = (figure || picture.parentNode).querySelector("script.csv");
+    if (data) {
+      links.append(" ", link("CSV", name + ".csv", "text/csv", () =>
+        JSON.parse(data.textContent)
+            .replace(/&(\d+);/g, (_, n) => (n === "0" ? "&" : ",".repeat(Number(n))))));
+    }
+    if (figure) figure.append(links); else picture.after(links);
+  }
+});

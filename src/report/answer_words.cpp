@@ -1,0 +1,411 @@
+#include "report/answer_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/text.hpp"
+#include "document/sentence.hpp"
+#include "mechanism/catalogue.hpp"
+#include "report/format.hpp"
+#include "report/words_diagnosis.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_titles = 3;    // of tests that found something
+constexpr std::size_t most_expected = 3;  // effects of stated conditions
+constexpr std::size_t most_impossible = 2;
+
+/// "gas film (gas between the measuring plane and the contact)"
+std::string title_of(const std::string& id) {
+  const Mechanism* mechanism = find_mechanism(id);
+  return mechanism == nullptr ? words_of(id)
+                              : fmt::format("{} ({})", words_of(id), mechanism->info.title);
+}
+
+std::string titles_of(const std::vector<std::string>& ids, const char* between) {
+  std::vector<std::string> titles;
+  for (const std::string& id : ids) titles.push_back(title_of(id));
+  return fmt::format("{}", fmt::join(titles, between));
+}
+
+std::string gain_words(const Diagnosis& d) {
+  if (!d.gain || d.gain->folds.empty()) return "";
+  std::string text = fmt::format(
+      "Points that were held out are predicted with an error of {:.3g} in e instead of {:.3g}",
+      d.gain->rmse_extended, d.gain->rmse_base);
+  if (d.gain->relative < 0.0) {
+    text += fmt::format(" ({:.0f} % more: what holds elsewhere does not hold there)",
+                        -100.0 * d.gain->relative);
+  } else if (d.gain->lower && d.gain->upper) {
+    text += fmt::format(" ({:.0f} % less, 95 % interval {:.0f} to {:.0f} %)",
+                        100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper);
+  }
+  return text + ".";
+}
+
+/// The candidate of one mechanism; null where it was not tried.
+const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
+  const auto found =
+      std::find_if(d.candidates.begin(), d.candidates.end(), [&](const CandidateResult& c) {
+        return c.candidate.added.size() == 1 && c.candidate.added.front() == id;
+      });
+  return found == d.candidates.end() ? nullptr : &*found;
+}
+
+/// The experiment that would tell most for its effort.
+std::string experiment_words(const Diagnosis& d) {
+  if (d.experiments.empty()) {
+    return has_one_size(d.base.data)
+               ? "Measure spheres of other diameters: how an effect depends on size tells one "
+                 "cause "
+                 "from another."
+               : "No impacts that such an experiment could add would tell them apart: change what "
+                 "it is made on, or with.";
+  }
+  const NextExperiment& next = d.experiments.front();
+  const std::string impacts =
+      fmt::format("{} impact{} of {} at {:.3g} m/s", next.events, next.events == 1 ? "" : "s",
+                  diameter_words(next.diameter), next.velocity);
+  const std::string apart = fmt::format(
+      "with {}, e is {} there by {:.2g} than with {}", words_of(next.one),
+      next.difference > 0.0 ? "higher" : "lower", std::abs(next.difference), words_of(next.other));
+  if (next.kind == ExperimentKind::condition) {
+    return fmt::format("To find out, {} and measure {}: {}.", next.doing, impacts, apart);
+  }
+  return fmt::format("To find out, measure {}: {}.", impacts, apart);
+}
+
+std::string dominant_point_words(const Diagnosis& d) {
+  const std::optional<std::size_t> worst = dominant_point(d);
+  if (!worst) return "";
+  const Observation& point = d.base.data.points[*worst];
+  return fmt::format(
+      "Most of the misfit is one point, of {} at {:.3g} m/s (e = {:.3g}): look at that first.",
+      diameter_words(point.diameter), point.velocity, point.restitution);
+}
+
+std::string errors_words(const UnstatedErrors& errors) {
+  if (errors.source == ErrorSource::shared_setting) {
+    return fmt::format(
+        "an error of {:.2g} in e that all points of one setting of the apparatus have in common "
+        "leaves nothing systematic (p = {:.2g}): repeating one setting does not average it out",
+        errors.value, errors.remaining_p);
+  }
+  return errors.source == ErrorSource::velocity_errors
+             ? fmt::format(
+                   "velocities uncertain by {:.2g} % each (velocity_relative_sd = {:.2g} "
+                   "under [noise]) leave nothing systematic (p = {:.2g})",
+                   100.0 * errors.value, errors.value, errors.remaining_p)
+             : fmt::format(
+                   "standard deviations {:.2g} times as large leave nothing systematic "
+                   "(p = {:.2g})",
+                   errors.value, errors.remaining_p);
+}
+
+std::string rival_errors_words(const Diagnosis& d) {
+  const std::vector<UnstatedErrors> rivals = rival_errors(d);
+  if (rivals.empty()) return "";
+  std::vector<std::string> words;
+  for (const UnstatedErrors& errors : rivals) words.push_back(errors_words(errors));
+  const double behind = d.extended ? rivals.front().delta_aicc - d.extended->delta_aicc : 0.0;
+  return fmt::format(
+      "Unstated errors would explain the misfit {}: {}.",
+      !d.extended ? "without any cause"
+      : behind > d.options.margin
+          ? fmt::format("too, though less well (AICc larger by {:.0f} than with two causes)",
+                        behind)
+          : "as well",
+      fmt::join(words, "; "));
+}
+
+/// What the residuals show.
+std::string found_words(const Diagnosis& d) {
+  std::vector<std::string> found;
+  for (const StructureTest& test : d.structure.tests) {
+    if (test.p_value > 0.01) continue;
+    if (found.size() == most_titles) {
+      found.emplace_back("and more");
+      break;
+    }
+    const bool one_size = test.question == StructureQuestion::size && has_one_size(d.base.data);
+    found.push_back(one_size ? "the points as a whole lie above or below the model"
+                             : words_of(test.question));
+  }
+  return fmt::format("{}", fmt::join(found, ", "));
+}
+
+/// What is wrong.
+std::string wrong_words(const Diagnosis& d) {
+  const std::string p = p_words(d.structure.p_value, d.structure.simulated);
+  if (d.verdict == Verdict::adequate) {
+    return fmt::format(
+        "Nothing systematic is left in the residuals of the fitted model ({}: the share of data "
+        "sets simulated with the model that look as systematic).",
+        p);
+  }
+  const std::string where = where_words(d);
+  if (!where.empty()) return fmt::format("{} ({}).", where, p);
+  const std::string found = found_words(d);
+  return fmt::format("The fitted model leaves structure in its residuals ({}){}{}.", p,
+                     found.empty() ? "" : ": ", found);
+}
+
+std::string several_words(const Diagnosis& d) {
+  const std::string all = titles_of(d.rivals, "; ");
+  if (has_one_size(d.base.data)) {
+    return fmt::format(
+        "One diameter does not show how an effect depends on size, which is what tells one cause "
+        "from another; any of these would do: {}.",
+        all);
+  }
+  if (!d.shared_cause.empty()) {
+    return fmt::format("The cause is {}; which of its laws holds, these data cannot tell: {}.",
+                       d.shared_cause, all);
+  }
+  if (d.extended->candidate.added.size() > 1) {
+    std::vector<std::string> others = d.rivals;
+    std::erase_if(others, [&](const std::string& id) {
+      return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
+    });
+    return d.common.empty()
+               ? fmt::format("It takes two causes at once, and these data cannot tell which: {}.",
+                             all)
+               : fmt::format("It takes two causes at once: {}, and one of {}.",
+                             titles_of(d.common, " and "), titles_of(others, "; "));
+  }
+  return fmt::format("These data cannot tell which of these causes it is: {}.", all);
+}
+
+/// What has the shape of the misfit, and why it is not believed all the same.
+std::string resembling_words(const Diagnosis& d) {
+  const CandidateResult* const first = single_named(d, d.resembles.front());
+  const std::string shape =
+      fmt::format("The misfit looks like {}", titles_of(d.resembles, ", or like "));
+  return first == nullptr
+             ? shape + ", which cannot be."
+             : fmt::format("{}, which cannot be its cause ({}); no plausible cause comes as close.",
+                           shape, because_words(*first));
+}
+
+/// Why nothing is named.
+std::string unexplained_words(const Diagnosis& d) {
+  if (!d.resembles.empty()) return resembling_words(d);
+  if (!d.outdone.empty()) {
+    return fmt::format(
+        "It would be explained by {}, but as well by unstated errors, which assume less: no cause "
+        "is named.",
+        words_of(d.outdone));
+  }
+  if (!rival_errors(d).empty()) return rival_errors_words(d);
+  if (dominant_point(d)) return dominant_point_words(d);
+  if (const CandidateResult* const closest = closest_cause(d)) {
+    return fmt::format(
+        "Nothing in the catalogue explains it; the closest is {}, which takes {:.0f} % of the "
+        "misfit and leaves more than noise ({}).",
+        title_of(closest->candidate.name()), 100.0 * (1.0 - closest->remaining_part),
+        p_words(closest->remaining_p, quick_samples));
+  }
+  if (!d.structure.smooth) {
+    return "Nothing in the catalogue explains it, and it has no shape in velocity and size: the "
+           "points scatter more than their stated standard deviations.";
+  }
+  return "Nothing in the catalogue explains it, alone or two at a time.";
+}
+
+/// What to do where nothing is named.
+std::string advice_words(const Diagnosis& d) {
+  if (!d.outlying.empty()) return "Look at the points that were set aside first.";
+  if (dominant_point(d)) return "Look at that point first.";
+  if (!rival_errors(d).empty() || !d.structure.smooth) {
+    return "State the errors that the measurement has (restitution_sd, velocity_sd, setting), and "
+           "ask again.";
+  }
+  if (d.free_form_p <= 0.01) {
+    return "Look at the rows themselves: a smooth function of velocity and size does not describe "
+           "the misfit either.";
+  }
+  return "A smooth function of velocity and size describes it: there is an effect that this "
+         "program does not know, a law that differs from the catalogue's, or something that acts "
+         "on "
+         "some of the points only.";
+}
+
+/// An adequate model that nothing could have shown wrong.
+std::string evidence_words(const Diagnosis& d) {
+  const Evidence evidence = evidence_for(d);
+  if (!evidence.hardly_any()) return "";
+  return fmt::format(
+      "With {} points that rebounded and {} free parameters hardly any misfit could have been "
+      "seen: this is no evidence for the model.",
+      evidence.rebounds, evidence.free);
+}
+
+/// That the errors of the materials make the model adequate, and which of them; empty when not.
+std::string materials_words(const Diagnosis& d) {
+  if (!d.materials) return "";
+  std::string moved;
+  for (std::size_t k = 0; k < d.base.constants_moved.size(); ++k) {
+    const double by = d.base.constants_moved[k];
+    constexpr double worth_a_word = 0.5;  // standard deviations
+    if (std::abs(by) < worth_a_word) continue;
+    moved += fmt::format("{}{} by {:+.1f}", moved.empty() ? ": " : ", ",
+                         d.base.model.slots[d.base.model.first_constant() + k].label(), by);
+  }
+  return fmt::format(
+      "It does so within the errors of the material constants{}{}; with exact constants structure "
+      "would be left (p = {:.2g}).",
+      moved, moved.empty() ? "" : " standard deviations", d.materials->p_value_exact);
+}
+
+/// What the conditions of the data say must be there, the largest effect first.
+std::vector<std::string> expected_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  for (const ExpectedEffect& effect : d.expected) {
+    if (words.size() == most_expected) break;
+    words.push_back(fmt::format(
+        "At the stated {} of {:.4g}{}, {} changes e by {:+.2g} at most ({} at {:.3g} m/s).",
+        condition_words(effect.condition), effect.stated,
+        unit_suffix(info_of(effect.condition).unit), title_of(effect.id), effect.change,
+        diameter_words(effect.diameter), effect.velocity));
+  }
+  return words;
+}
+
+/// Those that would have gained as much as the answer, but are not possible.
+std::vector<std::string> impossible_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  const double answer = d.extended ? d.extended->delta_aicc + d.options.margin : 0.0;
+  for (const CandidateResult& c : d.candidates) {
+    const bool said = !d.resembles.empty() && d.resembles.front() == c.candidate.name();
+    if (said || c.plausible || c.delta_aicc >= answer) continue;
+    if (words.size() == most_impossible) break;
+    const bool listed =
+        std::find(d.rivals.begin(), d.rivals.end(), c.candidate.name()) != d.rivals.end();
+    words.push_back(as_sentence(listed
+                                    ? fmt::format("{} is listed though hardly plausible ({})",
+                                                  words_of(c.candidate.name()), set_aside_words(c))
+                                    : fmt::format("{} is set aside because {}",
+                                                  words_of(c.candidate.name()), because_words(c))));
+  }
+  return words;
+}
+
+std::string verdict_words(const AnswerForAll& answer) {
+  const std::string verdict = to_string(answer.verdict);
+  const std::vector<std::string>& ids = !answer.named.empty()    ? answer.named
+                                        : !answer.rivals.empty() ? answer.rivals
+                                                                 : answer.resembles;
+  return ids.empty() ? verdict : fmt::format("{} ({})", verdict, fmt::join(ids, ", "));
+}
+
+/// What knowing how velocities were measured would exclude.
+std::string method_words(const Diagnosis& d) {
+  const bool unknown =
+      std::any_of(d.datasets.begin(), d.datasets.end(),
+                  [](const Dataset& dataset) { return dataset.system.method == Method::unknown; });
+  std::vector<std::string> words;
+  for (const auto* ids : {&d.named, &d.rivals, &d.resembles}) {
+    for (const std::string& id : *ids) {
+      const Mechanism* const mechanism = find_mechanism(id);
+      if (mechanism == nullptr || mechanism->info.methods.empty()) continue;
+      std::vector<std::string> methods;
+      for (const Method method : mechanism->info.methods) {
+        methods.push_back(words_of(to_string(method)));
+      }
+      words.push_back(fmt::format("{} only with {}", words_of(id), fmt::join(methods, " or ")));
+    }
+  }
+  if (!unknown || words.empty()) return "";
+  return fmt::format(
+      "The dataset does not say how velocities were measured (recoil.method), which would decide "
+      "some of these: {}.",
+      fmt::join(words, ", "));
+}
+
+/// Which points were set aside, and what the answer would be with them; empty where none were.
+std::string outlying_words(const Diagnosis& d) {
+  if (d.outlying.empty()) return "";
+  std::vector<std::string> rows;
+  for (const OutlyingPoint& point : d.outlying) {
+    rows.push_back(fmt::format(
+        "line {}{} ({} at {:.3g} m/s, e = {:.3g}: {:+.1f} standard deviations)", point.line,
+        d.datasets.size() > 1 ? " of " + d.datasets[point.dataset].id : "",
+        diameter_words(point.diameter), point.velocity, point.restitution, point.residual));
+  }
+  return fmt::format(
+      "{} so far from what the others predict that {} set aside: {}. With {} the answer would be "
+      "{}.",
+      rows.size() == 1 ? "One point lies" : fmt::format("{} points lie", rows.size()),
+      rows.size() == 1 ? "it was" : "they were", fmt::join(rows, "; "),
+      rows.size() == 1 ? "it" : "them", verdict_words(*d.for_all));
+}
+
+}  // namespace
+
+std::vector<std::string> answer_sentences(const Diagnosis& d) {
+  std::vector<std::string> sentences = {wrong_words(d)};
+  switch (d.verdict) {
+    case Verdict::adequate:
+      sentences.push_back(evidence_words(d));
+      sentences.push_back(materials_words(d));
+      break;
+    case Verdict::cause_named:
+      sentences.push_back(d.named.size() == 1
+                              ? fmt::format("Of all mechanisms in the catalogue, only {} explains "
+                                            "it.",
+                                            title_of(d.named.front()))
+                              : fmt::format("Of all mechanisms in the catalogue, only {} together "
+                                            "explain it.",
+                                            titles_of(d.named, " and ")));
+      sentences.push_back(gain_words(d));
+      break;
+    case Verdict::not_separable:
+      sentences.push_back(several_words(d));
+      sentences.push_back(experiment_words(d));
+      break;
+    case Verdict::unexplained:
+      sentences.push_back(unexplained_words(d));
+      sentences.push_back(advice_words(d));
+      break;
+  }
+  std::erase(sentences, "");
+  return sentences;
+}
+
+std::vector<std::string> answer_notes(const Diagnosis& d) {
+  std::vector<std::string> notes = {outlying_words(d)};
+  const auto add = [&](const std::vector<std::string>& more) {
+    notes.insert(notes.end(), more.begin(), more.end());
+  };
+  if (d.extended) {
+    notes.push_back(fmt::format("The extended model takes {}: {}.",
+                                words_of(d.extended->candidate.name()),
+                                parameters_words(*d.extended)));
+    if (d.verdict != Verdict::cause_named) notes.push_back(gain_words(d));
+  }
+  const bool told = d.verdict == Verdict::unexplained && d.resembles.empty() && d.outdone.empty();
+  if (!told) notes.push_back(rival_errors_words(d));
+  const bool shown = d.verdict != Verdict::adequate && !where_words(d).empty();
+  if (const std::string found = found_words(d); shown && !found.empty()) {
+    notes.push_back(fmt::format("What the residuals show: {}.", found));
+  }
+  add(expected_words(d));
+  if (d.verdict != Verdict::adequate) {
+    add(impossible_words(d));
+    notes.push_back(method_words(d));
+  }
+  std::erase(notes, "");
+  return notes;
+}
+
+std::string answer_words(const Diagnosis& d) {
+  std::vector<std::string> all = answer_sentences(d);
+  for (std::string& note : answer_notes(d)) all.push_back(std::move(note));
+  return fmt::format("{}", fmt::join(all, " "));
+}
+
+}  // namespace recoil

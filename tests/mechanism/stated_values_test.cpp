@@ -1,0 +1,89 @@
+// What stated conditions make of parameters, worked out by hand.
+#include <gtest/gtest.h>
+
+#include "mechanism/catalogue.hpp"
+#include "one_point.hpp"
+
+namespace recoil {
+namespace {
+
+std::optional<double> stated(const std::string& id, std::size_t parameter, Condition condition,
+                             double value, const Surroundings& at = one_point::kSoft) {
+  Conditions conditions;
+  conditions.set(condition, value);
+  return stated_value(find_mechanism(id)->info.parameters.at(parameter), at, conditions);
+}
+
+TEST(StatedValues, NothingIsSaidWithoutACondition) {
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    for (const Parameter& parameter : mechanism.info.parameters) {
+      EXPECT_EQ(stated_value(parameter, one_point::kSoft, {}), std::nullopt) << parameter.name;
+    }
+  }
+}
+
+TEST(StatedValues, AGasHasThePressureAndTheWayThatAreStated) {
+  EXPECT_EQ(stated("gas_film", 0, Condition::ambient_pressure, 101325.0), 101325.0);
+  EXPECT_EQ(stated("gas_film", 1, Condition::probe_height, 2e-3), 2e-3);
+  EXPECT_EQ(stated("gas_film", 0, Condition::probe_height, 2e-3), std::nullopt);
+  // Flights may have been reduced already, but in vacuum nothing brakes them.
+  EXPECT_EQ(stated("flight_drag", 0, Condition::ambient_pressure, 101325.0), std::nullopt);
+  EXPECT_EQ(stated("flight_drag", 0, Condition::ambient_pressure, 1.0), 0.0);
+}
+
+/// gamma V_m / (R T) = 0.0728 N/m 1.805e-5 m3/mol / (8.31446 J/(mol K) 293.15 K) = 0.53912 nm.
+TEST(StatedValues, ABridgeIsAsLongAsTheMeniscusIsWide) {
+  const auto length = [](double h) {
+    return stated("capillary", 0, Condition::relative_humidity, h).value();
+  };
+  EXPECT_NEAR(length(0.5), 0.53912e-9 / 0.693147, 1e-14);
+  EXPECT_NEAR(length(0.9), 0.53912e-9 / 0.105361, 1e-13);
+  EXPECT_EQ(length(0.0), 0.0);
+  EXPECT_EQ(length(1.0), 1e-5);  // where water condenses anyhow: the largest that is tried
+}
+
+/// A wafer of silicon, 0.5 mm: (4 / sqrt(3)) (0.5 mm)^2 (131 GPa 2330 kg/m3 / (1 - 0.28^2))^(1/2)
+/// = 10.507 kg/s.
+TEST(StatedValues, APlateYieldsByItsThickness) {
+  ImpactSystem wafer = one_point::fluorescein();
+  wafer.surface = {"silicon", 2330.0, 131e9, 0.28, {}};
+  const Surroundings at = one_point::around(wafer);
+  EXPECT_NEAR(stated("plate_flexure", 0, Condition::target_thickness, 0.5e-3, at).value(),
+              1.0 / 10.507, 1e-5);
+  EXPECT_NEAR(stated("plate_flexure", 0, Condition::target_thickness, 1e-3, at).value(),
+              0.25 / 10.507, 1e-5);
+  wafer.surface.density = 0.0;  // not stated: nobody knows how heavy it is
+  EXPECT_EQ(stated("plate_flexure", 0, Condition::target_thickness, 1e-3, one_point::around(wafer)),
+            std::nullopt);
+}
+
+TEST(StatedValues, SomeConditionsOnlyTakeAway) {
+  EXPECT_EQ(stated("electrostatic_image", 0, Condition::neutralised, 1.0), 0.0);
+  EXPECT_EQ(stated("electrostatic_image", 0, Condition::neutralised, 0.0), std::nullopt);
+  EXPECT_EQ(stated("asperity_loss", 0, Condition::surface_rms_roughness, 5e-10), 0.0);
+  EXPECT_EQ(stated("asperity_loss", 0, Condition::surface_rms_roughness, 5e-8), std::nullopt);
+  EXPECT_EQ(stated("probe_plane", 0, Condition::probe_height, 0.0), 0.0);
+  EXPECT_EQ(stated("probe_plane", 0, Condition::probe_height, 1e-3), std::nullopt);
+}
+
+/// Whatever a condition takes away does nothing at the value that the catalogue advises.
+TEST(StatedValues, WhatIsAdvisedTakesAway) {
+  int advised = 0;
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    if (!mechanism.info.taken_away) continue;
+    ++advised;
+    const Parameter& strength = mechanism.info.parameters.front();
+    ASSERT_TRUE(strength.stated_by) << mechanism.info.id;
+    Conditions changed;
+    changed.set(mechanism.info.taken_away->condition, mechanism.info.taken_away->value);
+    const auto value = stated_value(strength, one_point::kSoft, changed);
+    ASSERT_TRUE(value) << mechanism.info.id;
+    EXPECT_LT(std::abs(*value - strength.null_value),
+              1e-3 * (strength.initial - strength.null_value))
+        << mechanism.info.id;
+  }
+  EXPECT_GE(advised, 7);
+}
+
+}  // namespace
+}  // namespace recoil
