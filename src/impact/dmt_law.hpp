@@ -28,7 +28,11 @@ struct DmtLaw : HertzRadius {
     return {g.alpha, strength(g), g.gamma};
   }
   static std::array<double, constants> constants_of(const ImpactGroups&) { return {}; }
-  static LawPath path_of(const ImpactGroups& g) { return {.resting = std::cbrt(strength(g))}; }
+  /// At the deepest q^3 = (5/2) p + (5/4) q^(-2), which is less than with q = (5/4)^(1/5).
+  static LawPath path_of(const ImpactGroups& g) {
+    const double p = strength(g);
+    return {.resting = std::cbrt(p), .deepest = std::cbrt(2.5 * p + 1.143262629818316)};
+  }
 
   template <class Q, class U, class Alpha, class P, class Gamma, class Acts>
   static constexpr auto acceleration(const Q& q, const U& u, const Acts& acts, const Alpha& alpha,

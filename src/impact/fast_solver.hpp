@@ -6,12 +6,13 @@
 
 namespace recoil {
 
-/// e^2 and its gradient by a method of fixed order on the regularised field, several impacts per
-/// SIMD register (impact/flights.hpp): about a thousand times faster than the reference, and never
-/// a different answer. Certified against the reference over a wide box, see
+/// e^2 and its gradient, several impacts per SIMD register: the two phases as integral equations
+/// (impact/phases.hpp), or where these do not converge by a method of fixed order on the
+/// regularised field (impact/flights.hpp). Hundreds to thousands of times faster than the
+/// reference, and never a different answer. Certified against the reference over a wide box, see
 /// tests/impact/fast_solver_test.cpp: e^2 to 1e-9, gradient to 1e-7.
 ///
-/// Where the method cannot hold its accuracy (too many or too small steps) the reference answers
+/// Where neither can hold its accuracy (too many or too small steps) the reference answers
 /// instead, and is counted. The same digits come out for an impact alone or among others, at any
 /// register width. No memory is allocated.
 /// `options.budget` is not supported here. @pre !options.budget, results.size() == groups.size()

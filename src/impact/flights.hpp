@@ -2,16 +2,15 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <experimental/simd>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "impact/dop853.hpp"
 #include "impact/force_law.hpp"
 #include "impact/impact.hpp"
-#include "impact/partial.hpp"
-#include "impact/with_dashpot.hpp"
+#include "impact/law_lanes.hpp"
 
 namespace recoil {
 
@@ -35,9 +34,11 @@ namespace recoil {
 template <class Law, class Pack, bool with_gradient>
 class Flights {
  public:
-  Flights(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-          std::span<ImpactResult> results)
+  /// @param order which impacts of `groups` to fly
+  Flights(std::span<const ImpactGroups> groups, std::span<const std::uint32_t> order,
+          const ImpactOptions& options, std::span<ImpactResult> results)
       : queue_(groups),
+        order_(order),
         results_(results),
         phase_(options.phase),
         tolerance_(options.fast_tolerance) {}
@@ -172,18 +173,7 @@ class Flights {
     return field_here(q, u);
   }
   [[gnu::always_inline]] auto field_here(const Pack& q, const Pack& u) const {
-    return [&]<unsigned... k, unsigned... c>(std::integer_sequence<unsigned, k...>,
-                                             std::integer_sequence<unsigned, c...>) {
-      if constexpr (with_gradient) {
-        return Law::acceleration(q, variable<0>(u), acts_, variable<k + 1>(groups_[k])...,
-                                 constants_[c]...);
-      } else {
-        return Partial<Pack, 0U>{Law::acceleration(q, u, acts_, groups_[k]..., constants_[c]...),
-                                 {}};
-      }
-    }
-    (std::make_integer_sequence<unsigned, parameters>{},
-     std::make_integer_sequence<unsigned, Law::constants>{});
+    return law_.field(q, u, acts_);
   }
 
   /// Accepts, repeats or turns into a landing the step of every lane.
@@ -209,7 +199,7 @@ class Flights {
     landing_ = (landing_ || crosses) && !landed;
     Mask at_end = landed;
     if constexpr (is_long) {
-      Pack& side = constants_.back();
+      Pack& side = law_.constants.back();
       where(landed && to_seam_, side) = 1.0 - side;
       at_end = landed && !to_seam_;
       where(landed, to_seam_) = false;
@@ -267,12 +257,7 @@ class Flights {
     return energy_here(q, u);
   }
   [[gnu::always_inline]] Pack energy_here(const Pack& q, const Pack& u) const {
-    return 0.5 * u * u + [&]<unsigned... k, unsigned... c>(std::integer_sequence<unsigned, k...>,
-                                                           std::integer_sequence<unsigned, c...>) {
-      return Law::potential(q, groups_[k]..., constants_[c]...);
-    }
-    (std::make_integer_sequence<unsigned, parameters>{},
-     std::make_integer_sequence<unsigned, Law::constants>{});
+    return 0.5 * u * u + law_.potential(q);
   }
 
   void finish_lanes() {
@@ -295,42 +280,22 @@ class Flights {
     // At rest in the well the path no longer matters, only the depth.
     const double q = settled_[lane] ? resting_q_[lane] : q_[lane];
     const double u = settled_[lane] ? 0.0 : double(u_[lane]);
-    [&]<unsigned... k, unsigned... c>(std::integer_sequence<unsigned, k...>,
-                                      std::integer_sequence<unsigned, c...>) {
-      const Partial<double, (1U << parameters) - 1U> none{};
-      const auto potential = Law::potential(q, variable<k>(double(groups_[k][lane]))...,
-                                            double(constants_[c][lane])...) +
-                             none;
-      result.restitution_squared = u * u + 2.0 * potential.value;
-      if constexpr (with_gradient) {
-        const auto area = [&](unsigned p) {
-          return settled_[lane] ? 0.0 : areas_[p][lane] / mu_[lane];
-        };
-        result.gradient = impact_gradient<Law>(
-            queue_[impact_[lane]], {2.0 * (area(k) + potential.template derivative<k>())...});
-      }
-    }
-    (std::make_integer_sequence<unsigned, parameters>{},
-     std::make_integer_sequence<unsigned, Law::constants>{});
-    result.outcome =
-        result.restitution_squared > 0.0 ? ImpactOutcome::rebound : ImpactOutcome::captured;
+    const auto area = [&](unsigned k) {
+      return settled_[lane] ? 0.0 : areas_[k][lane] / mu_[lane];
+    };
+    law_.write(lane, queue_[impact_[lane]], q, u, area, result);
   }
 
   /// Puts the next impact of the queue into `lane`; an idle lane flies an impact that counts for
   /// nothing.
   void take_next(std::size_t lane) {
-    const bool work = next_ < queue_.size();
-    const ImpactGroups groups = work ? queue_[next_] : ImpactGroups{};
-    impact_[lane] = next_;
+    const bool work = next_ < order_.size();
+    impact_[lane] = work ? order_[next_] : 0;
+    const ImpactGroups groups = work ? queue_[impact_[lane]] : ImpactGroups{};
     next_ += work ? 1 : 0;
     busy_[lane] = work;
-    const std::array<double, parameters> values = Law::groups_of(groups);
-    for (unsigned k = 0; k < parameters; ++k) {
-      groups_[k][lane] = values[k];
-      areas_[k][lane] = 0.0;
-    }
-    const std::array<double, Law::constants> constants = Law::constants_of(groups);
-    for (unsigned c = 0; c < Law::constants; ++c) constants_[c][lane] = constants[c];
+    law_.set(lane, groups);
+    for (Pack& area : areas_) area[lane] = 0.0;
     const LawPath path = Law::path_of(groups);
     release_[lane] = path.release;
     acts_[lane] = phase_ == AdhesionDampingPhase::both ? 1.0 : 0.0;
@@ -362,14 +327,14 @@ class Flights {
   }
 
   std::span<const ImpactGroups> queue_;
+  std::span<const std::uint32_t> order_;
   std::span<ImpactResult> results_;
   AdhesionDampingPhase phase_;
   double tolerance_;  // error of q and u per step; both are of order one
   std::size_t next_ = 0;
   std::array<std::size_t, lanes> impact_ = {};  // which one flies in each lane
 
-  std::array<Pack, parameters> groups_ = {};
-  std::array<Pack, Law::constants> constants_ = {};
+  LawLanes<Law, Pack, with_gradient> law_;
   Pack release_ = 0.0;  // its q
   Pack acts_ = 0.0;     // whether the adhesion damping acts: 0 or 1
   Pack q_ = 0.0, u_ = 0.0, mu_ = 0.0;

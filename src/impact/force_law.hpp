@@ -71,9 +71,10 @@ inline bool creeps_into_the_well(const ImpactGroups& groups) {
 
 /// Where an impact begins and ends, in the q of its law.
 struct LawPath {
-  double start = 0.0;        ///< at touch
-  double release = 0.0;      ///< du/dsigma = 0 here, and the potential energy
-  double resting = 0.0;      ///< the bottom of the well, where a sphere that stays comes to rest
+  double start = 0.0;    ///< at touch
+  double release = 0.0;  ///< du/dsigma = 0 here, and the potential energy
+  double resting = 0.0;  ///< the bottom of the well, where a sphere that stays comes to rest
+  double deepest = 0.0;  ///< not before the deepest point of an undamped impact, and close to it
   double range_slope = 0.0;  ///< d start / d (the group `range`)
   /// Is the law another on either side of q = 0? It is smooth on each, and the last of its
   /// constants is 1 where q < 0 and else 0.
@@ -111,7 +112,11 @@ struct RingAdhesionLaw : HertzRadius {
     return {g.alpha, g.beta, g.gamma};
   }
   static std::array<double, constants> constants_of(const ImpactGroups&) { return {}; }
-  static LawPath path_of(const ImpactGroups& g) { return {.resting = std::sqrt(g.beta)}; }
+  /// At the deepest x = (5/3) beta + (5/4) x^(-3/2), which is less than with x = (5/4)^(2/5).
+  static LawPath path_of(const ImpactGroups& g) {
+    return {.resting = std::sqrt(g.beta),
+            .deepest = std::sqrt(5.0 / 3.0 * g.beta + 1.0933620739432781)};
+  }
 
   template <class Q, class U, class Alpha, class Beta, class Gamma, class Acts>
   static constexpr auto acceleration(const Q& q, const U& u, const Acts& acts, const Alpha& alpha,

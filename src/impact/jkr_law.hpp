@@ -40,9 +40,14 @@ struct JkrLaw {
     return {g.alpha, strength(g), g.gamma};
   }
   static std::array<double, constants> constants_of(const ImpactGroups&) { return {}; }
-  /// From 4^(1/3) - 1; it rests at 6^(1/3) - 1.
-  static LawPath path_of(const ImpactGroups&) {
-    return {.start = 0.58740105196819947475, .resting = 0.81712059283213965889};
+  /// From 4^(1/3) - 1; it rests at 6^(1/3) - 1. At the deepest z^10 < 10 z^7 + 5 / lambda, so that
+  /// z^3 < 10 + (5 / lambda)^(3/10) = 10 + 6 (5/4)^(3/10) beta^(-3/4).
+  static LawPath path_of(const ImpactGroups& g) {
+    const double hertz =
+        6.0 * 1.069234599991188 / (std::sqrt(g.beta) * std::sqrt(std::sqrt(g.beta)));
+    return {.start = 0.58740105196819947475,
+            .resting = 0.81712059283213965889,
+            .deepest = std::cbrt(10.0 + hertz) - 1.0};
   }
 
   template <class Q, class U, class Alpha, class Lambda, class Gamma, class Acts>

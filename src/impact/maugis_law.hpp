@@ -48,8 +48,12 @@ struct MaugisLaw {
   }
   static LawPath path_of(const ImpactGroups& g) {
     const MaugisPath path = maugis_path(g.range);
-    return {path.start / path.scale, path.release / path.scale, path.resting / path.scale,
-            path.start_slope / path.scale, path.release < 0.0};
+    return {.start = path.start / path.scale,
+            .release = path.release / path.scale,
+            .resting = path.resting / path.scale,
+            .deepest = deepest_of(g) / path.scale,
+            .range_slope = path.start_slope / path.scale,
+            .seam = path.release < 0.0};
   }
 
   template <class Q, class U, class Acts, class Alpha, class Strength, class Gamma, class Lambda,
@@ -122,6 +126,17 @@ struct MaugisLaw {
     const MaugisPath path = maugis_path(g.range);
     const double curvature = path.cusp * path.scale * path.scale * strength(g);
     return std::sqrt(energy / std::max(curvature, 0.5));
+  }
+
+  /// s where c / a is as close to 1 as it is there: with t = 1 / s small the equation for c says
+  /// s^3 = (2/3) lambda a^2 + (2/3) lambda^2 a s. The a is that of JkrLaw.
+  static double deepest_of(const ImpactGroups& g) {
+    const double hertz =
+        6.0 * 1.069234599991188 / (std::sqrt(g.beta) * std::sqrt(std::sqrt(g.beta)));
+    const double root = std::cbrt(10.0 + hertz);
+    const double radius = 0.5503212081491045 * root * root;
+    const double part = 2.0 / 3.0 * g.range * radius;
+    return std::sqrt(part * g.range + std::cbrt(part * radius * part * radius));
   }
 
   /// Below these it is Hertz's contact: V beyond 1e10 V_a, or bodies that attract each other over

@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "impact/dop853.hpp"
+#include "impact/gauss_rule.hpp"
 #include "impact/reference_solver.hpp"
 
 namespace recoil {
@@ -31,6 +33,38 @@ TEST(Dop853, RowsAndWeightsFulfilTheOrderConditionsTheyMust) {
     }
   }
   EXPECT_NEAR(nested, 1.0 / 42.0, 1e-14);
+}
+
+template <class Rule>
+void expect_exact(const Rule& rule) {
+  constexpr std::size_t count = std::tuple_size_v<typename Rule::Row>;
+  const auto integral = [&](const typename Rule::Row& row, int power) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < count; ++j) sum += row[j] * std::pow(rule.node[j], power);
+    return sum;
+  };
+  for (int power = 0; power < 2 * static_cast<int>(count); ++power) {
+    EXPECT_NEAR(integral(rule.weight, power), 1.0 / (power + 1), 1e-15) << "power " << power;
+  }
+  for (int power = 0; power < static_cast<int>(count); ++power) {
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_NEAR(integral(rule.up_to[i], power), std::pow(rule.node[i], power + 1) / (power + 1),
+                  2e-15);
+    }
+    const auto anywhere = rule.integral_up_to(0.3);
+    EXPECT_NEAR(integral(anywhere, power), std::pow(0.3, power + 1) / (power + 1), 2e-15);
+  }
+  // Neither coefficient is in a polynomial of lower degree.
+  EXPECT_NEAR(integral(rule.last, static_cast<int>(count) - 2), 0.0, 1e-13);
+  EXPECT_NEAR(integral(rule.last_but_one, static_cast<int>(count) - 3), 0.0, 1e-13);
+  EXPECT_GT(std::abs(integral(rule.last, static_cast<int>(count) - 1)), 1e-20);
+}
+
+TEST(GaussRule, IsExactForPolynomials) {
+  struct Here {};
+  expect_exact(GaussRule<Here, 8>::made());
+  expect_exact(GaussRule<Here, 20>::made());
+  expect_exact(GaussRule<Here, 28>::made());
 }
 
 struct Draw {
@@ -220,6 +254,20 @@ TEST_P(EveryLaw, AgreesWithTheReferenceWithADashpot) {
     ImpactGroups groups = groups_of(draw);
     groups.kappa = box.between(1e-3, 3.0);
     compare(groups, draw.phase, GetParam());
+  }
+}
+
+// An ordinary impact is solved phase by phase, in a few sweeps over the nodes; to fly it takes 30
+// steps and more.
+TEST_P(EveryLaw, TakesFewSweepsForAnOrdinaryImpact) {
+  for (const double w : {3.0, 10.0, 40.0}) {
+    ImpactOptions options;
+    options.adhesion = GetParam();
+    options.gradient = true;
+    const ImpactResult impact =
+        simulate_impact_fast({0.003 * w, std::pow(w, -0.8), 0.05 * w, 0.0, 8.0}, options);
+    EXPECT_EQ(impact.outcome, ImpactOutcome::rebound);
+    EXPECT_LT(impact.steps, 28) << w;
   }
 }
 
