@@ -14,6 +14,7 @@ enum class RandomPurpose : std::uint32_t {
   held_out = 6,
   constants = 7,
   posterior = 8,
+  settings = 9,
 };
 
 /// A reproducible stream of random numbers that is a pure function of (seed, purpose, replicate):

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "coverage/simulated_impacts.hpp"
+#include "estimate/shared_settings.hpp"
 #include "reconstruction/reconstruction.hpp"
 
 namespace recoil {
@@ -246,10 +247,15 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
     }
     auto next = design.begin();
     RandomStream noise(seed, RandomPurpose::coverage, index);
+    RandomStream of_settings(seed, RandomPurpose::settings, index);
+    const std::vector<double> shared = draw_setting_errors(fit.data, of_settings);
+    auto off = shared.begin();
     std::vector<Dataset> made = datasets;
     for (Dataset& dataset : made) {
       for (ImpactPoint& point : dataset.points) {
         simulate_point(*next++, spread, other_truth, fit.data.sd_stated, noise, point);
+        const double error = *off++;
+        if (!point.all_captured()) point.restitution = std::max(0.0, point.restitution + error);
       }
     }
     return made;

@@ -10,7 +10,8 @@ namespace recoil {
 /// Where every dataset is a reconstruction whose recipe uses the model of the fit, it is the
 /// recipe's: its parameters, its simulator and its noise, with another seed for every data set.
 /// Otherwise the fit's own estimate becomes the truth; the points are simulated at it by the
-/// independent simulator of the reconstructions, with the noise that the points state. Where
+/// independent simulator of the reconstructions, with the noise that the points state and an error
+/// for every setting, where settings share one. Where
 /// captures were counted, every impact is simulated, at a velocity that differs from the stated one
 /// as much as the estimated spread says (log-normal), and counted again.
 /// @throws ComputationError when that fit has no usable answer.

@@ -16,8 +16,12 @@ const ConditionInfo& info_of(Condition condition) {
       {"m", "height of the measuring plane above the surface", 0.0, 10.0,
        "give it in m: 1 mm is 1e-3 m"},
       {"1", "1 where the charge of the spheres was taken off, else 0", 0.0, 1.0,
-       "1 means neutralised, 0 that they were not"},
+       "1 means neutralised, 0 that they were not", true},
       {"m", "root mean square roughness of the surface", 0.0, 1e-3, "give it in m: 1 nm is 1e-9 m"},
+      {"1", "1 where what is read was checked against a known velocity or height, else 0", 0.0, 1.0,
+       "1 means checked, 0 that it was not", true},
+      {"1", "1 where the diameters were checked against a standard, else 0", 0.0, 1.0,
+       "1 means checked, 0 that they were not", true},
   }};
   return all[static_cast<std::size_t>(condition)];
 }

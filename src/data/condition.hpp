@@ -17,14 +17,17 @@ enum class Condition {
   probe_height,           ///< of the measuring plane above the surface [m]
   neutralised,            ///< 0 or 1: the spheres' charge is taken off
   surface_rms_roughness,  ///< [m]
+  velocities_calibrated,  ///< 0 or 1: what is read was checked against a known velocity or height
+  sizes_calibrated        ///< 0 or 1: the diameters were checked against a standard
 };
 
 /// Their names in files.
 template <>
 struct NamesOf<Condition> {
-  static constexpr std::array<std::string_view, 7> names = {
-      "ambient_pressure", "relative_humidity", "temperature",          "target_thickness",
-      "probe_height",     "neutralised",       "surface_rms_roughness"};
+  static constexpr std::array<std::string_view, 9> names = {
+      "ambient_pressure",      "relative_humidity",     "temperature",
+      "target_thickness",      "probe_height",          "neutralised",
+      "surface_rms_roughness", "velocities_calibrated", "sizes_calibrated"};
 };
 
 /// What a condition may be, in SI, and what a value outside of it usually means.
@@ -34,6 +37,7 @@ struct ConditionInfo {
   double lower = 0.0;
   double upper = 0.0;
   std::string_view hint;
+  bool yes_or_no = false;  ///< 1 or 0, and nothing between
 };
 const ConditionInfo& info_of(Condition condition);
 

@@ -213,6 +213,8 @@ Dimension dimension_of(Quantity quantity) {
     case Quantity::events:
     case Quantity::captured:
     case Quantity::neutralised:
+    case Quantity::velocities_calibrated:
+    case Quantity::sizes_calibrated:
       return Dimension::count;
     case Quantity::ambient_pressure:
       return Dimension::pressure;

@@ -36,12 +36,14 @@ enum class Quantity {
   probe_height,
   neutralised,
   surface_rms_roughness,
+  velocities_calibrated,
+  sizes_calibrated,
 };
 
 /// Their names in a schema.
 template <>
 struct NamesOf<Quantity> {
-  static constexpr std::array<std::string_view, 18> names = {"series",
+  static constexpr std::array<std::string_view, 20> names = {"series",
                                                              "diameter",
                                                              "incident_velocity",
                                                              "restitution",
@@ -58,7 +60,9 @@ struct NamesOf<Quantity> {
                                                              "target_thickness",
                                                              "probe_height",
                                                              "neutralised",
-                                                             "surface_rms_roughness"};
+                                                             "surface_rms_roughness",
+                                                             "velocities_calibrated",
+                                                             "sizes_calibrated"};
 };
 
 /// What a quantity measures; a series is a text.

@@ -163,7 +163,7 @@ void read_conditions(const JsonNode& conditions, ImpactSystem& system) {
     const Allowed range{info.lower, info.upper, std::string(info.unit), std::string(info.hint)};
     const auto stated = bounded_if_any(conditions, name, range);
     if (!stated) continue;
-    if (condition == Condition::neutralised && *stated != std::trunc(*stated)) {
+    if (info.yes_or_no && *stated != std::trunc(*stated)) {
       conditions.find(name)->fail(fmt::format("{} = {:g}", name, *stated), "",
                                   std::string(info.hint));
     }

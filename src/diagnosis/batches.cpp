@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/gsl_errors.hpp"
+#include "diagnosis/moving_columns.hpp"
 
 namespace recoil {
 namespace {
@@ -25,11 +26,10 @@ struct Offset {
 /// The offsets that move, each with the diameter of its series.
 std::vector<Offset> moving_offsets(const Observations& data, const CandidateResult& candidate) {
   const ImpactModel& model = candidate.candidate.model;
-  std::size_t first = 0;  // of the batch's parameters among those of the chain
-  for (const Mechanism* mechanism : model.chain) {
-    if (mechanism->is_batch()) break;
-    first += mechanism->info.parameters.size();
-  }
+  const auto batch = std::find_if(model.chain.begin(), model.chain.end(),
+                                  [](const Mechanism* mechanism) { return mechanism->is_batch(); });
+  if (batch == model.chain.end()) return {};
+  const std::size_t first = first_parameter(model, **batch);
   std::map<std::size_t, Offset> found;
   for (const Observation& point : data.points) {
     const std::size_t slot = model.slot_own[first][point.dataset][point.series];
@@ -44,25 +44,16 @@ std::vector<Offset> moving_offsets(const Observations& data, const CandidateResu
 
 /// The covariance of all that moves; the place of each slot in it.
 Eigen::MatrixXd covariance_of(const Refit& refit, std::vector<Eigen::Index>& place) {
-  const std::size_t p = refit.theta.size();
-  const auto n = static_cast<Eigen::Index>(refit.residuals.size());
-  place.assign(p, -1);
-  Eigen::Index moving = 0;
-  for (std::size_t j = 0; j < p; ++j) {
-    if (refit.moving[j]) place[j] = moving++;
+  const auto moving = moving_columns(refit);
+  if (!moving) return {};
+  place.assign(refit.theta.size(), -1);
+  for (std::size_t k = 0; k < moving->slots.size(); ++k) {
+    place[moving->slots[k]] = static_cast<Eigen::Index>(k);
   }
-  Eigen::MatrixXd J(n, moving);
-  for (std::size_t j = 0; j < p; ++j) {
-    for (Eigen::Index i = 0; i < n && place[j] >= 0; ++i) {
-      J(i, place[j]) = refit.jacobian[static_cast<std::size_t>(i) * p + j];
-    }
-  }
-  const Eigen::VectorXd length = J.colwise().norm();
-  if (!(length.minCoeff() > 0.0)) return {};
-  J = J * length.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd inverse =
-      (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
-  return length.cwiseInverse().asDiagonal() * inverse * length.cwiseInverse().asDiagonal();
+      (moving->unit.transpose() * moving->unit).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::VectorXd back = moving->length.cwiseInverse();
+  return back.asDiagonal() * inverse * back.asDiagonal();
 }
 
 }  // namespace

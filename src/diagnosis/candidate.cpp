@@ -130,16 +130,6 @@ std::optional<double> scatter_of_slow_rebounds(const std::vector<Dataset>& datas
   return std::sqrt(sum / static_cast<double>(stated.size()));
 }
 
-/// The place of a mechanism's first parameter among those of the chain.
-std::size_t first_parameter(const ImpactModel& model, const Mechanism& mechanism) {
-  std::size_t first = 0;
-  for (const Mechanism* before : model.chain) {
-    if (before == &mechanism) break;
-    first += before->info.parameters.size();
-  }
-  return first;
-}
-
 /// Which rebounds are too slow to be seen depends on how they scatter, and the points say so.
 void take_stated_scatter(const std::vector<Dataset>& datasets, ParameterSpec& spec) {
   const std::optional<double> stated = scatter_of_slow_rebounds(datasets);
@@ -154,6 +144,31 @@ bool Candidate::adds(const ParameterSlot& slot) const {
 }
 
 std::string Candidate::name() const { return fmt::format("{}", fmt::join(added, " + ")); }
+
+std::size_t first_parameter(const ImpactModel& model, const Mechanism& mechanism) {
+  std::size_t first = 0;
+  for (const Mechanism* before : model.chain) {
+    if (before == &mechanism) break;
+    first += before->info.parameters.size();
+  }
+  return first;
+}
+
+std::vector<const Mechanism*> mechanisms_that_may_act(const FitSpec& spec,
+                                                      const ImpactModel& model) {
+  std::vector<const Mechanism*> possible;
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    const auto& own = spec.mechanisms;
+    if (!mechanism.works_with(spec.adhesion)) continue;
+    if (std::find(own.begin(), own.end(), mechanism.info.id) != own.end()) continue;
+    if (std::none_of(model.surroundings.begin(), model.surroundings.end(),
+                     [&](const Surroundings& at) { return mechanism.acts_at(at); })) {
+      continue;
+    }
+    possible.push_back(&mechanism);
+  }
+  return possible;
+}
 
 const ParameterSlot& strength_at(const ImpactModel& model, const Mechanism& mechanism,
                                  const PointConditions& at) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "estimate/predictor.hpp"
-#include "mechanism/catalogue.hpp"
 
 namespace recoil {
 namespace {
@@ -44,18 +43,10 @@ void add_effects(const SearchBase& base, const Mechanism& mechanism,
 
 std::vector<ExpectedEffect> expected_effects(const SearchBase& base) {
   std::vector<ExpectedEffect> all;
-  for (const Mechanism& mechanism : mechanism_catalogue()) {
-    const auto& own = base.spec.mechanisms;
-    const bool stateable =
-        !mechanism.info.parameters.empty() && mechanism.info.parameters.front().stated_by;
-    const std::vector<Surroundings>& places = base.candidate.model.surroundings;
-    if (!stateable || !mechanism.works_with(base.spec.adhesion) ||
-        std::find(own.begin(), own.end(), mechanism.info.id) != own.end() ||
-        std::none_of(places.begin(), places.end(),
-                     [&](const Surroundings& at) { return mechanism.acts_at(at); })) {
-      continue;
-    }
-    add_effects(base, mechanism, all);
+  for (const Mechanism* mechanism : mechanisms_that_may_act(base.spec, base.candidate.model)) {
+    const std::vector<Parameter>& parameters = mechanism->info.parameters;
+    if (parameters.empty() || !parameters.front().stated_by) continue;
+    add_effects(base, *mechanism, all);
   }
   std::stable_sort(all.begin(), all.end(), [](const ExpectedEffect& a, const ExpectedEffect& b) {
     return std::abs(a.change) > std::abs(b.change);

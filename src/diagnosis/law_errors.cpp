@@ -7,6 +7,7 @@
 
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
 
 namespace recoil {
 namespace {
@@ -71,6 +72,10 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     columns.middleCols(static_cast<Eigen::Index>(k) * rank, rank) =
         slopes.cwiseProduct(sizes[k]).asDiagonal() * laws.functions;
+  }
+  const SharedSettings settings(data.points);
+  for (Eigen::Index k = 0; k < columns.cols() && !settings.none(); ++k) {
+    settings.whiten({columns.col(k).data(), data.points.size()});
   }
   return columns;
 }

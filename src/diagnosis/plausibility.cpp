@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/moving_columns.hpp"
+
 namespace recoil {
 namespace {
 
@@ -53,34 +55,18 @@ void judge(const Candidate& candidate, const Refit& refit, std::size_t j, double
 }  // namespace
 
 std::vector<double> standard_errors(const Refit& refit, double noise_scale) {
-  const std::size_t p = refit.theta.size();
-  std::vector<double> errors(p, 0.0);
-  std::vector<std::size_t> moving;
-  for (std::size_t j = 0; j < p; ++j) {
-    if (refit.moving[j]) moving.push_back(j);
-  }
-  if (moving.empty() || p == 0) return errors;
-  const auto n = static_cast<Eigen::Index>(refit.jacobian.size() / p);
-  const auto q = static_cast<Eigen::Index>(moving.size());
-  Eigen::MatrixXd J(n, q);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < q; ++j) {
-      J(i, j) =
-          refit.jacobian[static_cast<std::size_t>(i) * p + moving[static_cast<std::size_t>(j)]];
-    }
-  }
-  // Columns of unit length: the units of the parameters lie twenty decades apart.
-  Eigen::VectorXd length = J.colwise().norm();
-  for (Eigen::Index j = 0; j < q; ++j) {
-    if (!(length(j) > 0.0)) return errors;
-    J.col(j) /= length(j);
-  }
+  std::vector<double> errors(refit.theta.size(), 0.0);
+  const auto moving = moving_columns(refit);
+  if (!moving) return errors;
+  const Eigen::MatrixXd& J = moving->unit;
+  const Eigen::Index count = J.cols();
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J);
-  if (qr.rank() < q) return errors;
-  const Eigen::MatrixXd inverse = (J.transpose() * J).ldlt().solve(Eigen::MatrixXd::Identity(q, q));
-  for (Eigen::Index j = 0; j < q; ++j) {
-    errors[moving[static_cast<std::size_t>(j)]] =
-        noise_scale * std::sqrt(std::max(inverse(j, j), 0.0)) / length(j);
+  if (qr.rank() < count) return errors;
+  const Eigen::MatrixXd inverse =
+      (J.transpose() * J).ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+  for (Eigen::Index j = 0; j < count; ++j) {
+    errors[moving->slots[static_cast<std::size_t>(j)]] =
+        noise_scale * std::sqrt(std::max(inverse(j, j), 0.0)) / moving->length(j);
   }
   return errors;
 }

@@ -35,10 +35,16 @@ Observations with_possible(const Observations& data, const PossibleImpacts& poss
   return all;
 }
 
-/// Slopes of the weighted residuals of all points in what is not known: the moving parameters, then
-/// the errors of the laws. Empty without an answer.
-std::optional<Eigen::MatrixXd> slopes_at(const CandidateResult& rival, const Observations& all,
-                                         const std::vector<double>& theta, const LawErrors& laws) {
+/// The weighted residuals of all points, and their slopes in what is not known: the moving
+/// parameters, then the errors of the laws.
+struct Linearised {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd slopes;
+};
+
+/// Empty without an answer.
+std::optional<Linearised> linearised_at(const CandidateResult& rival, const Observations& all,
+                                        const std::vector<double>& theta, const LawErrors& laws) {
   const ImpactModel& model = rival.candidate.model;
   const LeastSquaresProblem problem = impact_problem(model, all);
   std::vector<double> residuals(problem.residual_count);
@@ -57,7 +63,7 @@ std::optional<Eigen::MatrixXd> slopes_at(const CandidateResult& rival, const Obs
   Eigen::MatrixXd both = Eigen::MatrixXd::Zero(rows, p + columns->cols());
   for (Eigen::Index k = 0; k < p; ++k) both.col(k) = J.col(moving[static_cast<std::size_t>(k)]);
   both.topRightCorner(columns->rows(), columns->cols()) = *columns;
-  return both;
+  return Linearised{Eigen::Map<Eigen::VectorXd>(residuals.data(), rows), std::move(both)};
 }
 
 }  // namespace
@@ -77,18 +83,24 @@ PredictedSpread predicted_spread(const SearchBase& base, const CandidateResult& 
   const Observations all = with_possible(data, possible, found.restitution);
   LawErrors laws = base.laws;
   laws.functions = smooth_functions(all);
-  const auto here = slopes_at(rival, all, theta, laws);
-  const auto there = without == nullptr ? here : slopes_at(rival, all, changed, laws);
+  const auto here = linearised_at(rival, all, theta, laws);
+  const auto there = without == nullptr ? here : linearised_at(rival, all, changed, laws);
   if (!here || !there) return found;
   const auto n = static_cast<Eigen::Index>(data.points.size());
   const auto g = static_cast<Eigen::Index>(possible.at.size());
+  const Eigen::Index rows = here->slopes.rows();
   const Eigen::Index errors =
       laws.functions.cols() * static_cast<Eigen::Index>(1 + model.chain.size());
-  const Eigen::Index p = here->cols() - errors;
+  const Eigen::Index p = here->slopes.cols() - errors;
   // The points, and behind them the constants of the materials with what is stated of them.
-  Eigen::MatrixXd known(here->rows() - g, here->cols());
-  known << here->topRows(n), here->bottomRows(here->rows() - n - g);
-  Eigen::MatrixXd asked = there->middleRows(n, g);
+  const auto without_possible = [&](const auto& of_all) {
+    std::decay_t<decltype(of_all)> rest(rows - g, of_all.cols());
+    rest << of_all.topRows(n), of_all.bottomRows(rows - n - g);
+    return rest;
+  };
+  Eigen::MatrixXd known = without_possible(here->slopes);
+  const Eigen::VectorXd residuals = without_possible(here->residuals);
+  Eigen::MatrixXd asked = there->slopes.middleRows(n, g);
   // Columns of unit length: the units of the parameters lie twenty decades apart.
   for (Eigen::Index k = 0; k < p; ++k) {
     const double length = known.col(k).norm();
@@ -102,8 +114,12 @@ PredictedSpread predicted_spread(const SearchBase& base, const CandidateResult& 
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
   if (factor.info() != Eigen::Success) return found;
   const Eigen::MatrixXd reduced = factor.matrixL().solve(asked.transpose());
+  const Eigen::VectorXd likeliest = -factor.solve(known.transpose() * residuals);
+  const Eigen::VectorXd moved = asked * likeliest;
   for (Eigen::Index i = 0; i < g; ++i) {
-    found.variance[static_cast<std::size_t>(i)] = reduced.col(i).squaredNorm();
+    const auto k = static_cast<std::size_t>(i);
+    found.variance[k] = reduced.col(i).squaredNorm();
+    found.restitution[k] = std::max(0.0, found.restitution[k] - possible.sd[k] * moved(i));
   }
   return found;
 }

@@ -16,7 +16,7 @@ struct PossibleImpacts {
 
 /// What a rival predicts of possible impacts.
 struct PredictedSpread {
-  std::vector<double> restitution;  ///< e, 0 where captured; NaN without an answer
+  std::vector<double> restitution;  ///< mean e, 0 where captured; NaN without an answer
   /// Of the prediction, in units of the variance of one impact: how far the parameters are known
   /// from the points, and how wrong the laws may be there, given how they do on the points.
   std::vector<double> variance;
@@ -24,8 +24,9 @@ struct PredictedSpread {
 
 /// The predictive distribution of `rival` after the points of `base`, linear in the parameters that
 /// move and in the errors of the laws (`LawErrors`), normal: with A the weighted slopes of the
-/// points in both, it has the covariance (A'A + I')^(-1), I' of the errors of laws alone, which are
-/// one a priori.
+/// points in both and r their weighted residuals at the fit, both have the mean -(A'A + I')^(-1)
+/// A'r and the covariance (A'A + I')^(-1), I' of the errors of laws alone, which are one a priori:
+/// what the points say of the errors of a law moves its predictions, too.
 /// @param without a mechanism that a changed condition takes away from the possible impacts; null:
 ///   none
 PredictedSpread predicted_spread(const SearchBase& base, const CandidateResult& rival,

@@ -12,8 +12,8 @@
 #include "estimate/point_conditions.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
 #include "estimate/simulated_observation.hpp"
-#include "mechanism/catalogue.hpp"
 
 namespace recoil {
 namespace {
@@ -247,12 +247,15 @@ Observations simulate_base(const SearchBase& base, std::uint64_t index) {
   for (double& weight : bend) weight = random.normal();
   const Eigen::VectorXd wrong_by = base.laws.base * (base.laws.functions * bend);
   Observations sample = base.fitted.data;
+  RandomStream of_settings(base.options.seed, RandomPurpose::settings, index);
+  const std::vector<double> shared = draw_setting_errors(sample, of_settings);
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     Observation& point = sample.points[i];
     const double square = base.fitted.prediction_squared[i];
     const double loss = std::clamp(1.0 - square, 0.0, 1.0);
-    point = simulate_observation(point, square + loss * wrong_by(static_cast<Eigen::Index>(i)),
-                                 base.noise_scale, sample.noise.student, random);
+    const double bent = square + loss * wrong_by(static_cast<Eigen::Index>(i));
+    point = simulate_observation(point, shifted_square(bent, shared[i]), base.noise_scale,
+                                 sample.noise.student, random);
     if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
     if (point.censored && !(point.weights.scatter > 0.0)) draw_capture(point, square, random);
   }
@@ -279,19 +282,10 @@ std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
 
 std::vector<CandidateResult> try_singles(const SearchBase& base) {
   std::vector<const Mechanism*> untried;
-  for (const Mechanism& mechanism : mechanism_catalogue()) {
-    const auto& own = base.spec.mechanisms;
-    if (!mechanism.works_with(base.spec.adhesion)) continue;
+  for (const Mechanism* mechanism : mechanisms_that_may_act(base.spec, base.candidate.model)) {
     // Counts of captures have told the base model already how the impacts differ.
-    if (mechanism.spreads() && base.fitted.data.noise.event_spread > 0.0) continue;
-    const std::vector<Surroundings>& places = base.candidate.model.surroundings;
-    if (std::none_of(places.begin(), places.end(),
-                     [&](const Surroundings& at) { return mechanism.acts_at(at); })) {
-      continue;
-    }
-    if (std::find(own.begin(), own.end(), mechanism.info.id) == own.end()) {
-      untried.push_back(&mechanism);
-    }
+    if (mechanism->spreads() && base.fitted.data.noise.event_spread > 0.0) continue;
+    untried.push_back(mechanism);
   }
   std::vector<CandidateResult> results(untried.size());
   parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {

@@ -12,6 +12,7 @@
 #include "core/random.hpp"
 #include "diagnosis/search.hpp"
 #include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
 
 namespace recoil {
 namespace {
@@ -31,7 +32,7 @@ double square_sd(const Observation& point) {
 
 /// -2 ln likelihood of a fit whose weights are a part of the question, but for a constant.
 double deviance_with_weights(const Observations& data, std::span<const double> residuals) {
-  double sum = 0.0;
+  double sum = SharedSettings(data.points).log_determinant();
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
     sum += residuals[i] * residuals[i];
@@ -193,7 +194,7 @@ Refit fit_with_settings(const SearchBase& base, double sd) {
 
 std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   const Observations& data = base.fitted.data;
-  if (!has_settings_of_several_points(data)) return std::nullopt;
+  if (data.shares_settings() || !has_settings_of_several_points(data)) return std::nullopt;
   const int free = base.candidate.free_count;
   const double step = std::log(largest_error / smallest_setting_error) / (steps - 1);
   std::vector<double> criterion(steps, INFINITY);

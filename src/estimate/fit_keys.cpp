@@ -46,6 +46,9 @@ std::vector<FitKey> all_keys() {
        "normal, or student, which gives outliers less weight"},
       {"noise", "student_dof", fmt::format("{:g}", noise.student_dof),
        "degrees of freedom of Student's t"},
+      {"noise", "setting_sd", "",
+       "error of e that the points of one setting share [1]; 0: none, \"estimated\": also where no "
+       "column names the settings; by default estimated where one does"},
       {"noise", "velocity_errors", truth_value(noise.velocity_errors),
        "use the column velocity_sd"},
       {"noise", "velocity_relative_sd", fmt::format("{:g}", noise.velocity_relative_sd),

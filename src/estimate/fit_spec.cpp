@@ -27,6 +27,8 @@ constexpr int most_replicates = 1000000;
 constexpr double largest_relative_sd = 0.5;
 // Beyond it Student's t is the normal distribution for every practical purpose.
 constexpr double largest_student_dof = 1000.0;
+// Of e: more than that is no error but another measurement.
+constexpr double largest_setting_sd = 0.3;
 // From less than an atom to more than the range of any force between dry surfaces [m].
 constexpr double least_separation = 5e-11;
 constexpr double largest_separation = 1e-7;
@@ -66,6 +68,32 @@ void read_residuals(const TomlReader& reader, const toml::table& table, NoiseSpe
   }
 }
 
+/// `setting_sd`: a number, or "estimated".
+void read_setting_sd(const TomlReader& reader, const toml::table& table, NoiseSpec& spec) {
+  const toml::node* const node = table.get("setting_sd");
+  if (node == nullptr) return;
+  if (node->is_string()) {
+    const std::string word = reader.string(*node, "setting_sd", "setting_sd = \"estimated\"");
+    if (word != "estimated") {
+      reader.fail(*node, fmt::format("setting_sd = {}", quote(word)), "",
+                  "write a number or \"estimated\"");
+    }
+    spec.every_setting = true;
+  } else {
+    spec.setting_sd = reader.number(*node, "setting_sd");
+    if (*spec.setting_sd < 0.0 || *spec.setting_sd > largest_setting_sd) {
+      reader.fail(*node, fmt::format("setting_sd = {:g}", *spec.setting_sd),
+                  fmt::format("it has to lie between 0 and {:g}", largest_setting_sd),
+                  "it is an error of e: 0.01 is usual, 0 leaves it out");
+    }
+  }
+  if (spec.student && (spec.every_setting || *spec.setting_sd > 0.0)) {
+    reader.fail(*node, "setting_sd beside residuals = \"student\"",
+                "what points share and what single ones do are told apart by normal errors only",
+                "remove one of the two");
+  }
+}
+
 /// `quantity_errors` (on or off) and `quantity_relative_sd` (where the dataset states none).
 void read_input_errors(const TomlReader& reader, const toml::table& table,
                        const std::string& quantity, bool& used, double& relative_sd) {
@@ -92,6 +120,7 @@ NoiseSpec read_noise_spec(const TomlReader& reader, const toml::table& table) {
   NoiseSpec spec;
   if (const toml::node* node = table.get("variance")) read_variance(reader, *node, spec);
   read_residuals(reader, table, spec);
+  read_setting_sd(reader, table, spec);
   read_input_errors(reader, table, "velocity", spec.velocity_errors, spec.velocity_relative_sd);
   read_input_errors(reader, table, "diameter", spec.diameter_errors, spec.diameter_relative_sd);
   return spec;

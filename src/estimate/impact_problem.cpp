@@ -6,6 +6,7 @@
 #include "core/interrupt.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
 
 namespace recoil {
 namespace {
@@ -55,9 +56,10 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
     problem.fixed.push_back(!slot.moves());
   }
   const auto predictor = std::make_shared<PointPredictor>(model, data.conditions());
-  problem.evaluate = [predictor, &model, &data, handovers](std::span<const double> theta,
-                                                           std::span<double> residuals,
-                                                           std::span<double> jacobian) {
+  const auto settings = std::make_shared<const SharedSettings>(data.points);
+  problem.evaluate = [predictor, settings, &model, &data, handovers](std::span<const double> theta,
+                                                                     std::span<double> residuals,
+                                                                     std::span<double> jacobian) {
     if (called_off()) return false;  // the minimiser ends; its caller is told when it next asks
     const std::size_t p = theta.size();
     const long handed_over = predictor->evaluate(theta, !jacobian.empty());
@@ -69,6 +71,8 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
       residuals[i] = r.value;
       if (!jacobian.empty()) predictor->gradient_row(i, r.slope, jacobian.subspan(i * p, p));
     }
+    settings->whiten(residuals);
+    if (!jacobian.empty()) settings->whiten(jacobian, p);
     if (!model.constants.empty()) add_constants_rows(model, data, theta, residuals, jacobian);
     return true;
   };

@@ -10,11 +10,11 @@
 namespace recoil {
 
 /// The weighted residuals of `data` under `model` as a least-squares problem in the slots of theta:
-/// those of the points, then for each uncertain constant of the materials how far it lies from its
-/// stated value, in standard deviations (times `constants_weight`): the sum of squares is -2 ln of
-/// likelihood times prior but for a constant, its minimum the mode of the posterior.
-/// The problem refers to both arguments: they must outlive it. It and its copies share one work
-/// space, so that only one of them may be evaluated at a time.
+/// those of the points, less what their settings share (SharedSettings), then for each uncertain
+/// constant of the materials how far it lies from its stated value, in standard deviations (times
+/// `constants_weight`): the sum of squares is -2 ln of likelihood times prior but for a constant,
+/// its minimum the mode of the posterior. The problem refers to both arguments: they must outlive
+/// it. It and its copies share one work space, so that only one of them may be evaluated at a time.
 /// @param handovers when not null, counts the impacts that the fast solver handed over
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,
                                    long* handovers = nullptr);

@@ -37,6 +37,12 @@ struct NoiseSpec {
   bool student = false;      ///< `residuals = "student"`: Student's t instead of the normal
   double student_dof = 4.0;  ///< its degrees of freedom, at least 1
 
+  /// Standard deviation of an error of e that the points of one setting share [1]; 0: none. Empty:
+  /// estimated from the points, where settings are named or `every_setting` asks for it.
+  std::optional<double> setting_sd;
+  bool every_setting = false;  ///< also of settings that have no name: of equal series, diameter
+                               ///< and velocity
+
   bool velocity_errors = true;        ///< use the velocity_sd of the points
   double velocity_relative_sd = 0.0;  ///< for points without one; 0: none
   bool diameter_errors = true;        ///< use the diameter_sd of the points

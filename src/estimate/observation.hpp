@@ -41,14 +41,16 @@ struct DeviancePeak {
 /// What weights one point. All but a stated `sd` is renewed round by round at the parameters of the
 /// round before, see `renew_weights`.
 struct PointWeights {
-  double sd = 0.0;          ///< standard deviation of the mean e: stated, or estimated [1]
-  double proximity = 0.0;   ///< to capture, (V* / V)^2, at most 1; only where noise is estimated
-  double input_sd = 0.0;    ///< sd of e^2 that the errors of V and d cause [1]
-  double input_bias = 0.0;  ///< what the curvature of e^2 over these errors amounts to [1]
-  double scatter = 0.0;     ///< sd of e^2 from impact to impact [1]; 0: not in use
-  double shift = 0.0;       ///< mean e^2 of the impacts minus that of the mean impact [1]
-  double mean_sd = 0.0;     ///< sd of the mean e with its share of input_sd, beside scatter [1]
-  DeviancePeak peak;        ///< where scatter is in use and some sphere rebounded
+  double sd = 0.0;            ///< standard deviation of the mean e: stated, or estimated [1]
+  double proximity = 0.0;     ///< to capture, (V* / V)^2, at most 1; only where noise is estimated
+  double input_sd = 0.0;      ///< sd of e^2 that the errors of V and d cause [1]
+  double input_bias = 0.0;    ///< what the curvature of e^2 over these errors amounts to [1]
+  double scatter = 0.0;       ///< sd of e^2 from impact to impact [1]; 0: not in use
+  double shift = 0.0;         ///< mean e^2 of the impacts minus that of the mean impact [1]
+  double mean_sd = 0.0;       ///< sd of the mean e with its share of input_sd, beside scatter [1]
+  double setting_load = 0.0;  ///< |dr / de| of the residual times the error of e that the points of
+                              ///< its setting share [1]
+  DeviancePeak peak;          ///< where scatter is in use and some sphere rebounded
 };
 
 /// A point as the estimator sees it.

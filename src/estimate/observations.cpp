@@ -47,7 +47,9 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
 
 /// Numbers the settings of all datasets. What states none shares it with the points of its series,
 /// diameter and velocity.
-void number_settings(const std::vector<Dataset>& datasets, Observations& data) {
+/// @returns whether some setting that `spec` asks about has several points
+bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
+  bool several = false;
   std::map<std::tuple<std::size_t, std::string, std::size_t, double, double>, std::size_t> known;
   std::size_t i = 0;
   for (std::size_t d = 0; d < datasets.size(); ++d) {
@@ -55,9 +57,12 @@ void number_settings(const std::vector<Dataset>& datasets, Observations& data) {
       const auto key = p.setting.empty()
                            ? std::tuple(d, std::string(), p.series, p.diameter, p.incident_velocity)
                            : std::tuple(d, p.setting, std::size_t{0}, 0.0, 0.0);
-      data.points[i++].setting = known.try_emplace(key, known.size()).first->second;
+      const auto [place, is_new] = known.try_emplace(key, known.size());
+      data.points[i++].setting = place->second;
+      several = several || (!is_new && (data.spec.every_setting || !p.setting.empty()));
     }
   }
+  return several;
 }
 
 /// A captured point says nothing of the scatter of e: where it states none, its impacts are taken
@@ -96,10 +101,11 @@ std::vector<PointConditions> Observations::conditions() const {
 }
 
 bool Observations::weights_depend_on_fit() const {
-  return !sd_stated || std::any_of(points.begin(), points.end(), [](const Observation& point) {
-    return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 || point.weights.scatter > 0.0 ||
-           point.mixed();
-  });
+  return !sd_stated || shares_settings() ||
+         std::any_of(points.begin(), points.end(), [](const Observation& point) {
+           return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 ||
+                  point.weights.scatter > 0.0 || point.mixed();
+         });
 }
 
 Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
@@ -119,7 +125,8 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
       }
     }
   }
-  number_settings(datasets, data);
+  const bool several = number_settings(datasets, data);
+  data.setting_sd_estimated = several && !spec.setting_sd && !spec.student;
   if (spec.variance == VarianceFunction::stated && missing > 0) {
     throw InputError(
         variance_place,

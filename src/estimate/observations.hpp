@@ -27,6 +27,8 @@ struct NoiseModel {
   double event_spread = 0.0;  ///< relative sd of the capture velocity from impact to impact; 0
                               ///< where no point has both rebounds and captures
   std::optional<StudentNoise> student;  ///< residuals are Student's t, not normal
+  double setting_sd = 0.0;  ///< of the error of e that the points of one setting share, as stated
+                            ///< or estimated [1]
 };
 
 /// All points of all datasets of a fit, ready to be fitted.
@@ -47,6 +49,14 @@ struct Observations {
 
   /// Those of every point.
   std::vector<PointConditions> conditions() const;
+
+  /// Is the error that the points of one setting share to be estimated from them? By default where
+  /// a dataset names its settings and some have several points.
+  bool setting_sd_estimated = false;
+  /// Do the points of one setting share an error, stated or estimated?
+  bool shares_settings() const {
+    return setting_sd_estimated || spec.setting_sd.value_or(0.0) > 0.0;
+  }
 
   /// Must the weights be found together with the parameters?
   bool weights_depend_on_fit() const;

@@ -7,6 +7,7 @@
 
 #include "estimate/impact_problem.hpp"
 #include "estimate/misfit.hpp"
+#include "estimate/shared_settings.hpp"
 #include "estimate/weights.hpp"
 
 namespace recoil {
@@ -113,7 +114,8 @@ double restricted_criterion(const ImpactModel& model, const ReweightedFit& resul
   const auto& points = result.data.points;
   const std::optional<StudentNoise>& student = result.data.noise.student;
   const double unit = student ? student->calibration() : 1.0;
-  double criterion = run.sum_of_squares / unit;
+  double criterion =
+      run.sum_of_squares / unit + SharedSettings(result.data.points).log_determinant();
   for (const Observation& point : points) {
     if (point.censored) continue;
     if (point.weights.scatter > 0.0)

@@ -39,7 +39,8 @@ struct ReweightingOptions {
 ///   an impact at V fares like the mean one at V exp(omega z), so its e^2 has the mean and variance
 ///     e^2 + omega^2 / 2 b,  omega^2 a^2 + omega^4 / 2 b^2
 ///   with a, b the first two derivatives of e^2 in ln V (differences over sqrt(3) omega). The sd of
-///   a survivors' mean is its own, or `survivors_sd` where that is larger.
+///   a survivors' mean is its own, or `survivors_sd` where that is larger;
+/// - setting_sd, the error of e that the points of one setting share, see `renew_settings`.
 ///
 /// The choice of a variance function: the smallest
 ///   sum 2 ln sd_i + chi2 + ln |J'J| + penalty,

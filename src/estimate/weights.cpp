@@ -8,6 +8,7 @@
 #include "estimate/impact_problem.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
 #include "estimate/survivors.hpp"
 
 namespace recoil {
@@ -260,7 +261,9 @@ std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
       point.weights.proximity = std::min(1.0, ratio * ratio);
     }
   }
-  return renew(model, theta, Renewal(data));
+  auto predicted = renew(model, theta, Renewal(data));
+  if (predicted) renew_settings(*predicted, model.free_count(), data);
+  return predicted;
 }
 
 bool renew_event_spread(const ImpactModel& model, std::span<const double> theta,

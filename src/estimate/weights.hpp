@@ -11,8 +11,8 @@ namespace recoil {
 
 /// Renews whatever in the weights of `data` depends on the parameters, at `theta`: estimated
 /// standard deviations (for the present variance function and scale), effective variances, the
-/// scatter from impact to impact (event_spread by maximum likelihood). Equations: see
-/// `reweighted_fit`.
+/// scatter from impact to impact (event_spread by maximum likelihood), and what settings share.
+/// Equations: see `reweighted_fit`.
 /// @returns the predicted e^2 of every point; nothing when the model has no answer somewhere.
 std::optional<std::vector<double>> renew_weights(const ImpactModel& model,
                                                  std::span<const double> theta, Observations& data);

@@ -5,25 +5,23 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "data/datapackage.hpp"
 #include "data/text.hpp"
 #include "experiment/import_table.hpp"
 
 namespace recoil {
 namespace {
 
+/// All that a dataset can state of a point.
 const std::vector<ImportQuantity>& known_quantities() {
-  static const std::vector<ImportQuantity> known = {
-      {"series", Dimension::text},
-      {"diameter", Dimension::length},
-      {"incident_velocity", Dimension::velocity, true},
-      {"restitution", Dimension::ratio},
-      {"rebound_velocity", Dimension::velocity},
-      {"restitution_sd", Dimension::ratio},
-      {"velocity_sd", Dimension::velocity},
-      {"diameter_sd", Dimension::length},
-      {"events", Dimension::count},
-      {"captured", Dimension::count},
-  };
+  static const std::vector<ImportQuantity> known = [] {
+    std::vector<ImportQuantity> all;
+    for (const Quantity quantity : values_of<Quantity>()) {
+      all.push_back({std::string(name_of(quantity)), dimension_of(quantity),
+                     quantity == Quantity::incident_velocity});
+    }
+    return all;
+  }();
   return known;
 }
 
@@ -77,6 +75,11 @@ ImportedPoints read_columns(const ImportRequest& request,
     point.diameter_sd = table.value(r, "diameter_sd");
     point.events = table.value(r, "events");
     point.captured = table.value(r, "captured");
+    point.setting = table.text(r, "setting");
+    for (const Condition condition : values_of<Condition>()) {
+      const auto stated = table.value(r, std::string(name_of(condition)));
+      if (stated) point.conditions.set(condition, *stated);
+    }
     point.line = table.line(r);
     out.points.push_back(point);
   }

@@ -299,6 +299,14 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
       group.point.velocity_sd = 0.5 * group.point.velocity * group.drop_sd / group.drop;
     }
     if (request.average) group.point.events = n;
+    // Drops from one height share the error with which it was set.
+    const auto of_the_height = std::count_if(groups.begin(), groups.end(), [&](const Group& other) {
+      return other.drop == group.drop && other.point.series == group.point.series;
+    });
+    if (of_the_height > 1) {
+      group.point.setting =
+          fmt::format("{} from {:.6g} mm", group.point.series, group.drop / units::mm);
+    }
     out.points.push_back(group.point);
   }
   if (few) out.notes.push_back({ImportRemark::few_drops});

@@ -223,12 +223,33 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
     text.fields.push_back(
         package_field(output.name, output.unit.empty() ? "integer" : "number", output.unit));
   }
+  const bool settings = std::any_of(points.begin(), points.end(),
+                                    [](const ImportedPoint& p) { return !p.setting.empty(); });
+  if (settings) {
+    text.csv += ",setting";
+    text.fields.push_back(package_field("setting", "string", ""));
+  }
+  std::vector<Condition> conditions;  // that are stated of some point
+  for (const Condition condition : values_of<Condition>()) {
+    if (std::any_of(points.begin(), points.end(),
+                    [&](const ImportedPoint& p) { return p.conditions.of(condition); })) {
+      conditions.push_back(condition);
+      text.csv += fmt::format(",{}", name_of(condition));
+      text.fields.push_back(package_field(std::string(name_of(condition)), "number",
+                                          std::string(info_of(condition).unit)));
+    }
+  }
   text.csv += '\n';
   for (const ImportedPoint& point : points) {
     text.csv += csv_cell(point.series);
     for (const Output* output : used) {
       const auto value = output->value(point);
       text.csv += value ? "," + number_text(*value / output->factor) : std::string(",");
+    }
+    if (settings) text.csv += "," + csv_cell(point.setting);
+    for (const Condition condition : conditions) {
+      const auto value = point.conditions.of(condition);
+      text.csv += value ? "," + number_text(*value) : std::string(",");
     }
     text.csv += '\n';
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "data/condition.hpp"
 #include "experiment/import.hpp"
 
 /// What the readers of all formats hand on.
@@ -18,6 +19,8 @@ struct ImportedPoint {
   std::optional<double> rebound_velocity;  ///< [m/s], instead of it
   std::optional<double> restitution_sd, velocity_sd, diameter_sd;
   std::optional<double> events, captured;
+  std::string setting = {};  ///< of the apparatus; empty where the file names none
+  Conditions conditions = {};
   int line = 0;  ///< in the file
 };
 

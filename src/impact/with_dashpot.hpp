@@ -109,10 +109,10 @@ struct WithDashpot {
 };
 
 /// The derivatives of e^2 in the groups of ImpactResult::gradient from those in the groups of
-/// `Law`.
+/// `Law`. Always inline: compilations for different instruction sets must not share it.
 template <class Law>
-std::array<double, 5> impact_gradient(const ImpactGroups& g,
-                                      const std::array<double, Law::groups>& by) {
+[[gnu::always_inline]] inline std::array<double, 5> impact_gradient(
+    const ImpactGroups& g, const std::array<double, Law::groups>& by) {
   std::array<double, 5> gradient = {};
   for (std::size_t k = 0; k < Law::groups; ++k) gradient[Law::places[k]] = by[k];
   gradient[1] *= Law::strength_slope(g);

@@ -46,12 +46,7 @@ Mechanism electrostatic_image() {
                                     "air at a plane breaks down above this, and spheres that "
                                     "nobody charged carry less"},
                       .starts = {3e6, 1e7},
-                      .stated_by = StatedBy{Condition::neutralised,
-                                            [](double neutralised, const Surroundings&,
-                                               const Conditions&) -> std::optional<double> {
-                                              if (neutralised == 0.0) return std::nullopt;
-                                              return 0.0;
-                                            }}},
+                      .stated_by = none_where(Condition::neutralised)},
                      {.name = "charge_exponent",
                       .unit = "1",
                       .meaning = "p, exponent of the charge in the diameter",

@@ -58,7 +58,8 @@ Mechanism height_origin() {
                       .upper = 1.0,
                       .why = "two points of a sphere are at most one diameter apart",
                       .of = [](const Encounter<double>& sphere,
-                               std::span<const double> own) { return own[0] / sphere.diameter; }}},
+                               std::span<const double> own) { return own[0] / sphere.diameter; }},
+            .stated_by = none_where(Condition::velocities_calibrated)},
            {.name = "drop_share",
             .unit = "1",
             .meaning = "s, share of delta in the height of the drop",
@@ -69,6 +70,8 @@ Mechanism height_origin() {
             .plausible = {-1.0, 1.0, "both heights have an error of the same size"},
             .free = false}},
       .methods = {Method::drop_heights},
+      .taken_away = TakenAway{Condition::velocities_calibrated, 1.0,
+                              "read both heights from one point of the sphere"},
   });
 }
 

@@ -115,6 +115,12 @@ std::optional<double> stated_value(const Parameter& parameter, const Surrounding
   return std::clamp(*value, parameter.lower, parameter.upper);
 }
 
+StatedBy none_where(Condition condition) {
+  return {condition, [](double stated, const Surroundings&, const Conditions&) {
+            return stated > 0.0 ? std::optional<double>(0.0) : std::nullopt;
+          }};
+}
+
 std::vector<const Parameter*> parameters_with(const std::vector<std::string>& ids,
                                               AdhesionLaw law) {
   std::vector<const Parameter*> parameters;

@@ -49,6 +49,9 @@ struct StatedBy {
                                  const Conditions& all) = nullptr;
 };
 
+/// Of a strength that is 0 where `condition`, which is yes or no, says yes.
+StatedBy none_where(Condition condition);
+
 /// What a parameter is to the base model.
 enum class ParameterRole {
   of_mechanism,       ///< nothing: it belongs to a mechanism

@@ -39,7 +39,8 @@ Mechanism velocity_offset() {
                       .lower = -10.0,
                       .upper = 10.0,
                       .plausible = {-0.1, 0.1, "a velocimeter's zero is good to a few cm/s"},
-                      .starts = {-1e-2, 1e-1, -1e-1}},
+                      .starts = {-1e-2, 1e-1, -1e-1},
+                      .stated_by = none_where(Condition::velocities_calibrated)},
                      {.name = "rebound_sign",
                       .unit = "1",
                       .meaning = "s, share of delta by which the rebound is read too high",
@@ -51,6 +52,8 @@ Mechanism velocity_offset() {
                       .starts = {-1.0},
                       .free = false}},
       .methods = {Method::velocimeter},
+      .taken_away = TakenAway{Condition::velocities_calibrated, 1.0,
+                              "check the velocimeter's zero against a known velocity"},
   });
 }
 

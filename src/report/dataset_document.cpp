@@ -91,14 +91,12 @@ Sentence condition_words(const ImpactSystem& system) {
     if (!value) continue;
     if (condition == Condition::ambient_pressure && *value == 0.0) {
       stated.push_back("vacuum");
-    } else if (condition == Condition::neutralised) {
-      stated.push_back(*value > 0.0 ? "neutralised" : "not neutralised");
-    } else {
-      std::string name(name_of(condition));
-      std::replace(name.begin(), name.end(), '_', ' ');
-      const std::string_view unit = info_of(condition).unit;
+    } else if (info_of(condition).yes_or_no) {
       stated.push_back(
-          say("{} {:g}{}", name, *value, unit == "1" ? std::string() : " " + std::string(unit)));
+          say("{}: {}", words_of(std::string(name_of(condition))), *value > 0.0 ? "yes" : "no"));
+    } else {
+      stated.push_back(say("{} {:g}{}", words_of(std::string(name_of(condition))), *value,
+                           unit_after_number(info_of(condition).unit)));
     }
   }
   return join(stated, ", ");

@@ -34,6 +34,9 @@ Json noise_json(const Analysis& a) {
   out["points_with_diameter_errors"] = with(&MeasuredPoint::diameter_sd);
   put(out, "event_spread", noise.event_spread > 0.0 ? noise.event_spread : NAN,
       "no point has both rebounds and captures");
+  put(out, "setting_sd", data.shares_settings() ? noise.setting_sd : NAN,
+      "the points of one setting are taken to share no error");
+  out["setting_sd_estimated"] = data.setting_sd_estimated;
   out["residuals"] = noise.student ? "student" : "normal";
   put(out, "student_dof", noise.student ? noise.student->dof : NAN, "normal residuals");
   put(out, "efficiency", noise.student ? noise.student->efficiency() : 1.0, "");

@@ -8,6 +8,7 @@
 
 #include "core/units.hpp"
 #include "data/text.hpp"
+#include "document/sentence.hpp"
 #include "mechanism/catalogue.hpp"
 
 namespace recoil {
@@ -35,9 +36,7 @@ std::string diameter_words(double diameter) {
 }
 
 std::string condition_words(Condition condition) {
-  std::string words(name_of(condition));
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
+  return words_of(std::string(name_of(condition)));
 }
 
 std::string because_words(const CandidateResult& c) {

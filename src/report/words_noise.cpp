@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "estimate/reweighting.hpp"
+#include "estimate/shared_settings.hpp"
 
 namespace recoil {
 namespace {
@@ -75,6 +76,21 @@ std::string input_words(const std::vector<Observation>& points) {
       count, most);
 }
 
+std::string setting_words(const Observations& data) {
+  if (!data.shares_settings()) return "";
+  const SettingCount count = count_settings(data);
+  const char* const how = data.setting_sd_estimated ? "estimated" : "stated";
+  if (!(data.noise.setting_sd > 0.0)) {
+    return fmt::format(
+        "; the points of one setting share no error of e that could be seen ({}, {} settings, {} "
+        "points)",
+        how, count.settings, count.points);
+  }
+  return fmt::format(
+      "; the points of one setting share an error of e of {:.2g} ({}, {} settings, {} points)",
+      data.noise.setting_sd, how, count.settings, count.points);
+}
+
 std::string student_words(const StudentNoise& student) {
   return fmt::format(
       "; residuals are taken as Student's t with {:g} degrees of freedom: with normal noise this "
@@ -124,6 +140,7 @@ std::string noise_words(const FitResult& fitted) {
         "captures), and means of survivors are compared with the expected means of survivors",
         100.0 * data.noise.event_spread);
   }
+  text += setting_words(data);
   if (data.noise.student) text += student_words(*data.noise.student);
   return text;
 }

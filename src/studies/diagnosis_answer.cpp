@@ -54,6 +54,20 @@ FurtherImpacts advice_of(const Json& answer) {
   return further;
 }
 
+void count_odd_points(const Case& made, const Json& answer, Answered& a) {
+  std::set<std::size_t> aside;
+  for (const Json& point : answer.at("outlying_points")) {
+    aside.insert(point.at("row").get<std::size_t>() -
+                 2);  // lines count from 1, the first is a header
+  }
+  a.odd = a.odd_found = a.right = a.accused = 0;
+  for (std::size_t i = 0; i < made.odd.size(); ++i) {
+    const int listed = aside.contains(i) ? 1 : 0;
+    (made.odd[i] ? a.odd : a.right) += 1;
+    (made.odd[i] ? a.odd_found : a.accused) += listed;
+  }
+}
+
 /// @return what the answer advises to do next
 FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
   const ScratchFolder scratch;
@@ -80,6 +94,7 @@ FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
   for (const auto& errors : answer.at("unstated_errors")) {
     a.errors_told = a.errors_told || errors.at("rival").get<bool>();
   }
+  count_odd_points(made, answer, a);
   a.contenders = contenders_of(answer.at("candidates"));
   return advice_of(answer);
 }
@@ -136,6 +151,7 @@ Json json_of(const Answered& a) {
           {"certain", a.certain},
           {"shared_cause", a.shared_cause},
           {"errors_told", a.errors_told},
+          {"odd_points", {a.odd, a.odd_found, a.right, a.accused}},
           {"contenders", contenders},
           {"nearest_rival", a.nearest_rival.id},
           {"nearest_rival_misfit", a.nearest_rival.misfit}};
@@ -175,6 +191,11 @@ Answered answered_of(const Json& json) {
   a.certain = json.at("certain").get<std::vector<std::string>>();
   a.shared_cause = json.at("shared_cause");
   a.errors_told = json.at("errors_told");
+  const auto odd = json.value("odd_points", std::vector<int>(4, 0));
+  a.odd = odd.at(0);
+  a.odd_found = odd.at(1);
+  a.right = odd.at(2);
+  a.accused = odd.at(3);
   for (const Json& c : json.at("contenders")) a.contenders.push_back({c.at(0), c.at(1)});
   a.nearest_rival = {json.at("nearest_rival"), json.at("nearest_rival_misfit")};
   return a;

@@ -38,6 +38,10 @@ struct Answered {
   std::vector<std::string> resembles;  ///< what fits best and cannot be true
   std::vector<std::string> certain;    ///< of the rivals, those in every explanation
   std::string shared_cause;            ///< of which all rivals are laws
+  int odd = 0;               ///< points that are misread by more than 5 standard deviations,
+  int odd_found = 0;         ///< of these, set aside by the answer,
+  int right = 0;             ///< the others,
+  int accused = 0;           ///< and of them
   bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
   /// The best explanation by one mechanism and what comes within 30 of it; empty without one.
   std::vector<Contender> contenders;

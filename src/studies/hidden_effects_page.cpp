@@ -68,6 +68,18 @@ Sentence bar_words(Bar bar) {
       return "after doing what the answer advises, three times at most: named, or the cause told";
     case Bar::loop_wrong:
       return "the same: a wrong cause named or told";
+    case Bar::dropped_listed:
+      return "drops of spheres of millimetres: among named and rivals";
+    case Bar::dropped_wrong:
+      return "the same: wrong cause named";
+    case Bar::settings_named:
+      return "heights set wrong: a cause named";
+    case Bar::odd_named:
+      return "a few points misread: a cause named";
+    case Bar::odd_found:
+      return "points misread by more than 5 standard deviations: set aside";
+    case Bar::odd_accused:
+      return "the points beside them: set aside";
   }
   return "";
 }
@@ -250,10 +262,11 @@ std::vector<Block> foreword(const StudyTally& tally) {
               "base model has been refitted, sqrt(sum ((e - e_base) / sd)^2) on data without "
               "noise; from {:g} on it counts as visible. Designs: {} 4 diameters x 15 velocities, "
               "{} 4 x 2 batches x 8, {} 4 x 15 steel spheres, and with one diameter {} 1 x 15 and "
-              "{} 1 x 20. Every strength lies within what nature or a careful experimenter has; "
+              "{} 1 x 20; {} are 3 x 5 heights x 4 drops. Every strength lies within what nature "
+              "or a careful experimenter has; "
               "what would need more is not made, and listed at the end.",
               code("src/studies/synthetic"), visible, code("wall"), code("wall-batches"),
-              code("li"), code("wall-one"), code("dahneke"))},
+              code("li"), code("wall-one"), code("dahneke"), code("drops"))},
       Paragraph{made}};
   recoil::append(blocks, recoil::stamp_blocks(tally.stamp));
   return blocks;
@@ -349,6 +362,15 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
   arms_section("Two at once", {Paragraph{"Each as strong as it would be alone."}}, {Arm::pair});
   arms_section("Effects that are not in the catalogue", {}, {Arm::outside});
   arms_section("Errors that nobody stated", {Paragraph{careless_words(tally)}}, {Arm::careless});
+  arms_section("Drops of spheres of millimetres",
+               {Paragraph{say("Three diameters of 3 to 12 mm without adhesion, five heights, four "
+                              "drops from each ({}, method stated). First with an effect in them; "
+                              "then with heights that were set wrong by 4 %, each by itself: in "
+                              "every second data set a column names the heights.",
+                              code("drops"))}},
+               {Arm::dropped, Arm::settings});
+  arms_section("A few points are misread",
+               {Paragraph{"Six points in a hundred, by 6 to 15 standard deviations."}}, {Arm::odd});
   arms_section("One diameter", {}, {Arm::single});
   section("Time", {Paragraph{times_words(tally.times)}});
   section("Without an answer", {complaints_block(tally)});

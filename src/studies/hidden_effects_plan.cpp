@@ -18,40 +18,23 @@ constexpr double slight_bend = 0.03;  // of the losses of the base model
 constexpr double too_strong = 3.0;    // times what nature has
 constexpr int most_rounds = 3;        // of further impacts
 
-CaseOrder bent_by(double law, double base) {
-  CaseOrder order;
-  order.law_bend = law;
-  order.base_bend = base;
-  return order;
-}
-
-CaseOrder times_possible(double factor) {
-  CaseOrder order;
-  order.beyond = factor;
-  return order;
-}
-
-CaseOrder under_circumstances(Circumstances circumstances) {
-  CaseOrder order;
-  order.circumstances = circumstances;
-  return order;
-}
-
-CaseOrder in_rounds(int rounds) {
-  CaseOrder order;
-  order.rounds = rounds;
-  return order;
-}
+/// What drops by hand may have.
+const std::vector<std::string> effects_of_drops = {"plastic_yield", "bulk_viscoelastic",
+                                                   "plate_flexure", "hysteretic_loss",
+                                                   "flight_drag",   "height_origin"};
 
 class Plan {
  public:
   explicit Plan(std::uint64_t seed) : seed_(seed) {}
   void add(const char* design, const std::vector<std::string>& effects, double strength, int count,
-           const CaseOrder& like = {}) {
+           CaseOrder order = {}) {
+    order.design = design;
+    order.effects = effects;
+    order.signal_to_noise = strength;
+    order.seed = seed_;
     for (int i = 0; i < count; ++i) {
-      orders.push_back({design, effects, strength, static_cast<std::uint64_t>(i), seed_,
-                        like.law_bend, like.base_bend, like.beyond, like.circumstances,
-                        like.rounds});
+      order.index = static_cast<std::uint64_t>(i);
+      orders.push_back(order);
     }
   }
   std::vector<CaseOrder> orders;
@@ -63,6 +46,8 @@ class Plan {
 }  // namespace
 
 Arm arm_of(const CaseOrder& order) {
+  if (!order.effects.empty() && order.effects.front() == "settings") return Arm::settings;
+  if (!order.effects.empty() && order.effects.front() == "odd_points") return Arm::odd;
   if (!has_several_diameters(order.design)) return Arm::single;
   if (order.effects.empty()) return order.base_bend > 0.0 ? Arm::base_bent : Arm::correct;
   if (order.beyond > 0.0) return Arm::impossible;
@@ -70,6 +55,7 @@ Arm arm_of(const CaseOrder& order) {
   if (order.circumstances == Circumstances::stated) return Arm::stated;
   if (order.circumstances == Circumstances::varied) return Arm::varied;
   if (order.rounds > 0) return Arm::loop;
+  if (order.design == "drops") return Arm::dropped;
   if (order.effects.size() > 1) return Arm::pair;
   switch (find_hidden_effect(order.effects.front()).kind) {
     case EffectKind::outside:
@@ -85,6 +71,14 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
   Plan plan(size.seed);
   for (const HiddenEffect& known : hidden_effects()) {
     const std::vector<std::string> effect = {std::string(known.id)};
+    if (effect.front() == "settings") {
+      plan.add("drops", effect, 0.0, 6 * size.dropped);
+      continue;
+    }
+    if (effect.front() == "odd_points") {
+      for (const char* design : {"wall", "li", "drops"}) plan.add(design, effect, 0.0, size.odd);
+      continue;
+    }
     if (known.kind == EffectKind::careless) {
       for (const char* design : {"wall", "li"}) plan.add(design, effect, 0.0, size.careless);
       continue;
@@ -99,15 +93,15 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
     for (const char* design : {"wall", "li"}) {
       if (outside) continue;
       for (const double strength : {10.0, 20.0}) {
-        plan.add(design, effect, strength, size.bent, bent_by(some_bend, 0.0));
-        plan.add(design, effect, strength, size.bent / 2, bent_by(great_bend, 0.0));
+        plan.add(design, effect, strength, size.bent, {.law_bend = some_bend});
+        plan.add(design, effect, strength, size.bent / 2, {.law_bend = great_bend});
       }
-      plan.add(design, effect, 0.0, size.impossible, times_possible(too_strong));
+      plan.add(design, effect, 0.0, size.impossible, {.beyond = too_strong});
       for (const double strength : {10.0, 20.0}) {
-        plan.add(design, effect, strength, size.loop, in_rounds(most_rounds));
+        plan.add(design, effect, strength, size.loop, {.rounds = most_rounds});
         if (change_against(effect.front()).name.empty()) continue;
         for (const Circumstances circumstances : {Circumstances::stated, Circumstances::varied}) {
-          plan.add(design, effect, strength, size.conditions, under_circumstances(circumstances));
+          plan.add(design, effect, strength, size.conditions, {.circumstances = circumstances});
         }
       }
     }
@@ -122,11 +116,15 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
       for (const char* design : {"wall", "li"}) plan.add(design, pair, strength, size.pairs);
     }
   }
+  for (const std::string& effect : effects_of_drops) {
+    for (const double strength : {10.0, 20.0}) plan.add("drops", {effect}, strength, size.dropped);
+  }
+  plan.add("drops", {}, 0.0, 6 * size.dropped);
   // Nothing hidden: half as in Wall's design, the rest shared.
   plan.add("wall", {}, 0.0, (size.correct + 1) / 2);
   plan.add("li", {}, 0.0, size.correct / 4);
   for (const char* design : {"wall", "li"}) {
-    plan.add(design, {}, 0.0, size.base_bent / 2, bent_by(0.0, slight_bend));
+    plan.add(design, {}, 0.0, size.base_bent / 2, {.base_bend = slight_bend});
   }
   plan.add("wall-batches", {}, 0.0, size.correct - (size.correct + 1) / 2 - size.correct / 4);
   for (const char* design : {"wall-one", "dahneke"}) plan.add(design, {}, 0.0, 5 * size.single);

@@ -23,6 +23,9 @@ struct StudySize {
                        ///< with its condition stated, and again varied
   int loop = 1;        ///< of each effect, design and visible strength, asked again after doing
                        ///< what the answer advises
+  int dropped = 2;     ///< of each effect that drops by hand may have and visible strength, of each
+                       ///< error of a setting; and six times as many with nothing hidden
+  int odd = 6;         ///< of each design, with a few points misread
   std::uint64_t seed = 20260101;
 };
 
@@ -47,6 +50,9 @@ enum class Arm {
   stated,      ///< an effect whose condition is stated
   varied,      ///< an effect whose condition is changed for half of the points
   loop,        ///< an effect that is asked for again after doing what the answer advises
+  dropped,     ///< an effect in drops of spheres of millimetres
+  settings,    ///< heights that were set wrong, each by itself
+  odd          ///< a few points are misread
 };
 Arm arm_of(const CaseOrder& order);
 
@@ -58,7 +64,7 @@ std::vector<CaseOrder> plan_study(const StudySize& size);
 
 template <>
 struct recoil::NamesOf<hidden::Arm> {
-  static constexpr std::array<std::string_view, 13> names = {
-      "effect",    "correct",   "pair",       "outside", "single", "careless", "bent",
-      "bent_more", "base_bent", "impossible", "stated",  "varied", "loop"};
+  static constexpr std::array<std::string_view, 16> names = {
+      "effect",    "correct",    "pair",   "outside", "single", "careless", "bent",     "bent_more",
+      "base_bent", "impossible", "stated", "varied",  "loop",   "dropped",  "settings", "odd"};
 };

@@ -34,6 +34,16 @@ Count count(const Answers& among, const Test& test) {
   return {static_cast<int>(passing), static_cast<int>(among.size())};
 }
 
+/// Of points instead of data sets.
+Count points_of(const Answers& among, int Answered::*part, int Answered::*all) {
+  Count points;
+  for (const Answered* a : among) {
+    points.k += a->*part;
+    points.n += a->*all;
+  }
+  return points;
+}
+
 Test marked(const std::vector<Mark>& marks) {
   return [marks](const Answered& a) {
     return std::find(marks.begin(), marks.end(), mark_of(a)) != marks.end();
@@ -65,33 +75,40 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
   const Answers bent = those(all, in(Arm::bent));
   const Test named = marked({Mark::named});
   const Answers loop = those(all, in(Arm::loop));
+  const Answers odd = those(all, in(Arm::odd));
+  const Answers dropped = those(
+      all, [](const Answered& a) { return seen(Arm::dropped)(a) && !a.order.effects.empty(); });
+  const Test names_a_cause = [](const Answered& a) { return a.verdict == "cause_named"; };
   const Test wrong = [](const Answered& a) {
     return mark_of(a) == Mark::wrong || (mark_of(a) == Mark::outside && !a.shared_cause.empty());
   };
-  return {
-      {Bar::named, count(effects, named)},
-      {Bar::separable_named, count(nameable, named)},
-      {Bar::named_or_law, count(effects, is_told)},
-      {Bar::loop_named, count(loop, is_told)},
-      {Bar::loop_wrong, count(loop, wrong)},
-      {Bar::listed, count(effects, marked({Mark::named, Mark::inside}))},
-      {Bar::wrong, count(effects, wrong)},
-      {Bar::false_alarm, count(those(all, in(Arm::correct)),
-                               [](const Answered& a) { return mark_of(a) != Mark::nothing; })},
-      {Bar::outside_unexplained,
-       count(those(all, seen(Arm::outside)), marked({Mark::unexplained}))},
-      {Bar::unstated_named, count(those(all, in(Arm::careless)),
-                                  [](const Answered& a) { return a.verdict == "cause_named"; })},
-      {Bar::unstated_told, count(structured, [](const Answered& a) { return a.errors_told; })},
-      {Bar::single_diameter, count(single, marked({Mark::inside, Mark::outside}))},
-      {Bar::unseen, count(effects, marked({Mark::nothing}))},
-      {Bar::bent_listed, count(bent, marked({Mark::named, Mark::inside, Mark::resembled}))},
-      {Bar::bent_wrong, count(bent, wrong)},
-      {Bar::bent_unexplained, count(bent, marked({Mark::unexplained}))},
-      {Bar::base_alarm, count(those(all, in(Arm::base_bent)),
-                              [](const Answered& a) { return mark_of(a) != Mark::nothing; })},
-      {Bar::impossible_named, count(those(all, in(Arm::impossible)),
-                                    [](const Answered& a) { return a.verdict == "cause_named"; })}};
+  return {{Bar::named, count(effects, named)},
+          {Bar::separable_named, count(nameable, named)},
+          {Bar::named_or_law, count(effects, is_told)},
+          {Bar::loop_named, count(loop, is_told)},
+          {Bar::loop_wrong, count(loop, wrong)},
+          {Bar::listed, count(effects, marked({Mark::named, Mark::inside}))},
+          {Bar::wrong, count(effects, wrong)},
+          {Bar::false_alarm, count(those(all, in(Arm::correct)),
+                                   [](const Answered& a) { return mark_of(a) != Mark::nothing; })},
+          {Bar::outside_unexplained,
+           count(those(all, seen(Arm::outside)), marked({Mark::unexplained}))},
+          {Bar::unstated_named, count(those(all, in(Arm::careless)), names_a_cause)},
+          {Bar::unstated_told, count(structured, [](const Answered& a) { return a.errors_told; })},
+          {Bar::single_diameter, count(single, marked({Mark::inside, Mark::outside}))},
+          {Bar::unseen, count(effects, marked({Mark::nothing}))},
+          {Bar::bent_listed, count(bent, marked({Mark::named, Mark::inside, Mark::resembled}))},
+          {Bar::bent_wrong, count(bent, wrong)},
+          {Bar::bent_unexplained, count(bent, marked({Mark::unexplained}))},
+          {Bar::base_alarm, count(those(all, in(Arm::base_bent)),
+                                  [](const Answered& a) { return mark_of(a) != Mark::nothing; })},
+          {Bar::impossible_named, count(those(all, in(Arm::impossible)), names_a_cause)},
+          {Bar::dropped_listed, count(dropped, marked({Mark::named, Mark::inside}))},
+          {Bar::dropped_wrong, count(dropped, wrong)},
+          {Bar::settings_named, count(those(all, in(Arm::settings)), names_a_cause)},
+          {Bar::odd_named, count(odd, names_a_cause)},
+          {Bar::odd_found, points_of(odd, &Answered::odd_found, &Answered::odd)},
+          {Bar::odd_accused, points_of(odd, &Answered::accused, &Answered::right)}};
 }
 
 void count_missed(const std::vector<Answered>& all, StudyTally& tally) {
@@ -343,15 +360,22 @@ Wanted wanted_of(Bar bar) {
   switch (bar) {
     case Bar::listed:
     case Bar::loop_named:
+    case Bar::dropped_listed:
+    case Bar::odd_found:
       return {0.95, true};
     case Bar::bent_listed:
       return {0.90, true};
+    case Bar::odd_accused:
+      return {0.01, false};
     case Bar::wrong:
     case Bar::loop_wrong:
+    case Bar::dropped_wrong:
       return {0.02, false};
     case Bar::bent_wrong:
     case Bar::unstated_named:
     case Bar::impossible_named:
+    case Bar::settings_named:
+    case Bar::odd_named:
       return {0.03, false};
     case Bar::false_alarm:
     case Bar::base_alarm:

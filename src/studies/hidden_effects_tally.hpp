@@ -51,7 +51,13 @@ enum class Bar {
   impossible_named,     ///< a cause named for an effect of impossible size
   loop_named,           ///< named, or its cause told, after doing what is advised, three times at
                         ///< most
-  loop_wrong            ///< the same: a wrong cause
+  loop_wrong,           ///< the same: a wrong cause
+  dropped_listed,       ///< an effect in drops of spheres of millimetres: named or listed
+  dropped_wrong,        ///< the same: a wrong cause named
+  settings_named,       ///< a cause named where heights were set wrong
+  odd_named,            ///< a cause named where points are misread
+  odd_found,            ///< of the points that are misread, those set aside
+  odd_accused           ///< of the others, those set aside
 };
 
 /// The share that is wanted: at least, or at most.

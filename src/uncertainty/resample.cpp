@@ -6,6 +6,7 @@
 #include <map>
 
 #include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
 #include "estimate/simulated_observation.hpp"
 
 namespace recoil {
@@ -24,7 +25,11 @@ std::vector<double> scaled_residuals(const FitResult& fitted, double power) {
       continue;
     }
     const double h = std::min(fitted.leverage[i], most_leverage);
-    scaled[i] = fitted.residuals[i] / std::pow(1.0 - h, power);
+    // With what its setting shares in it.
+    const double residual = fitted.data.shares_settings()
+                                ? weighted_residual(point, fitted.prediction_squared[i]).value
+                                : fitted.residuals[i];
+    scaled[i] = residual / std::pow(1.0 - h, power);
   }
   return scaled;
 }
@@ -42,10 +47,14 @@ std::vector<double> residual_pool(const FitResult& fitted) {
   return pool;
 }
 
-std::vector<std::vector<std::size_t>> series_of(const Observations& data) {
+/// The points that may depend on each other: those of one series, or of one setting.
+std::vector<std::vector<std::size_t>> clusters_of(const Observations& data) {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> found;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
-    found[{data.points[i].dataset, data.points[i].series}].push_back(i);
+    const Observation& point = data.points[i];
+    found[data.shares_settings() ? std::pair(std::size_t{0}, point.setting)
+                                 : std::pair(point.dataset, point.series)]
+        .push_back(i);
   }
   std::vector<std::vector<std::size_t>> clusters;
   for (auto& [key, points] : found) clusters.push_back(std::move(points));
@@ -83,7 +92,10 @@ std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations&
   if ((scheme == Scheme::residual || scheme == Scheme::wild) && all_captured) {
     return SchemeObstacle::no_residuals;
   }
-  if (scheme == Scheme::cluster && series_of(data).size() < 2) {
+  if ((scheme == Scheme::residual || scheme == Scheme::cases) && data.noise.setting_sd > 0.0) {
+    return SchemeObstacle::shared_settings;
+  }
+  if (scheme == Scheme::cluster && clusters_of(data).size() < 2) {
     return SchemeObstacle::single_series;
   }
   return std::nullopt;
@@ -103,15 +115,17 @@ ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
   }
   if (plan.scheme == Scheme::residual) plan.residuals = residual_pool(fitted);
   if (plan.scheme == Scheme::wild) plan.residuals = scaled_residuals(fitted, 1.0);
-  if (plan.scheme == Scheme::cluster) plan.clusters = series_of(data);
+  if (plan.scheme == Scheme::cluster) plan.clusters = clusters_of(data);
   return plan;
 }
 
-void resample_parametric(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
+void resample_parametric(const ResamplingPlan& plan, std::span<const double> setting_errors,
+                         RandomStream& random, Observations& sample) {
   sample.points = plan.fitted->data.points;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     sample.points[i] =
-        simulate_observation(plan.fitted->data.points[i], plan.fitted->prediction_squared[i],
+        simulate_observation(plan.fitted->data.points[i],
+                             shifted_square(plan.fitted->prediction_squared[i], setting_errors[i]),
                              plan.fitted->noise_scale, plan.fitted->data.noise.student, random);
   }
 }
@@ -125,9 +139,12 @@ void resample_residual(const ResamplingPlan& plan, RandomStream& random, Observa
 
 void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points = plan.fitted->data.points;
+  std::map<std::size_t, double> sign_of;  // of each setting, where its points share an error
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
-    const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
-    disturb(plan, i, sign * plan.residuals[i], random, sample);
+    const std::size_t unit = plan.fitted->data.shares_settings() ? sample.points[i].setting : i;
+    const auto [sign, is_new] = sign_of.try_emplace(unit, 1.0);
+    if (is_new && random.uniform() < 0.5) sign->second = -1.0;
+    disturb(plan, i, sign->second * plan.residuals[i], random, sample);
   }
 }
 
@@ -141,9 +158,12 @@ void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observatio
 
 void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points.clear();
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> again;  // (draw, setting)
   for (std::size_t k = 0; k < plan.clusters.size(); ++k) {
     for (const std::size_t i : plan.clusters[random.below(plan.clusters.size())]) {
-      sample.points.push_back(plan.fitted->data.points[i]);
+      Observation& point = sample.points.emplace_back(plan.fitted->data.points[i]);
+      // A setting that is drawn twice is two settings.
+      point.setting = again.try_emplace({k, point.setting}, again.size()).first->second;
     }
   }
 }
@@ -162,13 +182,19 @@ void resample_constants(const FitResult& fitted, std::uint64_t seed, std::uint64
   }
 }
 
+std::vector<double> setting_errors_of(const ResamplingPlan& plan, std::uint64_t seed,
+                                      std::uint64_t index) {
+  RandomStream random(seed, RandomPurpose::settings, index);
+  return draw_setting_errors(plan.fitted->data, random);
+}
+
 void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t index,
               Observations& sample) {
   resample_constants(*plan.fitted, seed, index, sample);
   RandomStream random(seed, RandomPurpose::bootstrap, index);
   switch (plan.scheme) {
     case Scheme::parametric:
-      return resample_parametric(plan, random, sample);
+      return resample_parametric(plan, setting_errors_of(plan, seed, index), random, sample);
     case Scheme::residual:
       return resample_residual(plan, random, sample);
     case Scheme::wild:

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/names.hpp"
@@ -26,12 +27,14 @@ struct NamesOf<SchemeBecause> {
 
 /// Why a scheme cannot be used.
 enum class SchemeObstacle {
-  no_residuals,   ///< no point rebounded
-  single_series,  ///< there is nothing to exchange
+  no_residuals,    ///< no point rebounded
+  single_series,   ///< there is nothing to exchange
+  shared_settings  ///< points of one setting share an error, and single ones would be exchanged
 };
 template <>
 struct NamesOf<SchemeObstacle> {
-  static constexpr std::array<std::string_view, 2> names = {"no_residuals", "single_series"};
+  static constexpr std::array<std::string_view, 3> names = {"no_residuals", "single_series",
+                                                            "shared_settings"};
 };
 
 /// What a scheme draws from, prepared once for all replicates. Refers to the fit, which has to
@@ -56,12 +59,18 @@ std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations&
 /// @pre !scheme_obstacle(asked, data)
 ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked);
 
+/// The errors of e that the settings of replicate `index` share [points].
+std::vector<double> setting_errors_of(const ResamplingPlan& plan, std::uint64_t seed,
+                                      std::uint64_t index);
+
 // The schemes. Each fills `sample.points` from the plan and one stream of random numbers; whatever
 // else `sample` holds is left alone. In the first three a captured point stays a captured point and
 // its place in the stream is kept; in the last two it travels with its case or series.
 
 /// e*_i = e_model,i + s sd_i z_i, z standard normal, s the fit's noise_scale.
-void resample_parametric(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
+/// Where settings share errors, `setting_errors` of e [points] come on top.
+void resample_parametric(const ResamplingPlan& plan, std::span<const double> setting_errors,
+                         RandomStream& random, Observations& sample);
 
 /// e*_i = e_model,i + sd_i rho_i, rho drawn from the centred r_j / sqrt(1 - h_j) of all points that
 /// rebounded (Davison & Hinkley 1997, Bootstrap Methods and their Application, section 6.2.3).
@@ -70,14 +79,16 @@ void resample_residual(const ResamplingPlan& plan, RandomStream& random, Observa
 /// e*_i = e_model,i + sd_i r_i / (1 - h_i) v_i with v_i = -1 or +1, equally likely: the wild
 /// bootstrap (Wu 1986, Ann. Statist. 14, 1261-1295) with the HC3 scaling and Rademacher signs,
 /// which Davidson & Flachaire (2008), J. Econometrics 146, 162-169, found to do better in small
-/// samples than the two-point distribution of Mammen (1993).
+/// samples than the two-point distribution of Mammen (1993). Where settings share errors, the
+/// points of one setting have one sign (Cameron, Gelbach & Miller 2008, Rev. Econ. Stat. 90,
+/// 414-427).
 void resample_wild(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
 
 /// n whole points with replacement: nothing but the points themselves is assumed.
 void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
 
 /// As many whole series as there are, with replacement: points of a series may depend on each
-/// other.
+/// other. Where settings share errors, whole settings.
 void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample);
 
 /// The stated values of the uncertain constants of the materials, drawn anew about those of the

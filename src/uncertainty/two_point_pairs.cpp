@@ -155,7 +155,7 @@ Simulation simulate(const ResamplingPlan& plan, const ImpactModel& model,
                     const std::vector<Series>& all, std::uint64_t seed, std::uint64_t index) {
   RandomStream random(seed, RandomPurpose::two_point_pairs, index);
   Observations sample = plan.fitted->data;
-  resample_parametric(plan, random, sample);
+  resample_parametric(plan, setting_errors_of(plan, seed, index), random, sample);
   Simulation made;
   for (const Series& series : all) {
     made.restitution.emplace_back();

@@ -58,9 +58,10 @@ Dataset measured(unsigned seed, double velocity_error, double larger) {
 Diagnosis diagnosed(const Dataset& data) { return diagnose(synthetic::spec(), {data}, quick()); }
 
 /// What `diagnose` would be told, without the search for causes.
-std::vector<UnstatedErrors> asked(const Dataset& data) {
+std::vector<UnstatedErrors> asked(const Dataset& data, std::optional<double> setting_sd = {}) {
   const std::vector<Dataset> datasets = {data};
-  const FitSpec spec = synthetic::spec();
+  FitSpec spec = synthetic::spec();
+  spec.noise.setting_sd = setting_sd;
   const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
   return unstated_errors(search_base(spec, datasets, fitted, quick()));
 }
@@ -194,13 +195,15 @@ TEST(UnstatedErrors, OfASettingAreNotSeenWhereThereAreNone) {
 
 TEST(UnstatedErrors, AColumnSaysWhichPointsShareASetting) {
   // The same heights measured on two days: by the column the day is the setting, and its points,
-  // off together at all heights, share an error that no setting of one height knows.
+  // off together at all heights, share an error that no setting of one height knows. Asked only
+  // where the fit was told not to look for it.
   Dataset data = drops(2, 0.0);
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     data.points[i].setting = fmt::format("day {}", i % 6);
     data.points[i].restitution += i % 2 == 0 ? 0.02 : -0.02;
   }
-  const std::vector<UnstatedErrors> all = asked(data);
+  EXPECT_EQ(find(asked(data), ErrorSource::shared_setting), nullptr);
+  const std::vector<UnstatedErrors> all = asked(data, 0.0);
   const UnstatedErrors* const shared = find(all, ErrorSource::shared_setting);
   ASSERT_NE(shared, nullptr);
   EXPECT_NEAR(shared->value, 0.02, 0.01);

@@ -69,6 +69,7 @@ TEST(ParseFit, ReadsEveryKey) {
   EXPECT_EQ(spec.variance_place.line, 14);
   EXPECT_TRUE(spec.noise.student);
   EXPECT_EQ(spec.noise.student_dof, 5.0);
+  EXPECT_FALSE(spec.noise.setting_sd);
   EXPECT_TRUE(spec.noise.velocity_errors);
   EXPECT_EQ(spec.noise.velocity_relative_sd, 0.02);
   EXPECT_FALSE(spec.noise.diameter_errors);
@@ -245,6 +246,12 @@ const Mistake mistakes[] = {
      "fit.toml:15:15: ", "'student_dof' without Student's t", "residuals = \"student\""},
     {"student_dof_low", "student_dof = 5", "student_dof = 0.5",
      "fit.toml:16:15: ", "student_dof = 0.5", "4 is usual"},
+    {"setting_sd_beside_student", "student_dof = 5", "setting_sd = 0.01",
+     "fit.toml:16:14: ", "setting_sd beside residuals = \"student\"", "remove one of the two"},
+    {"setting_sd_word", "student_dof = 5", "setting_sd = \"guess\"",
+     "fit.toml:16:14: ", "setting_sd = 'guess'", "estimated"},
+    {"setting_sd_per_cent", "student_dof = 5", "setting_sd = 1",
+     "fit.toml:16:14: ", "setting_sd = 1", "0.01 is usual"},
     {"velocity_sd_per_cent", "= 0.02", "= 2", "fit.toml:17:24: ", "velocity_relative_sd = 2",
      "0.02"},
     {"velocity_sd_negative", "= 0.02", "= -0.02",

@@ -47,6 +47,25 @@ TEST(Table, ColumnsByTheirMap) {
   EXPECT_DOUBLE_EQ(made.system.particle.density, 1050.0);
 }
 
+TEST(Table, SettingsAndConditionsComeAlong) {
+  const Place place;
+  auto request = place.request("day,p,V,e\nmon,1000,2,0.5\nmon,,3,0.6\n\"tue, late\",10,4,0.7\n",
+                               ImportFormat::csv);
+  request.map = {"setting=day,ambient_pressure=p:hPa,incident_velocity=V:m/s,restitution=e:1"};
+  recoil::import_points(request);
+  const Dataset made = recoil::load_dataset(request.into);  // as written
+  ASSERT_EQ(made.points.size(), 3U);
+  EXPECT_EQ(made.points[1].setting, "mon");
+  EXPECT_EQ(made.points[2].setting, "tue, late");
+  const auto pressure = [&](std::size_t i) {
+    return recoil::conditions_of(made, made.points[i].series)
+        .of(recoil::Condition::ambient_pressure);
+  };
+  EXPECT_DOUBLE_EQ(*pressure(0), 1e5);
+  EXPECT_EQ(pressure(1), std::nullopt);
+  EXPECT_DOUBLE_EQ(*pressure(2), 1e3);
+}
+
 TEST(Table, UnitsInTheHeaderAndCounts) {
   const Place place;
   auto request = place.request(

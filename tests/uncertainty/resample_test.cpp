@@ -57,6 +57,73 @@ TEST(Plan, ObstaclesAreNamed) {
   EXPECT_FALSE(scheme_obstacle(Scheme::cases, c.data));
 }
 
+/// The same with every second point of one setting, whose points share an error of e.
+Case with_settings(double shared) {
+  Case made = synthetic::noisy_case();
+  made.fitted.data.spec.setting_sd = shared;
+  made.fitted.data.noise.setting_sd = shared;
+  for (std::size_t i = 0; i < made.fitted.data.points.size(); ++i) {
+    made.fitted.data.points[i].setting = i % 2;
+  }
+  return made;
+}
+
+TEST(Plan, SinglePointsOfASettingAreNotExchanged) {
+  const Case c = with_settings(0.05);
+  for (const Scheme scheme : {Scheme::residual, Scheme::cases}) {
+    EXPECT_EQ(scheme_obstacle(scheme, c.fitted.data), SchemeObstacle::shared_settings);
+  }
+  EXPECT_FALSE(scheme_obstacle(Scheme::cluster, c.fitted.data));
+  EXPECT_EQ(plan_resampling(c.fitted, Scheme::cluster).units(), 2U);
+}
+
+TEST(Parametric, PointsOfASettingMoveTogether) {
+  constexpr double shared = 0.05;
+  const Case c = with_settings(shared);
+  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::parametric);
+  const double own = c.fitted.data.points[4].weights.sd;
+  double together = 0.0;
+  double apart = 0.0;
+  constexpr int count = 4000;
+  for (int r = 0; r < count; ++r) {
+    const Observations sample = drawn(plan, static_cast<std::uint64_t>(r));
+    const auto moved = [&](std::size_t i) {
+      return sample.points[i].restitution - c.fitted.prediction[i];
+    };
+    together += moved(4) * moved(6) / count;
+    apart += moved(4) * moved(5) / count;
+  }
+  // Four standard errors of a mean of products.
+  const double error = 4.0 * (shared * shared + own * own) * std::sqrt(2.0 / count);
+  EXPECT_NEAR(together, shared * shared, error);
+  EXPECT_NEAR(apart, 0.0, error);
+}
+
+TEST(Wild, PointsOfASettingHaveOneSign) {
+  const Case c = with_settings(0.05);
+  const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::wild);
+  std::set<double> products;
+  for (std::uint64_t r = 0; r < 50; ++r) {
+    const Observations sample = drawn(plan, r);
+    const auto sign = [&](std::size_t i) {
+      return std::copysign(
+          1.0, (sample.points[i].restitution - c.fitted.prediction[i]) * plan.residuals[i]);
+    };
+    EXPECT_EQ(sign(4), sign(6));
+    products.insert(sign(4) * sign(5));
+  }
+  EXPECT_EQ(products.size(), 2U);
+}
+
+TEST(Cluster, ASettingDrawnTwiceIsTwoSettings) {
+  const Case c = with_settings(0.05);
+  const Observations sample = drawn(plan_resampling(c.fitted, Scheme::cluster), 3);
+  std::map<std::size_t, std::size_t> size;
+  for (const Observation& point : sample.points) ++size[point.setting];
+  EXPECT_EQ(size.size(), 2U);
+  for (const auto& [setting, points] : size) EXPECT_EQ(points, 7U);
+}
+
 TEST(Parametric, HasTheStatedMomentsAndKeepsCaptures) {
   const Case c = with_capture();
   const ResamplingPlan plan = plan_resampling(c.fitted, Scheme::parametric);

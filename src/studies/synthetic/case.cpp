@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -32,15 +33,27 @@ std::string joined(const std::vector<std::string>& effects) {
 double reading_of(const Case& made, const Point& p, recoil::RandomStream& random) {
   const double scatter = made.effects.velocity_scatter;
   const Effects effects = under(p.changed, made.effects);
+  double set = p.velocity;
+  if (effects.height_scatter > 0.0) {
+    recoil::RandomStream own(made.order.experiment_seed(), hidden_purpose, 1000000 + p.setting);
+    set *= std::sqrt(std::max(1.0 + effects.height_scatter * own.normal(), 0.5));
+  }
   double reading = 0.0;
   for (int i = 0; i < 100 && !(reading > 0.0); ++i) {  // somebody wants a rebound
-    const double velocity =
-        scatter > 0.0 ? p.velocity * (1.0 + scatter * random.normal()) : p.velocity;
+    const double velocity = scatter > 0.0 ? set * (1.0 + scatter * random.normal()) : set;
     reading = observed_mean(made.design.base, effects, made.design.scatter, velocity, p.diameter,
                             p.row, made.design.events, random);
     if (scatter == 0.0) break;
   }
-  return reading;
+  return reading * (set / p.velocity);  // e as the quotient of the velocities that are read
+}
+
+/// A misreading of 6 to 15 standard deviations, or none.
+double misreading(const Case& made, const Point& p, recoil::RandomStream& random) {
+  const bool odd = random.uniform() < made.effects.odd_share;
+  const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
+  const double size = p.sd * (6.0 + 9.0 * random.uniform());
+  return odd ? sign * size : 0.0;
 }
 
 }  // namespace
@@ -127,7 +140,11 @@ Case make_case(const CaseOrder& order) {
   const std::uint64_t readings_seed = number_of(order.key(), seed);
   for (std::size_t i = 0; i < made.points.size(); ++i) {
     recoil::RandomStream random(readings_seed, hidden_purpose, 100 + i);
-    made.readings.push_back(reading_of(made, made.points[i], random));
+    const Point& point = made.points[i];
+    const double right = reading_of(made, point, random);
+    const double wrong = misreading(made, point, random);
+    made.readings.push_back(wrong == 0.0 ? right : std::clamp(right + wrong, 0.02, 1.5));
+    made.odd.push_back(std::abs(made.readings.back() - right) > 5.0 * point.sd);
   }
   return made;
 }

@@ -20,10 +20,10 @@ enum class Circumstances {
 
 /// What to make. Equal orders give equal digits.
 struct CaseOrder {
-  std::string design;
-  std::vector<std::string> effects;  ///< none, one, or several together
-  double signal_to_noise = 0.0;      ///< that each of them alone would leave
-  std::uint64_t index = 0;           ///< which of the data sets of this kind
+  std::string design = {};
+  std::vector<std::string> effects = {};  ///< none, one, or several together
+  double signal_to_noise = 0.0;           ///< that each of them alone would leave
+  std::uint64_t index = 0;                ///< which of the data sets of this kind
   std::uint64_t seed = 20260101;
   double law_bend = 0.0;   ///< the effects' laws are wrong by a smooth factor of this size [1]
   double base_bend = 0.0;  ///< the losses of the base model likewise
@@ -50,6 +50,7 @@ struct Case {
   std::vector<Point> points;                ///< without noise
   Refit refit;                              ///< of the base to them, all effects at work
   std::vector<double> readings;             ///< the mean of the events of each point, with noise
+  std::vector<bool> odd;                    ///< misread by more than 5 standard deviations [points]
 };
 
 /// Nuisances the experiment, tunes every effect by itself to the wanted misfit, and takes the

@@ -37,6 +37,9 @@ std::vector<std::string> changed_conditions(const Case& made) {
   return {names.begin(), names.end()};
 }
 
+/// Drops are of known heights; in every second data set somebody wrote down which.
+bool names_settings(const Case& made) { return made.design.dropped && made.order.index % 2 == 1; }
+
 bool counts_captures(const Case& made) {
   return std::any_of(made.points.begin(), made.points.end(),
                      [](const Point& p) { return p.captured > 0; });
@@ -62,10 +65,15 @@ std::string package_text(const Case& made, const std::string& name) {
         field("captured", "integer", "1", "of the events; empty where nobody counted"));
   }
   for (const std::string& condition : changed_conditions(made)) {
-    const bool plain = condition == "neutralised" || condition == "relative_humidity";
+    const bool plain = condition == "neutralised" || condition == "relative_humidity" ||
+                       condition == "velocities_calibrated" || condition == "sizes_calibrated";
     const char* const unit = plain ? "1" : condition == "ambient_pressure" ? "Pa" : "m";
     resource["schema"]["fields"].push_back(
         field(condition.c_str(), "number", unit, "of the impacts of this point"));
+  }
+  if (names_settings(made)) {
+    resource["schema"]["fields"].push_back(
+        field("setting", "string", "", "the height from which it was dropped"));
   }
   package["resources"].push_back(resource);
   Json& own = package["recoil"];
@@ -80,8 +88,13 @@ std::string package_text(const Case& made, const std::string& name) {
                     {"poisson_ratio", b.surface_ratio}};
   if (d.stiffness_K > 0.0) own["stiffness_K"] = d.stiffness_K;
   for (const StatedCondition& c : made.conditions) own["conditions"][c.name] = c.value;
-  own["adhesion_force_f0"] = b.adhesion_force;
-  own["reference_diameter"] = b.reference_diameter;
+  if (d.dropped) {
+    own["method"] = "drop_heights";
+    own["adhesion_energy"] = 0;
+  } else {
+    own["adhesion_force_f0"] = b.adhesion_force;
+    own["reference_diameter"] = b.reference_diameter;
+  }
   return package.dump(2) + "\n";
 }
 
@@ -91,6 +104,8 @@ std::string points_text(const Case& made) {
   const bool counts = counts_captures(made);
   if (counts) text += ",captured";
   for (const std::string& name : changed) text += "," + name;
+  const bool settings = names_settings(made);
+  if (settings) text += ",setting";
   text += "\n";
   for (std::size_t i = 0; i < made.points.size(); ++i) {
     const Point& p = made.points[i];
@@ -105,12 +120,19 @@ std::string points_text(const Case& made) {
     for (const std::string& condition : changed) {
       text += p.changed.name == condition ? fmt::format(",{:g}", p.changed.value) : ",";
     }
+    if (settings) text += fmt::format(",height {}", p.setting);
     text += "\n";
   }
   return text;
 }
 
 std::string fit_text(const Case& made, const std::string& name) {
+  if (made.design.dropped) {
+    return fmt::format(
+        "dataset = \"{}\"\n\n[parameters]\nC_H = {{ initial = 3e-2, bounds = [0, 1] }}\n\n"
+        "[uncertainty]\nreplicates = 0\nlevel = 0.95\nseed = 20260101\n",
+        name);
+  }
   const bool steel = made.design.id == "li";
   return fmt::format(
       "dataset = \"{}\"\n\n[model]\nadhesion_damping_phase = \"rebound\"\n\n[parameters]\n"

@@ -7,6 +7,7 @@
 
 #include "core/random.hpp"
 #include "studies/synthetic/case.hpp"
+#include "studies/synthetic/observed_mean.hpp"
 #include "studies/synthetic/purpose.hpp"
 
 namespace hidden {
@@ -37,27 +38,13 @@ struct Seen {
 Seen impacts_seen(const Design& design, const Effects& effects, const Point& point,
                   recoil::RandomStream& random) {
   Seen seen;
-  const bool differ = effects.size_spread > 0.0 || effects.adhesion_spread > 0.0;
-  double square =
-      square_of_restitution(design.base, effects, point.velocity, point.diameter, 1.0, 1.0);
-  const double odd = oddity_factor(effects, point.velocity);
+  const auto typical = shared_square(design.base, effects, point.velocity, point.diameter);
   for (int i = 0; i < point.events; ++i) {
-    if (differ) {
-      const double size = size_of(effects.size_spread, random.normal());
-      const double adhesion = std::exp(effects.adhesion_spread * random.normal());
-      square = square_of_restitution(design.base, effects, point.velocity, point.diameter, size,
-                                     adhesion);
-    }
-    if (!(square > 0.0)) {
-      ++seen.captured;
-      continue;
-    }
-    const double e = std::sqrt(square) * odd;
-    double reading = std::max(e + design.scatter.of(e) * random.normal(), 0.0);
-    if (random.uniform() < effects.outlier_share) reading = random.uniform();
-    if (reading * point.velocity < effects.slowest_rebound) continue;
-    ++seen.rebounds;
-    seen.sum += reading;
+    const Reading one = read_impact(design.base, effects, design.scatter, point.velocity,
+                                    point.diameter, typical, random);
+    seen.captured += one.captured ? 1 : 0;
+    seen.rebounds += one.seen ? 1 : 0;
+    seen.sum += one.restitution;
   }
   return seen;
 }
@@ -76,6 +63,10 @@ std::vector<StatedCondition> conditions_behind(const std::string& effect, const 
   }
   if (effect == "electrostatic_image") return {{"neutralised", 0.0}};
   if (effect == "asperity_loss") return {{"surface_rms_roughness", 5e-8}};
+  if (effect == "velocity_offset" || effect == "height_origin") {
+    return {{"velocities_calibrated", 0.0}};
+  }
+  if (effect == "size_calibration") return {{"sizes_calibrated", 0.0}};
   return {};
 }
 
@@ -86,6 +77,10 @@ StatedCondition change_against(const std::string& effect) {
   if (effect == "electrostatic_image") return {"neutralised", 1.0};
   if (effect == "asperity_loss") return {"surface_rms_roughness", 5e-10};
   if (effect == "probe_plane") return {"probe_height", 0.0};
+  if (effect == "velocity_offset" || effect == "height_origin") {
+    return {"velocities_calibrated", 1.0};
+  }
+  if (effect == "size_calibration") return {"sizes_calibrated", 1.0};
   return {};
 }
 
@@ -103,6 +98,11 @@ Effects under(const StatedCondition& condition, Effects effects) {
     effects.asperity_energy = 0.0;
   } else if (condition.name == "probe_height") {
     effects.plane_height = 0.0;
+  } else if (condition.name == "velocities_calibrated" && condition.value > 0.0) {
+    effects.velocity_error = 0.0;
+    effects.height_error = 0.0;
+  } else if (condition.name == "sizes_calibrated" && condition.value > 0.0) {
+    effects.diameter_error = 0.0;
   }
   return effects;
 }
@@ -132,6 +132,7 @@ void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round
   point.velocity = further.velocity;
   point.events = further.events;
   point.changed = further.changed;
+  point.setting = 900000 + static_cast<std::size_t>(round);
   const Effects effects = under(further.changed, made.effects);
   const Seen seen = impacts_seen(design, effects, point, random);
   if (seen.rebounds + seen.captured == 0) return;  // too slow to be seen, all of them

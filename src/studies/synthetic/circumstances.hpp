@@ -17,8 +17,8 @@ struct StatedCondition {
 
 /// What somebody who knows how it was done could state, where `effect` acts in `effects`: the
 /// pressure of the gas and the height of the measuring plane, the humidity at which a meniscus has
-/// that radius, the thickness of the plate, the roughness, and that nothing was neutralised. Empty
-/// where no condition belongs to it.
+/// that radius, the thickness of the plate, the roughness, and that nothing was neutralised or
+/// checked. Empty where no condition belongs to it.
 std::vector<StatedCondition> conditions_behind(const std::string& effect, const Base& base,
                                                const Effects& effects);
 

@@ -61,13 +61,13 @@ void fluorescein(Draw& draw, Design& design) {
 }  // namespace
 
 const std::vector<std::string_view>& design_ids() {
-  static const std::vector<std::string_view> ids = {"wall", "wall-batches", "li", "wall-one",
-                                                    "dahneke"};
+  static const std::vector<std::string_view> ids = {"wall",     "wall-batches", "li",
+                                                    "wall-one", "dahneke",      "drops"};
   return ids;
 }
 
 bool has_several_diameters(std::string_view id) {
-  return id == "wall" || id == "wall-batches" || id == "li";
+  return id == "wall" || id == "wall-batches" || id == "li" || id == "drops";
 }
 
 Design draw_design(std::string_view id, std::uint64_t seed) {
@@ -131,6 +131,26 @@ Design draw_design(std::string_view id, std::uint64_t seed) {
     design.events = 100;
     design.decimals = 4;
     design.rows.push_back(make_row(draw, "1.27 um", 1.27e-6, 20, 2.5, 35.0));
+  } else if (id == "drops") {
+    design.dropped = true;
+    design.sphere = "polyamide 6.6";
+    design.surface = "steel";
+    b.density = 1140.0;
+    b.youngs_modulus = 1e7 * std::round(1e-7 * draw.between(2.4e9, 3.2e9));
+    b.poisson_ratio = 0.39;
+    b.surface_modulus = 210e9;
+    b.surface_ratio = 0.29;
+    b.surface_density = 7850.0;
+    b.reference_diameter = 6e-3;
+    b.C_H = draw.log_between(0.03, 0.08);
+    design.scatter = {0.004, 0.001, 0.0};
+    design.events = 1;
+    design.decimals = 4;
+    static constexpr Size balls[] = {{"3 mm", 3e-3}, {"6 mm", 6e-3}, {"12 mm", 12e-3}};
+    for (const Size& size : balls) {
+      design.rows.push_back(make_row(draw, size.name, size.diameter, 5, 0.65, 4.4));
+      design.rows.back().repeats = 4;
+    }
   } else {
     throw std::invalid_argument("no design '" + std::string(id) + "'");
   }
@@ -172,14 +192,14 @@ std::vector<Point> expected_points(const Design& design, const Effects& effects)
       const Expected e =
           expected_point(design.base, effects, design.scatter, velocity, row.diameter, r);
       if (!(e.restitution > 0.05) || !(e.restitution < 1.0)) return {};
-      points.push_back({r,
-                        row.diameter,
-                        velocity,
-                        e.restitution,
-                        e.event_sd / std::sqrt(static_cast<double>(design.events)),
-                        0,
-                        0,
-                        {}});
+      Point point;
+      point.row = r;
+      point.diameter = row.diameter;
+      point.velocity = velocity;
+      point.restitution = e.restitution;
+      point.sd = e.event_sd / std::sqrt(static_cast<double>(design.events));
+      point.setting = 1000 * r + static_cast<std::size_t>(i);
+      points.insert(points.end(), static_cast<std::size_t>(row.repeats), point);
     }
   }
   return points;

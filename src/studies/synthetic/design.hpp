@@ -19,6 +19,7 @@ struct Row {
   double lowest = 0.0;         ///< but not below this [m/s]
   double highest = 0.0;        ///< [m/s]
   std::vector<double> jitter;  ///< of each velocity, in steps of the row
+  int repeats = 1;             ///< impacts at each velocity, each a point of its own
 };
 
 /// An experiment that somebody could have made, drawn by seed around one that was made.
@@ -31,11 +32,13 @@ struct Design {
   std::vector<Row> rows;
   Scatter scatter;
   int events = 40;
-  int decimals = 3;  ///< of e, as printed
+  int decimals = 3;      ///< of e, as printed
+  bool dropped = false;  ///< by hand from measured heights, and known to be so
 };
 
 /// `wall` (4 diameters x 15), `wall-batches` (4 diameters x 2 batches x 8), `li` (4 diameters x
-/// 15), `wall-one` (1 x 15), `dahneke` (1 x 20).
+/// 15), `wall-one` (1 x 15), `dahneke` (1 x 20), `drops` (3 diameters of millimetres x 5 heights x
+/// 4 drops, without adhesion).
 const std::vector<std::string_view>& design_ids();
 bool has_several_diameters(std::string_view id);
 
@@ -48,9 +51,10 @@ struct Point {
   double diameter = 0.0;  ///< as stated [m]
   double velocity = 0.0;  ///< [m/s]
   double restitution = 0.0;
-  double sd = 0.0;   ///< of the mean
-  int events = 0;    ///< where they differ from those of the design, captured ones included
-  int captured = 0;  ///< of these
+  double sd = 0.0;          ///< of the mean
+  int events = 0;           ///< where they differ from those of the design, captured ones included
+  int captured = 0;         ///< of these
+  std::size_t setting = 0;  ///< the velocity of the row: its impacts share an error
   StatedCondition changed = {};  ///< under which it was taken; of no name: as the others
 };
 

@@ -35,6 +35,8 @@ struct Effects {
   double outlier_share = 0.0;         ///< of the pairs
   std::vector<double> series_offset;  ///< on e, one for each series
   double velocity_scatter = 0.0;  ///< sd of the printed velocity of a point, not stated, relative
+  double height_scatter = 0.0;    ///< relative sd of the height of a setting, not stated
+  double odd_share = 0.0;         ///< of the points: misread by 6 to 15 standard deviations
   double deviations_short = 0.0;  ///< true standard deviation over the stated one, less 1
   Oddity oddity = Oddity::none;
   double oddity_size = 0.0;    ///< on ln e

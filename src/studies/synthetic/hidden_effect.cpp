@@ -77,6 +77,9 @@ const std::vector<HiddenEffect>& hidden_effects() {
        [](E& e, double s, const D&) { e.velocity_scatter = s; }},
       {"deviations", careless, "1", 0.5, 0.0,
        [](E& e, double s, const D&) { e.deviations_short = s; }},
+      {"settings", careless, "1", 0.04, 0.0,
+       [](E& e, double s, const D&) { e.height_scatter = s; }},
+      {"odd_points", careless, "1", 0.06, 0.0, [](E& e, double s, const D&) { e.odd_share = s; }},
   };
   return all;
 }

@@ -52,7 +52,10 @@ Refit refit_from(const Design& design, const std::vector<Point>& points, double 
     }
     // A parameter at its bound stays there while the slope pushes it out.
     bool held[2];
-    for (int j = 0; j < 2; ++j) held[j] = x[j] == 0.0 && gradient[j] > 0.0;
+    // So does one that changes nothing: the damping of an adhesion that is not there.
+    for (int j = 0; j < 2; ++j) {
+      held[j] = (x[j] == 0.0 && gradient[j] > 0.0) || normal[j][j] == 0.0;
+    }
     double step_size = 0.0;
     double gain = 0.0;
     for (int tries = 0; tries < 12; ++tries) {

@@ -1,0 +1,149 @@
+#include "estimate/shared_settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/roots.hpp"
+#include "estimate/residual.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double largest_error = 0.3;  // of e
+
+/// What the points of one setting say of their error, by their deviations of e in units of their
+/// own scatter.
+struct SettingMean {
+  double weight = 0.0;  ///< sum of 1 / sd^2
+  double sum = 0.0;     ///< sum of deviation / sd^2
+  double square = 0.0;  ///< sum of deviation^2 / sd^2
+  int points = 0;
+
+  double mean() const { return sum / weight; }
+  double within() const { return std::max(0.0, square - sum * sum / weight); }
+};
+
+/// |dr / de| of a point that came back, r its residual before any whitening.
+double slope_in_restitution(const Observation& point, double square) {
+  return std::abs(weighted_residual(point, square).slope) * 2.0 * std::sqrt(std::max(square, 0.0));
+}
+
+std::map<std::size_t, SettingMean> means_of(const Observations& data,
+                                            std::span<const double> predicted) {
+  std::map<std::size_t, SettingMean> means;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const Observation& point = data.points[i];
+    if (point.censored) continue;
+    const double slope = slope_in_restitution(point, predicted[i]);
+    if (!(slope > 0.0)) continue;
+    // dr / de is negative: a larger prediction is a smaller residual.
+    const double deviation = weighted_residual(point, predicted[i]).value / slope;
+    SettingMean& setting = means[point.setting];
+    setting.weight += slope * slope;
+    setting.sum += deviation * slope * slope;
+    setting.square += deviation * deviation * slope * slope;
+    ++setting.points;
+  }
+  return means;
+}
+
+double estimated_error(const Observations& data, std::span<const double> predicted,
+                       int free_count) {
+  const auto means = means_of(data, predicted);
+  double within = 0.0;
+  int freedom = 0;
+  for (const auto& [setting, mean] : means) {
+    within += mean.within();
+    freedom += mean.points - 1;
+  }
+  const int between = static_cast<int>(means.size()) - free_count;
+  if (between < 1 || freedom < 1) return 0.0;
+  // What is stated of single points holds unless they scatter more within their settings.
+  const double scatter = within / freedom;
+  const double unit = data.sd_stated ? std::max(1.0, scatter) : scatter;
+  const auto excess = [&](double error) {
+    double sum = 0.0;
+    for (const auto& [setting, mean] : means) {
+      sum += mean.mean() * mean.mean() / (unit / mean.weight + error * error);
+    }
+    return sum - between;
+  };
+  if (!(excess(0.0) > 0.0)) return 0.0;
+  if (excess(largest_error) > 0.0) return largest_error;
+  return find_root(excess, 0.0, largest_error, 1e-9);
+}
+
+}  // namespace
+
+SharedSettings::SharedSettings(const std::vector<Observation>& points) {
+  std::map<std::size_t, std::vector<Member>> members;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double load = points[i].weights.setting_load;
+    if (load > 0.0) members[points[i].setting].push_back({i, load});
+  }
+  for (auto& [setting, own] : members) {
+    double square = 0.0;
+    for (const Member& member : own) square += member.load * member.load;
+    const double factor = (1.0 - 1.0 / std::sqrt(1.0 + square)) / square;
+    settings_.push_back({std::move(own), factor});
+    log_determinant_ += std::log1p(square);
+  }
+}
+
+void SharedSettings::whiten(std::span<double> rows, std::size_t columns) const {
+  for (const Setting& setting : settings_) {
+    for (std::size_t k = 0; k < columns; ++k) {
+      double along = 0.0;
+      for (const auto& [point, load] : setting.members) along += load * rows[point * columns + k];
+      for (const auto& [point, load] : setting.members) {
+        rows[point * columns + k] -= setting.factor * load * along;
+      }
+    }
+  }
+}
+
+void renew_settings(std::span<const double> predicted, int free_count, Observations& data) {
+  if (!data.shares_settings()) return;
+  double& error = data.noise.setting_sd;
+  error =
+      data.spec.setting_sd ? *data.spec.setting_sd : estimated_error(data, predicted, free_count);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    Observation& point = data.points[i];
+    point.weights.setting_load =
+        point.censored ? 0.0 : error * slope_in_restitution(point, predicted[i]);
+  }
+}
+
+std::vector<double> draw_setting_errors(const Observations& data, RandomStream& random) {
+  std::vector<double> errors(data.points.size(), 0.0);
+  if (!(data.noise.setting_sd > 0.0)) return errors;
+  std::map<std::size_t, double> drawn;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const auto [place, is_new] = drawn.try_emplace(data.points[i].setting, 0.0);
+    if (is_new) place->second = data.noise.setting_sd * random.normal();
+    errors[i] = place->second;
+  }
+  return errors;
+}
+
+double shifted_square(double restitution_squared, double error) {
+  if (error == 0.0 || !(restitution_squared > 0.0)) return restitution_squared;
+  const double e = std::max(0.0, std::sqrt(restitution_squared) + error);
+  return e * e;
+}
+
+SettingCount count_settings(const Observations& data) {
+  std::map<std::size_t, int> points;
+  for (const Observation& point : data.points) {
+    if (!point.censored) ++points[point.setting];
+  }
+  SettingCount count;
+  for (const auto& [setting, own] : points) {
+    ++count.settings;
+    count.points += own;
+  }
+  return count;
+}
+
+}  // namespace recoil

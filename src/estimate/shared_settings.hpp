@@ -1,0 +1,64 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/random.hpp"
+#include "estimate/observations.hpp"
+
+namespace recoil {
+
+/// The errors that the points of one setting of the apparatus share: a height, a day. Every setting
+/// k has an error z_k of e, normal with standard deviation sigma, so that the weighted residuals r
+/// of its points have the covariance I + g g', with loads g_i = sigma |dr_i / de|. Whitening takes
+/// them to
+///   (I + g g')^(-1/2) r = r - c g (g'r),  c = (1 - 1 / sqrt(1 + g'g)) / g'g,
+/// whose sum of squares is that of the generalised least squares. A captured point has no e, and
+/// its load is 0.
+class SharedSettings {
+ public:
+  explicit SharedSettings(const std::vector<Observation>& points);
+
+  bool none() const { return settings_.empty(); }
+  void whiten(std::span<double> residuals) const { whiten(residuals, 1); }
+  /// Every column of `rows` [points x columns, row major]; what follows the points stays.
+  void whiten(std::span<double> rows, std::size_t columns) const;
+  /// ln det (I + U U') of all settings.
+  double log_determinant() const { return log_determinant_; }
+
+ private:
+  struct Member {
+    std::size_t point;
+    double load;
+  };
+  struct Setting {
+    std::vector<Member> members;
+    double factor;  ///< c
+  };
+  std::vector<Setting> settings_;
+  double log_determinant_ = 0.0;
+};
+
+/// Renews `setting_load` of all points where they predict e^2 = `predicted`, and before it, where
+/// it is not stated, sigma: from what lies between settings against what lies within them. With m_k
+/// the weighted mean of the deviations of e of setting k, v_k its variance by the scatter within
+/// settings, and p parameters,
+///   sum m_k^2 / (v_k + sigma^2) = settings - p
+/// (Paule & Mandel 1982, J. Res. Natl. Bur. Stand. 87, 377-385); 0 where that has no solution.
+void renew_settings(std::span<const double> predicted, int free_count, Observations& data);
+
+/// An error of e for every point, the same for all of a setting [1]; 0 where settings share
+/// nothing.
+std::vector<double> draw_setting_errors(const Observations& data, RandomStream& random);
+
+/// e^2 where e reads too large by `error`; below capture nothing is read.
+double shifted_square(double restitution_squared, double error);
+
+/// How many settings there are whose points share an error, and how many points they have.
+struct SettingCount {
+  int settings = 0;
+  int points = 0;
+};
+SettingCount count_settings(const Observations& data);
+
+}  // namespace recoil

@@ -1,0 +1,188 @@
+// Points of one setting of the apparatus share an error. The truth comes from the simulator of the
+// reconstructions, the linear algebra from Eigen.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <map>
+#include <random>
+#include <string>
+
+#include "estimate/fit.hpp"
+#include "estimate/shared_settings.hpp"
+#include "support/synthetic.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double own_sd = 0.008;
+constexpr double diameter = 4.9e-6;
+
+double e_at(double velocity) {
+  synthetic::Design design;
+  design.diameters = {diameter};
+  design.velocities = {velocity};
+  return synthetic::dataset(design).points.front().restitution;
+}
+
+struct Drops {
+  int settings = 12;
+  int each = 6;
+  double shared = 0.02;
+  double own = own_sd;
+  bool stated = true;
+  bool named = true;
+};
+
+/// `each` drops at every velocity, all of one velocity off by the same error.
+Dataset measured(const Drops& drops, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Dataset data = synthetic::dataset({});
+  data.points.clear();
+  data.series = {"drops"};
+  for (int k = 0; k < drops.settings; ++k) {
+    const double velocity = 4.0 * std::pow(15.0, k / (drops.settings - 1.0));
+    static std::map<double, double> known;
+    if (!known.contains(velocity)) known[velocity] = e_at(velocity);
+    const double off = drops.shared * normal(random);
+    for (int i = 0; i < drops.each; ++i) {
+      ImpactPoint point;
+      point.series = 0;
+      point.diameter = diameter;
+      point.incident_velocity = velocity;
+      point.restitution = known[velocity] + off + drops.own * normal(random);
+      if (drops.stated) point.restitution_sd = drops.own;
+      if (drops.named) point.setting = fmt::format("height {}", k);
+      data.points.push_back(point);
+    }
+  }
+  return data;
+}
+
+FitResult fitted(const Dataset& data, const NoiseSpec& noise = {}) {
+  FitOptions options;
+  options.several_starts = false;
+  const std::vector<Dataset> datasets = {data};
+  return fit(make_model(synthetic::spec(), datasets), gather(datasets, noise), options);
+}
+
+TEST(SharedSettings, WhiteningIsTheInverseRootOfTheCovariance) {
+  std::vector<Observation> points(7);
+  const double loads[] = {0.3, 2.0, 0.0, 1.1, 0.7, 5.0, 0.2};
+  const std::size_t settings[] = {4, 4, 4, 9, 9, 4, 2};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].setting = settings[i];
+    points[i].weights.setting_load = loads[i];
+  }
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(7, 7);
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < 7; ++j) {
+      if (settings[i] == settings[j]) covariance(i, j) += loads[i] * loads[j];
+    }
+  }
+  // Row-major rows of the identity, whitened column by column, are the whitening matrix.
+  std::vector<double> whitening(49, 0.0);
+  for (std::size_t i = 0; i < 7; ++i) whitening[8 * i] = 1.0;
+  const SharedSettings shared(points);
+  shared.whiten(whitening, 7);
+  const Eigen::Map<const Eigen::Matrix<double, 7, 7, Eigen::RowMajor>> W(whitening.data());
+  EXPECT_LT((W * covariance * W.transpose() - Eigen::MatrixXd::Identity(7, 7)).norm(), 1e-13);
+  EXPECT_NEAR(shared.log_determinant(), std::log(covariance.determinant()), 1e-13);
+}
+
+TEST(SharedSettings, ADatasetThatNamesNoneSharesNothing) {
+  const FitResult plain = fitted(measured({.named = false}, 1));
+  EXPECT_FALSE(plain.data.shares_settings());
+  EXPECT_TRUE(SharedSettings(plain.data.points).none());
+  NoiseSpec noise;
+  noise.every_setting = true;  // those of equal velocity
+  const FitResult asked = fitted(measured({.named = false}, 1), noise);
+  EXPECT_EQ(asked.data.noise.setting_sd, fitted(measured({}, 1)).data.noise.setting_sd);
+}
+
+/// Ten drops from one height are one height's worth: with the shared error known, the fit of all
+/// drops is that of their means with the variance shared^2 + own^2 / n.
+TEST(SharedSettings, AllDropsSayWhatTheirMeansSay) {
+  const Drops drops{.settings = 8, .each = 10};
+  const Dataset all = measured(drops, 3);
+  Dataset means = all;
+  means.points.clear();
+  for (std::size_t i = 0; i < all.points.size(); i += 10) {
+    ImpactPoint mean = all.points[i];
+    mean.restitution = 0.0;
+    for (std::size_t k = 0; k < 10; ++k) mean.restitution += all.points[i + k].restitution / 10.0;
+    mean.restitution_sd = std::hypot(drops.shared, own_sd / std::sqrt(10.0));
+    mean.setting = "";
+    means.points.push_back(mean);
+  }
+  NoiseSpec noise;
+  noise.setting_sd = drops.shared;
+  const FitResult by_drops = fitted(all, noise);
+  const FitResult by_means = fitted(means);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_NEAR(by_drops.theta[j], by_means.theta[j], 0.02 * by_means.std_error[j]) << j;
+    EXPECT_NEAR(by_drops.std_error[j] / by_drops.noise_scale,
+                by_means.std_error[j] / by_means.noise_scale, 0.01 * by_means.std_error[j])
+        << j;
+  }
+}
+
+class SettingErrors : public testing::TestWithParam<bool> {};
+
+TEST_P(SettingErrors, AreEstimatedAndTheErrorsOfTheParametersHold) {
+  const Drops drops{.stated = GetParam()};
+  constexpr int sets = 150;
+  double square = 0.0;
+  double error[2] = {0.0, 0.0};
+  double claimed[2] = {0.0, 0.0};
+  double without[2] = {0.0, 0.0};
+  NoiseSpec none;
+  none.setting_sd = 0.0;
+  if (!drops.stated) none.variance = VarianceFunction::constant;
+  NoiseSpec shared = none;
+  shared.setting_sd.reset();
+  const double truth[] = {3e-3, 0.03};
+  for (unsigned k = 0; k < sets; ++k) {
+    const Dataset data = measured(drops, 100 + k);
+    const FitResult own = fitted(data, shared);
+    ASSERT_TRUE(own.usable) << own.failure;
+    square += std::pow(own.data.noise.setting_sd, 2) / sets;
+    const FitResult plain = fitted(data, none);
+    for (std::size_t j = 0; j < 2; ++j) {
+      error[j] += std::pow(own.theta[j] / truth[j] - 1.0, 2) / sets;
+      claimed[j] += std::pow(own.std_error[j] / truth[j], 2) / sets;
+      without[j] += std::pow(plain.std_error[j] / truth[j], 2) / sets;
+    }
+  }
+  // A variance of ten degrees of freedom scatters by 45 %, its mean over 150 sets by 4 %.
+  EXPECT_NEAR(square / (0.02 * 0.02), 1.0, 0.15);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_NEAR(error[j] / claimed[j], 1.0, 0.4) << j;  // 3.5 times sqrt(2 / 150)
+    EXPECT_GT(error[j] / without[j], 2.0) << j;  // what points that share nothing would claim
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Noise, SettingErrors, testing::Bool(), [](const auto& test) {
+  return std::string(test.param ? "StatedNoise" : "EstimatedNoise");
+});
+
+TEST(SharedSettings, WhereThereIsNoErrorNoneIsFound) {
+  int alarms = 0;
+  for (unsigned k = 0; k < 40; ++k) {
+    const FitResult result = fitted(measured({.shared = 0.0}, 500 + k));
+    alarms += result.data.noise.setting_sd > 0.6 * own_sd ? 1 : 0;
+  }
+  EXPECT_LE(alarms, 2);
+}
+
+TEST(SharedSettings, FewerSettingsThanParametersSayNothing) {
+  const FitResult result = fitted(measured({.settings = 2, .each = 20}, 1));
+  EXPECT_TRUE(result.data.shares_settings());
+  EXPECT_EQ(result.data.noise.setting_sd, 0.0);
+}
+
+}  // namespace
+}  // namespace recoil
