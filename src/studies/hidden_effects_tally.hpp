@@ -157,7 +157,7 @@ StudyTally read_tally(const std::filesystem::path& file);
 
 template <>
 struct recoil::NamesOf<hidden::Bar> {
-  static constexpr std::array<std::string_view, 18> names = {"named",
+  static constexpr std::array<std::string_view, 24> names = {"named",
                                                              "separable_named",
                                                              "named_or_law",
                                                              "listed",
@@ -174,5 +174,11 @@ struct recoil::NamesOf<hidden::Bar> {
                                                              "base_alarm",
                                                              "impossible_named",
                                                              "loop_named",
-                                                             "loop_wrong"};
+                                                             "loop_wrong",
+                                                             "dropped_listed",
+                                                             "dropped_wrong",
+                                                             "settings_named",
+                                                             "odd_named",
+                                                             "odd_found",
+                                                             "odd_accused"};
 };

@@ -47,6 +47,52 @@ TEST(Generator, NothingHiddenLeavesNothing) {
   }
 }
 
+// Drops from one height are off together, those from others by themselves.
+TEST(Generator, DropsFromOneHeightShareItsError) {
+  double together = 0.0;
+  double alone = 0.0;
+  int settings = 0;
+  for (std::uint64_t k = 0; k < 20; ++k) {
+    const Case made = make_case({"drops", {"settings"}, 0.0, k});
+    ASSERT_EQ(made.points.size(), 60U);
+    for (std::size_t first = 0; first < 60; first += 4) {
+      double mean = 0.0;
+      for (std::size_t i = first; i < first + 4; ++i) {
+        ASSERT_EQ(made.points[i].setting, made.points[first].setting);
+        mean += 0.25 * (made.readings[i] / made.points[i].restitution - 1.0);
+      }
+      together += mean * mean;
+      const double apart =
+          (made.readings[first] - made.readings[first + 1]) / made.points[first].sd;
+      alone += 0.5 * apart * apart;
+      ++settings;
+    }
+  }
+  // Heights off by 4 %: velocities by 2 %, and e, the quotient of what came back by what was read,
+  // by nearly as much.
+  EXPECT_NEAR(std::sqrt(together / settings), 0.02, 0.003);
+  EXPECT_NEAR(alone / settings, 1.0, 4.0 * std::sqrt(2.0 / settings));
+}
+
+// What is marked as misread is, and the others are not.
+TEST(Generator, OddPointsAreThoseThatAreMisread) {
+  int odd = 0;
+  for (std::uint64_t k = 0; k < 20; ++k) {
+    const Case made = make_case({"wall", {"odd_points"}, 0.0, k});
+    for (std::size_t i = 0; i < made.points.size(); ++i) {
+      const Point& p = made.points[i];
+      const double away = std::abs(made.readings[i] - p.restitution) / p.sd;
+      if (made.odd[i]) {
+        EXPECT_GT(away, 2.0);
+      } else {
+        EXPECT_LT(away, 5.0);
+      }
+      odd += made.odd[i] ? 1 : 0;
+    }
+  }
+  EXPECT_NEAR(odd / 1200.0, 0.06, 4.0 * std::sqrt(0.06 * 0.94 / 1200.0));
+}
+
 // Readings scatter about the expectation as their standard deviations say.
 TEST(Generator, NoiseIsAsStated) {
   double sum = 0.0;

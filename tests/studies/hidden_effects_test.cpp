@@ -144,6 +144,37 @@ std::vector<Question> one_diameter() {
   return {{{"wall-one", {"jkr_hysteresis"}, 10.0, 0}, {Mark::inside, Mark::outside}}};
 }
 
+/// Balls of millimetres that are dropped by hand: a cause that such drops have, and heights that
+/// were set wrong, which are no cause; where a column names the heights, the fit knows.
+std::vector<Question> drops_by_hand() {
+  return {{{"drops", {"height_origin"}, 20.0, 0}, {Mark::named, Mark::inside}},
+          {{"drops", {"settings"}, 0.0, 0}, {Mark::nothing, Mark::unexplained}},
+          {{"drops", {"settings"}, 0.0, 1}, {Mark::nothing}}};
+}
+
+/// A few points are misread: they are set aside, the others are not, and no cause is named.
+TEST(OddPoints, AreFoundAndNoOthers) {
+  for (const char* design : {"wall", "drops"}) {
+    const Answered answer = ask({design, {"odd_points"}, 0.0, 0}, RECOIL_BINARY, {});
+    ASSERT_EQ(answer.status, 0) << answer.complaint;
+    EXPECT_TRUE(answer.named.empty()) << design;
+    EXPECT_GT(answer.odd, 0) << design;
+    EXPECT_EQ(answer.odd_found, answer.odd) << design;
+    EXPECT_LE(answer.accused, 1) << design;
+    EXPECT_EQ(answer.odd + answer.right, 60) << design;
+  }
+}
+
+/// Two causes that the first answer cannot tell apart are told apart by what it advises.
+TEST(Loop, WhatIsAdvisedTellsCausesApart) {
+  CaseOrder order{"wall", {"hysteretic_loss"}, 20.0, 0};
+  order.rounds = 3;
+  const Answered answer = ask(order, RECOIL_BINARY, {});
+  ASSERT_EQ(answer.status, 0) << answer.complaint;
+  EXPECT_EQ(mark_of(answer), Mark::named) << answer.rounds;
+  EXPECT_GT(answer.rounds, 0);
+}
+
 /// Errors that the table does not state are no cause.
 TEST(CarelessBar, ErrorsThatNobodyStatedAreToldAndNoCauseIs) {
   // Drawn so that structure is seen at all: velocities off by 3 % are, near capture, hardly more
@@ -166,6 +197,7 @@ INSTANTIATE_TEST_SUITE_P(WithinLawErrors, Bar, testing::ValuesIn(within_law_erro
 INSTANTIATE_TEST_SUITE_P(BentBase, Bar, testing::ValuesIn(bent_base()), test_name);
 INSTANTIATE_TEST_SUITE_P(Impossible, Bar, testing::ValuesIn(impossible_sizes()), test_name);
 INSTANTIATE_TEST_SUITE_P(Outside, Bar, testing::ValuesIn(outside_the_catalogue()), test_name);
+INSTANTIATE_TEST_SUITE_P(DropsByHand, Bar, testing::ValuesIn(drops_by_hand()), test_name);
 INSTANTIATE_TEST_SUITE_P(OneDiameter, Bar, testing::ValuesIn(one_diameter()), test_name);
 
 }  // namespace
