@@ -311,7 +311,11 @@ class PointReader {
     };
     if (point.restitution > 1.0) add(PointRemark::restitution_above_one);
     if (point.restitution == 0.0 && !point.all_captured()) add(PointRemark::unmarked_zero);
-    if (point.diameter > limits::unusual_diameter) add(PointRemark::unusual_diameter);
+    const Method method = package_.system.method;
+    const bool balls = method == Method::drop_heights || method == Method::bounce_intervals;
+    if (point.diameter > limits::unusual_diameter && !balls) add(PointRemark::unusual_diameter);
+    // Drops of one setting may well read the same.
+    if (!point.setting.empty()) return;
     if (!seen_.emplace(point.series, point.diameter, point.incident_velocity, point.restitution)
              .second) {
       add(PointRemark::repeated);

@@ -305,6 +305,12 @@ double adhesion_force_under(const ImpactModel& model, std::span<const double> th
   return adhesion_force_for(value, contact.reference_diameter / 2.0, contact.stiffness);
 }
 
+bool without_adhesion(const ImpactModel& model, std::size_t dataset) {
+  if (dataset >= model.contacts.size() || !model.chain.empty()) return false;
+  return model.contacts[dataset].adhesion_force == 0.0 &&
+         !model.slots[model.slot_adhesion[dataset]].free;
+}
+
 bool follows_materials(const ImpactModel& model, std::size_t dataset) {
   const ParameterSlot& slot = model.slots[model.slot_adhesion[dataset]];
   return !is_exact(model, dataset) && slot.derived && !slot.free && slot.initial > 0.0;

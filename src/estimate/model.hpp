@@ -88,6 +88,10 @@ double derived_adhesion(const ImpactModel& model, std::size_t dataset);
 double adhesion_force_under(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset);
 
+/// Nothing holds the spheres of `dataset`: no adhesion is stated, none is fitted, no mechanism adds
+/// one. A capture velocity is then nothing but the smallest f0 that the solver takes.
+bool without_adhesion(const ImpactModel& model, std::size_t dataset);
+
 /// Does the adhesion of `dataset` follow the constants of its materials?
 bool follows_materials(const ImpactModel& model, std::size_t dataset);
 

@@ -304,8 +304,10 @@ Section inputs_section(const Analysis& a) {
 
 std::vector<Section> figure_sections(const Analysis& a, std::vector<Block> diagnosis) {
   Section two_points{"two-points", "Two points against all"};
-  two_points.blocks = {together({two_point_figures(a), pair_figures(a)})};
-  append(two_points.blocks, pair_paragraphs(a));
+  if (!a.uncertainty.two_point.empty()) {
+    two_points.blocks = {together({two_point_figures(a), pair_figures(a)})};
+    append(two_points.blocks, pair_paragraphs(a));
+  }
   return {{"restitution", "Restitution against velocity", {}, {together({restitution_figures(a)})}},
           {"residuals",
            "Residuals",

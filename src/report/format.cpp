@@ -145,10 +145,7 @@ const TwoPointComparison* two_point_of(const Analysis& analysis, std::size_t dat
 }
 
 bool without_adhesion(const Analysis& analysis, std::size_t dataset) {
-  const ImpactModel& model = analysis.fitted.model;
-  if (dataset >= model.contacts.size() || !model.chain.empty()) return false;
-  return model.contacts[dataset].adhesion_force == 0.0 &&
-         !model.slots[model.slot_adhesion[dataset]].free;
+  return without_adhesion(analysis.fitted.model, dataset);
 }
 
 ImpactConditions reference_conditions(const Analysis& analysis, std::size_t dataset,

@@ -58,8 +58,7 @@ const TwoPointComparison* two_point_of(const Analysis& analysis, std::size_t dat
 ImpactConditions reference_conditions(const Analysis& analysis, std::size_t dataset,
                                       double velocity);
 
-/// Nothing holds the spheres of `dataset`: no adhesion is stated, none is fitted, no mechanism adds
-/// one. A capture velocity is then nothing but the smallest f0 that the solver takes.
+/// Does nothing hold the spheres of `dataset`? See the same of a model.
 bool without_adhesion(const Analysis& analysis, std::size_t dataset);
 
 /// What stands in the place of a capture velocity then.

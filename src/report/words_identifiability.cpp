@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "report/format.hpp"
 #include "report/words_intervals.hpp"
 
 namespace recoil {
@@ -108,11 +109,13 @@ void describe_reach(const FitResult& fitted, const Identifiability& found, Sente
   }
   if (gains.empty()) return;
   const PlannedPoints& plan = found.information.plans.front();
-  sentences.push_back(fmt::format(
-      "{} more points at d = {:.3g} um, V = {:.3g} m/s ({:.3g} times the capture velocity) would "
-      "determine {}",
-      plan.points, plan.diameter / units::um, plan.velocity, plan.velocity / plan.capture_velocity,
-      fmt::join(gains, ", ")));
+  const std::string above = plan.capture_velocity > 0.0
+                                ? fmt::format(" ({:.3g} times the capture velocity)",
+                                              plan.velocity / plan.capture_velocity)
+                                : std::string();
+  sentences.push_back(fmt::format("{} more points of {} at {:.3g} m/s{} would determine {}",
+                                  plan.points, diameter_text(plan.diameter), plan.velocity, above,
+                                  fmt::join(gains, ", ")));
 }
 
 const char* words_of(Combination combination) {

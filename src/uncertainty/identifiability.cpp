@@ -81,6 +81,7 @@ std::optional<double> too_far_above_capture(const FitResult& fitted,
   double nearest = INFINITY;
   for (const CaptureEstimate& at : capture) {
     if (!at.found || !(at.value > 0.0)) continue;
+    if (without_adhesion(fitted.model, at.dataset)) continue;
     for (const Observation& point : fitted.data.points) {
       if (point.dataset == at.dataset && point.diameter == at.diameter) {
         nearest = std::min(nearest, point.velocity / at.value);
@@ -92,10 +93,12 @@ std::optional<double> too_far_above_capture(const FitResult& fitted,
   return nearest;
 }
 
-std::vector<CapturePlace> places_of(const std::vector<CaptureEstimate>& capture) {
+std::vector<CapturePlace> places_of(const ImpactModel& model,
+                                    const std::vector<CaptureEstimate>& capture) {
   std::vector<CapturePlace> places;
   for (const CaptureEstimate& at : capture) {
-    places.push_back({at.dataset, at.diameter, at.found ? at.value : 0.0});
+    const bool held = at.found && !without_adhesion(model, at.dataset);
+    places.push_back({at.dataset, at.diameter, held ? at.value : 0.0});
   }
   return places;
 }
@@ -138,7 +141,7 @@ Identifiability judge_identifiability(const FitResult& fitted,
   result.verdict = good == free_count ? IdentifiabilityVerdict::identifiable
                    : good > 0         ? IdentifiabilityVerdict::partly
                                       : IdentifiabilityVerdict::not_identifiable;
-  result.information = information_at(fitted, places_of(capture));
+  result.information = information_at(fitted, places_of(fitted.model, capture));
   result.correlated = correlated_parameters(fitted);
   result.slowest = too_far_above_capture(fitted, capture);
   result.more_points = result.slowest || good < free_count;

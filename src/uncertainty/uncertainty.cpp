@@ -211,7 +211,12 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   const std::vector<NoiseAlternative> alternatives = noise_alternatives(fitted);
   result.capture = capture_estimates(alternatives, options.level, datasets);
   std::vector<TwoPointResult> two_points;
-  for (std::size_t d = 0; options.two_point && d < datasets.size(); ++d) {
+  // Two points are for C_H and C_A: without adhesion there is no C_A.
+  bool adheres = false;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    adheres = adheres || !without_adhesion(fitted.model, d);
+  }
+  for (std::size_t d = 0; options.two_point && adheres && d < datasets.size(); ++d) {
     result.two_point.push_back(compare_two_point(fitted, d));
     two_points.push_back(result.two_point.back().result);
   }
