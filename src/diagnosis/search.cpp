@@ -209,10 +209,35 @@ CandidateResult try_both(const SearchBase& base, FirstLook look, bool follow) {
   return result;
 }
 
+/// The fit with an error of settings that no smooth law could explain: the one that it estimated
+/// takes up whatever the base model gets wrong, and would hide it.
+FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                              const FitResult& fitted) {
+  const Observations& data = fitted.data;
+  if (!data.setting_sd_estimated || !(data.noise.setting_sd > 0.0)) return fitted;
+  const int free = fitted.model.free_count();
+  const Eigen::MatrixXd smooth = smooth_functions(data);
+  const Eigen::Index half = (count_settings(data).settings - free) / 2;
+  if (half < 1) return fitted;
+  std::vector<std::vector<double>> trends;
+  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(half, smooth.cols()); ++k) {
+    trends.emplace_back(smooth.col(k).begin(), smooth.col(k).end());
+  }
+  const double rough = estimated_setting_error(data, fitted.prediction_squared, free, trends);
+  NoiseSpec noise = spec.noise;
+  noise.setting_sd = std::min(rough, data.noise.setting_sd);
+  FitOptions options;
+  options.several_starts = false;
+  options.start = fitted.theta;
+  FitResult again = fit(fitted.model, gather(datasets, noise), options);
+  return again.usable ? again : fitted;
+}
+
 }  // namespace
 
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
-                       const FitResult& fitted, const DiagnosisOptions& options) {
+                       const FitResult& estimated, const DiagnosisOptions& options) {
+  const FitResult fitted = with_rough_settings(spec, datasets, estimated);
   SearchBase base{spec, datasets, fitted, {},     make_candidate(spec, datasets, {}),
                   {},   0.0,      1.0,    options};
   base.laws = {spec.law_error, base_part * spec.law_error, smooth_functions(fitted.data)};

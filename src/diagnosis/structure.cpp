@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "core/random.hpp"
 #include "diagnosis/discrepancy.hpp"
@@ -156,8 +157,12 @@ void StructureStatistics::add_global_functions(const Observations& data) {
   const std::vector<double> u = onto_unit(log_velocity);
   const std::vector<double> w = onto_unit(log_diameter);
   const auto used = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
-  std::size_t longest = 0;
-  for (const auto& run : runs_) longest = std::max(longest, run.size());
+  std::size_t longest = 0;  // different velocities of one size
+  for (const auto& run : runs_) {
+    std::set<double> velocities;
+    for (const std::size_t i : run) velocities.insert(data.points[i].velocity);
+    longest = std::max(longest, velocities.size());
+  }
   const int degrees = std::min<int>(highest_degree, static_cast<int>(longest) - 2);
   for (int degree = 0; degree <= degrees; ++degree) {
     for (const bool with_size : {false, true}) {

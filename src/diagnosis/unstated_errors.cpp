@@ -81,6 +81,7 @@ FitResult fit_with_velocity_errors(const SearchBase& base, double relative_sd) {
   NoiseSpec noise = base.spec.noise;
   noise.velocity_errors = true;
   noise.velocity_relative_sd = relative_sd;
+  if (base.fitted.data.shares_settings()) noise.setting_sd = base.fitted.data.noise.setting_sd;
   FitOptions options;
   options.several_starts = false;
   options.start = base.fitted.theta;
@@ -154,7 +155,8 @@ std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
   return found;
 }
 
-/// What an error of e of size `sd`, shared by the points of each setting, adds to the residuals.
+/// What an error of e of size `sd`, shared by the points of each setting, adds to the residuals,
+/// beside what the fit says that they share.
 Eigen::MatrixXd setting_columns(const SearchBase& base, double sd) {
   const Observations& data = base.fitted.data;
   std::map<std::size_t, Eigen::Index> place;
@@ -170,6 +172,10 @@ Eigen::MatrixXd setting_columns(const SearchBase& base, double sd) {
     const double slope = weighted_residual(point, square, data.noise.student).slope;
     columns(static_cast<Eigen::Index>(i), place[point.setting]) =
         slope * 2.0 * std::sqrt(std::max(square, 0.0)) * sd;
+  }
+  const SharedSettings known(data.points);
+  for (Eigen::Index k = 0; k < columns.cols() && !known.none(); ++k) {
+    known.whiten({columns.col(k).data(), data.points.size()});
   }
   return columns;
 }
@@ -194,7 +200,8 @@ Refit fit_with_settings(const SearchBase& base, double sd) {
 
 std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   const Observations& data = base.fitted.data;
-  if (data.shares_settings() || !has_settings_of_several_points(data)) return std::nullopt;
+  if (base.spec.noise.setting_sd.value_or(0.0) > 0.0) return std::nullopt;  // somebody knows it
+  if (!has_settings_of_several_points(data)) return std::nullopt;
   const int free = base.candidate.free_count;
   const double step = std::log(largest_error / smallest_setting_error) / (steps - 1);
   std::vector<double> criterion(steps, INFINITY);
@@ -214,6 +221,7 @@ std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   const Refit refit = fit_with_settings(base, found.value);
   if (!refit.usable) return std::nullopt;
   found.delta_aicc = corrected_criterion(data, refit, free + 1) - base.criterion;
+  found.value = std::hypot(found.value, data.noise.setting_sd);
   found.remaining_p = remaining_p(base, data, refit, base.fitted.prediction_squared);
   return found;
 }

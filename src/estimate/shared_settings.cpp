@@ -1,5 +1,6 @@
 #include "estimate/shared_settings.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,32 +49,6 @@ std::map<std::size_t, SettingMean> means_of(const Observations& data,
   return means;
 }
 
-double estimated_error(const Observations& data, std::span<const double> predicted,
-                       int free_count) {
-  const auto means = means_of(data, predicted);
-  double within = 0.0;
-  int freedom = 0;
-  for (const auto& [setting, mean] : means) {
-    within += mean.within();
-    freedom += mean.points - 1;
-  }
-  const int between = static_cast<int>(means.size()) - free_count;
-  if (between < 1 || freedom < 1) return 0.0;
-  // What is stated of single points holds unless they scatter more within their settings.
-  const double scatter = within / freedom;
-  const double unit = data.sd_stated ? std::max(1.0, scatter) : scatter;
-  const auto excess = [&](double error) {
-    double sum = 0.0;
-    for (const auto& [setting, mean] : means) {
-      sum += mean.mean() * mean.mean() / (unit / mean.weight + error * error);
-    }
-    return sum - between;
-  };
-  if (!(excess(0.0) > 0.0)) return 0.0;
-  if (excess(largest_error) > 0.0) return largest_error;
-  return find_root(excess, 0.0, largest_error, 1e-9);
-}
-
 }  // namespace
 
 SharedSettings::SharedSettings(const std::vector<Observation>& points) {
@@ -103,11 +78,55 @@ void SharedSettings::whiten(std::span<double> rows, std::size_t columns) const {
   }
 }
 
+double estimated_setting_error(const Observations& data, std::span<const double> predicted,
+                               int free_count, std::span<const std::vector<double>> trends) {
+  const auto means = means_of(data, predicted);
+  const auto count = static_cast<Eigen::Index>(means.size());
+  double within = 0.0;
+  int freedom = 0;
+  Eigen::ArrayXd mean(count), weight(count);
+  std::map<std::size_t, Eigen::Index> place;
+  for (const auto& [setting, of_setting] : means) {
+    const auto k = static_cast<Eigen::Index>(place.size());
+    place[setting] = k;
+    mean(k) = of_setting.mean();
+    weight(k) = of_setting.weight;
+    within += of_setting.within();
+    freedom += of_setting.points - 1;
+  }
+  const auto functions = static_cast<Eigen::Index>(trends.size());
+  const Eigen::Index between = count - free_count - functions;
+  if (between < 1 || freedom < 1) return 0.0;
+  Eigen::MatrixXd trend(count, functions);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const auto at = place.find(data.points[i].setting);
+    for (Eigen::Index k = 0; k < functions && at != place.end(); ++k) {
+      trend(at->second, k) = trends[static_cast<std::size_t>(k)][i];
+    }
+  }
+  // What is stated of single points holds unless they scatter more within their settings.
+  const double scatter = within / freedom;
+  const double unit = data.sd_stated ? std::max(1.0, scatter) : scatter;
+  const auto excess = [&](double error) {
+    const Eigen::ArrayXd root = (unit / weight + error * error).rsqrt();
+    const Eigen::VectorXd white = (root * mean).matrix();
+    double left = white.squaredNorm();
+    if (functions > 0) {
+      const Eigen::MatrixXd columns = root.matrix().asDiagonal() * trend;
+      left = (white - columns * columns.colPivHouseholderQr().solve(white)).squaredNorm();
+    }
+    return left - static_cast<double>(between);
+  };
+  if (!(excess(0.0) > 0.0)) return 0.0;
+  if (excess(largest_error) > 0.0) return largest_error;
+  return find_root(excess, 0.0, largest_error, 1e-9);
+}
+
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data) {
   if (!data.shares_settings()) return;
   double& error = data.noise.setting_sd;
-  error =
-      data.spec.setting_sd ? *data.spec.setting_sd : estimated_error(data, predicted, free_count);
+  error = data.spec.setting_sd ? *data.spec.setting_sd
+                               : estimated_setting_error(data, predicted, free_count);
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     Observation& point = data.points[i];
     point.weights.setting_load =

@@ -39,12 +39,18 @@ class SharedSettings {
   double log_determinant_ = 0.0;
 };
 
-/// Renews `setting_load` of all points where they predict e^2 = `predicted`, and before it, where
-/// it is not stated, sigma: from what lies between settings against what lies within them. With m_k
-/// the weighted mean of the deviations of e of setting k, v_k its variance by the scatter within
+/// sigma from what lies between settings against what lies within them. With m_k the weighted mean
+/// of the deviations of e from what `predicted` says (e^2), v_k its variance by the scatter within
 /// settings, and p parameters,
 ///   sum m_k^2 / (v_k + sigma^2) = settings - p
 /// (Paule & Mandel 1982, J. Res. Natl. Bur. Stand. 87, 377-385); 0 where that has no solution.
+/// @param trends further functions that may be in the deviations, taken out of the m_k by weighted
+///   least squares, each at the cost of one parameter [functions][points]
+double estimated_setting_error(const Observations& data, std::span<const double> predicted,
+                               int free_count, std::span<const std::vector<double>> trends = {});
+
+/// Renews `setting_load` of all points where they predict e^2 = `predicted`, and before it, where
+/// it is not stated, sigma.
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data);
 
 /// An error of e for every point, the same for all of a setting [1]; 0 where settings share

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "report/format.hpp"
+#include "report/words_diagnosis.hpp"
 #include "report/words_intervals.hpp"
 
 namespace recoil {
@@ -114,7 +114,7 @@ void describe_reach(const FitResult& fitted, const Identifiability& found, Sente
                                               plan.velocity / plan.capture_velocity)
                                 : std::string();
   sentences.push_back(fmt::format("{} more points of {} at {:.3g} m/s{} would determine {}",
-                                  plan.points, diameter_text(plan.diameter), plan.velocity, above,
+                                  plan.points, diameter_words(plan.diameter), plan.velocity, above,
                                   fmt::join(gains, ", ")));
 }
 

@@ -6,6 +6,7 @@
 #include "core/units.hpp"
 #include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
+#include "report/words_diagnosis.hpp"
 #include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {
@@ -59,9 +60,8 @@ const char* what_it_does(Scheme scheme) {
 std::string suspect_words(const FailedReplicates::Suspect& suspect, Scheme scheme,
                           const Observations& data) {
   const Observation& point = data.points[suspect.point];
-  const std::string place =
-      fmt::format("point {} (d = {:.4g} um, V = {:.4g} m/s)", suspect.point + 1,
-                  point.diameter / units::um, point.velocity);
+  const std::string place = fmt::format("point {} (d = {}, V = {:.4g} m/s)", suspect.point + 1,
+                                        diameter_words(point.diameter), point.velocity);
   const bool counted = scheme == Scheme::cases || scheme == Scheme::cluster;
   return counted ? fmt::format("{} is drawn {:.2g} times instead of {:.2g}", place,
                                suspect.failed + 1.0, suspect.usual + 1.0)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/units.hpp"
+#include "report/words_diagnosis.hpp"
 
 namespace recoil {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 constexpr double dmt_limit = 0.1;  // of the Tabor parameter
 
 std::string impact_words(const Validity& v) {
-  return fmt::format("{:.3g} m/s, {:.3g} um", v.velocity, v.diameter / units::um);
+  return fmt::format("{:.3g} m/s, {}", v.velocity, diameter_words(v.diameter));
 }
 
 std::string pressure_words(double pressure) {
@@ -61,8 +62,8 @@ std::string validity_sentence(const Validity& v) {
           "model leaves out",
           v.value, pressure_words(v.yield_pressure), impact_words(v), v.limit);
     case ValidityQuantity::tabor:
-      return fmt::format("the Tabor parameter is {:.2g} ({:.3g} um): {}", v.value,
-                         v.diameter / units::um, tabor_words(v));
+      return fmt::format("the Tabor parameter is {:.2g} ({}): {}", v.value,
+                         diameter_words(v.diameter), tabor_words(v));
     case ValidityQuantity::wave_transits:
       return fmt::format(
           "a wave crosses the sphere {:.2g} times in one contact ({}); below {:g} the contact is "
