@@ -80,6 +80,7 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
   for (int round = 0; round < most_rounds; ++round) {
     const auto predicted = renew_weights(model, theta, result.data);
     if (!predicted) {
+      result.run.end = DescentEnd::no_answer;
       result.run.converged = false;
       result.run.message =
           "the weights need an answer of the model close to every point, and it has none beside "
@@ -87,7 +88,7 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
       return result;
     }
     result.run = minimise(impact_problem(model, result.data), theta, options.minimiser);
-    if (!result.run.converged) return result;
+    if (!result.run.ended()) return result;
     double scale = 1.0;
     if (!result.data.sd_stated) {
       const ConstantsInFit constants =
@@ -189,7 +190,7 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
     Observations own = data;
     own.noise.variance = function;
     ReweightedFit result = reweight_with(model, std::move(own), start, options);
-    if (!result.run.converged) {
+    if (!result.run.ended()) {
       if (!best) best = std::move(result);
       continue;
     }

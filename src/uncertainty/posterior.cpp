@@ -208,11 +208,19 @@ PosteriorResult sample_posterior(const FitResult& fitted,
     });
     bool settled = true;
     for (std::size_t j = 0; j < p; ++j) {
+      const std::size_t slot = coordinates.moving()[j];
       chains[j].clear();
       for (const EnsembleRun& run : runs) {
         for (const auto& walker : run.kept) chains[j].push_back(walker[j]);
       }
-      PosteriorMarginal& marginal = result.parameters[coordinates.moving()[j]];
+      // Of the values, which are what the draws are for: towards a bound at 0 the logarithms go on
+      // without end.
+      if (coordinates.logarithmic(slot)) {
+        for (std::vector<double>& chain : chains[j]) {
+          for (double& value : chain) value = std::exp(value);
+        }
+      }
+      PosteriorMarginal& marginal = result.parameters[slot];
       marginal.r_hat = split_r_hat(chains[j]);
       marginal.effective = effective_sample_size(chains[j]);
       settled = settled && marginal.r_hat <= options.largest_r_hat &&
@@ -231,11 +239,6 @@ PosteriorResult sample_posterior(const FitResult& fitted,
   }
   for (std::size_t j = 0; j < p; ++j) {
     const std::size_t slot = coordinates.moving()[j];
-    if (coordinates.logarithmic(slot)) {
-      for (std::vector<double>& chain : chains[j]) {
-        for (double& value : chain) value = std::exp(value);
-      }
-    }
     PosteriorMarginal& marginal = result.parameters[slot];
     marginal.interval = {};
     fill_marginal(chains[j], options.level, marginal);
