@@ -252,10 +252,12 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
 
   const Observations searched = without_mixed_points(data, free_count);
   const LeastSquaresProblem problem = impact_problem(model, searched, &result.handovers);
+  LeastSquaresOptions search = options.minimiser;
+  search.finish = false;  // only the best
   LeastSquaresResult best;
   std::size_t best_start = 0;
   for (const std::vector<double>& start : starting_points(model, first, options.several_starts)) {
-    LeastSquaresResult run = minimise(problem, start, options.minimiser);
+    LeastSquaresResult run = minimise(problem, start, search);
     result.starts.push_back({start, run.theta, run.sum_of_squares, run.end, run.message});
     const bool better = run.ended() && (!best.ended() || run.sum_of_squares < best.sum_of_squares);
     if (better) {
@@ -280,6 +282,9 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
     result.weights_at_rest = reweighted.at_rest;
     best = std::move(reweighted.run);
     result.data = std::move(reweighted.data);
+  } else if (LeastSquaresResult run = minimise(problem, best.theta, options.minimiser);
+             run.ended()) {
+    best = std::move(run);
   }
   result.usable = true;
   take_over(result, best);

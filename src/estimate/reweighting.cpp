@@ -77,6 +77,8 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
   std::vector<double> theta(start.begin(), start.end());
   double& noise_scale = result.data.noise.scale;
   Extrapolation extrapolation;
+  LeastSquaresOptions minimiser = options.minimiser;
+  minimiser.finish = false;  // not in every round
   for (int round = 0; round < most_rounds; ++round) {
     const auto predicted = renew_weights(model, theta, result.data);
     if (!predicted) {
@@ -87,7 +89,7 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
           "one of them";
       return result;
     }
-    result.run = minimise(impact_problem(model, result.data), theta, options.minimiser);
+    result.run = minimise(impact_problem(model, result.data), theta, minimiser);
     if (!result.run.ended()) return result;
     double scale = 1.0;
     if (!result.data.sd_stated) {
@@ -106,6 +108,15 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
     noise_scale *= scale;
   }
   return result;
+}
+
+/// The last digits, with the weights as they are.
+ReweightedFit finished(const ImpactModel& model, ReweightedFit fit,
+                       const LeastSquaresOptions& minimiser) {
+  if (!minimiser.finish || !fit.run.ended()) return fit;
+  LeastSquaresResult run = minimise(impact_problem(model, fit.data), fit.run.theta, minimiser);
+  if (run.ended()) fit.run = std::move(run);
+  return fit;
 }
 
 /// -2 ln restricted likelihood but for a constant that the variance functions share.
@@ -179,7 +190,8 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
     return result;
   }
   if (data.sd_stated || data.spec.variance) {
-    return reweight_with(model, std::move(data), start, options);
+    return finished(model, reweight_with(model, std::move(data), start, options),
+                    options.minimiser);
   }
   std::optional<ReweightedFit> best;
   double best_criterion = INFINITY;
@@ -202,7 +214,7 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
     }
   }
   best->data.noise.candidates = std::move(candidates);
-  return std::move(*best);
+  return finished(model, std::move(*best), options.minimiser);
 }
 
 }  // namespace recoil
