@@ -171,7 +171,7 @@ def test_what_comes_from_elsewhere_is_not_needed_to_import():
 
 def test_a_fit_on_flat_ground_says_so(here):
     lines = [line.split(",") for line in POINTS.splitlines()]
-    captured = [",".join([*row[:2], str(0.1 * float(row[2])), "0", "0.015", "20", "20"])
+    captured = [",".join([*row[:2], str(0.01 * float(row[2])), "0", "0.015", "20", "20"])
                 for row in lines[1:]]
     write_dataset(here / "stuck", "\n".join([",".join(lines[0]), *captured]) + "\n")
     result = recoil.fit("stuck", replicates=0)
