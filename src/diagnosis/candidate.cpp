@@ -25,6 +25,7 @@ LeastSquaresOptions descent() {
   options.gradient_tolerance = 1e-10;
   options.parameter_tolerance = 1e-10;
   options.covariance = false;
+  options.finish = false;
   options.search_along_steps = false;
   options.first_radius = 10.0;
   return options;
@@ -288,10 +289,10 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
   best.discrepancy = std::move(discrepancy);
   for (const std::vector<double>& start : starts) {
     LeastSquaresResult run = minimise(problem, start, options);
-    if (!run.converged && std::isfinite(run.sum_of_squares)) {
+    if (!run.ended() && std::isfinite(run.sum_of_squares)) {
       run = minimise(problem, run.theta, careful_descent());
     }
-    if (!run.converged || !std::isfinite(run.sum_of_squares)) continue;
+    if (!run.ended() || !std::isfinite(run.sum_of_squares)) continue;
     if (best.usable && run.sum_of_squares >= best.chi2) continue;
     best.usable = true;
     best.theta = std::move(run.theta);

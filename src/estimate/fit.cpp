@@ -126,6 +126,8 @@ void take_over(FitResult& result, const LeastSquaresResult& run) {
   const std::size_t n = result.data.points.size();
   result.theta = run.theta;
   result.at_bound = run.at_bound;
+  result.ending = run.end;
+  result.flat = run.flat;
   result.residuals.assign(run.residuals.begin(),
                           run.residuals.begin() + static_cast<std::ptrdiff_t>(n));
   result.least = run.sum_of_squares;
@@ -152,12 +154,13 @@ bool keep_errors_of_constants(FitResult& result, LeastSquaresResult& run,
     ReweightedFit again =
         reweighted_fit(result.model, result.data, result.theta, {.minimiser = options});
     run = std::move(again.run);
-    if (!run.converged) return false;
+    if (!run.ended()) return false;
     result.data = std::move(again.data);
     take_over(result, run);
     const double scale = misfit_of(result, run).scale();
     const bool done = std::abs(scale / result.noise_scale - 1.0) < at_rest;
     result.noise_scale = scale;
+    result.weights_at_rest = done && again.at_rest;
     if (done) break;
   }
   return true;
@@ -176,7 +179,11 @@ void compare_starts(FitResult& result, std::size_t best_start) {
   const StartSummary& best = result.starts[best_start];
   for (std::size_t k = 0; k < result.starts.size(); ++k) {
     StartSummary& start = result.starts[k];
-    if (!start.converged) continue;
+    if (start.ending == DescentEnd::limit || start.ending == DescentEnd::no_answer) continue;
+    if (k != best_start && start.ending == DescentEnd::flat) {
+      start.outcome = StartOutcome::flat;
+      continue;
+    }
     start.outcome = k == best_start ? StartOutcome::best : StartOutcome::same;
     if (start.chi2 > best.chi2 * (1.0 + 1e-3) + 1e-6) {
       start.outcome = StartOutcome::worse;
@@ -245,19 +252,20 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
 
   const Observations searched = without_mixed_points(data, free_count);
   const LeastSquaresProblem problem = impact_problem(model, searched, &result.handovers);
+  LeastSquaresOptions search = options.minimiser;
+  search.finish = false;  // only the best
   LeastSquaresResult best;
   std::size_t best_start = 0;
   for (const std::vector<double>& start : starting_points(model, first, options.several_starts)) {
-    LeastSquaresResult run = minimise(problem, start, options.minimiser);
-    result.starts.push_back({start, run.theta, run.sum_of_squares, run.converged, run.message});
-    const bool better =
-        run.converged && (!best.converged || run.sum_of_squares < best.sum_of_squares);
+    LeastSquaresResult run = minimise(problem, start, search);
+    result.starts.push_back({start, run.theta, run.sum_of_squares, run.end, run.message});
+    const bool better = run.ended() && (!best.ended() || run.sum_of_squares < best.sum_of_squares);
     if (better) {
       best = std::move(run);
       best_start = result.starts.size() - 1;
     }
   }
-  if (!best.converged) {
+  if (!best.ended()) {
     const std::string where = unanswered_point(model, data, first);
     result.failure = where.empty() ? "no start converged: " + result.starts.front().message
                                    : "no start converged; " + where;
@@ -267,13 +275,16 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
   if (data.weights_depend_on_fit()) {
     ReweightedFit reweighted =
         reweighted_fit(model, data, best.theta, {.minimiser = options.minimiser});
-    if (!reweighted.run.converged) {
+    if (!reweighted.run.ended()) {
       result.failure = "no fit together with its weights: " + reweighted.run.message;
       return result;
     }
     result.weights_at_rest = reweighted.at_rest;
     best = std::move(reweighted.run);
     result.data = std::move(reweighted.data);
+  } else if (LeastSquaresResult run = minimise(problem, best.theta, options.minimiser);
+             run.ended()) {
+    best = std::move(run);
   }
   result.usable = true;
   take_over(result, best);

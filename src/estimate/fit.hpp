@@ -16,6 +16,7 @@ enum class StartOutcome {
   same,           ///< at the same place as the best
   tie,            ///< with the same chi2 elsewhere, see StartSummary::differing
   worse,          ///< in a worse local minimum
+  flat,           ///< where the points do not depend on a parameter
   not_converged,  ///< without an answer
 };
 
@@ -24,10 +25,12 @@ struct StartSummary {
   std::vector<double> start;
   std::vector<double> end;
   double chi2 = 0.0;
-  bool converged = false;
+  DescentEnd ending = DescentEnd::no_answer;
   std::string message;  ///< the minimiser's own words
   StartOutcome outcome = StartOutcome::not_converged;
   std::vector<std::size_t> differing = {};  ///< of a tie: the slots whose values differ
+
+  bool converged() const { return ending == DescentEnd::minimum || ending == DescentEnd::valley; }
 };
 
 /// What the scatter of the points says of the standard deviations that they state.
@@ -63,8 +66,11 @@ struct FitResult {
   ImpactModel model;
   Observations data;  ///< the points with the weights that belong to this fit: what every refit,
                       ///< profile and simulation starts from
-  std::vector<double> theta;               ///< [slots]
-  std::vector<bool> at_bound;              ///< [slots]
+  std::vector<double> theta;                ///< [slots]
+  std::vector<bool> at_bound;               ///< [slots]
+  DescentEnd ending = DescentEnd::minimum;  ///< of the last descent: minimum, valley or flat
+  std::vector<std::size_t>
+      flat;  ///< slots on which no point depends there; their values mean nothing
   std::vector<double> covariance;          ///< [slots x slots]; scaled by noise_scale^2
   std::vector<double> spread_covariance;   ///< in it, what not knowing event_spread adds; or empty
   std::vector<double> std_error;           ///< [slots]; 0 for fixed ones and those at a bound

@@ -8,14 +8,16 @@
 #include <cassert>
 #include <cmath>
 #include <mutex>
+#include <utility>
+
+#include "estimate/gauss_newton.hpp"
+#include "estimate/linearised.hpp"
 
 namespace recoil {
 namespace {
 
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-// Below this ratio of eigenvalues of the scaled J'J its inverse has no correct digit.
-constexpr double singular_ratio = 1e-13;
+// A parameter that cannot move the residuals by this part of their length is without effect.
+constexpr double least_effect = 1e-8;
 
 /// Ceres minimises over z: the free parameters only, logarithms where asked for.
 class Coordinates {
@@ -108,40 +110,54 @@ bool rests_on_bound(double value, double bound) {
   return std::abs(value - bound) <= 1e-9 * std::max(std::abs(bound), 1e-9);
 }
 
-/// (J'J)^-1 over the parameters that moved freely; empty when it is singular.
-std::vector<double> covariance_of(const LeastSquaresResult& result,
-                                  const std::vector<bool>& fixed) {
-  const std::size_t p = result.theta.size();
-  std::vector<std::size_t> inner;
-  for (std::size_t j = 0; j < p; ++j) {
-    if (!fixed[j] && !result.at_bound[j]) inner.push_back(j);
+/// The parameters that are neither fixed nor held by a bound.
+std::vector<std::size_t> moving_of(const LeastSquaresResult& result,
+                                   const std::vector<bool>& fixed) {
+  std::vector<std::size_t> moving;
+  for (std::size_t j = 0; j < result.theta.size(); ++j) {
+    if (!fixed[j] && !result.at_bound[j]) moving.push_back(j);
   }
+  return moving;
+}
+
+/// (J'J)^-1 over the parameters that moved freely, zero for all others.
+std::vector<double> covariance_of(const LinearisedResiduals& linear,
+                                  const std::vector<std::size_t>& moving, std::size_t p) {
   std::vector<double> covariance(p * p, 0.0);
-  if (inner.empty()) return covariance;
-  const Eigen::Index n = static_cast<Eigen::Index>(result.residuals.size());
-  const Eigen::Map<const RowMatrix> full(result.jacobian.data(), n, static_cast<Eigen::Index>(p));
-  Eigen::MatrixXd jacobian(n, static_cast<Eigen::Index>(inner.size()));
-  for (std::size_t k = 0; k < inner.size(); ++k) {
-    jacobian.col(static_cast<Eigen::Index>(k)) = full.col(static_cast<Eigen::Index>(inner[k]));
-  }
-  const Eigen::VectorXd scale = jacobian.colwise().norm();
-  if (!(scale.minCoeff() > 0.0)) return {};
-  const Eigen::MatrixXd scaled = jacobian * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled.transpose() * scaled);
-  if (eigen.info() != Eigen::Success) return {};
-  const Eigen::VectorXd& values = eigen.eigenvalues();
-  if (!(values.minCoeff() > singular_ratio * values.maxCoeff())) return {};
-  const Eigen::MatrixXd inverse = scale.cwiseInverse().asDiagonal() * eigen.eigenvectors() *
-                                  values.cwiseInverse().asDiagonal() *
-                                  eigen.eigenvectors().transpose() *
-                                  scale.cwiseInverse().asDiagonal();
-  for (std::size_t a = 0; a < inner.size(); ++a) {
-    for (std::size_t b = 0; b < inner.size(); ++b) {
-      covariance[inner[a] * p + inner[b]] =
+  const Eigen::MatrixXd inverse = linear.covariance();
+  for (std::size_t a = 0; a < moving.size(); ++a) {
+    for (std::size_t b = 0; b < moving.size(); ++b) {
+      covariance[moving[a] * p + moving[b]] =
           inverse(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
     }
   }
   return covariance;
+}
+
+/// The parameters whose column of J is too short to matter, however far they go.
+std::vector<std::size_t> without_effect(const LeastSquaresProblem& problem,
+                                        std::span<const double> start,
+                                        const LeastSquaresResult& result,
+                                        const std::vector<std::size_t>& moving) {
+  std::vector<std::size_t> flat;
+  const Eigen::VectorXd lengths = columns_of(result, moving).colwise().norm();
+  const double residual = std::sqrt(result.sum_of_squares);
+  for (std::size_t k = 0; k < moving.size(); ++k) {
+    const std::size_t j = moving[k];
+    const double theta = result.theta[j];
+    double reach = std::max(std::abs(theta), std::abs(theta - start[j]));
+    if (problem.log_scale[j]) {
+      reach = std::abs(theta) * std::max(1.0, std::abs(std::log(theta / start[j])));
+    } else if (std::isfinite(problem.upper[j] - problem.lower[j])) {
+      reach = std::max(reach, problem.upper[j] - problem.lower[j]);
+    }
+    const double effect = lengths[static_cast<Eigen::Index>(k)] * reach;
+    if (effect == 0.0 ? lengths[static_cast<Eigen::Index>(k)] == 0.0
+                      : effect <= least_effect * residual) {
+      flat.push_back(j);
+    }
+  }
+  return flat;
 }
 
 void silence_library_log() {
@@ -180,7 +196,9 @@ void descend(const LeastSquaresProblem& problem, const Coordinates& coordinates,
   if (!options.search_along_steps) solver.max_num_line_search_step_size_iterations = 0;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &ceres_problem, &summary);
-  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  result.end = summary.termination_type == ceres::CONVERGENCE      ? DescentEnd::minimum
+               : summary.termination_type == ceres::NO_CONVERGENCE ? DescentEnd::limit
+                                                                   : DescentEnd::no_answer;
   result.message = summary.message;
   result.iterations = static_cast<int>(summary.iterations.size());
 }
@@ -204,7 +222,7 @@ LeastSquaresResult solve(const LeastSquaresProblem& problem, std::span<const dou
   LeastSquaresResult result;
   std::vector<double> z = coordinates.start();
   if (z.empty()) {
-    result.converged = true;
+    result.end = DescentEnd::minimum;
     result.message = "nothing is free";
   } else {
     descend(problem, coordinates, options, z, result);
@@ -213,7 +231,7 @@ LeastSquaresResult solve(const LeastSquaresProblem& problem, std::span<const dou
   result.residuals.assign(n, 0.0);
   result.jacobian.assign(n * p, 0.0);
   if (!problem.evaluate(result.theta, result.residuals, result.jacobian)) {
-    result.converged = false;
+    result.end = DescentEnd::no_answer;
     if (result.message.empty()) result.message = "the residuals cannot be evaluated";
     return result;
   }
@@ -227,22 +245,18 @@ int resting_side(const LeastSquaresProblem& problem, double theta, std::size_t j
   return rests_on_bound(theta, problem.upper[j]) ? 1 : 0;
 }
 
-}  // namespace
-
-LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
-                            const LeastSquaresOptions& options) {
-  assert(problem.lower.size() == start.size() && problem.upper.size() == start.size() &&
-         problem.log_scale.size() == start.size());
-  silence_library_log();
+/// The descent within the bounds.
+LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
+                                         std::span<const double> start,
+                                         const std::vector<bool>& fixed,
+                                         const LeastSquaresOptions& options) {
   const std::size_t p = start.size();
-  std::vector<bool> fixed = problem.fixed;
-  fixed.resize(p, false);
   std::vector<bool> held = fixed;
   LeastSquaresResult result = solve(problem, start, held, options);
   // A projected trust-region step that runs into a bound can end the descent short of the minimum
   // along the others. Hold what rests on a bound, descend along the rest, and let go of whatever
   // the slope pulls back inside, until nothing changes (an active-set iteration).
-  for (std::size_t round = 0; result.converged && round < 2 * p; ++round) {
+  for (std::size_t round = 0; result.end == DescentEnd::minimum; ++round) {
     bool changed = false;
     for (std::size_t j = 0; j < p; ++j) {
       if (fixed[j]) continue;
@@ -254,15 +268,70 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const 
       }
     }
     if (!changed) break;
+    if (round == 2 * p) {
+      result.end = DescentEnd::limit;
+      result.message = "parameters went to their bounds and came back in turns without end";
+      break;
+    }
     LeastSquaresResult again = solve(problem, result.theta, held, options);
-    if (!again.converged || again.sum_of_squares > result.sum_of_squares * (1.0 + 1e-12)) break;
+    if (again.end == DescentEnd::no_answer ||
+        again.sum_of_squares > result.sum_of_squares * (1.0 + 1e-12)) {
+      break;
+    }
     result = std::move(again);
   }
   result.at_bound.assign(p, false);
   for (std::size_t j = 0; j < p; ++j) {
     result.at_bound[j] = !fixed[j] && resting_side(problem, result.theta[j], j) != 0;
   }
-  if (result.converged && options.covariance) result.covariance = covariance_of(result, fixed);
+  return result;
+}
+
+/// One minimisation with everything that is known at its end.
+LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<const double> start,
+                                 const std::vector<bool>& fixed,
+                                 const LeastSquaresOptions& options) {
+  LeastSquaresResult result = descend_within_bounds(problem, start, fixed, options);
+  if (result.end != DescentEnd::minimum) return result;
+  const std::vector<std::size_t> moving = moving_of(result, fixed);
+  result.flat = without_effect(problem, start, result, moving);
+  if (!result.flat.empty()) {
+    result.end = DescentEnd::flat;
+    return result;
+  }
+  result.converged = true;
+  if (moving.empty()) {
+    if (options.covariance) result.covariance.assign(start.size() * start.size(), 0.0);
+    return result;
+  }
+  if (options.finish) finish_by_gauss_newton(problem, moving, result);
+  if (options.covariance) {
+    const LinearisedResiduals linear(columns_of(result, moving));
+    if (linear.singular()) {
+      result.end = DescentEnd::valley;
+    } else {
+      result.covariance = covariance_of(linear, moving, start.size());
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
+                            const LeastSquaresOptions& options) {
+  assert(problem.lower.size() == start.size() && problem.upper.size() == start.size() &&
+         problem.log_scale.size() == start.size());
+  silence_library_log();
+  std::vector<bool> fixed = problem.fixed;
+  fixed.resize(start.size(), false);
+  LeastSquaresResult result = minimise_once(problem, start, fixed, options);
+  constexpr double short_steps = 1e-3;  // from (1, 1) to the minimum of NIST's BoxBOD
+  if (result.end != DescentEnd::flat || options.first_radius <= short_steps) return result;
+  LeastSquaresOptions carefully = options;
+  carefully.first_radius = short_steps;
+  LeastSquaresResult again = minimise_once(problem, start, fixed, carefully);
+  if (again.converged && again.sum_of_squares < result.sum_of_squares) return again;
   return result;
 }
 

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "core/names.hpp"
 
 namespace recoil {
 
@@ -26,19 +30,38 @@ struct LeastSquaresProblem {
 };
 
 struct LeastSquaresOptions {
-  int max_iterations = 200;
+  int max_iterations = 2000;
   double function_tolerance = 1e-14;  ///< relative change of the sum of squares
   double gradient_tolerance = 1e-14;
   double parameter_tolerance = 1e-11;  ///< relative change of theta
   bool covariance = true;
+  /// Gauss-Newton steps at the end until no digit of theta moves: the descent alone stops where the
+  /// sum of squares does, which knows half as many. One or two Jacobians where the residuals are
+  /// nearly linear.
+  bool finish = true;
   /// Where there are bounds, look along every step for its best length: up to eight evaluations for
   /// each step that is refused.
   bool search_along_steps = true;
   double first_radius = 1e4;  ///< of the trust region, in parameters scaled by the Jacobian
 };
 
+/// How a minimisation ended.
+enum class DescentEnd {
+  minimum,    ///< at a minimum that the residuals determine
+  valley,     ///< at a minimum along which some combination of parameters has no effect
+  flat,       ///< where the residuals do not depend on a parameter: its value means nothing
+  limit,      ///< still under way when the iterations ran out
+  no_answer,  ///< the residuals cannot be evaluated
+};
+template <>
+struct NamesOf<DescentEnd> {
+  static constexpr std::array<std::string_view, 5> names = {"minimum", "valley", "flat", "limit",
+                                                            "no_answer"};
+};
+
 struct LeastSquaresResult {
-  bool converged = false;     ///< false: iteration limit, or no start that can be evaluated
+  DescentEnd end = DescentEnd::no_answer;
+  bool converged = false;     ///< at a minimum or in a valley
   std::string message;        ///< the minimiser's own words
   std::vector<double> theta;  ///< [p]
   double sum_of_squares = 0.0;
@@ -46,12 +69,18 @@ struct LeastSquaresResult {
   std::vector<double> residuals;   ///< [n] at theta
   std::vector<double> jacobian;    ///< [n x p] at theta
   std::vector<bool> at_bound;      ///< [p] resting on a bound
+  std::vector<std::size_t> flat;   ///< the parameters without effect, where that is the end
   std::vector<double> covariance;  ///< [p x p] (J'J)^-1; zero rows for fixed parameters and those
-                                   ///< at a bound; empty when J'J is singular
+                                   ///< at a bound; empty when J'J is singular or the end is flat
+
+  /// Did it end by itself, be it on flat ground?
+  bool ended() const { return converged || end == DescentEnd::flat; }
 };
 
 /// Ceres trust-region Levenberg-Marquardt within bounds from `start`. Parameters that rest on a
-/// bound satisfy the Karush-Kuhn-Tucker conditions there.
+/// bound satisfy the Karush-Kuhn-Tucker conditions there. Where it ends on flat ground it tries
+/// once more from the start with short steps. Flat is a parameter that would have to change by 1e8
+/// times its own size, its way or its range to move the residuals by as much as they are.
 LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
                             const LeastSquaresOptions& options = {});
 

@@ -78,17 +78,20 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
   std::vector<double> theta(start.begin(), start.end());
   double& noise_scale = result.data.noise.scale;
   Extrapolation extrapolation;
+  LeastSquaresOptions minimiser = options.minimiser;
+  minimiser.finish = false;  // not in every round
   for (int round = 0; round < most_rounds; ++round) {
     const auto predicted = renew_weights(model, theta, result.data);
     if (!predicted) {
+      result.run.end = DescentEnd::no_answer;
       result.run.converged = false;
       result.run.message =
           "the weights need an answer of the model close to every point, and it has none beside "
           "one of them";
       return result;
     }
-    result.run = minimise(impact_problem(model, result.data), theta, options.minimiser);
-    if (!result.run.converged) return result;
+    result.run = minimise(impact_problem(model, result.data), theta, minimiser);
+    if (!result.run.ended()) return result;
     double scale = 1.0;
     if (!result.data.sd_stated) {
       const ConstantsInFit constants =
@@ -106,6 +109,15 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
     noise_scale *= scale;
   }
   return result;
+}
+
+/// The last digits, with the weights as they are.
+ReweightedFit finished(const ImpactModel& model, ReweightedFit fit,
+                       const LeastSquaresOptions& minimiser) {
+  if (!minimiser.finish || !fit.run.ended()) return fit;
+  LeastSquaresResult run = minimise(impact_problem(model, fit.data), fit.run.theta, minimiser);
+  if (run.ended()) fit.run = std::move(run);
+  return fit;
 }
 
 /// -2 ln restricted likelihood but for a constant that the variance functions share.
@@ -180,7 +192,8 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
     return result;
   }
   if (data.sd_stated || data.spec.variance) {
-    return reweight_with(model, std::move(data), start, options);
+    return finished(model, reweight_with(model, std::move(data), start, options),
+                    options.minimiser);
   }
   std::optional<ReweightedFit> best;
   double best_criterion = INFINITY;
@@ -191,7 +204,7 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
     Observations own = data;
     own.noise.variance = function;
     ReweightedFit result = reweight_with(model, std::move(own), start, options);
-    if (!result.run.converged) {
+    if (!result.run.ended()) {
       if (!best) best = std::move(result);
       continue;
     }
@@ -203,7 +216,7 @@ ReweightedFit reweighted_fit(const ImpactModel& model, Observations data,
     }
   }
   best->data.noise.candidates = std::move(candidates);
-  return std::move(*best);
+  return finished(model, std::move(*best), options.minimiser);
 }
 
 }  // namespace recoil

@@ -10,7 +10,7 @@ namespace recoil {
 
 /// Parameters and the weights that belong to them (iteratively reweighted least squares).
 struct ReweightedFit {
-  LeastSquaresResult run;  ///< the last descent; not converged when a round failed
+  LeastSquaresResult run;  ///< the last descent; not ended() when a round failed
   Observations data;       ///< with the weights that `run` worked on
   bool at_rest = true;     ///< false: still moving when the rounds ran out
 };

@@ -127,6 +127,8 @@ RefittedForce refitted_force(const ExportedImpact& impact) {
   }
   LeastSquaresOptions options;
   options.covariance = false;
+  options.finish = false;
+  options.max_iterations = 200;
   const LeastSquaresResult found = minimise(problem, start, options);
   out.force = force_for(found.theta.empty() ? start : found.theta);
   out.error = restitution_error(impact, restitution_under(out.force, impact.velocity));

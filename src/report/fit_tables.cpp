@@ -13,6 +13,22 @@
 namespace recoil {
 namespace {
 
+Sentence ending_words(const StartSummary& start) {
+  switch (start.ending) {
+    case DescentEnd::minimum:
+      return "converged";
+    case DescentEnd::valley:
+      return "converged, along a line of equal values";
+    case DescentEnd::flat:
+      return "a parameter has no effect there";
+    case DescentEnd::limit:
+      return "its iterations ran out";
+    case DescentEnd::no_answer:
+      break;
+  }
+  return "failed: " + start.message;
+}
+
 constexpr double least_correlation = 0.1;
 constexpr std::size_t most_residuals = 1000;  // in the table, so that the page stays about 1 MB
 
@@ -390,8 +406,7 @@ Table starts_table(const Analysis& a) {
       row.push_back(number_at(start.end, s, significant(6)));
     }
     row.emplace_back(Number{start.chi2, significant(7)});
-    row.emplace_back(start.converged ? Sentence("converged")
-                                     : Sentence("failed: " + start.message));
+    row.emplace_back(ending_words(start));
     table.rows.push_back(std::move(row));
   }
   return table;

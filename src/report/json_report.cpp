@@ -357,7 +357,8 @@ std::string json_report(const Analysis& analysis) {
   out["correlation"] = matrix_json(analysis, true);
   out["derived"] = {{"capture_velocity", capture_json(analysis)}};
   out["solver"] = {{"name", to_string(analysis.fitted.model.solver.kind)},
-                   {"handovers", analysis.fitted.handovers}};
+                   {"handovers", analysis.fitted.handovers},
+                   {"ended", to_string(analysis.fitted.ending)}};
   out["goodness"] = goodness_json(analysis);
   out["noise"] = noise_json(analysis);
   out["identifiability"] = identifiability_json(analysis);

@@ -180,7 +180,8 @@ Json starts_json(const Analysis& a) {
     list.push_back({{"start", numbers_json(start.start)},
                     {"end", numbers_json(start.end)},
                     {"chi2", number_or_null(start.chi2)},
-                    {"converged", start.converged},
+                    {"converged", start.converged()},
+                    {"ended", to_string(start.ending)},
                     {"message", start.message}});
   }
   return list;

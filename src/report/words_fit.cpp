@@ -1,6 +1,7 @@
 #include "report/words_fit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -36,9 +37,22 @@ void add_about_starts(const FitResult& fitted, std::vector<std::string>& warning
     return std::count_if(fitted.starts.begin(), fitted.starts.end(),
                          [&](const StartSummary& start) { return start.outcome == outcome; });
   };
-  if (const auto failed = count(StartOutcome::not_converged); failed > 0) {
+  const auto unfinished =
+      std::count_if(fitted.starts.begin(), fitted.starts.end(),
+                    [](const StartSummary& start) { return start.ending == DescentEnd::limit; });
+  if (unfinished > 0) {
+    warnings.push_back(
+        fmt::format("{} of {} starts were still under way when their iterations ran out",
+                    unfinished, fitted.starts.size()));
+  }
+  if (const auto failed = count(StartOutcome::not_converged) - unfinished; failed > 0) {
     warnings.push_back(
         fmt::format("{} of {} starts did not converge", failed, fitted.starts.size()));
+  }
+  if (const auto flat = count(StartOutcome::flat); flat > 0 && fitted.flat.empty()) {
+    warnings.push_back(
+        fmt::format("{} of {} starts ended where the points do not depend on one of the parameters",
+                    flat, fitted.starts.size()));
   }
   if (const auto worse = count(StartOutcome::worse); worse > 0) {
     warnings.push_back(
@@ -101,7 +115,14 @@ std::vector<std::string> fit_warnings(const FitResult& fitted) {
         "to capture these errors are too large for that approximation",
         fitted.strained_points, strained_bias));
   }
-  if (fitted.covariance.empty()) {
+  if (!fitted.flat.empty()) {
+    std::vector<std::string> names;
+    for (const std::size_t j : fitted.flat) names.push_back(fitted.model.slots[j].label());
+    warnings.push_back(fmt::format(
+        "the fit ended where the points do not depend on {}: such a value means nothing, and there "
+        "are no standard errors; begin elsewhere (initial) or do not fit it (free = false)",
+        fmt::join(names, ", ")));
+  } else if (fitted.covariance.empty()) {
     warnings.emplace_back(
         "the points do not determine all free parameters (J'J is singular): no standard errors");
   }

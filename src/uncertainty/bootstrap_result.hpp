@@ -19,8 +19,8 @@ struct FailedReplicates {
     bool clearly_unlike = false;  ///< by more than three standard errors of a mean
   };
   std::vector<std::uint64_t> index;  ///< of every failed replicate, ascending
-  bool undetermined = false;  ///< the first converged, but its points do not determine all that is
-                              ///< free
+  bool undetermined = false;  ///< the first ended by itself, but its points do not determine all
+                              ///< that is free
   std::string message;        ///< else the minimiser's words in it
   std::vector<Suspect> suspects;  ///< the points most unlike the others, the worst first
 };

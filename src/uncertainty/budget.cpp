@@ -128,7 +128,7 @@ class BudgetMaker {
       stated = is_positive(own.constant) ? stated * std::exp(by * own.sd) : stated + by * own.sd;
       const LeastSquaresResult run =
           minimise(impact_problem(fitted_.model, data), fitted_.theta, refit_options());
-      if (!run.converged) return;
+      if (!run.ended()) return;
       const auto there = quantity.at(run.theta);
       if (!there) return;
       (by < 0.0 ? entry.lower : entry.upper) = there->value - budget.value;

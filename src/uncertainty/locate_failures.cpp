@@ -67,8 +67,8 @@ FailedReplicates locate_failures(const ResamplingPlan& plan, std::uint64_t seed,
   Observations sample = plan.fitted->data;
   resample(plan, seed, result.index.front(), sample);
   const LeastSquaresResult again = refit(plan.fitted->model, sample, plan.fitted->theta);
-  result.undetermined = again.converged;
-  if (!again.converged) result.message = again.message;
+  result.undetermined = again.ended();
+  if (!again.ended()) result.message = again.message;
   return result;
 }
 

@@ -15,10 +15,11 @@ namespace {
 
 /// theta as the sampler sees it: what moves, as logarithms where it is fitted so, and those of the
 /// damping factors: along C_A ~ f0^-3.75 or so the density is bent in C_A and straight in ln C_A.
+/// Not where one may be 0: towards that its logarithm goes on without end.
 class PosteriorCoordinates {
  public:
   explicit PosteriorCoordinates(const FitResult& fitted)
-      : model_(fitted.model), theta_(fitted.theta) {
+      : model_(fitted.model), theta_(fitted.theta), error_(fitted.std_error) {
     for (std::size_t j = 0; j < theta_.size(); ++j) {
       if (model_.slots[j].moves()) moving_.push_back(j);
     }
@@ -27,7 +28,9 @@ class PosteriorCoordinates {
   bool logarithmic(std::size_t j) const { return model_.slots[j].log_scale || flat_itself(j); }
   /// Does its prior ask for a factor of itself, as it is flat and its coordinate the logarithm?
   bool flat_itself(std::size_t j) const {
-    return !model_.slots[j].log_scale && model_.slots[j].parameter->is_damping();
+    constexpr double clear_of_zero = 2.0;  // standard errors
+    return !model_.slots[j].log_scale && model_.slots[j].parameter->is_damping() &&
+           theta_[j] > clear_of_zero * error_[j];
   }
   double to_z(std::size_t j, double value) const {
     return logarithmic(j) ? std::log(value) : value;
@@ -55,6 +58,7 @@ class PosteriorCoordinates {
  private:
   const ImpactModel& model_;
   const std::vector<double>& theta_;
+  const std::vector<double>& error_;
   std::vector<std::size_t> moving_;
 };
 
@@ -208,11 +212,19 @@ PosteriorResult sample_posterior(const FitResult& fitted,
     });
     bool settled = true;
     for (std::size_t j = 0; j < p; ++j) {
+      const std::size_t slot = coordinates.moving()[j];
       chains[j].clear();
       for (const EnsembleRun& run : runs) {
         for (const auto& walker : run.kept) chains[j].push_back(walker[j]);
       }
-      PosteriorMarginal& marginal = result.parameters[coordinates.moving()[j]];
+      // Of the values, which are what the draws are for: towards a bound at 0 the logarithms go on
+      // without end.
+      if (coordinates.logarithmic(slot)) {
+        for (std::vector<double>& chain : chains[j]) {
+          for (double& value : chain) value = std::exp(value);
+        }
+      }
+      PosteriorMarginal& marginal = result.parameters[slot];
       marginal.r_hat = split_r_hat(chains[j]);
       marginal.effective = effective_sample_size(chains[j]);
       settled = settled && marginal.r_hat <= options.largest_r_hat &&
@@ -231,11 +243,6 @@ PosteriorResult sample_posterior(const FitResult& fitted,
   }
   for (std::size_t j = 0; j < p; ++j) {
     const std::size_t slot = coordinates.moving()[j];
-    if (coordinates.logarithmic(slot)) {
-      for (std::vector<double>& chain : chains[j]) {
-        for (double& value : chain) value = std::exp(value);
-      }
-    }
     PosteriorMarginal& marginal = result.parameters[slot];
     marginal.interval = {};
     fill_marginal(chains[j], options.level, marginal);

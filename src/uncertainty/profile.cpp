@@ -25,6 +25,7 @@ class Profile {
     problem_ = impact_problem(fitted.model, data_);
     problem_.fixed[slot] = true;
     options_.covariance = false;
+    options_.finish = false;
     options_.function_tolerance = 1e-10;
     least_ = fitted.least + event_spread_offset(fitted.data);
   }
@@ -36,7 +37,7 @@ class Profile {
     double before = INFINITY;
     for (int round = 0; round < most_rounds; ++round) {
       const LeastSquaresResult refit = minimise(problem_, others, options_);
-      if (!refit.converged) return std::nullopt;
+      if (!refit.ended()) return std::nullopt;
       others = refit.theta;
       const double now = refit.sum_of_squares + event_spread_offset(data_) - least_;
       if (!(data_.noise.event_spread > 0.0) || std::abs(before - now) < at_rest) return now;

@@ -10,6 +10,7 @@ LeastSquaresOptions refit_options() {
   options.gradient_tolerance = 1e-10;
   options.parameter_tolerance = 1e-8;
   options.max_iterations = 100;
+  options.finish = false;
   return options;
 }
 
@@ -30,7 +31,7 @@ LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
 }
 
 bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted) {
-  return refit.converged && (!refit.covariance.empty() || fitted.covariance.empty());
+  return refit.ended() && (!refit.covariance.empty() || fitted.covariance.empty());
 }
 
 }  // namespace recoil

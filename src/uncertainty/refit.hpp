@@ -19,8 +19,9 @@ ReweightingOptions refit_reweighting_options();
 LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
                          std::span<const double> start);
 
-/// Did a refit give an answer? It has to converge, and its data have to determine the parameters
-/// (J'J regular) where those of the fit do: where they do not, it merely stays where it started.
+/// Did a refit give an answer? It has to end by itself, and its data have to determine the
+/// parameters (J'J regular) where those of the fit do: where they do not, it merely stays where it
+/// started.
 bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted);
 
 }  // namespace recoil

@@ -35,6 +35,7 @@ LeastSquaresOptions peer_options() {
   LeastSquaresOptions options;
   options.function_tolerance = 1.5e-8;
   options.parameter_tolerance = 1.5e-8;
+  options.finish = false;  // no peer does
   return options;
 }
 

@@ -272,6 +272,27 @@ TEST(Captures, ACapturedPointAtItsPlaceChangesNothing) {
   }
 }
 
+TEST(Captures, ByThemselvesFarBelowTheCaptureVelocityTheyLeaveTheFitOnFlatGround) {
+  synthetic::Design design;
+  design.velocities = {0.1, 0.15, 0.2};
+  Dataset data = synthetic::dataset(design);
+  for (ImpactPoint& point : data.points) {
+    point.restitution = 0.0;
+    point.events = point.captured = 20;
+  }
+  const std::vector<Dataset> datasets = {data};
+  const FitResult fitted = fit(make_model(synthetic::spec(), datasets), gather(datasets));
+  ASSERT_TRUE(fitted.usable) << fitted.failure;
+  EXPECT_EQ(fitted.ending, DescentEnd::flat);
+  EXPECT_EQ(fitted.flat, (std::vector<std::size_t>{0, 1}));
+  EXPECT_TRUE(fitted.covariance.empty());
+  for (const StartSummary& start : fitted.starts) {
+    EXPECT_FALSE(start.converged());
+    EXPECT_EQ(start.outcome,
+              &start == &fitted.best_start() ? StartOutcome::best : StartOutcome::flat);
+  }
+}
+
 TEST(Captures, WithoutAMixedPointNothingRemainsOfTheSpread) {
   const ImpactsOfManySpheres impacts(0.1);
   const Dataset data = impacts.draw(1);

@@ -125,7 +125,7 @@ TEST(Fit, AllStartsAgreeAndAreReported) {
   ASSERT_GE(result.starts.size(), 9U);
   int agreeing = 0;
   for (const StartSummary& start : result.starts) {
-    if (start.converged && std::abs(start.end[1] - result.theta[1]) < 1e-3 * result.theta[1]) {
+    if (start.converged() && std::abs(start.end[1] - result.theta[1]) < 1e-3 * result.theta[1]) {
       ++agreeing;
     }
   }

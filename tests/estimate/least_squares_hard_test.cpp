@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "small_problem.hpp"
 
@@ -142,6 +143,128 @@ TEST(HardCases, StepsBackFromWhereThereIsNoAnswer) {
   const LeastSquaresResult result = minimise(problem, std::array{4.0});
   ASSERT_TRUE(result.converged) << result.message;
   EXPECT_NEAR(result.theta[0], 0.01, 1e-7);
+}
+
+/// y = a (1 - exp(-k x)), saturated wherever k is large: data that rise from 109 to 224.
+LeastSquaresProblem saturated() {
+  LeastSquaresProblem problem = unbounded(6, 2);
+  problem.evaluate = [](std::span<const double> t, std::span<double> r, std::span<double> j) {
+    constexpr std::array<double, 6> x = {1, 2, 3, 5, 7, 10};
+    constexpr std::array<double, 6> y = {109, 149, 149, 191, 213, 224};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double rest = std::exp(-t[1] * x[i]);
+      r[i] = t[0] * (1.0 - rest) - y[i];
+      if (!std::isfinite(r[i])) return false;
+      if (!j.empty()) {
+        j[2 * i] = 1.0 - rest;
+        j[2 * i + 1] = t[0] * x[i] * rest;
+      }
+    }
+    return true;
+  };
+  return problem;
+}
+
+TEST(HardCases, FlatGroundIsNoMinimum) {
+  // From there exp(-k x) is nothing but rounding; a alone finds its best value, the mean of y.
+  for (const double far : {60.0, 200.0, 1e4}) {
+    LeastSquaresProblem problem = saturated();
+    const LeastSquaresResult result = minimise(problem, std::array{1.0, far});
+    EXPECT_EQ(result.end, DescentEnd::flat) << far;
+    EXPECT_FALSE(result.converged);
+    EXPECT_TRUE(result.ended());
+    EXPECT_EQ(result.flat, std::vector<std::size_t>{1});
+    EXPECT_TRUE(result.covariance.empty());
+    EXPECT_NEAR(result.theta[0], 172.5, 1e-3);
+    // Bounds and logarithms do not hide it.
+    problem.lower = {1e-3, 1e-3};
+    problem.upper = {1e4, 1e5};
+    EXPECT_EQ(minimise(problem, std::array{1.0, far}).end, DescentEnd::flat) << far;
+    problem.log_scale = {true, true};
+    EXPECT_EQ(minimise(problem, std::array{1.0, far}).end, DescentEnd::flat) << far;
+  }
+}
+
+TEST(HardCases, ASmallEffectIsNoFlatGround) {
+  // The second parameter moves the residuals, which are 1 and -1 by turns, by a millionth of them.
+  LeastSquaresProblem problem = unbounded(8, 2);
+  problem.evaluate = [](std::span<const double> t, std::span<double> r, std::span<double> j) {
+    for (std::size_t i = 0; i < 8; ++i) {
+      const double x = static_cast<double>(i / 2) - 1.5;
+      r[i] = t[0] - 3.0 + 1e-6 * x * (t[1] - 2.0) + (i % 2 == 0 ? 1.0 : -1.0);
+      if (!j.empty()) {
+        j[2 * i] = 1.0;
+        j[2 * i + 1] = 1e-6 * x;
+      }
+    }
+    return true;
+  };
+  const LeastSquaresResult result = minimise(problem, std::array{0.0, 0.0});
+  EXPECT_EQ(result.end, DescentEnd::minimum) << result.message;
+  EXPECT_NEAR(result.theta[1], 2.0, 1e-6);
+  // var = 1 / (2e-12 sum of x^2 over four x) = 1 / (2e-12 * 5)
+  ASSERT_FALSE(result.covariance.empty());
+  EXPECT_NEAR(result.covariance[3] * 1e-11, 1.0, 1e-9);
+}
+
+TEST(HardCases, IterationsThatRanOutAreNoMinimum) {
+  LeastSquaresOptions options;
+  options.max_iterations = 3;
+  const LeastSquaresResult result = minimise(saturated(), std::array{100.0, 0.1}, options);
+  EXPECT_EQ(result.end, DescentEnd::limit) << result.message;
+  EXPECT_FALSE(result.converged);
+  EXPECT_FALSE(result.ended());
+  EXPECT_TRUE(result.covariance.empty());
+  EXPECT_GT(result.sum_of_squares, 1168.1);  // that of the minimum is 1168.009, see BoxBOD of NIST
+}
+
+TEST(HardCases, ADirectionThatIsLeftOpenIsAValley) {
+  // y = a b exp(-x): only the product is known, 2.5.
+  LeastSquaresProblem problem = unbounded(4, 2);
+  problem.evaluate = [](std::span<const double> t, std::span<double> r, std::span<double> j) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double decay = std::exp(-static_cast<double>(i));
+      r[i] = (t[0] * t[1] - 2.5) * decay + (i == 3 ? 0.1 : 0.0) -
+             (i == 0 ? 0.1 * std::exp(-3.0) : 0.0);
+      if (!j.empty()) {
+        j[2 * i] = t[1] * decay;
+        j[2 * i + 1] = t[0] * decay;
+      }
+    }
+    return true;
+  };
+  const LeastSquaresResult result = minimise(problem, std::array{1.0, 1.0});
+  EXPECT_EQ(result.end, DescentEnd::valley) << result.message;
+  EXPECT_TRUE(result.converged);
+  EXPECT_TRUE(result.flat.empty());
+  EXPECT_TRUE(result.covariance.empty());
+  EXPECT_NEAR(result.theta[0] * result.theta[1], 2.5, 1e-9);
+}
+
+TEST(HardCases, TheFinishBringsTheLastDigits) {
+  // The minimum where a and k are fitted as they are and as logarithms is one; the descent alone
+  // stops at another digit of it.
+  LeastSquaresProblem problem = saturated();
+  LeastSquaresOptions descent_alone;
+  descent_alone.finish = false;
+  int evaluations = 0;
+  problem.evaluate = [&evaluations, evaluate = problem.evaluate](auto t, auto r, auto j) {
+    ++evaluations;
+    return evaluate(t, r, j);
+  };
+  const LeastSquaresResult rough = minimise(problem, std::array{100.0, 0.75}, descent_alone);
+  const int before = std::exchange(evaluations, 0);
+  const LeastSquaresResult fine = minimise(problem, std::array{100.0, 0.75});
+  EXPECT_LE(evaluations, before + 3);  // residuals of 10 % make it three Jacobians
+  problem.lower = {1e-3, 1e-3};
+  problem.log_scale = {true, true};
+  const LeastSquaresResult logarithms = minimise(problem, std::array{50.0, 0.2});
+  ASSERT_TRUE(rough.converged && fine.converged && logarithms.converged);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_NEAR(logarithms.theta[k] / fine.theta[k], 1.0, 1e-12);
+    EXPECT_NEAR(logarithms.covariance[3 * k] / fine.covariance[3 * k], 1.0, 1e-12);
+    EXPECT_GT(std::abs(rough.theta[k] / fine.theta[k] - 1.0), 1e-10);
+  }
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 import recoil
-from conftest import SOURCE
+from conftest import POINTS, SOURCE, write_dataset
 
 
 def test_version_is_that_of_the_command(command):
@@ -167,3 +167,16 @@ def test_what_comes_from_elsewhere_is_not_needed_to_import():
     code = ("import sys, recoil; "
             "assert not {'matplotlib', 'pandas', 'numpy'} & set(sys.modules), 'imported too early'")
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_fit_on_flat_ground_says_so(here):
+    lines = [line.split(",") for line in POINTS.splitlines()]
+    captured = [",".join([*row[:2], str(0.01 * float(row[2])), "0", "0.015", "20", "20"])
+                for row in lines[1:]]
+    write_dataset(here / "stuck", "\n".join([",".join(lines[0]), *captured]) + "\n")
+    result = recoil.fit("stuck", replicates=0)
+    assert result.solver.ended == "flat" and not result.success
+    assert any("do not depend on C_H, C_A" in text for text in result.warnings)
+    assert {start.ended for start in result.starts} == {"flat"}
+    assert not any(start.converged for start in result.starts)
+    assert recoil.fit("mine", replicates=0).solver.ended == "minimum"

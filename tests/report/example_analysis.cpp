@@ -218,9 +218,10 @@ void add_statistics(Analysis& a, const std::vector<double>& errors) {
   f.dof = static_cast<int>(f.residuals.size()) - 2;
   f.p_value = 0.37;
   f.rmse = 0.0293;
-  f.starts = {{{3e-3, 3e-2, 8.9}, f.theta, f.chi2, true, "converged"},
-              {{1e-2, 1e-1, 8.9}, f.theta, f.chi2, true, "converged"},
-              {{1e-4, 5.0, 8.9}, {1e-4, 5.0, 8.9}, 1e4, false, "no rebound at the start"}};
+  f.starts = {
+      {{3e-3, 3e-2, 8.9}, f.theta, f.chi2, DescentEnd::minimum, "converged"},
+      {{1e-2, 1e-1, 8.9}, f.theta, f.chi2, DescentEnd::minimum, "converged"},
+      {{1e-4, 5.0, 8.9}, {1e-4, 5.0, 8.9}, 1e4, DescentEnd::no_answer, "no rebound at the start"}};
 
   UncertaintyResult& u = a.uncertainty;
   u.options.replicates = 1999;

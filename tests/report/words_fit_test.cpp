@@ -23,7 +23,7 @@ FitResult sound() {
   fitted.starts.clear();
   StartSummary best;
   best.end = fitted.theta;
-  best.converged = true;
+  best.ending = DescentEnd::minimum;
   best.outcome = StartOutcome::best;
   fitted.starts.push_back(best);
   return fitted;
@@ -51,6 +51,12 @@ TEST(FitWarnings, OneForEveryFact) {
   EXPECT_EQ(warnings_after([](FitResult& f) { f.covariance.clear(); }), 1U);
   EXPECT_EQ(warnings_after([](FitResult& f) { f.at_bound[0] = true; }), 1U);
   EXPECT_EQ(warnings_after([](FitResult& f) {
+              f.covariance.clear();
+              f.ending = DescentEnd::flat;
+              f.flat = {1};
+            }),
+            1U);
+  EXPECT_EQ(warnings_after([](FitResult& f) {
               f.unused_counts = {&mechanism_catalogue().front(), 2};
             }),
             1U);
@@ -68,6 +74,29 @@ TEST(FitWarnings, TellOfLawsOfAdhesionWithoutAdhesion) {
   EXPECT_EQ(with(0.0), 1U);
 }
 
+TEST(FitWarnings, NameTheParametersThatMeanNothing) {
+  FitResult fitted = sound();
+  fitted.covariance.clear();
+  fitted.flat = {0, 1};
+  const std::vector<std::string> warnings = fit_warnings(fitted);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("do not depend on C_H, C_A:"), std::string::npos) << warnings[0];
+  // Where the fit is on flat ground, it is no news that starts are.
+  fitted.starts.push_back(fitted.starts.front());
+  fitted.starts.back().outcome = StartOutcome::flat;
+  EXPECT_EQ(fit_warnings(fitted).size(), 1U);
+}
+
+TEST(FitWarnings, TellOfStartsWhoseIterationsRanOut) {
+  FitResult fitted = sound();
+  fitted.starts.push_back(fitted.starts.front());
+  fitted.starts.back().outcome = StartOutcome::not_converged;
+  fitted.starts.back().ending = DescentEnd::limit;
+  const std::vector<std::string> warnings = fit_warnings(fitted);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("iterations ran out"), std::string::npos) << warnings[0];
+}
+
 TEST(FitWarnings, TellHowStartsEnded) {
   const auto with = [](StartOutcome outcome, std::vector<std::size_t> differing) {
     return warnings_after([&](FitResult& f) {
@@ -79,6 +108,7 @@ TEST(FitWarnings, TellHowStartsEnded) {
   };
   EXPECT_EQ(with(StartOutcome::same, {}), 0U);
   EXPECT_EQ(with(StartOutcome::worse, {}), 1U);
+  EXPECT_EQ(with(StartOutcome::flat, {}), 1U);
   EXPECT_EQ(with(StartOutcome::not_converged, {}), 1U);
   EXPECT_EQ(with(StartOutcome::tie, {0, 1}), 2U);  // one for each parameter that differs
 }

@@ -251,8 +251,9 @@ class FitResult(FitPictures, _Result):
 
     @property
     def success(self) -> bool:
-        """True: a fit without a usable answer raises ``ComputationError``."""
-        return True
+        """False where the fit ended on flat ground (``solver.ended``): some parameter has no effect
+        there. A fit without a usable answer raises ``ComputationError``."""
+        return bool(self.solver.ended != "flat")
 
     @property
     def residual(self) -> Array:
