@@ -155,6 +155,22 @@ bool Candidate::adds(const ParameterSlot& slot) const {
 
 std::string Candidate::name() const { return fmt::format("{}", fmt::join(added, " + ")); }
 
+std::vector<const Mechanism*> mechanisms_that_may_act(const FitSpec& spec,
+                                                      const ImpactModel& model) {
+  std::vector<const Mechanism*> possible;
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    const auto& own = spec.mechanisms;
+    if (!mechanism.works_with(spec.adhesion)) continue;
+    if (std::find(own.begin(), own.end(), mechanism.info.id) != own.end()) continue;
+    if (std::none_of(model.surroundings.begin(), model.surroundings.end(),
+                     [&](const Surroundings& at) { return mechanism.acts_at(at); })) {
+      continue;
+    }
+    possible.push_back(&mechanism);
+  }
+  return possible;
+}
+
 const ParameterSlot& strength_at(const ImpactModel& model, const Mechanism& mechanism,
                                  const PointConditions& at) {
   const Parameter& strength = mechanism.info.parameters.front();

@@ -28,6 +28,11 @@ struct Candidate {
   bool adds(const ParameterSlot& slot) const;
 };
 
+/// What of the catalogue the model does not have and could have: it knows the law of adhesion and
+/// acts somewhere.
+std::vector<const Mechanism*> mechanisms_that_may_act(const FitSpec& spec,
+                                                      const ImpactModel& model);
+
 /// The slot of the strength of `mechanism`, which is the first of its parameters.
 /// @pre it is in the chain, and its strength is not one per series.
 const ParameterSlot& strength_at(const ImpactModel& model, const Mechanism& mechanism,
