@@ -110,7 +110,7 @@ void run_plan(PlanFlags flags) {
     for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
       const std::string name = plan.datasets.size() == 1
                                    ? "points.csv"
-                                   : fmt::format("points-{}.csv", plan.datasets[d].id);
+                                   : plot::plot_name("points-" + plan.datasets[d].id) + ".csv";
       write_whole_file(out / name, csv_points_to_make(plan, d));
     }
     write_whole_file(out / "plan.html", plan_html(plan, origin));

@@ -6,17 +6,23 @@
 namespace recoil {
 namespace {
 
-constexpr int most_rounds = 2000;       // of the multiplicative algorithm
-constexpr double excess_at_end = 0.01;  // of a point's worth over the average
-constexpr double no_share = 1e-9;       // below it a point is left out
+constexpr int most_rounds = 5000;        // of the multiplicative algorithm
+constexpr double excess_at_end = 0.002;  // of a point's worth over the average
+constexpr double no_share = 1e-9;        // below it a point is left out
 constexpr int most_exchanges = 500;
 constexpr double worth_exchanging = 1e-6;  // of the sum of the variances
 
+constexpr double singular = 1e-14;  // reciprocal condition
+
 using Factor = Eigen::LLT<Eigen::MatrixXd>;
+
+bool is_regular(const Factor& factor) {
+  return factor.info() == Eigen::Success && factor.rcond() > singular;
+}
 
 double sum_of_variances(const Eigen::MatrixXd& information, const Eigen::MatrixXd& asked) {
   const Factor factor(information);
-  if (factor.info() != Eigen::Success) return INFINITY;
+  if (!is_regular(factor)) return INFINITY;
   const double sum = factor.matrixL().solve(asked).squaredNorm();
   return std::isfinite(sum) ? sum : INFINITY;
 }
@@ -24,7 +30,7 @@ double sum_of_variances(const Eigen::MatrixXd& information, const Eigen::MatrixX
 /// d_i of every point; empty where M is singular.
 Eigen::VectorXd worth_of_points(const DesignProblem& problem, const Eigen::MatrixXd& information) {
   const Factor factor(information);
-  if (factor.info() != Eigen::Success) return {};
+  if (!is_regular(factor)) return {};
   const Eigen::MatrixXd solved = factor.solve(problem.asked);
   return (problem.rows * solved).rowwise().squaredNorm();
 }
@@ -42,7 +48,7 @@ Eigen::MatrixXd information_of(const DesignProblem& problem, const std::vector<d
 
 Eigen::VectorXd variances_of(const DesignProblem& problem, const std::vector<double>& counts) {
   const Factor factor(information_of(problem, counts));
-  if (factor.info() != Eigen::Success) {
+  if (!is_regular(factor)) {
     return Eigen::VectorXd::Constant(problem.asked.cols(), INFINITY);
   }
   return factor.matrixL().solve(problem.asked).colwise().squaredNorm().transpose();

@@ -26,7 +26,7 @@ Eigen::VectorXd variances_of(const DesignProblem& problem, const std::vector<dou
 ///   w_i <- w_i d_i^(1/2) / sum w_j d_j^(1/2),  d_i = |C' M^-1 x_i|^2,
 /// which leads down in every step where nothing else is known: Silvey, S. D., Titterington, D. M. &
 /// Torsney, B. (1978), Commun. Stat. A 7, 1379-1389; Yu, Y. (2010), Ann. Stat. 38, 1593-1606. It
-/// ends where no point is worth one percent more than the average of those that are made.
+/// ends where no point is worth 0.2 % more than the average of those that are made.
 std::vector<double> optimal_shares(const DesignProblem& problem, double points);
 
 /// What the sum of the variances cannot be less than with as many points as `counts` has: the sum

@@ -99,12 +99,19 @@ class Planner {
 
   void run() {
     const int most = most_planned_impacts / plan_.options.events;
-    int points = std::max(1, plan_.options.impacts / plan_.options.events);
+    const int free = plan_.model.free_count();
+    int points = plan_.options.impacts / plan_.options.events;
     std::vector<PlannedSetting> settings;
     if (plan_.options.impacts > 0) {
+      if (points < free) {
+        throw InputError({},
+                         fmt::format("{} impacts make {} points of {}", plan_.options.impacts,
+                                     points, plan_.options.events),
+                         fmt::format("{} parameters are free", free),
+                         "plan more impacts, or fewer for one point (--events)");
+      }
       settings = settings_for(points);
     } else {
-      const int free = plan_.model.free_count();
       int low = std::min(most, std::max(fewest_points, 2 * free));
       points = low;
       settings = settings_for(points);

@@ -70,10 +70,14 @@ Paragraph plan_answer(const ExperimentPlan& plan) {
 Table assumptions(const ExperimentPlan& plan, const std::string& assumed) {
   const PlanOptions& options = plan.options;
   std::vector<std::pair<Sentence, Cell>> entries = {{"fit", Sentence(plan.fit)}};
-  for (const Dataset& dataset : plan.datasets) {
-    entries.emplace_back(
-        "dataset", Sentence(fmt::format("{}: {} on {}", dataset.id, dataset.system.particle.name,
-                                        dataset.system.surface.name)));
+  const std::string adhesion(plan.model.slots[plan.model.slot_adhesion[0]].parameter->name);
+  for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
+    const Dataset& dataset = plan.datasets[d];
+    const double reference = plan.model.contacts[d].reference_diameter;
+    entries.emplace_back("dataset", say("{}: {} on {}; ", dataset.id, dataset.system.particle.name,
+                                        dataset.system.surface.name) +
+                                        symbol(adhesion) +
+                                        say(" is that of {} {um}", diameter_text(reference)));
   }
   std::vector<Sentence> values;
   for (std::size_t j = 0; j < plan.theta.size(); ++j) {
@@ -157,29 +161,47 @@ Table learnt_table(const ExperimentPlan& plan) {
   return table;
 }
 
+/// "1e-14 (0 to 1e-11) J"
+Sentence strength_words(const PlannedCause& cause) {
+  const std::string range = cause.stated
+                                ? std::string("stated")
+                                : fmt::format("{:.2g} to {:.2g}", cause.lower, cause.upper);
+  return say("{:.3g} ({})", cause.strength, range) + unit_after_number(cause.unit);
+}
+
 Table causes_table(const ExperimentPlan& plan) {
   Table table;
   if (plan.expected.causes.empty()) return table;
   table.compact = true;
   table.caption = say(
-      "What else may act, at a usual strength. Seen: expected odds of 99 to 1 against the model "
-      "without it; told from: the other causes for which the same holds");
-  table.columns = {{"cause"},     {"strength", "", true}, {say("change of {e}")},     {"seen"},
-                   {"seen from"}, {"told from"},          {"not told from", "", true}};
+      "What else may act, at the strength at which a diagnosis starts to look for it (and what it "
+      "can be). Seen: expected odds of 99 to 1 against the model without it; told from: other "
+      "causes against which the odds are as good");
+  table.columns = {{"cause"}, {"strength", "", true}, {say("change of {e}")},
+                   {"seen"},  {"seen from"},          {"told from"}};
   for (const PlannedCause& cause : plan.expected.causes) {
+    const bool possible = cause.seen_from && *cause.seen_from <= std::max(cause.upper, 0.0);
+    const int told = cause.rivals - static_cast<int>(cause.confused.size());
+    table.rows.push_back({Sentence(cause.id), strength_words(cause),
+                          Number{cause.change, signed_fixed(3)},
+                          Sentence(cause.seen() ? "yes" : "no"),
+                          possible ? Cell(Number{*cause.seen_from, significant(2)}) : Cell(),
+                          cause.seen() ? Cell(say("{} of {}", told, cause.rivals)) : Cell()});
+  }
+  return table;
+}
+
+Table confusions_table(const ExperimentPlan& plan) {
+  Table table;
+  table.compact = true;
+  table.caption =
+      "Seen, but not told from others: if the first is true, each of these does as well";
+  table.columns = {{"true"}, {"does as well", "", true}};
+  for (const PlannedCause& cause : plan.expected.causes) {
+    if (cause.confused.empty()) continue;
     std::vector<Sentence> rivals;
     for (const Confusion& rival : cause.confused) rivals.emplace_back(rival.id);
-    const bool possible = cause.seen_from && *cause.seen_from <= std::max(cause.upper, 0.0);
-    table.rows.push_back(
-        {Sentence(cause.id),
-         say("{:.3g}", cause.strength) + unit_after_number(cause.unit) +
-             Sentence(cause.stated ? " (stated)" : ""),
-         Number{cause.change, signed_fixed(3)}, Sentence(cause.seen() ? "yes" : "no"),
-         possible ? Cell(Number{*cause.seen_from, significant(2)}) : Cell(),
-         cause.seen() ? Cell(say("{} of {}", cause.rivals - static_cast<int>(cause.confused.size()),
-                                 cause.rivals))
-                      : Cell(),
-         join(rivals, ", ")});
+    table.rows.push_back({Sentence(cause.id), join(rivals, ", ")});
   }
   return table;
 }
@@ -207,7 +229,7 @@ std::string done_words(const std::vector<CausePair>& pairs, std::size_t most) {
     parts.push_back(fmt::format("tell {} from {}", one, fmt::join(others, ", ")));
     named += others.size();
   }
-  if (more > 0) parts.push_back(fmt::format("tell {} more pairs", more));
+  if (more > 0) parts.push_back(fmt::format("tell {} more pair{}", more, more == 1 ? "" : "s"));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -274,16 +296,25 @@ List limits_of_plan(const ExperimentPlan& plan) {
 
 std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string& assumed) {
   Section answer{"plan", "Plan", {}, {plan_answer(plan)}};
-  answer.blocks.emplace_back(Paragraph{
-      say("{:.0f} % of the points are spread evenly, so that a wrong model shows; the plan has at "
-          "least {:.0f} % of the efficiency of the best one without them.",
-          100.0 * plan.options.checks, std::floor(100.0 * plan.efficiency))});
+  const Sentence efficiency =
+      say("the plan has at least {:.0f} % of the efficiency of the best one",
+          std::floor(100.0 * plan.efficiency));
+  answer.blocks.emplace_back(
+      Paragraph{plan.options.checks > 0.0
+                    ? say("{:.0f} % of the points are spread evenly, so that a wrong model shows; ",
+                          100.0 * plan.options.checks) +
+                          efficiency + Sentence(" without them.")
+                    : Sentence("No point is there to check the model (--checks 0); ") + efficiency +
+                          Sentence(".")});
   answer.blocks.emplace_back(Figures{plan_figures(plan)});
   return {std::move(answer),
           {"assumed", "Assumed", {}, {assumptions(plan, assumed)}},
           {"settings", "What to Measure", {}, {settings_table(plan)}},
           {"errors", "Errors", {}, {errors_table(plan), learnt_table(plan)}},
-          {"causes", "Causes", {}, {causes_table(plan), steps_table(plan), beyond_reach(plan)}},
+          {"causes",
+           "Causes",
+           {},
+           {causes_table(plan), confusions_table(plan), steps_table(plan), beyond_reach(plan)}},
           {"limits", "Limits of the Model", {}, {limits_of_plan(plan)}}};
 }
 

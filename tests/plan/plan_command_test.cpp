@@ -166,6 +166,7 @@ TEST(PlanCommand, MistakesAreSaidInOneLine) {
       {{"plan", "fit.toml", "--diameter", "2", "--error", "0"}, "error"},
       {{"plan", "fit.toml", "--diameter", "2", "--error", "nan"}, "error"},
       {{"plan", "fit.toml", "--diameter", "2", "--impacts", "0"}, "--impacts"},
+      {{"plan", "fit.toml", "--diameter", "2", "--impacts", "20"}, "2 parameters are free"},
       {{"plan", "fit.toml", "--diameter", "2", "--W", "0.2"}, "--W is no parameter of this fit"},
       {{"plan", "jkr.toml", "--diameter", "2", "--f0", "9"}, "--f0 is no parameter of this fit"},
       {{"plan", "fit.toml", "--diameter", "2", "--C_H", "1e5"}, "outside of its bounds"},
