@@ -151,23 +151,44 @@ class Planner {
     return velocities;
   }
 
-  /// Evenly in ln V, over all sizes alike, from where they come back.
-  std::vector<PointConditions> evenly(int points) const {
+  /// Evenly in ln V, over all sizes alike, from where they come back; those that nowhere do are
+  /// left out.
+  struct Even {
     std::vector<PointConditions> at;
-    const auto sizes = static_cast<int>(kinds_.size());
+    std::vector<int> counts;
+  };
+  Even evenly(int points) const {
+    std::vector<const Kind*> returning;
+    const double fastest = plan_.options.fastest;
+    for (const Kind& kind : kinds_) {
+      if (!kind.capture.found || kind.capture.value < fastest) returning.push_back(&kind);
+    }
+    Even even;
+    const auto sizes = static_cast<int>(returning.size());
     for (int k = 0; k < sizes; ++k) {
-      const Kind& kind = kinds_[static_cast<std::size_t>(k)];
-      const double fastest = plan_.options.fastest;
-      double from = plan_.options.slowest;
-      if (kind.capture.found && kind.capture.value < fastest) {
-        from = std::max(from, kind.capture.value);
-      }
-      const int count = points / sizes + (k < points % sizes ? 1 : 0);
-      for (const double v : spaced(from, fastest, count)) {
-        at.push_back({kind.dataset, kind.diameter, v, kind.series});
+      const Kind& kind = *returning[static_cast<std::size_t>(k)];
+      const double from =
+          std::max(plan_.options.slowest, kind.capture.found ? kind.capture.value : 0.0);
+      double before = 0.0;
+      for (const double v : spaced(from, fastest, points / sizes + (k < points % sizes ? 1 : 0))) {
+        if (v == before) {
+          ++even.counts.back();
+          continue;
+        }
+        even.at.push_back({kind.dataset, kind.diameter, v, kind.series});
+        even.counts.push_back(1);
+        before = v;
       }
     }
-    return at;
+    return even;
+  }
+
+  /// The information of `counts` of these points.
+  static Eigen::MatrixXd information_in(const PossiblePoints& points,
+                                        const std::vector<int>& counts) {
+    const DesignProblem problem = {
+        points.rows(), Eigen::MatrixXd::Zero(points.slopes.cols(), points.slopes.cols()), {}};
+    return information_of(problem, {counts.begin(), counts.end()});
   }
 
   void ask(PlannedQuantity quantity, const Eigen::VectorXd& column) {
@@ -233,19 +254,20 @@ class Planner {
   /// So many points: the best where they may lie anywhere, but for those that check the model.
   std::vector<PlannedSetting> settings_for(int points) const {
     const int checks = static_cast<int>(std::round(plan_.options.checks * points));
-    const PossiblePoints even = possible(evenly(checks));
+    const Even even = evenly(checks);
+    const PossiblePoints checking = possible(even.at);
     DesignProblem rest = problem_;
-    rest.known += even.rows().transpose() * even.rows();
+    rest.known += information_in(checking, even.counts);
     const std::vector<int> counts =
         after_exchanges(rest, whole_points(optimal_shares(rest, points - checks), points - checks));
-    const PossiblePoints plain = possible(evenly(points));
-    const DesignProblem all_even = {plain.rows(), parameters_.known, asked_};
+    const Even all_even = evenly(points);
+    const PossiblePoints plain = possible(all_even.at);
     const double sum = variances_of(rest, {counts.begin(), counts.end()}).sum();
-    const std::vector<double> once(plain.at.size(), 1.0);
-    if (!(sum <= variances_of(all_even, once).sum())) {
-      return merged(plain, std::vector<int>(plain.at.size(), 1), {}, {});
-    }
-    return merged(grid_, counts, even, std::vector<int>(even.at.size(), 1));
+    const double sum_of_plain = variances_of({plain.rows(), parameters_.known, asked_},
+                                             {all_even.counts.begin(), all_even.counts.end()})
+                                    .sum();
+    if (!(sum <= sum_of_plain)) return merged(plain, all_even.counts, {}, {});
+    return merged(grid_, counts, checking, even.counts);
   }
 
   static void add_settings(const PossiblePoints& points, const std::vector<int>& counts,
@@ -352,11 +374,11 @@ class Planner {
   void judge() {
     const DesignProblem made = problem_of(plan_.settings);
     const std::vector<double> counts = counts_of(plan_.settings);
-    const PossiblePoints even = possible(evenly(plan_.points));
-    const DesignProblem plain = {even.rows(), parameters_.known, asked_};
-    const std::vector<double> once(even.at.size(), 1.0);
+    const Even even = evenly(plan_.points);
+    const DesignProblem plain = {possible(even.at).rows(), parameters_.known, asked_};
+    const std::vector<double> even_counts(even.counts.begin(), even.counts.end());
     const Eigen::VectorXd variances = variances_of(made, counts);
-    const Eigen::VectorXd plain_variances = variances_of(plain, once);
+    const Eigen::VectorXd plain_variances = variances_of(plain, even_counts);
     const double points = plan_.points;
     const auto events = static_cast<double>(plan_.options.events);
     const auto impacts = [&](const std::optional<double>& factor) {
@@ -375,7 +397,7 @@ class Planner {
       quantity.error = std::sqrt(variances(q));
       quantity.plain_error = std::sqrt(plain_variances(q));
       quantity.impacts = impacts(factor_for(made, counts, q));
-      quantity.plain_impacts = impacts(factor_for(plain, once, q));
+      quantity.plain_impacts = impacts(factor_for(plain, even_counts, q));
       const DesignProblem alone = {problem_.rows, everywhere, asked_.col(q)};
       const std::vector<double> shares = optimal_shares(alone, points);
       quantity.learnt_at = places_of(shares);

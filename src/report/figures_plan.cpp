@@ -48,13 +48,31 @@ plot::Points planned_points(const ExperimentPlan& plan, std::size_t dataset, dou
   return points.with_sd(sd);
 }
 
+/// How many points a mark stands for, where it is several.
+void add_numbers(const ExperimentPlan& plan, std::size_t dataset, double diameter,
+                 const plot::Marker& marker, plot::Plot& shown) {
+  for (const PlannedSetting& setting : plan.settings) {
+    if (setting.dataset != dataset || setting.diameter != diameter || setting.points < 2) continue;
+    plot::Words words;
+    words.text = fmt::format("{} ×", setting.points);
+    words.x = plot::on_axis(setting.velocity);
+    words.y = plot::on_axis(setting.captured > 0.5 ? 0.0 : setting.restitution);
+    words.align = plot::Align::right;
+    words.shift_x = -0.8;
+    words.shift_y = 0.8;
+    words.colour = std::string(marker.colour);
+    shown.layers.push_back(std::move(words));
+  }
+}
+
 }  // namespace
 
 std::vector<Figure> plan_figures(const ExperimentPlan& plan) {
   std::vector<Figure> figures;
   for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
     plot::Plot shown;
-    shown.x = velocity_axis({plan.options.slowest / beyond_points, plan.options.fastest * beyond_points});
+    shown.x =
+        velocity_axis({plan.options.slowest / beyond_points, plan.options.fastest * beyond_points});
     shown.y = restitution_axis(1.05);
     shown.key.place = plot::KeyPlace::above;
     std::size_t size = 0;
@@ -63,6 +81,7 @@ std::vector<Figure> plan_figures(const ExperimentPlan& plan) {
       shown.layers.push_back(expected_curve(plan, d, diameter, marker));
       plot::Points points = planned_points(plan, d, diameter, marker);
       if (!points.x.empty()) shown.layers.push_back(std::move(points));
+      add_numbers(plan, d, diameter, marker, shown);
     }
     plot::Picture picture;
     picture.name = fmt::format("plan-{}", d + 1);
@@ -70,9 +89,9 @@ std::vector<Figure> plan_figures(const ExperimentPlan& plan) {
     picture.plots = {std::move(shown)};
     figures.push_back(figure_of(
         std::move(picture),
-        say("{}: what {e} is expected to be, and where to measure it. A mark is one setting; its "
-            "error is that of the mean of all impacts there. At the foot: settings at which most "
-            "spheres stay, which count them.",
+        say("{}: what {e} is expected to be, and where to measure it. A mark is one setting, with "
+            "the number of its points where it is several; its error is that of the mean of all "
+            "impacts there. At the foot: settings at which most spheres stay and are counted.",
             plan.datasets[d].id)));
   }
   return figures;

@@ -280,6 +280,20 @@ TEST(ExperimentPlan, APartOfThePointsChecksTheModel) {
   EXPECT_GT(some.efficiency, 0.6);
 }
 
+// A size that is captured at every velocity within reach is left alone; the other one is measured.
+TEST(ExperimentPlan, NoPointIsWastedOnSpheresThatNeverReturn) {
+  PlanOptions options = two_sizes();
+  options.slowest = 0.9;
+  options.fastest = 2.0;  // V* of 2.58 um is 2.3 m/s
+  options.impacts = 4000;
+  const ExperimentPlan plan = plan_for(options);
+  int wasted = 0;
+  for (const PlannedSetting& setting : plan.settings) {
+    if (setting.captured > 0.99) wasted += setting.points;
+  }
+  EXPECT_LE(wasted, 1);
+}
+
 // Where f0 is free it can be learnt, and everything else becomes harder.
 TEST(ExperimentPlan, AFurtherParameterCosts) {
   PlanOptions options = two_sizes();
