@@ -167,17 +167,15 @@ class Planner {
     const auto sizes = static_cast<int>(returning.size());
     for (int k = 0; k < sizes; ++k) {
       const Kind& kind = *returning[static_cast<std::size_t>(k)];
+      const int first = static_cast<int>(even.counts.size());
       const double from =
           std::max(plan_.options.slowest, kind.capture.found ? kind.capture.value : 0.0);
-      double before = 0.0;
-      for (const double v : spaced(from, fastest, points / sizes + (k < points % sizes ? 1 : 0))) {
-        if (v == before) {
-          ++even.counts.back();
-          continue;
-        }
+      const int count = points / sizes + (k < points % sizes ? 1 : 0);
+      const int places = std::min(count, grid_velocities);
+      for (const double v : spaced(from, fastest, places)) {
+        const int place = static_cast<int>(even.counts.size()) - first;
         even.at.push_back({kind.dataset, kind.diameter, v, kind.series});
-        even.counts.push_back(1);
-        before = v;
+        even.counts.push_back(count / places + (place < count % places ? 1 : 0));
       }
     }
     return even;
