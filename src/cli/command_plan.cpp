@@ -14,6 +14,7 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/dataset_without_points.hpp"
+#include "plan/datasets_to_plan.hpp"
 #include "plan/experiment_plan.hpp"
 #include "plot/draw.hpp"
 #include "report/figures_plan.hpp"

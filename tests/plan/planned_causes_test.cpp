@@ -10,6 +10,7 @@
 #include "diagnosis/candidate.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/predictor.hpp"
+#include "plan/datasets_to_plan.hpp"
 #include "plan/experiment_plan.hpp"
 #include "support/synthetic.hpp"
 
