@@ -19,6 +19,7 @@ void add_export(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_report(CLI::App& program);
 void add_pair(CLI::App& program);
+void add_plan(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_cluster(CLI::App& program);
 /// The manual; made last, since it lists the others.

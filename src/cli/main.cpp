@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
   recoil::add_merge(program);
   recoil::add_cluster(program);
   recoil::add_pair(program);
+  recoil::add_plan(program);
   recoil::add_help(program);
   try {
     program.parse(argc, argv);

@@ -6,36 +6,19 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/datapackage.hpp"
+#include "data/dataset_without_points.hpp"
 #include "data/folder_names.hpp"
 #include "data/points.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::uintmax_t largest_package = 16ULL * 1024 * 1024;  // [bytes]
-
-/// The folder's own name, also for "datasets/mica/" and ".".
-std::string folder_name(const std::filesystem::path& folder) {
-  const std::filesystem::path plain = folder.lexically_normal();
-  const std::filesystem::path name =
-      plain.has_filename() ? plain.filename() : plain.parent_path().filename();
-  return name.empty() || name == "." || name == ".." ? "dataset" : name.string();
-}
-
 Dataset assemble(Package package, const std::string& package_text, const std::string& csv_text,
                  const std::filesystem::path& folder) {
-  Dataset dataset;
-  read_points(csv_text, (folder / package.points_path).string(), package, dataset);
-  for (const Column& column : package.columns) {
-    dataset.columns.push_back({column.name, column.unit});
-  }
-  dataset.id = std::move(package.id);
-  dataset.title = std::move(package.title);
-  dataset.provenance = package.provenance;
-  dataset.system = std::move(package.system);
-  dataset.sources = std::move(package.sources);
+  const std::string file = (folder / package.points_path).string();
+  Dataset dataset = dataset_without_points(package, folder);
+  read_points(csv_text, file, package, dataset);
   dataset.sha256 = sha256_hex(package_text + "\n" + csv_text);
-  dataset.folder = folder;
   return dataset;
 }
 
@@ -70,7 +53,7 @@ std::vector<double> distinct_diameters(const Dataset& dataset) {
 Dataset parse_dataset(const std::string& datapackage_text, const std::string& csv_text,
                       const std::filesystem::path& folder) {
   Package package =
-      read_package(datapackage_text, (folder / package_file_name).string(), folder_name(folder));
+      read_package(datapackage_text, (folder / package_file_name).string(), name_of_folder(folder));
   return assemble(std::move(package), datapackage_text, csv_text, folder);
 }
 
@@ -83,7 +66,7 @@ Dataset load_dataset(const std::filesystem::path& folder) {
                      "add it, as in a shipped dataset");
   }
   const std::string package_text = read_text_file(package_file, largest_package);
-  Package package = read_package(package_text, package_file.string(), folder_name(folder));
+  Package package = read_package(package_text, package_file.string(), name_of_folder(folder));
   const std::filesystem::path points_file = folder / package.points_path;
   if (!std::filesystem::exists(points_file, failed)) {
     throw InputError(package.points_where, "there is no file '" + package.points_path + "'", "",

@@ -10,6 +10,9 @@
 
 namespace recoil {
 
+/// Of the error of a mechanism's law, that of the base model is this part [1].
+inline constexpr double law_error_of_base = 0.3;
+
 /// How wrong laws may be: no law of a mechanism, and no base model, is exact in nature. The effect
 /// of every mechanism, Delta = e^2 with it - e^2 without it, is right but for a factor 1 + g(V, d),
 /// g smooth (`smooth_functions`) and normal with mean 0 and standard deviation `mechanism`; the

@@ -18,7 +18,6 @@
 namespace recoil {
 namespace {
 
-constexpr double base_part = 0.3;  // of the error of a mechanism's law, is that of the base model
 constexpr int tries_alone = 4;
 constexpr int tries_in_pairs = 2;
 constexpr std::size_t sets_at_once = 13;    // between two looks at how many gain more
@@ -240,7 +239,7 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
   const FitResult fitted = with_rough_settings(spec, datasets, estimated);
   SearchBase base{spec, datasets, fitted, {},     make_candidate(spec, datasets, {}),
                   {},   0.0,      1.0,    options};
-  base.laws = {spec.law_error, base_part * spec.law_error, smooth_functions(fitted.data)};
+  base.laws = {spec.law_error, law_error_of_base * spec.law_error, smooth_functions(fitted.data)};
   base.candidate.model.solver = fitted.model.solver;
   base.refit =
       with_law_errors(base.candidate, fitted.data,

@@ -39,6 +39,11 @@ RESULTS = {
     ],
     "coverage": [["coverage", "mine.toml", "--datasets", "3", "--replicates", "19"]],
     "compare": [["compare", "one.json", "two.json"]],
+    "plan": [
+        ["plan", "mine.toml"],
+        ["plan", "maugis.toml", "--impacts", "300", "--diameter", "1,4"],
+        ["plan", "fits/wall1990-all.toml", "--impacts", "2000"],
+    ],
     "pair": [["pair", "events.csv", "--unit", "time=s,velocity=m/s,diameter=um"]],
 }
 

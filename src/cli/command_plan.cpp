@@ -1,0 +1,218 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "cli/analysis.hpp"
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/fitted_values.hpp"
+#include "cli/simulated_impact.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/units.hpp"
+#include "data/dataset_without_points.hpp"
+#include "plan/datasets_to_plan.hpp"
+#include "plan/experiment_plan.hpp"
+#include "plot/draw.hpp"
+#include "report/figures_plan.hpp"
+#include "report/plan_document.hpp"
+#include "report/plan_files.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlanFlags {
+  std::string fit_file;
+  std::map<std::string, double> assumed;  ///< by the name of the parameter; those that were given
+  std::string parameters;
+  std::vector<double> velocity;   // [m/s]
+  std::vector<double> diameters;  // [um]
+  PlanOptions plan;
+  std::string out;
+  bool json = false;
+};
+
+/// The velocities and diameters that were asked for, or else those of the points that there are.
+void take_ranges(const PlanFlags& flags, const std::vector<Dataset>& datasets,
+                 PlanOptions& options) {
+  for (const double diameter : flags.diameters) options.diameters.push_back(diameter * units::um);
+  if (!flags.velocity.empty()) {
+    options.slowest = flags.velocity[0];
+    options.fastest = flags.velocity[1];
+    if (options.slowest < options.fastest) return;
+    throw InputError(
+        {}, fmt::format("--velocity {:g},{:g} is not a range", options.slowest, options.fastest),
+        "the first number has to be the smaller one", "for example --velocity 1,50");
+  }
+  double slowest = INFINITY;
+  double fastest = 0.0;
+  for (const Dataset& dataset : datasets) {
+    for (const ImpactPoint& point : dataset.points) {
+      slowest = std::min(slowest, point.incident_velocity);
+      fastest = std::max(fastest, point.incident_velocity);
+    }
+  }
+  if (slowest < fastest) {
+    options.slowest = slowest;
+    options.fastest = fastest;
+  }
+}
+
+/// Puts an assumed value into every slot of its parameter.
+void assume(const std::string& name, double value, const FitSpec& spec, ImpactModel& model) {
+  bool found = false;
+  for (ParameterSlot& slot : model.slots) {
+    if (slot.parameter->name != name) continue;
+    found = true;
+    if (slot.free && !(value >= slot.lower && value <= slot.upper)) {
+      throw InputError({}, fmt::format("--{} {:g} is outside of its bounds", name, value),
+                       fmt::format("the fit file allows {:g} to {:g}", slot.lower, slot.upper),
+                       "assume another value, or widen the bounds");
+    }
+    slot.initial = value;
+  }
+  if (found) return;
+  throw InputError({}, fmt::format("--{} is no parameter of this fit", name),
+                   fmt::format("its law of adhesion is {}", to_string(spec.adhesion)),
+                   spec.adhesion == AdhesionLaw::ring ? "give --f0" : "give --W");
+}
+
+void run_plan(PlanFlags flags) {
+  if (!flags.out.empty()) require_writable_folder(flags.out);
+  const FitSpec spec = load_fit(flags.fit_file);
+  std::vector<Dataset> datasets;
+  for (const fs::path& folder : spec.datasets) {
+    datasets.push_back(load_dataset_to_be_measured(folder));
+  }
+  take_ranges(flags, datasets, flags.plan);
+  const std::vector<Dataset> planned = datasets_to_plan(datasets, flags.plan.diameters);
+  ImpactModel model = make_model(spec, planned);
+  std::string origin = "the initial values of the fit file";
+  if (!flags.parameters.empty()) {
+    take_fitted_values(model, datasets, flags.parameters);
+    origin = "from " + flags.parameters;
+  }
+  for (const auto& [name, value] : flags.assumed) {
+    assume(name, value, spec, model);
+    origin += fmt::format(", {} as stated", name);
+  }
+  const ExperimentPlan plan = plan_experiment(spec, planned, model.initial(), flags.plan);
+  const std::string result = json_plan(plan);
+  if (!flags.out.empty()) {
+    const fs::path out = flags.out;
+    for (const Figure& figure : plan_figures(plan)) {
+      write_whole_file(out / (figure.picture.name + ".svg"), plot::draw_svg(figure.picture));
+    }
+    for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
+      const std::string name = plan.datasets.size() == 1
+                                   ? "points.csv"
+                                   : plot::plot_name("points-" + plan.datasets[d].id) + ".csv";
+      write_whole_file(out / name, csv_points_to_make(plan, d));
+    }
+    write_whole_file(out / "plan.html", plan_html(plan, origin));
+    write_whole_file(out / "plan.json", result);
+  }
+  fmt::print("{}", flags.json ? result : plan_text(plan, origin));
+}
+
+void add_assumptions(CLI::App& command, const std::shared_ptr<PlanFlags>& flags) {
+  const auto parameter = [&](const std::string& name, const std::string& help, double most) {
+    command
+        .add_option_function<double>(
+            "--" + name, [flags, name](double value) { flags->assumed[name] = value; }, help)
+        ->check(positive_number(name, 0.0, most));
+  };
+  parameter("C_H", "assume this damping of the contact [s/m] (default: the fit file's start)", 1e6);
+  parameter("C_A", "assume this damping of the adhesion [s/m] (default: the fit file's start)",
+            1e6);
+  parameter("f0",
+            "assume this adhesion per length at the reference diameter [N/m] (default: what the "
+            "fit file or the materials say)",
+            1e6);
+  parameter("W", "the same for the other laws of adhesion: work of adhesion [J/m2]", 40.0);
+  command
+      .add_option("--parameters", flags->parameters,
+                  "take the values from this fit.json, of the same fit and data")
+      ->type_name("FILE");
+  command
+      .add_option("--scatter", flags->plan.scatter,
+                  "standard deviation of the e of one impact, relative to e")
+      ->capture_default_str()
+      ->check(positive_number("scatter", 0.0, 1.0));
+  command
+      .add_option("--floor", flags->plan.floor,
+                  "the part of that standard deviation that does not depend on e")
+      ->capture_default_str()
+      ->check(positive_number("standard deviation", 1e-6, 1.0));
+  command
+      .add_option("--spread", flags->plan.spread,
+                  "relative standard deviation of the capture velocity from impact to impact; 0: "
+                  "below it every sphere stays, above it none")
+      ->capture_default_str()
+      ->check(positive_number("spread", 0.0, 0.5));
+}
+
+}  // namespace
+
+void add_plan(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "plan", "before the experiment: which velocities and sizes to measure, and how often");
+  command->footer(
+      "Needs a fit file and datasets with their materials; points need not be there yet. From the\n"
+      "model it works out which points determine the free parameters and the capture velocities\n"
+      "with the fewest impacts, which errors to expect, and which of the other causes that may\n"
+      "act the points would show and tell apart: if not, what would. The plan is best where its\n"
+      "assumptions hold: make it again with --parameters once there are first results. With\n"
+      "--out it writes plan.html (a page to read), plan.json, pictures and points.csv, to be\n"
+      "filled in.\n\n"
+      "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
+      "  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \\\n"
+      "      --out my-plan");
+  const auto flags = std::make_shared<PlanFlags>();
+  command->add_option("FIT", flags->fit_file, "a fit file")->required();
+  command
+      ->add_option("--velocity", flags->velocity,
+                   "range of incident velocities MIN,MAX [m/s] (default: that of the points, or "
+                   "0.8 to 30 times the capture velocities)")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("MIN,MAX")
+      ->check(positive_number("velocity", velocity_limits.first, velocity_limits.second));
+  command
+      ->add_option(
+          "--diameter", flags->diameters,
+          "sphere diameters that there are [um], e.g. 2,5,10 (default: those of the points)")
+      ->delimiter(',')
+      ->type_name("D,D,...")
+      ->check(positive_number("diameter", diameter_limits_um.first, diameter_limits_um.second));
+  command
+      ->add_option("--error", flags->plan.error,
+                   "wanted standard error of every free parameter and capture velocity, relative")
+      ->capture_default_str()
+      ->check(positive_number("error", 1e-4, 1.0));
+  command
+      ->add_option("--impacts", flags->plan.impacts,
+                   "impacts of the whole plan (default: as many as the wanted error takes, at most "
+                   "10000)")
+      ->check(CLI::Range(1, 10000000));
+  command->add_option("--events", flags->plan.events, "impacts that one point averages")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  command
+      ->add_option("--checks", flags->plan.checks,
+                   "share of the points that are spread evenly, to show a wrong model")
+      ->capture_default_str()
+      ->check(positive_number("share", 0.0, 1.0));
+  add_assumptions(*command, flags);
+  command->add_option("--out", flags->out, "folder for the files (default: nothing is written)")
+      ->type_name("DIR");
+  add_json_flag(*command, flags->json);
+  command->callback([flags] { run_plan(*flags); });
+}
+
+}  // namespace recoil
