@@ -236,9 +236,16 @@ FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& d
 
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        const FitResult& estimated, const DiagnosisOptions& options) {
-  const FitResult fitted = with_rough_settings(spec, datasets, estimated);
-  SearchBase base{spec, datasets, fitted, {},     make_candidate(spec, datasets, {}),
-                  {},   0.0,      1.0,    options};
+  SearchBase base{spec,
+                  datasets,
+                  with_rough_settings(spec, datasets, estimated),
+                  {},
+                  make_candidate(spec, datasets, {}),
+                  {},
+                  0.0,
+                  1.0,
+                  options};
+  const FitResult& fitted = base.fitted;
   base.laws = {spec.law_error, law_error_of_base * spec.law_error, smooth_functions(fitted.data)};
   base.candidate.model.solver = fitted.model.solver;
   base.refit =

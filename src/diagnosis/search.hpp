@@ -15,9 +15,9 @@ namespace recoil {
 struct SearchBase {
   const FitSpec& spec;
   const std::vector<Dataset>& datasets;
-  const FitResult& fitted;  ///< its `data` are what every candidate is fitted to
-  LawErrors laws;           ///< what every model is allowed to be wrong by
-  Candidate candidate;      ///< the base itself: nothing added
+  FitResult fitted;     ///< its `data` are what every candidate is fitted to
+  LawErrors laws;       ///< what every model is allowed to be wrong by
+  Candidate candidate;  ///< the base itself: nothing added
   Refit refit;
   double criterion = 0.0;
   double noise_scale = 1.0;  ///< of the base: 1 where standard deviations are stated
