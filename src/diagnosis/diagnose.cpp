@@ -15,6 +15,7 @@
 #include "diagnosis/misfit_map.hpp"
 #include "diagnosis/next_experiments.hpp"
 #include "diagnosis/next_measurement.hpp"
+#include "diagnosis/pairs.hpp"
 #include "diagnosis/search.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "estimate/capture_velocity.hpp"
