@@ -47,7 +47,12 @@ Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lo
        !folder.empty() && !std::filesystem::exists(folder, failed); folder = folder.parent_path()) {
     made_.push_back(folder);
   }
+  failed.clear();
   if (!made_.empty()) std::filesystem::create_directories(result.parent_path(), failed);
+  if (failed) {
+    let_go();
+    throw cannot_be_written(result, failed.value());
+  }
   for (;;) {
     file_ = open(mark_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) {

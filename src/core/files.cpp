@@ -121,10 +121,12 @@ void write_whole_files(const std::vector<WholeFile>& files) {
     }
   };
   for (const WholeFile& file : files) {
+    failed.clear();
     if (file.path.has_parent_path()) {
       std::filesystem::create_directories(file.path.parent_path(), failed);
     }
-    if (const int error = write_to_disk(beside(file), file.text); error != 0) {
+    if (const int error = failed ? failed.value() : write_to_disk(beside(file), file.text);
+        error != 0) {
       remove_all_from(0);
       throw cannot_be_written(file.path, error);
     }
