@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 namespace recoil {
@@ -35,7 +36,7 @@ Json json_of(const Refit& refit) {
                       row_json(refit.jacobian), refit.moving});
 }
 
-Refit refit_of(const Json& json) {
+Refit refit_of(const Json& json, const Candidate& candidate, std::size_t points) {
   Refit refit;
   if (json.empty()) return refit;
   refit.usable = true;
@@ -44,7 +45,18 @@ Refit refit_of(const Json& json) {
   refit.residuals = row_of(json.at(2));
   refit.jacobian = row_of(json.at(3));
   refit.moving = json.at(4).get<std::vector<bool>>();
+  const std::size_t p = candidate.model.slots.size();
+  if (refit.theta.size() != p || refit.moving.size() != p || refit.residuals.size() != points ||
+      refit.jacobian.size() < points * p) {
+    throw std::length_error("a refit of something else");
+  }
   return refit;
+}
+
+void require_names(const Json& row, const std::vector<std::string>& names) {
+  if (row.at(0).get<std::vector<std::string>>() != names) {
+    throw std::invalid_argument("a row of something else");
+  }
 }
 
 }  // namespace recoil

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/json.hpp"
@@ -29,7 +30,11 @@ std::vector<double> row_of(const Json& json);
 
 /// A refit but for what its residuals share, which nobody asks for afterwards.
 Json json_of(const Refit& refit);
-Refit refit_of(const Json& json);
+/// And back. @throws std::exception for another thing than a refit of `candidate` to so many points
+Refit refit_of(const Json& json, const Candidate& candidate, std::size_t points);
+
+/// @throws std::exception unless `row` begins with `names`
+void require_names(const Json& row, const std::vector<std::string>& names);
 
 /// What came of piece `number`: what is kept, as `read` understands it, or what `make` gives, which
 /// is kept as `write` says it.

@@ -66,16 +66,19 @@ void look_at(const SearchBase& base, FirstLook& look) {
 
 /// The same by way of what is kept.
 void look_once(const SearchBase& base, std::size_t k, FirstLook& look) {
-  look.both = make_candidate(base.spec, base.datasets, names_of(look), false, true);
+  const std::vector<std::string> names = names_of(look);
+  look.both = make_candidate(base.spec, base.datasets, names, false, true);
   const auto make = [&] {
     look_at(base, look);
     return std::pair(look.refit, look.delta_aicc);
   };
-  const auto write = [](const auto& seen) {
-    return Json::array({json_of(seen.first), row_json({seen.second})});
+  const auto write = [&](const auto& seen) {
+    return Json::array({names, json_of(seen.first), row_json({seen.second})});
   };
-  const auto read = [](const Json& row) {
-    return std::pair(refit_of(row.at(0)), row_of(row.at(1)).at(0));
+  const auto read = [&](const Json& row) {
+    require_names(row, names);
+    return std::pair(refit_of(row.at(1), look.both, base.fitted.data.points.size()),
+                     row_of(row.at(2)).at(0));
   };
   std::tie(look.refit, look.delta_aicc) =
       kept_or_made(base.options, number_of(base.options, KeptPiece::look, k), make, write, read);

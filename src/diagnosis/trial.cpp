@@ -102,23 +102,25 @@ void try_released(const SearchBase& base, CandidateResult& result, int tries) {
 CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size_t k,
                                const std::vector<std::string>& added,
                                const std::function<CandidateResult()>& make) {
-  const auto write = [](const CandidateResult& c) {
-    if (!c.refit.usable) return Json::array();
+  // A row carries its names: numbers follow the order of the criterion.
+  const auto write = [&](const CandidateResult& c) {
+    if (!c.refit.usable) return Json::array({added});
     const Json aside = c.set_aside ? Json(name_of(*c.set_aside)) : Json(nullptr);
-    return Json::array({c.candidate.released, json_of(c.refit),
+    return Json::array({added, c.candidate.released, json_of(c.refit),
                         row_json({c.delta_aicc, c.remaining_p, c.remaining_part}), aside});
   };
   const auto read = [&](const Json& row) {
-    if (row.empty()) return CandidateResult{};
-    CandidateResult c = described(
-        base,
-        make_candidate(base.spec, base.datasets, added, row.at(0).get<bool>(), added.size() > 1),
-        refit_of(row.at(1)));
-    const std::vector<double> values = row_of(row.at(2));
+    require_names(row, added);
+    if (row.size() == 1) return CandidateResult{};
+    Candidate candidate =
+        make_candidate(base.spec, base.datasets, added, row.at(1).get<bool>(), added.size() > 1);
+    Refit refit = refit_of(row.at(2), candidate, base.fitted.data.points.size());
+    CandidateResult c = described(base, std::move(candidate), std::move(refit));
+    const std::vector<double> values = row_of(row.at(3));
     c.delta_aicc = values.at(0);
     c.remaining_p = values.at(1);
     c.remaining_part = values.at(2);
-    if (!row.at(3).is_null()) c.set_aside = value_named<SetAside>(row.at(3).get<std::string>());
+    if (!row.at(4).is_null()) c.set_aside = value_named<SetAside>(row.at(4).get<std::string>());
     return c;
   };
   return kept_or_made(base.options, number_of(base.options, kind, k), make, write, read);

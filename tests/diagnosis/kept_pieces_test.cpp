@@ -80,7 +80,7 @@ TEST(KeptPieces, AnyPartOfThemGivesTheSameAnswer) {
         if (marked == 0) {
           for (std::size_t k = 1; k < row.size(); ++k) other[k] = 9e9;
         } else {
-          other[2][0] = -1e3 - static_cast<double>(piece % 1000);
+          other[3][0] = -1e3 - static_cast<double>(piece % 1000);
         }
       }
       changed->put(piece, other);
