@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "diagnosis/outlying_points.hpp"
 #include "diagnosis/search.hpp"
+#include "diagnosis/singles.hpp"
 #include "diagnosis/structure.hpp"
 
 namespace recoil {

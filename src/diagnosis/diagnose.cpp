@@ -17,6 +17,7 @@
 #include "diagnosis/next_measurement.hpp"
 #include "diagnosis/pairs.hpp"
 #include "diagnosis/search.hpp"
+#include "diagnosis/singles.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "mechanism/catalogue.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "diagnosis/trial.hpp"
+#include "diagnosis/kept_pieces.hpp"
 #include "estimate/point_conditions.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/simulated_observation.hpp"
@@ -15,26 +15,8 @@ namespace recoil {
 namespace {
 
 constexpr double base_part = 0.3;  // of the error of a mechanism's law, is that of the base model
-constexpr int tries_alone = 4;
 constexpr std::size_t sets_at_once = 13;    // between two looks at how many gain more
 constexpr std::ptrdiff_t often_enough = 5;  // to say that chance gives as much
-
-/// One mechanism of the catalogue; without a usable refit where it cannot be fitted.
-CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
-                           Candidate candidate) {
-  if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 1) return {};
-  const std::vector<PointConditions>& impacts = candidate.impacts;
-  if (std::all_of(impacts.begin(), impacts.end(), [&](const PointConditions& at) {
-        return is_taken_away(candidate.model, mechanism, at);
-      })) {
-    return {};
-  }
-  const std::vector<double> near =
-      carried_over(base.candidate.model, base.refit.theta, candidate.model);
-  CandidateResult result = try_one(base, std::move(candidate), near, tries_alone);
-  try_released(base, result, tries_alone);
-  return result;
-}
 
 }  // namespace
 
@@ -120,31 +102,8 @@ std::vector<double> calibration_row(
   return row;
 }
 
-std::vector<CandidateResult> try_singles(const SearchBase& base) {
-  std::vector<const Mechanism*> untried;
-  for (const Mechanism& mechanism : mechanism_catalogue()) {
-    const auto& own = base.spec.mechanisms;
-    if (!mechanism.works_with(base.spec.adhesion)) continue;
-    // Counts of captures have told the base model already how the impacts differ.
-    if (mechanism.spreads() && base.fitted.data.noise.event_spread > 0.0) continue;
-    const std::vector<Surroundings>& places = base.candidate.model.surroundings;
-    if (std::none_of(places.begin(), places.end(),
-                     [&](const Surroundings& at) { return mechanism.acts_at(at); })) {
-      continue;
-    }
-    if (std::find(own.begin(), own.end(), mechanism.info.id) == own.end()) {
-      untried.push_back(&mechanism);
-    }
-  }
-  std::vector<CandidateResult> results(untried.size());
-  parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
-    const std::vector<std::string> added = {std::string(untried[k]->info.id)};
-    results[k] = kept_candidate(base, KeptPiece::single, k, added, [&] {
-      return try_single(base, *untried[k], make_candidate(base.spec, base.datasets, added));
-    });
-  });
-  sort_by_criterion(results);
-  return results;
+bool spreads(const CandidateResult& single) {
+  return find_mechanism(single.candidate.added.front())->spreads();
 }
 
 double largest_gain(const SearchBase& base, const std::vector<CandidateResult>& candidates,

@@ -40,9 +40,8 @@ std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
 std::vector<double> calibration_row(
     const std::optional<PerValue<StructureQuestion, double>>& answer);
 
-/// Every mechanism of the catalogue that `spec` does not have, refitted, with its structure and its
-/// plausibility; the best first. Mechanisms that cannot be fitted are left out.
-std::vector<CandidateResult> try_singles(const SearchBase& base);
+/// Is a single candidate one under which the spheres of a point differ?
+bool spreads(const CandidateResult& single);
 
 /// What the best of `candidates` gains over the base, in its criterion, on replicate `index`;
 /// -infinity where nothing can be fitted.

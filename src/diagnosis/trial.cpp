@@ -142,8 +142,4 @@ void sort_by_criterion(std::vector<CandidateResult>& candidates) {
                    });
 }
 
-bool spreads(const CandidateResult& single) {
-  return find_mechanism(single.candidate.added.front())->spreads();
-}
-
 }  // namespace recoil

@@ -32,7 +32,4 @@ std::vector<double> within_bounds(const ImpactModel& model, std::vector<double> 
 /// The best first; what cannot be fitted is left out.
 void sort_by_criterion(std::vector<CandidateResult>& candidates);
 
-/// Is a single candidate one under which the spheres of a point differ?
-bool spreads(const CandidateResult& single);
-
 }  // namespace recoil

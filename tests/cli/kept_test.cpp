@@ -61,7 +61,7 @@ const LongCommand diagnosis = {{"diagnose", "fit.toml", "--seed", "3", "--thread
                                "unfinished-diagnosis.json.jsonl",
                                {"diagnosis.json", "diagnosis.html", "extended.toml"}};
 const LongCommand coverage = {
-    {"coverage", "fit.toml", "--datasets", "150", "--replicates", "39", "--threads", "1"},
+    {"coverage", "fit.toml", "--datasets", "60", "--replicates", "39", "--threads", "1"},
     "coverage.md",
     "unfinished-coverage.md.jsonl",
     {"coverage.md"}};
@@ -111,9 +111,12 @@ TEST(Kept, ADiagnosisEndsSoonAfterTheSignal) {
   spoil(place);
   Started run(with(diagnosis.words, {"--out", "out"}), place.path());
   ASSERT_TRUE(run.wait_until([&] { return fs::exists(place / "out/diagnosis.json.lock"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // well at work
   const auto sent = std::chrono::steady_clock::now();
   run.send(SIGINT);
-  EXPECT_EQ(run.end().status, 128 + SIGINT);
+  const Outcome ended = run.end();
+  EXPECT_EQ(ended.status, 128 + SIGINT);
+  EXPECT_EQ(ended.err.find("stopped: "), 0U) << ended.err;
   EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(5));
 }
 
