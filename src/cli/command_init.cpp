@@ -7,6 +7,7 @@
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/fitted_values.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"

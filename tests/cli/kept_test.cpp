@@ -39,7 +39,8 @@ std::size_t rows_in(const fs::path& file) {
 /// Stops `command` by `signal`, sooner and later, until `file` holds something of it.
 Outcome stopped(const Workplace& place, const Words& command, const fs::path& file, int signal) {
   Outcome ended;
-  for (int delay = 100; delay < 20000 && !fs::exists(file); delay = delay * 3 / 2) {
+  const auto nothing_yet = [&file] { return !fs::exists(file) || rows_in(file) == 0; };
+  for (int delay = 100; delay < 20000 && nothing_yet(); delay = delay * 3 / 2) {
     Started run(command, place.path());
     std::this_thread::sleep_for(std::chrono::milliseconds(delay));
     run.send(signal);
