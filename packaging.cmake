@@ -45,7 +45,12 @@ install(FILES ${PROJECT_BINARY_DIR}/recoil-config.cmake
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME recoil)
-set(CPACK_PACKAGE_CONTACT "The recoil authors <recoil@localhost>")
+# Who makes the package maintains it, and says so as Debian's tools ask for it (dch(1): DEBFULLNAME,
+# DEBEMAIL). The authors have no address to give; that of nobody is one that cannot exist (RFC 6761).
+set(CPACK_PACKAGE_CONTACT "The recoil authors <nobody@recoil.invalid>")
+if(NOT "$ENV{DEBFULLNAME}" STREQUAL "" AND NOT "$ENV{DEBEMAIL}" STREQUAL "")
+  set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_CMAKE_PROJECTS "${PROJECT_BINARY_DIR};recoil;Unspecified;/")

@@ -110,9 +110,12 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
   job.shards = flags.shards;
   job.cpus = flags.cpus;
   job.seconds = *seconds_named(flags.time);
-  for (const ClusterFile& file : cluster_scripts(job)) {
+  const std::vector<ClusterFile> scripts = cluster_scripts(job);
+  std::vector<WholeFile> files;
+  for (const ClusterFile& file : scripts) files.push_back({job.folder / file.name, file.text});
+  write_whole_files(files);
+  for (const ClusterFile& file : scripts) {
     const fs::path path = job.folder / file.name;
-    write_whole_file(path, file.text);
     if (path.extension() == ".sh") {
       fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                       fs::perm_options::add);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
@@ -8,6 +9,8 @@
 #include "cli/coverage_words.hpp"
 #include "cli/json_coverage.hpp"
 #include "cli/shard_flags.hpp"
+#include "cli/write_or_print.hpp"
+#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/shared_work.hpp"
@@ -33,7 +36,7 @@ struct Prepared {
   std::vector<Dataset> datasets;
   CoverageOptions coverage;
   CoverageTruth truth;
-  Origin origin;  ///< of the parts, where there are any
+  Origin origin;  ///< of what is kept, and of the parts
 };
 
 /// Not copied: the truth may refer to its specification.
@@ -46,12 +49,21 @@ std::unique_ptr<Prepared> prepare(const Options& options) {
   coverage.uncertainty = uncertainty_options(ready->spec, options.analysis.resolved());
   require_scheme(ready->spec, coverage.uncertainty.scheme, gather(ready->datasets));
   ready->truth = coverage_truth(ready->spec, ready->datasets, coverage.uncertainty.seed);
-  if (options.shards.one_of_several() || options.shards.merging()) {
-    ready->origin = origin_of(options.shards, inputs_of(ready->spec, ready->datasets),
-                              coverage.uncertainty.seed,
-                              static_cast<std::size_t>(coverage.datasets), digits_of(ready->truth));
-  }
+  ready->origin =
+      origin_of(options.shards, inputs_of(ready->spec, ready->datasets), coverage.uncertainty.seed,
+                static_cast<std::size_t>(coverage.datasets), digits_of(ready->truth));
   return ready;
+}
+
+SharedWork work_of(const Prepared& ready) {
+  SharedWork work;
+  work.label = "coverage";
+  work.pieces = ready.origin.pieces;
+  work.threads = ready.coverage.uncertainty.threads;
+  work.run = [&ready](std::size_t piece) {
+    return json_of(run_coverage_trial(ready.spec, ready.truth, ready.coverage, piece));
+  };
+  return work;
 }
 
 void run_shard_of_coverage(const Options& options) {
@@ -59,14 +71,7 @@ void run_shard_of_coverage(const Options& options) {
   const std::unique_ptr<Prepared> ready = prepare(options);
   const Shard shard = options.shards.chosen();
   if (part_is_there(options.out, ready->origin, shard)) return;
-  SharedWork work;
-  work.label = "coverage";
-  work.pieces = ready->origin.pieces;
-  work.threads = ready->coverage.uncertainty.threads;
-  work.run = [&](std::size_t piece) {
-    return json_of(run_coverage_trial(ready->spec, ready->truth, ready->coverage, piece));
-  };
-  write_part(work, ready->origin, shard, options.out);
+  write_part(work_of(*ready), ready->origin, shard, options.out);
   say_part(options.out, ready->origin, shard, "data sets");
 }
 
@@ -81,22 +86,37 @@ CoverageResult merged(const Prepared& ready, const std::string& folder) {
   return count_coverage(ready.spec, ready.truth, ready.coverage, trials);
 }
 
+/// Runs what earlier runs of the same study have not left beside its result.
+CoverageResult measured(const Prepared& ready, KeptRows& kept) {
+  run_pieces(work_of(ready), Shard{}, kept);
+  std::vector<CoverageTrial> trials;
+  for (const auto& [piece, row] : kept.rows()) trials.push_back(coverage_trial_of(row));
+  return count_coverage(ready.spec, ready.truth, ready.coverage, trials);
+}
+
 void run(const Options& options) {
+  std::optional<Claim> claim;
   if (!options.out.empty()) {
     require_writable_folder(std::filesystem::absolute(options.out).parent_path());
   }
   const std::unique_ptr<Prepared> ready = prepare(options);
-  const CoverageResult result = options.shards.merging()
-                                    ? merged(*ready, options.shards.parts)
-                                    : measure_coverage(ready->spec, ready->truth, ready->coverage);
+  if (!options.out.empty()) claim.emplace(options.out);
+  KeptRows kept(options.out.empty() ? "" : unfinished_beside(options.out), key_of(ready->origin));
+  const CoverageResult result = options.shards.merging() ? merged(*ready, options.shards.parts)
+                                : options.out.empty()
+                                    ? measure_coverage(ready->spec, ready->truth, ready->coverage)
+                                    : measured(*ready, kept);
   std::string text = coverage_markdown(result, ready->spec, ready->coverage);
   for (const Dataset& dataset : ready->datasets) {
     text += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));
   }
-  if (!options.out.empty()) write_whole_file(options.out, text);
-  fmt::print("{}", options.json
-                       ? coverage_json(result, ready->spec, ready->coverage, ready->datasets)
-                       : text);
+  const std::string printed =
+      options.json ? coverage_json(result, ready->spec, ready->coverage, ready->datasets) : text;
+  if (!options.out.empty()) {
+    write_or_print({{options.out, text}}, printed);
+    kept.forget();
+  }
+  fmt::print("{}", printed);
 }
 
 /// Grids and summaries belong to the program of the studies; who asks for them here is told so.
@@ -122,7 +142,8 @@ void add_coverage(CLI::App& program) {
   command->footer(
       "Simulates the design of the fit again and again from a known truth (the recipe's, or the\n"
       "fit's own estimate), fits each data set as you would, and counts how often the intervals\n"
-      "contain the truth. Prints Markdown.\n\n"
+      "contain the truth. Prints Markdown. With --out Ctrl-C keeps what is finished, and the same\n"
+      "command goes on from there.\n\n"
       "  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md\n\n"
       "Grids of designs, tables of several fits and their summary are studies of recoil's\n"
       "authors: ./run study, or recoil_study --help.");

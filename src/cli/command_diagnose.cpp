@@ -1,19 +1,23 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/recipe_words.hpp"
 #include "cli/shard_flags.hpp"
+#include "cli/unless_stopped.hpp"
+#include "cli/write_or_print.hpp"
+#include "core/claim.hpp"
 #include "core/files.hpp"
 #include "core/shared_work.hpp"
 #include "diagnosis/calibration.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "diagnosis/extended_toml.hpp"
+#include "diagnosis/kept_pieces.hpp"
 #include "report/diagnosis_document.hpp"
 #include "report/json_diagnosis.hpp"
 
@@ -42,23 +46,6 @@ Origin origin_of_calibration(const DiagnoseFlags& flags, const FitInputs& inputs
                    flags.options(inputs.spec).seed, calibration.pieces(), calibration.digits());
 }
 
-/// JSON has no number for an infinite gain.
-Json row_json(const std::vector<double>& row) {
-  Json json = Json::array();
-  for (const double value : row) {
-    json.push_back(std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value)));
-  }
-  return json;
-}
-
-std::vector<double> row_of(const Json& json) {
-  std::vector<double> row;
-  for (const Json& value : json) {
-    row.push_back(value.is_number() ? value.get<double>() : std::stod(value.get<std::string>()));
-  }
-  return row;
-}
-
 void run_shard_of_calibration(const DiagnoseFlags& flags) {
   require_share(flags.out, 1, "data sets");
   const FitInputs inputs = load_inputs(flags.fit);
@@ -72,31 +59,47 @@ void run_shard_of_calibration(const DiagnoseFlags& flags) {
   say_part(flags.out, origin, shard, "data sets of the calibration");
 }
 
-std::shared_ptr<const std::vector<std::vector<double>>> merged_calibration(
-    const DiagnoseFlags& flags, const FitInputs& inputs) {
+void take_merged_calibration(const DiagnoseFlags& flags, const FitInputs& inputs, KeptRows& kept) {
   const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
   const Origin origin = origin_of_calibration(flags, inputs, calibration);
-  auto rows = std::make_shared<std::vector<std::vector<double>>>(origin.pieces);
-  read_parts(parts_of(origin, flags.shards.parts), rows->size(),
-             [&](std::size_t piece, const Json& row) { (*rows)[piece] = row_of(row); });
-  return rows;
+  read_parts(parts_of(origin, flags.shards.parts), origin.pieces,
+             [&](std::size_t piece, const Json& row) { kept.put(piece, row); });
+}
+
+std::filesystem::path result_in(const std::filesystem::path& folder) {
+  return folder / "diagnosis.json";
+}
+
+/// What earlier runs of the same diagnosis have left in the folder of its results, if it has one.
+std::shared_ptr<KeptRows> kept_by(const DiagnoseFlags& flags, const FitInputs& inputs) {
+  if (flags.out.empty()) return std::make_shared<KeptRows>("", "");
+  const Origin origin = origin_of(flags.shards, inputs_of(inputs.spec, inputs.datasets),
+                                  flags.options(inputs.spec).seed, 0, "");
+  return std::make_shared<KeptRows>(unfinished_beside(result_in(flags.out)), key_of(origin));
 }
 
 void run_diagnosis(const DiagnoseFlags& flags) {
   if (!flags.out.empty()) require_writable_folder(flags.out);
   const FitInputs inputs = load_inputs(flags.fit);
+  std::optional<Claim> claim;
+  if (!flags.out.empty()) claim.emplace(result_in(flags.out));
   DiagnosisOptions options = flags.options(inputs.spec);
-  if (flags.shards.merging()) options.calibration = merged_calibration(flags, inputs);
-  Diagnosis diagnosis = diagnose(inputs.spec, inputs.datasets, options);
+  options.kept = kept_by(flags, inputs);
+  if (flags.shards.merging()) take_merged_calibration(flags, inputs, *options.kept);
+  Diagnosis diagnosis = unless_stopped(
+      *options.kept, [&] { return diagnose(inputs.spec, inputs.datasets, options); });
   diagnosis.remarks = recipe_remarks(diagnosis.datasets);
   const std::string result = diagnosis_json(diagnosis);
+  const std::string printed = flags.json ? result : diagnosis_text(diagnosis);
   if (!flags.out.empty()) {
     const std::filesystem::path folder = flags.out;
-    write_whole_file(folder / "extended.toml", extended_toml(diagnosis, folder));
-    write_whole_file(folder / "diagnosis.html", diagnosis_html(diagnosis));
-    write_whole_file(folder / "diagnosis.json", result);
+    write_or_print({{folder / "extended.toml", extended_toml(diagnosis, folder)},
+                    {folder / "diagnosis.html", diagnosis_html(diagnosis)},
+                    {result_in(folder), result}},
+                   printed);
+    options.kept->forget();
   }
-  fmt::print("{}", flags.json ? result : diagnosis_text(diagnosis));
+  fmt::print("{}", printed);
 }
 
 }  // namespace
@@ -116,7 +119,9 @@ void add_diagnose(CLI::App& program) {
       "                  than stated\n"
       "With --out it writes diagnosis.json, diagnosis.html (a page to read) and extended.toml (a "
       "fit\n"
-      "file of the extended model).\n\n"
+      "file of the extended model). Ctrl-C keeps what is finished in DIR, and the same command "
+      "goes on\n"
+      "from there.\n\n"
       "  recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis\n"
       "  recoil fit diagnosis/extended.toml");
   const auto flags = std::make_shared<DiagnoseFlags>();

@@ -153,11 +153,20 @@ std::vector<ExportedFile> table_files(const Fitted& fitted, const ExportRequest&
   return {{"restitution.csv", csv_restitution(table)}, {"capture.csv", csv_captures(table)}};
 }
 
+/// Of those that hold a table of e(V, d) there is none.
+void require_stock_model(const ExportOptions& options, ExportTarget target) {
+  if (!options.stock || !holds_all_sizes(target)) return;
+  throw InputError({}, fmt::format("--to {} has no stock model for --stock", options.to),
+                   "it gets e(V, d) as a table",
+                   "leave --stock out, or take lammps, yade or simbody");
+}
+
 void print_line(const std::string& words) { fmt::print("{}\n", wrap(words, terminal_columns, 2)); }
 
 void run_export(const ExportOptions& options) {
-  require_writable_folder(options.out);
   const ExportTarget target = *value_named<ExportTarget>(options.to);
+  require_stock_model(options, target);
+  require_writable_folder(options.out);
   Fitted fitted = options.parameters.empty() ? fitted_now(options, target == ExportTarget::table)
                                              : fitted_before(options);
   const std::size_t d = choose_dataset(fitted.datasets, options.dataset);
@@ -187,9 +196,11 @@ void run_export(const ExportOptions& options) {
   const std::vector<ExportedFile> files =
       target == ExportTarget::table ? table_files(fitted, request, sizes, options.analysis.threads)
                                     : files_for(target, job);
+  std::vector<WholeFile> whole;
   for (const ExportedFile& file : files) {
-    write_whole_file(std::filesystem::path(options.out) / file.name, file.text);
+    whole.push_back({std::filesystem::path(options.out) / file.name, file.text});
   }
+  write_whole_files(whole);
 
   for (const std::string& line : job.heading) fmt::print("{}\n", line);
   if (!holds_all_sizes(target) && options.diameter <= 0.0 && sizes.size() > 1) {
@@ -236,9 +247,11 @@ void add_export(CLI::App& program) {
       ->expected(2)
       ->type_name("MIN,MAX")
       ->check(positive_number("velocity", 1e-7, 1e4));
-  command->add_flag("--stock", options->stock,
-                    "lammps, yade, simbody: write the nearest of the program's own contact models, "
-                    "for many spheres, even where it could run the force law");
+  command->add_flag(
+      "--stock", options->stock,
+      "lammps, yade, simbody (liggghts always): write the nearest of the program's own contact "
+      "models, "
+      "for many spheres, even where it could run the force law");
   command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
       ->type_name("ID");
   command->add_option("--parameters", options->parameters, "take the values from this fit.json")

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/shard_flags.hpp"
+#include "cli/write_or_print.hpp"
+#include "core/claim.hpp"
 #include "core/files.hpp"
 #include "core/shared_work.hpp"
 #include "report/json_report.hpp"
@@ -54,7 +57,11 @@ void run_fit(const FitFlags& flags) {
   if (!flags.out.empty()) require_writable_folder(flags.out);
   AnalysisOptions resolved = flags.analysis.resolved();
   resolved.folder = flags.out;
-  Analysis analysis = analyse_fit(load_inputs(flags.fit_file), resolved);
+  FitInputs inputs = load_inputs(flags.fit_file);
+  const std::filesystem::path folder = flags.out;
+  std::optional<Claim> claim;
+  if (!flags.out.empty()) claim.emplace(folder / "fit.json");
+  Analysis analysis = analyse_fit(std::move(inputs), resolved);
   UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
   if (flags.shards.merging()) {
     assess.parts =
@@ -62,14 +69,15 @@ void run_fit(const FitFlags& flags) {
   }
   analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
   const std::string result = json_report(analysis);
+  const std::string printed = flags.json ? result : text_report(analysis);
   if (!flags.out.empty()) {
-    const std::filesystem::path folder = flags.out;
-    write_whole_file(folder / "fit.json", result);
-    const std::string draws = posterior_csv(analysis);
-    if (!draws.empty()) write_whole_file(folder / "posterior.csv", draws);
+    std::vector<WholeFile> files = {{folder / "fit.json", result}};
+    std::string draws = posterior_csv(analysis);
+    if (!draws.empty()) files.push_back({folder / "posterior.csv", std::move(draws)});
+    write_or_print(files, printed);
     forget_replicates(folder);
   }
-  fmt::print("{}", flags.json ? result : text_report(analysis));
+  fmt::print("{}", printed);
 }
 
 }  // namespace

@@ -95,9 +95,11 @@ void add_help(CLI::App& program) {
       fmt::print("{}", completion_script(program, *value_named<Shell>(options->completion)));
     } else if (!options->man.empty()) {
       require_writable_folder(options->man);
+      std::vector<WholeFile> files;
       for (const ManPage& page : man_pages(program, RECOIL_VERSION)) {
-        write_whole_file(std::filesystem::path(options->man) / page.name, page.text);
+        files.push_back({std::filesystem::path(options->man) / page.name, page.text});
       }
+      write_whole_files(files);
     } else if (options->topic.empty()) {
       list_topics();
     } else {

@@ -7,6 +7,7 @@
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/fitted_values.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -135,6 +136,23 @@ class PassingFile {
   fs::path path_;
 };
 
+/// Files that are gone at the end unless they are told to stay: half of them would be in the way of
+/// the next try.
+class NewFiles {
+ public:
+  explicit NewFiles(std::vector<fs::path> files) : files_(std::move(files)) {}
+  ~NewFiles() {
+    std::error_code ignored;
+    for (const fs::path& file : files_) fs::remove(file, ignored);
+  }
+  NewFiles(const NewFiles&) = delete;
+  NewFiles& operator=(const NewFiles&) = delete;
+  void stay() { files_.clear(); }
+
+ private:
+  std::vector<fs::path> files_;
+};
+
 Dataset make_example(ImportRequest request, double diameter) {
   const PassingFile draft(fs::temp_directory_path() /
                           fmt::format("recoil-example-{}.csv", static_cast<long>(getpid())));
@@ -171,6 +189,7 @@ void run_init(InitOptions options) {
   request.surface = options.surface;
   request.like = options.like;
   if (options.diameter > 0.0) request.diameters = {fmt::format("{:g}um", options.diameter)};
+  NewFiles made({folder / package_file_name, folder / "points.csv", fit_file});
   Dataset dataset;
   if (options.points.empty()) {
     if (options.diameter <= 0.0) {
@@ -186,6 +205,7 @@ void run_init(InitOptions options) {
   }
   write_whole_file(fit_file, init_fit);
   load_inputs(fit_file);  // it runs
+  made.stay();
   fmt::print("{}: {} points{}\n", folder.string(), dataset.points.size(),
              options.points.empty()
                  ? ", SYNTHETIC: computed from the model, to show the form. Put your own into "

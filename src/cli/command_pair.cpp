@@ -138,13 +138,24 @@ void write_dataset(const PairCommand& command, const PassageTable& table,
                   pairs.impacts.size(), table.passages.size(), pairs.height / units::mm),
       mixed ? pairs.height : 0.0);
   parse_dataset(package, points, command.into);  // refuses what `recoil check` would refuse
-  write_whole_file(fs::path(command.into) / "points.csv", points);
-  if (mixed) {
-    write_whole_file(fs::path(command.into) / "sizes.csv", sizes_csv(distributions(table, pairs)));
-  }
-  write_whole_file(fs::path(command.into) / package_file_name, package);
+  const fs::path folder = command.into;
+  std::vector<WholeFile> files = {{folder / "points.csv", points}};
+  if (mixed) files.push_back({folder / "sizes.csv", sizes_csv(distributions(table, pairs))});
+  files.push_back({folder / package_file_name, package});
+  write_whole_files(files);
   if (!left_out.empty()) {
     fmt::print(command.json ? stderr : stdout, "note: {}\n", left_out_sentence(left_out));
+  }
+}
+
+void add_histograms(const PairCommand& command, const PassageTable& table,
+                    const PairedPassages& paired, std::vector<WholeFile>& files) {
+  const fs::path folder = command.histograms;
+  const Distributions shown = distributions(table, paired.pairs);
+  for (const auto& [name, text] : histogram_files(shown)) files.push_back({folder / name, text});
+  for (const plot::Picture& picture :
+       experiment_pictures(shown, paired.averages, remark_of(command, table))) {
+    files.push_back({folder / (picture.name + ".svg"), plot::draw_svg(picture)});
   }
 }
 
@@ -170,18 +181,11 @@ void run_pair(PairCommand command) {
   if (command.json) fmt::print("{}", pairing_json(table, pairs, averages));
   const std::string points = points_csv(averages);
   if (!command.into.empty()) write_dataset(command, table, pairs, points);
-  if (!command.out.empty()) write_whole_file(command.out, points);
-  if (!command.impacts.empty()) write_whole_file(command.impacts, impacts_csv(table, pairs));
-  if (command.histograms.empty()) return;
-  const Distributions shown = distributions(table, pairs);
-  for (const auto& [name, text] : histogram_files(shown)) {
-    write_whole_file(fs::path(command.histograms) / name, text);
-  }
-  for (const plot::Picture& picture :
-       experiment_pictures(shown, averages, remark_of(command, table))) {
-    write_whole_file(fs::path(command.histograms) / (picture.name + ".svg"),
-                     plot::draw_svg(picture));
-  }
+  std::vector<WholeFile> files;
+  if (!command.out.empty()) files.push_back({command.out, points});
+  if (!command.impacts.empty()) files.push_back({command.impacts, impacts_csv(table, pairs)});
+  if (!command.histograms.empty()) add_histograms(command, table, paired, files);
+  write_whole_files(files);
 }
 
 void add_input_options(CLI::App& app, PairCommand& command) {

@@ -5,6 +5,7 @@
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/write_or_print.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
@@ -52,18 +53,21 @@ void predict_sizes(const PredictOptions& options) {
   const PolydispersePrediction mixture =
       predict_mixture(analysis.fitted, dataset, analysis.uncertainty.bootstrap, sizes, mix);
   const std::string result = json_prediction(analysis, mixture);
+  const std::string printed = options.json ? result : text_prediction(analysis, mixture);
   if (!options.out.empty()) {
     const std::filesystem::path out = options.out;
+    std::vector<WholeFile> files;
     for (const Figure& figure : mixture_figures(analysis, mixture)) {
       const std::string& name = figure.picture.name;  // "mixture-sizes-1"
       const std::string part = name.substr(name.find('-') + 1);
-      write_whole_file(out / fmt::format("predict-{}.svg", part.substr(0, part.find('-'))),
-                       plot::draw_svg(figure.picture));
+      files.push_back({out / fmt::format("predict-{}.svg", part.substr(0, part.find('-'))),
+                       plot::draw_svg(figure.picture)});
     }
-    write_whole_file(out / "predict.csv", csv_prediction(mixture));
-    write_whole_file(out / "predict.json", result);
+    files.push_back({out / "predict.csv", csv_prediction(mixture)});
+    files.push_back({out / "predict.json", result});
+    write_or_print(files, printed);
   }
-  fmt::print("{}", options.json ? result : text_prediction(analysis, mixture));
+  fmt::print("{}", printed);
   if (options.height < 0.0 && !sizes.probe_height) {
     fmt::print(options.json ? stderr : stdout,
                "note: no --height was given; {:g} mm is that of Li, Dunn & Brach (1999)\n",

@@ -57,6 +57,7 @@ void add_reconstruct(CLI::App& program) {
       ->check(CLI::Range(1, 10000));
   command->callback([folder, check, passages, times] {
     if (!passages->empty()) {
+      require_writable_folder(std::filesystem::absolute(*passages).parent_path());
       const Recipe recipe = load_recipe(*folder);
       write_whole_file(*passages, draw_passages(recipe, recipe.seed, *times));
       fmt::print("{}: passages of a reconstruction; nothing here was measured\n", *passages);

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "cli/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/recipe_words.hpp"
 #include "cli/shard_flags.hpp"
+#include "cli/unless_stopped.hpp"
+#include "core/arithmetic.hpp"
+#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/row_file.hpp"
@@ -73,12 +77,16 @@ bool is_current(const fs::path& stamp, const std::string& expected,
   return all_there && fs::exists(stamp) && read_text_file(stamp) == expected;
 }
 
-Diagnosis diagnose_for_report(const Analysis& analysis, const AnalysisFlags& flags) {
+Diagnosis diagnose_for_report(const Analysis& analysis, const AnalysisFlags& flags,
+                              const std::shared_ptr<KeptRows>& kept) {
   DiagnosisOptions options;
+  options.kept = kept;
   options.seed = analysis.uncertainty.options.seed;
   options.threads = flags.threads;
-  Diagnosis diagnosis = diagnose(analysis.spec, analysis.datasets, analysis.fitted, options,
-                                 analysis.uncertainty.intervals);
+  Diagnosis diagnosis = unless_stopped(*kept, [&] {
+    return diagnose(analysis.spec, analysis.datasets, analysis.fitted, options,
+                    analysis.uncertainty.intervals);
+  });
   diagnosis.remarks = recipe_remarks(diagnosis.datasets);
   return diagnosis;
 }
@@ -118,21 +126,24 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
   add_predictions(analysis);
   add_corrections(analysis);
   analysis.laws = fit_under_every_law(analysis.spec, analysis.datasets, analysis.fitted);
-  const Diagnosis diagnosis = diagnose_for_report(analysis, flags);
+  const auto kept = std::make_shared<KeptRows>(unfinished_beside(files.diagnosed),
+                                               expected + arithmetic_fingerprint());
+  const Diagnosis diagnosis = diagnose_for_report(analysis, flags, kept);
   entry.fit = summary_of(analysis, diagnosis);
   entry.picture = thumbnail(analysis);
   entry.picture_csv = thumbnail_csv(analysis);
-  write_whole_file(files.page,
-                   html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page)));
-  write_whole_file(files.folder / "diagnosis.html", diagnosis_html(diagnosis));
-  write_whole_file(files.diagnosed, diagnosis_json(diagnosis));
-  write_whole_file(files.folder / "extended.toml", extended_toml(diagnosis, files.folder));
-  write_whole_file(files.text, text_report(analysis));
-  write_whole_file(files.laws, laws_json(entry.fit.laws));
-  write_whole_file(files.picture, entry.picture);
-  write_whole_file(files.picture_data, entry.picture_csv);
-  write_whole_file(files.json, json_report(analysis));
-  write_whole_file(files.stamp, expected);
+  write_whole_files(
+      {{files.page, html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page))},
+       {files.folder / "diagnosis.html", diagnosis_html(diagnosis)},
+       {files.diagnosed, diagnosis_json(diagnosis)},
+       {files.folder / "extended.toml", extended_toml(diagnosis, files.folder)},
+       {files.text, text_report(analysis)},
+       {files.laws, laws_json(entry.fit.laws)},
+       {files.picture, entry.picture},
+       {files.picture_data, entry.picture_csv},
+       {files.json, json_report(analysis)},
+       {files.stamp, expected}});
+  kept->forget();
   forget_replicates(resolved.folder);
   return entry;
 }
@@ -178,6 +189,8 @@ void report(const ReportOptions& options) {
     if (current && (!options.force || merging)) {
       entries.push_back(read_page(files, std::move(entry)));
     } else {
+      std::optional<Claim> claim;
+      if (!options.shards.one_of_several()) claim.emplace(files.json);  // shards may run twice
       entries.push_back(
           make_page(std::move(inputs), options.analysis, expected, files, std::move(entry)));
     }

@@ -185,6 +185,9 @@ Table sensitivities(const ImpactConditions& c, const ImpactResult& impact, const
 }
 
 void simulate(const SimulateOptions& options) {
+  if (!options.history.empty()) {
+    require_writable_folder(std::filesystem::absolute(options.history).parent_path());
+  }
   const FitSpec spec = load_fit(options.fit_file);
   const std::vector<Dataset> datasets = load_datasets(spec);
   ImpactModel model = make_model(spec, datasets);

@@ -91,11 +91,12 @@ int main(int argc, char** argv) {
   recoil::add_pair(program);
   recoil::add_plan(program);
   recoil::add_help(program);
+  constexpr const char* output_is_lost =
+      "the output could not be written: standard output is full or closed";
   try {
     program.parse(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      throw recoil::ComputationError(
-          "the output could not be written: standard output is full or closed");
+      throw recoil::ComputationError(output_is_lost);
     }
     return 0;
   } catch (const CLI::Success& request) {  // --help, --version
@@ -117,6 +118,10 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", error.what());
     return no_answer;
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) {  // {fmt} throws where it cannot print
+      fmt::print(stderr, "{}\n", output_is_lost);
+      return no_answer;
+    }
     fmt::print(stderr, "recoil: {} (this is a defect of recoil); please report it\n", error.what());
     return no_answer;
   }

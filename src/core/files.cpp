@@ -6,36 +6,57 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <system_error>
-
-#include "core/error.hpp"
 
 namespace recoil {
 namespace {
 
-/// ".part-HOST-PROCESS": on a folder that machines share, two of them may have the same process.
+/// ".part-HOST-PROCESS-NUMBER": on a folder that machines share, two of them may have the same
+/// process, and a process may write from several threads.
 std::string unique_ending() {
+  static std::atomic<unsigned> number{0};
   char host[256] = {};
   gethostname(host, sizeof host - 1);
-  return fmt::format(".part-{}-{}", host, static_cast<long>(getpid()));
+  return fmt::format(".part-{}-{}-{}", host, static_cast<long>(getpid()), ++number);
 }
 
-/// Writes `text` and waits until it is on the disk. @return whether it is
-bool write_to_disk(const std::filesystem::path& path, std::string_view text) {
+/// Writes `text` and waits until it is on the disk. @return 0, or the errno of what went wrong
+int write_to_disk(const std::filesystem::path& path, std::string_view text) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) return false;
-  bool written = true;
-  while (written && !text.empty()) {
+  if (file < 0) return errno;
+  int failed = 0;
+  while (failed == 0 && !text.empty()) {
     const ssize_t some = write(file, text.data(), text.size());
     if (some < 0 && errno == EINTR) continue;
-    written = some > 0;
-    if (written) text.remove_prefix(static_cast<std::size_t>(some));
+    if (some <= 0) {
+      failed = some < 0 ? errno : EIO;
+    } else {
+      text.remove_prefix(static_cast<std::size_t>(some));
+    }
   }
   // What cannot be synchronised, such as a pipe, is written all the same.
-  if (written && fsync(file) != 0) written = errno == EINVAL || errno == EROFS;
-  return close(file) == 0 && written;
+  if (failed == 0 && fsync(file) != 0 && errno != EINVAL && errno != EROFS) failed = errno;
+  if (close(file) != 0 && failed == 0) failed = errno;
+  return failed;
+}
+
+/// What whoever reads that something cannot be written can do about it.
+std::string advice_on(int failed) {
+  switch (failed) {
+    case ENOSPC:
+    case EDQUOT:
+      return "make room there, and run the same command again";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose another place, or make this one writable";
+    default:
+      return "check its folder and the disk";
+  }
 }
 
 }  // namespace
@@ -78,22 +99,44 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max
   return text;
 }
 
+InputError cannot_be_written(const std::filesystem::path& path, int failed) {
+  return InputError({path.string()}, "the file cannot be written", std::strerror(failed),
+                    advice_on(failed));
+}
+
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {
-  const Location where{path.string()};
+  write_whole_files({{path, std::string(text)}});
+}
+
+void write_whole_files(const std::vector<WholeFile>& files) {
+  const std::string ending = unique_ending();
+  const auto beside = [&ending](const WholeFile& file) -> std::filesystem::path {
+    return file.path.string() + ending;
+  };
   std::error_code failed;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
-  const std::filesystem::path beside = path.string() + unique_ending();
-  if (!write_to_disk(beside, text)) {
-    std::filesystem::remove(beside, failed);
-    throw InputError(where, "the file cannot be written", "",
-                     "check its folder's permissions and the disk");
-  }
-  std::filesystem::rename(beside, path, failed);
-  if (failed) {
+  const auto remove_all_from = [&](std::size_t first) {
     std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    throw InputError(where, "the finished file cannot be put in its place", failed.message(),
-                     "choose another place");
+    for (std::size_t i = first; i < files.size(); ++i) {
+      std::filesystem::remove(beside(files[i]), ignored);
+    }
+  };
+  for (const WholeFile& file : files) {
+    failed.clear();
+    if (file.path.has_parent_path()) {
+      std::filesystem::create_directories(file.path.parent_path(), failed);
+    }
+    if (const int error = failed ? failed.value() : write_to_disk(beside(file), file.text);
+        error != 0) {
+      remove_all_from(0);
+      throw cannot_be_written(file.path, error);
+    }
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::filesystem::rename(beside(files[i]), files[i].path, failed);
+    if (!failed) continue;
+    remove_all_from(i);
+    throw InputError({files[i].path.string()}, "the finished file cannot be put in its place",
+                     failed.message(), "choose another place");
   }
 }
 
@@ -109,8 +152,8 @@ void require_writable_folder(const std::filesystem::path& folder) {
                      "choose another folder for the results");
   }
   if (access(nearest.c_str(), W_OK) != 0) {
-    throw InputError(where, fmt::format("no permission to write into {}", nearest.string()), "",
-                     "choose another folder for the results");
+    throw InputError(where, fmt::format("nothing can be written into {}", nearest.string()),
+                     std::strerror(errno), "choose another folder for the results");
   }
 }
 

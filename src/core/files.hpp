@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
 
 namespace recoil {
 
@@ -12,10 +15,23 @@ namespace recoil {
 std::string read_text_file(const std::filesystem::path& path,
                            std::uintmax_t max_bytes = 256ULL * 1024 * 1024);
 
+/// A file to be written.
+struct WholeFile {
+  std::filesystem::path path;
+  std::string text;
+};
+
 /// Writes beside the target, waits for the disk and renames: a reader sees the old file or the new
 /// one, never a part, whoever else writes it. Makes the folder when it is missing. @throws
 /// InputError when the place cannot be written.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
+
+/// The same for files that belong together: none is put in its place before all are on the disk, so
+/// that a disk that is full leaves those that were there.
+void write_whole_files(const std::vector<WholeFile>& files);
+
+/// The complaint about a file of which the system says `failed`, an errno.
+InputError cannot_be_written(const std::filesystem::path& path, int failed);
 
 /// Complains before a long computation, and without making anything, when results could not be
 /// written into `folder` at its end: it is a file, or the nearest folder above it is read-only.

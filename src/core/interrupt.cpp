@@ -8,6 +8,7 @@ namespace {
 
 std::atomic<int> raised{0};
 std::atomic<int> calling_off{0};
+std::atomic<int> signals_call_off{0};  // guards under which a signal does it
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler writes it");
 
 struct sigaction previous_interrupt;
@@ -28,14 +29,16 @@ void watch(int signal, struct sigaction& previous) {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
+InterruptGuard::InterruptGuard(Work work) : calls_off_(work == Work::is_called_off) {
   raised = 0;
+  if (calls_off_) ++signals_call_off;
   watch(SIGINT, previous_interrupt);
   watch(SIGTERM, previous_terminate);
   watch(SIGUSR1, previous_user);
 }
 
 InterruptGuard::~InterruptGuard() {
+  if (calls_off_) --signals_call_off;
   sigaction(SIGINT, &previous_interrupt, nullptr);
   sigaction(SIGTERM, &previous_terminate, nullptr);
   sigaction(SIGUSR1, &previous_user, nullptr);
@@ -48,6 +51,9 @@ int stop_signal() { return raised; }
 CallingOff::CallingOff() { ++calling_off; }
 CallingOff::~CallingOff() { --calling_off; }
 
-bool called_off() { return calling_off.load(std::memory_order_relaxed) != 0; }
+bool called_off() {
+  if (calling_off.load(std::memory_order_relaxed) != 0) return true;
+  return signals_call_off.load(std::memory_order_relaxed) != 0 && stop_requested();
+}
 
 }  // namespace recoil

@@ -18,10 +18,17 @@ class Interrupted : public std::runtime_error {
 /// end.
 class InterruptGuard {
  public:
-  InterruptGuard();
+  enum class Work {
+    asks,          ///< with `stop_requested`, where it likes to end
+    is_called_off  ///< ends where it next asks `called_off`, as under a `CallingOff`
+  };
+  explicit InterruptGuard(Work work = Work::asks);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+ private:
+  bool calls_off_;
 };
 
 /// Has the flag been raised? Cheap enough to ask before every replicate.

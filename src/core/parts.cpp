@@ -46,12 +46,16 @@ std::optional<OriginDifference> difference(const Origin& a, const Origin& b) {
   return std::nullopt;
 }
 
-std::filesystem::path part_path(const std::filesystem::path& folder, const Origin& origin,
-                                const Shard& shard) {
+std::string key_of(const Origin& origin) {
   Json all = json_of(origin);
   all.erase("folder");
+  return sha256_hex(all.dump());
+}
+
+std::filesystem::path part_path(const std::filesystem::path& folder, const Origin& origin,
+                                const Shard& shard) {
   return folder / fmt::format("part-{}-of-{}-{}.jsonl", shard.number, shard.of,
-                              sha256_hex(all.dump()).substr(0, 12));
+                              key_of(origin).substr(0, 12));
 }
 
 Json part_head(const Origin& origin, const Shard& shard) {

@@ -44,6 +44,9 @@ struct PartFile {
   Shard shard;
 };
 
+/// SHA-256 of an origin but for its folder.
+std::string key_of(const Origin& origin);
+
 /// "part-3-of-40-0f3a5c...jsonl": origins that differ never share a file, and a shard that runs
 /// twice writes the same file with the same bytes.
 std::filesystem::path part_path(const std::filesystem::path& folder, const Origin& origin,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/json.hpp"
+#include "core/kept_rows.hpp"
 #include "core/parts.hpp"
 
 namespace recoil {
@@ -20,10 +21,13 @@ struct SharedWork {
   std::function<Json(std::size_t piece)> run;
 };
 
-/// Runs the pieces of one shard and writes them as its part into `folder`, whole or not at all.
-/// Finished pieces are kept in `unfinished_path` when the user stops the work, and every five
-/// minutes; the next run of the same shard goes on from there.
+/// Runs those pieces of one shard that `kept` does not have, and puts them there.
 /// @throws Interrupted when the user stops it; what was finished is kept then
+void run_pieces(const SharedWork& work, const Shard& shard, KeptRows& kept);
+
+/// Runs the pieces of one shard and writes them as its part into `folder`, whole or not at all.
+/// What is finished is kept in `unfinished_path` meanwhile.
+/// @throws Interrupted as `run_pieces` does
 void write_part(const SharedWork& work, const Origin& origin, const Shard& shard,
                 const std::filesystem::path& folder);
 

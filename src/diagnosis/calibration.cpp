@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "diagnosis/outlying_points.hpp"
 #include "diagnosis/search.hpp"
+#include "diagnosis/singles.hpp"
 #include "diagnosis/structure.hpp"
 
 namespace recoil {
@@ -40,7 +41,7 @@ Calibration::Calibration(const FitSpec& spec, const std::vector<Dataset>& datase
         fmt::format("{}: the fit has no usable answer: {}", spec.file.string(), fitted.failure));
   }
   DiagnosisOptions own = options;
-  own.calibration.reset();
+  own.kept.reset();
   sides_.push_back(std::make_unique<Side>(spec, datasets, std::move(fitted), own));
   if (!sides_.front()->base.refit.usable) {
     throw ComputationError(
@@ -68,13 +69,7 @@ std::vector<double> Calibration::run(std::size_t piece) const {
     std::call_once(side.tried, [&side] { side.candidates = try_singles(side.base); });
     return {largest_gain(side.base, side.candidates, index - simulated)};
   }
-  const auto answer = structure_of_sample(side.base, side.statistics, index);
-  if (!answer) return {0.0};
-  std::vector<double> row = {1.0};
-  for (const StructureQuestion question : values_of<StructureQuestion>()) {
-    row.push_back((*answer)[question]);
-  }
-  return row;
+  return calibration_row(structure_of_sample(side.base, side.statistics, index));
 }
 
 std::string Calibration::digits() const {

@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace recoil {
+
+class KeptRows;
 
 struct DiagnosisOptions {
   int simulated = 999;  ///< data sets of the base model that calibrate the tests of the residuals
@@ -25,20 +26,13 @@ struct DiagnosisOptions {
   double margin_in_pairs = 6.0;  ///< the same for two at once, where more rivals crowd: 0.7 % each
   std::uint64_t seed = 20260101;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
-  /// Rows of `Calibration` that others have made [pieces]; what is not there, or an empty row, is
-  /// made here.
-  std::shared_ptr<const std::vector<std::vector<double>>> calibration;
-  std::size_t first_piece = 0;  ///< of `calibration`, for the data that are diagnosed
+  /// What came of pieces of the work (`KeptPiece`), of an earlier run or of other processes: they
+  /// are not run again, and what is run is kept there. Null: nothing is kept.
+  std::shared_ptr<KeptRows> kept;
+  std::size_t first_piece = 0;  ///< of the calibration, for the data that are diagnosed
 
   /// How many pieces the calibration for one set of data has.
   std::size_t pieces() const { return static_cast<std::size_t>(simulated + compared); }
-
-  /// The row of a piece that others have made; null for none.
-  const std::vector<double>* row(std::size_t piece) const {
-    const std::size_t at = first_piece + piece;
-    if (!calibration || at >= calibration->size() || (*calibration)[at].empty()) return nullptr;
-    return &(*calibration)[at];
-  }
 };
 
 }  // namespace recoil

@@ -31,14 +31,17 @@ SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets
 /// size that `laws` allows.
 Observations simulate_base(const SearchBase& base, std::uint64_t index);
 
-/// The structure in replicate `index`, refitted; none without a fit. Taken from the options' rows
+/// The structure in replicate `index`, refitted; none without a fit. Taken from what is kept,
 /// where it is there.
 std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
     const SearchBase& base, const StructureStatistics& statistics, std::uint64_t index);
 
-/// Every mechanism of the catalogue that `spec` does not have, refitted, with its structure and its
-/// plausibility; the best first. Mechanisms that cannot be fitted are left out.
-std::vector<CandidateResult> try_singles(const SearchBase& base);
+/// The row of that piece of the calibration: 1 and the statistics, or 0 where there was no fit.
+std::vector<double> calibration_row(
+    const std::optional<PerValue<StructureQuestion, double>>& answer);
+
+/// Is a single candidate one under which the spheres of a point differ?
+bool spreads(const CandidateResult& single);
 
 /// What the best of `candidates` gains over the base, in its criterion, on replicate `index`;
 /// -infinity where nothing can be fitted.
@@ -51,10 +54,5 @@ double largest_gain(const SearchBase& base, const std::vector<CandidateResult>& 
 /// @param tick called once per data set
 void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
                const std::function<void()>& tick);
-
-/// Every two of `singles` that could be causes, within their plausible ranges, fitted from the fit
-/// of either; the best first. Two spreads at once are not tried: one looks like the other.
-std::vector<CandidateResult> try_pairs(const SearchBase& base,
-                                       const std::vector<CandidateResult>& singles);
 
 }  // namespace recoil

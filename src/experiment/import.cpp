@@ -140,8 +140,7 @@ ImportResult import_points(const ImportRequest& request) {
   // Should the run be cut short in between, new points stand under the old label, which claims no
   // more than they are; without a package the folder is no dataset yet.
   require_writable_folder(request.into);
-  write_whole_file(points_file, points.csv);
-  write_whole_file(request.into / package_file_name, package);
+  write_whole_files({{points_file, points.csv}, {request.into / package_file_name, package}});
   set_recipe_aside(request.into, result.notes);
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,11 +24,13 @@ namespace {
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
-/// An open file without a name: it is gone with the process, however that ends.
+/// An open file in memory: it is gone with the process, however that ends, and no disk that is full
+/// cuts a picture short.
 using NamelessFile = std::unique_ptr<std::FILE, CloseFile>;
 
 NamelessFile nameless_file() {
-  NamelessFile file(std::tmpfile());
+  const int descriptor = memfd_create("gnuplot", MFD_CLOEXEC);
+  NamelessFile file(descriptor < 0 ? nullptr : fdopen(descriptor, "w+"));
   if (!file) {
     throw ComputationError(fmt::format("no temporary file for gnuplot: {}", std::strerror(errno)));
   }
@@ -96,7 +99,7 @@ std::string run_gnuplot(const std::string& script, const std::string& program) {
   const NamelessFile err = nameless_file();
   if (std::fwrite(script.data(), 1, script.size(), in.get()) != script.size() ||
       std::fflush(in.get()) != 0) {
-    throw ComputationError("the script for gnuplot cannot be written (is the disk full?)");
+    throw ComputationError("the script for gnuplot cannot be kept in memory");
   }
   std::rewind(in.get());
 

@@ -111,6 +111,7 @@ bool ReconstructionResult::good() const {
 
 ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check_only) {
   require_recipe(folder);
+  if (!check_only) require_writable_folder(folder);
   const Recipe recipe = load_recipe(folder);
   const auto [made, points] = make_points(recipe);
   const std::filesystem::path file = folder / "points.csv";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +11,7 @@
 
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/kept_rows.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "estimate/capture_velocity.hpp"
@@ -25,12 +27,18 @@ namespace {
 using State = ReplicateTable::State;
 
 // Between two batches finished replicates can be put on disk; waiting for the slowest of a batch
-// costs about one refit in so many.
-constexpr std::size_t batch = 500;
-// Many shards write to one file system.
-std::chrono::seconds between_saves(const Shard& shard) {
-  return std::chrono::seconds(shard.of > 1 ? 300 : 10);
+// costs about one refit in so many. The first one shows how long they take.
+constexpr std::size_t first_batch = 50;
+constexpr double largest_batch = 500.0;
+constexpr double batch_seconds = 5.0;
+
+/// After one of so many that took so long.
+std::size_t next_batch(std::size_t size, double seconds) {
+  const double least = 4.0 * tbb::this_task_arena::max_concurrency();
+  const double fitting = static_cast<double>(size) * batch_seconds / std::max(seconds, 1e-9);
+  return static_cast<std::size_t>(std::clamp(fitting, least, std::max(least, largest_batch)));
 }
+
 // Tolerance of the impacts in refits over that of the fit. It moves the estimates of a replicate by
 // about 1e-8 of themselves (measured on 60 points, f0 free), where they scatter by percents, and
 // saves a third of the time.
@@ -186,24 +194,28 @@ void Bootstrap::extend(int count) {
     if (table_.state[i] == State::not_run && options_.shard.owns(i)) left.push_back(i);
   }
   const auto start = Clock::now();
-  auto saved = start;
+  KeepingPace pace;
   bool changed = false;
   {
     Progress progress("bootstrap", left.size());
-    for (std::size_t first = 0; first < left.size(); first += batch) {
+    std::size_t batch = first_batch;
+    for (std::size_t first = 0; first < left.size();) {
       const std::size_t size = std::min(batch, left.size() - first);
+      const auto begin = Clock::now();
       parallel_over(size, options_.threads, [&](std::size_t k) {
         run(left[first + k]);
         progress.advance();
       });
+      first += size;
+      batch = next_batch(size, std::chrono::duration<double>(Clock::now() - begin).count());
       if (!guard) continue;
       changed = true;
-      if (stop_requested() || Clock::now() - saved > between_saves(options_.shard)) {
+      if (stop_requested()) {
         keep();
-        saved = Clock::now();
-        changed = false;
+        break;
       }
-      if (stop_requested()) break;
+      if (!pace.is_due()) continue;
+      changed = !pace.keep([this] { keep(); });
     }
   }
   if (guard && stop_requested()) {
@@ -212,7 +224,9 @@ void Bootstrap::extend(int count) {
                     table_.finished(), options_.keep.string()));
   }
   if (options_.shard.of > 1) return;
-  if (guard && changed && Clock::now() - start > worth_keeping) keep();
+  if (guard && changed && Clock::now() - start > worth_keeping) {
+    pace.keep([this] { keep(); });
+  }
 
   if (!options_.capture) return;
   // Those that an earlier run has left.

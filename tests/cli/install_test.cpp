@@ -110,6 +110,8 @@ TEST(Install, ADebianPackageHoldsTheSame) {
   ASSERT_EQ(unpacked.status, 0) << unpacked.err;
   EXPECT_NE(unpacked.out.find("gnuplot"), std::string::npos) << unpacked.out;
   EXPECT_NE(unpacked.out.find("libgsl"), std::string::npos) << unpacked.out;
+  EXPECT_NE(unpacked.out.find("Maintainer: "), std::string::npos) << unpacked.out;
+  EXPECT_EQ(unpacked.out.find("@localhost"), std::string::npos) << "nobody reads mail there";
   EXPECT_FALSE(fs::exists(place / "there/usr/include"));  // that is for who builds it
   expect_a_whole_installation(place / "there/usr");
 }

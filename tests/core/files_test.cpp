@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/mistake.hpp"
+#include "support/small_disk.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace recoil {
@@ -73,6 +74,26 @@ TEST_F(Files, AFailedWriteLeavesNeitherPartNorDamage) {
   EXPECT_THROW(write_whole_file(folder_ / "target", "y"), InputError);
   EXPECT_EQ(folder_.read("occupied"), "x");
   EXPECT_EQ(folder_.listing().size(), 3U);
+}
+
+TEST_F(Files, ThatBelongTogetherAreReplacedTogetherOrNotAtAll) {
+  const support::SmallDisk disk;
+  ASSERT_TRUE(disk.is_mounted());
+  const fs::path place = disk / "place/disk";
+  const auto files = [&](const std::string& text, std::size_t size) {
+    return std::vector<WholeFile>{{place / "a", text}, {place / "b", std::string(size, 'x')}};
+  };
+  write_whole_files(files("old", 10));
+  const std::string told = support::message_of([&] { write_whole_files(files("new", 8U << 20U)); });
+  EXPECT_EQ(told,
+            (place / "b").string() +
+                ": the file cannot be written (No space left on device); make room there, and "
+                "run the same command again");
+  EXPECT_EQ(disk.read("place/disk/a"), "old");
+  EXPECT_EQ(fs::file_size(place / "b"), 10U);
+  write_whole_files(files("new", 20));
+  EXPECT_EQ(disk.read("place/disk/a"), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(place), {}), 2) << "nothing beside them";
 }
 
 // FIPS 180-4 examples and NIST's long one, as published at csrc.nist.gov.

@@ -176,6 +176,9 @@ TEST(Export, MistakesAreOneLineAndWriteNothing) {
            {"export", "fit.toml", "--to", "lammps", "--out", "out", "--velocity", "nan,2"},
            {"export", "fit.toml", "--to", "lammps", "--out", "out", "--diameter", "-4"},
            {"export", "fit.toml", "--to", "lammps", "--out", "out", "--dataset", "other"},
+           {"export", "fit.toml", "--to", "openfoam", "--out", "out", "--stock"},
+           {"export", "fit.toml", "--to", "fluent", "--out", "out", "--stock"},
+           {"export", "fit.toml", "--to", "table", "--out", "out", "--stock"},
            {"export", "fit.toml", "--to", "lammps", "--out", "out", "--parameters", "fit.toml"}}) {
     const Outcome run = place.run(words);
     EXPECT_EQ(run.status, 2) << run.out;

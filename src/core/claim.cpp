@@ -1,0 +1,90 @@
+#include "core/claim.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace recoil {
+namespace {
+
+/// Is the open `file` still what `path` names? Whoever had it may have removed it meanwhile.
+bool is_still_there(int file, const std::filesystem::path& path) {
+  struct stat opened {};
+  struct stat named {};
+  return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
+std::string owner_in(int file) {
+  std::array<char, 300> words{};
+  const ssize_t size = pread(file, words.data(), words.size(), 0);
+  return size > 0 ? std::string(words.data(), static_cast<std::size_t>(size)) : std::string();
+}
+
+void name_owner(int file) {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  const std::string words =
+      fmt::format("process {} on {}", static_cast<long>(getpid()), host.data());
+  // Of use to readers only; a full disk that has no room for it is told by who writes results.
+  if (ftruncate(file, 0) == 0 && pwrite(file, words.data(), words.size(), 0) < 0) return;
+}
+
+}  // namespace
+
+Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lock") {
+  std::error_code failed;
+  for (std::filesystem::path folder = result.parent_path();
+       !folder.empty() && !std::filesystem::exists(folder, failed); folder = folder.parent_path()) {
+    made_.push_back(folder);
+  }
+  failed.clear();
+  if (!made_.empty()) std::filesystem::create_directories(result.parent_path(), failed);
+  if (failed) {
+    let_go();
+    throw cannot_be_written(result, failed.value());
+  }
+  for (;;) {
+    file_ = open(mark_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file_ < 0) {
+      const int error = errno;
+      let_go();
+      throw cannot_be_written(result, error);
+    }
+    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EWOULDBLOCK) return;
+      const std::string owner = owner_in(file_);
+      close(file_);
+      throw InputError({result.string()}, "another recoil is at work on this result", owner,
+                       "wait until it has ended, or choose another place");
+    }
+    if (is_still_there(file_, mark_)) break;
+    close(file_);
+  }
+  name_owner(file_);
+}
+
+Claim::~Claim() {
+  std::error_code ignored;
+  std::filesystem::remove(mark_, ignored);
+  close(file_);
+  let_go();
+}
+
+void Claim::let_go() {
+  std::error_code failed;
+  for (const std::filesystem::path& folder : made_) {
+    if (!std::filesystem::remove(folder, failed)) return;  // something is in it
+  }
+}
+
+}  // namespace recoil

@@ -1,0 +1,145 @@
+#include "diagnosis/trial.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnosis/law_errors.hpp"
+#include "diagnosis/plausibility.hpp"
+#include "estimate/point_conditions.hpp"
+#include "estimate/predictor.hpp"
+#include "mechanism/catalogue.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double worth_releasing = 2.0;  // gain of the criterion by a released parameter
+
+MechanismKind kind_of(const std::vector<std::string>& ids) {
+  MechanismKind kind = MechanismKind::measurement;
+  for (const Mechanism* mechanism : chain_of(ids)) {
+    if (mechanism->info.kind == MechanismKind::description) return MechanismKind::description;
+    if (mechanism->info.kind == MechanismKind::physics) kind = MechanismKind::physics;
+  }
+  return kind;
+}
+
+std::vector<double> predicted_squares(const Candidate& candidate, const Refit& refit,
+                                      const Observations& data) {
+  std::vector<double> squares;
+  for (const Prediction& at : predict(candidate.model, refit.theta, data.conditions(), false)) {
+    squares.push_back(at.restitution_squared);
+  }
+  return squares;
+}
+
+/// See `CandidateResult::remaining_part`.
+double part_left(const SearchBase& base, const CandidateResult& candidate) {
+  if (!base.fitted.data.sd_stated) return 1.0;  // nobody knows how much misfit there is
+  const auto n = static_cast<double>(base.fitted.data.points.size());
+  const double before = base.refit.chi2 - (n - base.candidate.free_count);
+  const double after = candidate.refit.chi2 - (n - candidate.candidate.free_count);
+  return before > 0.0 ? after / before : 1.0;
+}
+
+/// What a fitted candidate is.
+CandidateResult described(const SearchBase& base, Candidate candidate, Refit refit) {
+  CandidateResult result;
+  result.candidate = std::move(candidate);
+  result.kind = kind_of(result.candidate.added);
+  result.refit = std::move(refit);
+  if (!result.refit.usable) return result;
+  result.parameters = found_parameters(result.candidate, result.refit, base.noise_scale);
+  result.plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
+                                 [](const FoundParameter& p) { return p.plausible(); });
+  result.near_plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
+                                      [](const FoundParameter& p) { return p.near_plausible; });
+  return result;
+}
+
+bool can_be_released(const Candidate& candidate) {
+  return std::any_of(
+      candidate.model.slots.begin(), candidate.model.slots.end(), [&](const ParameterSlot& slot) {
+        return !slot.free && !slot.stated && slot.parameter->searched && candidate.adds(slot);
+      });
+}
+
+}  // namespace
+
+CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit) {
+  const Observations& data = base.fitted.data;
+  CandidateResult result = described(base, std::move(candidate), std::move(refit));
+  if (!result.refit.usable) return result;
+  result.delta_aicc =
+      corrected_criterion(data, result.refit, result.candidate.free_count) - base.criterion;
+  const std::vector<double> squares = predicted_squares(result.candidate, result.refit, data);
+  result.remaining_p =
+      quick_structure(data, result.refit, squares, quick_samples, base.options.seed).p_value;
+  result.remaining_part = part_left(base, result);
+  return result;
+}
+
+CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
+                        int tries) {
+  Refit refit =
+      with_law_errors(candidate, base.fitted.data,
+                      refit_candidate(candidate, base.fitted.data, near, tries), base.laws);
+  return examine(base, std::move(candidate), std::move(refit));
+}
+
+void try_released(const SearchBase& base, CandidateResult& result, int tries) {
+  if (!result.refit.usable || !can_be_released(result.candidate)) return;
+  // A single one may want to be what it cannot be, and is to say so.
+  const bool pair = result.candidate.added.size() > 1;
+  Candidate released = make_candidate(base.spec, base.datasets, result.candidate.added, true, pair);
+  const std::vector<double> near = within_bounds(
+      released.model, carried_over(result.candidate.model, result.refit.theta, released.model));
+  CandidateResult other = try_one(base, std::move(released), near, tries);
+  if (other.refit.usable && other.delta_aicc < result.delta_aicc - worth_releasing) {
+    result = std::move(other);
+  }
+}
+
+CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size_t k,
+                               const std::vector<std::string>& added,
+                               const std::function<CandidateResult()>& make) {
+  // A row carries its names: numbers follow the order of the criterion.
+  const auto write = [&](const CandidateResult& c) {
+    if (!c.refit.usable) return Json::array({added});
+    const Json aside = c.set_aside ? Json(name_of(*c.set_aside)) : Json(nullptr);
+    return Json::array({added, c.candidate.released, json_of(c.refit),
+                        row_json({c.delta_aicc, c.remaining_p, c.remaining_part}), aside});
+  };
+  const auto read = [&](const Json& row) {
+    require_names(row, added);
+    if (row.size() == 1) return CandidateResult{};
+    Candidate candidate =
+        make_candidate(base.spec, base.datasets, added, row.at(1).get<bool>(), added.size() > 1);
+    Refit refit = refit_of(row.at(2), candidate, base.fitted.data.points.size());
+    CandidateResult c = described(base, std::move(candidate), std::move(refit));
+    const std::vector<double> values = row_of(row.at(3));
+    c.delta_aicc = values.at(0);
+    c.remaining_p = values.at(1);
+    c.remaining_part = values.at(2);
+    if (!row.at(4).is_null()) c.set_aside = value_named<SetAside>(row.at(4).get<std::string>());
+    return c;
+  };
+  return kept_or_made(base.options, number_of(base.options, kind, k), make, write, read);
+}
+
+std::vector<double> within_bounds(const ImpactModel& model, std::vector<double> theta) {
+  for (std::size_t j = 0; j < theta.size(); ++j) {
+    const ParameterSlot& slot = model.slots[j];
+    if (slot.free) theta[j] = std::clamp(theta[j], slot.lower, slot.upper);
+  }
+  return theta;
+}
+
+void sort_by_criterion(std::vector<CandidateResult>& candidates) {
+  std::erase_if(candidates, [](const CandidateResult& c) { return !c.refit.usable; });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const CandidateResult& a, const CandidateResult& b) {
+                     return a.delta_aicc < b.delta_aicc;
+                   });
+}
+
+}  // namespace recoil

@@ -1,0 +1,158 @@
+#include "core/kept_rows.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "core/claim.hpp"
+#include "core/interrupt.hpp"
+#include "support/mistake.hpp"
+#include "support/small_disk.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace recoil {
+namespace {
+
+using namespace std::chrono_literals;
+
+class KeptRowsTest : public ::testing::Test {
+ protected:
+  KeptRows kept(const std::string& key = "k") const { return KeptRows(folder_ / "kept", key); }
+
+  support::TemporaryFolder folder_;
+};
+
+TEST_F(KeptRowsTest, TheNextOneTakesOverEveryDigit) {
+  const std::vector<double> numbers = {0.1, 1.0 / 3.0, 5e-324, -1.7976931348623157e308};
+  {
+    KeptRows first(folder_ / "kept", "k");
+    first.put(7, numbers);
+    first.put(std::size_t{1} << 40, "words");
+    first.keep();
+  }
+  const KeptRows second(folder_ / "kept", "k");
+  ASSERT_EQ(second.size(), 2U);
+  EXPECT_EQ(second.find(7)->get<std::vector<double>>(), numbers);
+  EXPECT_EQ(*second.find(std::size_t{1} << 40), "words");
+  EXPECT_FALSE(second.find(8));
+}
+
+TEST_F(KeptRowsTest, AnotherKeyAndADamagedFileGiveNothing) {
+  KeptRows first(folder_ / "kept", "k");
+  for (std::size_t i = 0; i < 9; ++i) first.put(i, i);
+  first.keep();
+  EXPECT_EQ(KeptRows(folder_ / "kept", "other").size(), 0U);
+  const std::string whole = folder_.read("kept");
+  for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
+    folder_.write("kept", whole.substr(0, length));
+    ASSERT_EQ(KeptRows(folder_ / "kept", "k").size(), 0U) << "cut at " << length;
+  }
+}
+
+TEST_F(KeptRowsTest, IsWrittenWhenItIsTimeAndNotBefore) {
+  KeptRows slow(folder_ / "slow", "k");
+  slow.put(1, 1);
+  EXPECT_FALSE(folder_.has("slow"));
+  KeptRows quick(folder_ / "quick", "k", KeepingPace(0ms));
+  quick.put(1, 1);
+  EXPECT_TRUE(folder_.has("quick"));
+}
+
+TEST_F(KeptRowsTest, WithoutAFileRowsStayInMemory) {
+  KeptRows kept("", "k", KeepingPace(0ms));
+  kept.put(3, 4);
+  kept.keep();
+  EXPECT_EQ(*kept.find(3), 4);
+}
+
+TEST_F(KeptRowsTest, WhatWasCalledOffIsNotTaken) {
+  KeptRows rows(folder_ / "kept", "k");
+  {
+    const CallingOff off;
+    EXPECT_THROW(rows.put(1, 1), CalledOff);
+  }
+  const InterruptGuard guard(InterruptGuard::Work::is_called_off);
+  rows.put(2, 2);
+  std::raise(SIGTERM);
+  EXPECT_THROW(rows.put(3, 3), CalledOff);
+  EXPECT_EQ(rows.size(), 1U);
+}
+
+TEST(KeepingPace, TakesNoMoreThanATenthOfTheTime) {
+  KeepingPace pace(10ms);
+  EXPECT_FALSE(pace.is_due());
+  pace.keep([] { usleep(30000); });
+  usleep(20000);
+  EXPECT_FALSE(pace.is_due()) << "30 ms of writing ask for 300 ms of work";
+  usleep(300000);
+  EXPECT_TRUE(pace.is_due());
+}
+
+TEST(KeptRowsOnASmallDisk, WorkGoesOnWhereNothingCanBeWritten) {
+  support::SmallDisk disk;
+  ASSERT_TRUE(disk.is_mounted());
+  const auto file = disk / "place/disk/kept";
+  KeptRows rows(file, "k", KeepingPace(0ms));
+  rows.put(1, std::string(3000, 'x'));
+  disk.fill();
+  testing::internal::CaptureStderr();
+  for (std::size_t i = 2; i < 9; ++i) {
+    usleep(50000);  // writing takes no more than a tenth of the time
+    rows.put(i, std::string(3000, 'x'));
+  }
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("No space left on device"), std::string::npos) << told;
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+  EXPECT_EQ(KeptRows(file, "k").size(), 1U) << "the file that was there is whole";
+  EXPECT_THROW(rows.keep(), InputError);
+  disk.empty();
+  rows.keep();
+  EXPECT_EQ(KeptRows(file, "k").size(), 8U);
+}
+
+/// What another process is told of a claim on `result`.
+std::string told_elsewhere(const std::filesystem::path& result,
+                           const support::TemporaryFolder& folder) {
+  const pid_t child = fork();
+  if (child == 0) {
+    folder.write("told", support::message_of([&] { const Claim claim(result); }));
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+  return folder.read("told");
+}
+
+TEST(Claim, IsOneProcessAtATimeAndLeavesNothing) {
+  const support::TemporaryFolder folder;
+  const auto result = folder / "new/deep/fit.json";
+  {
+    const Claim claim(result);
+    const std::string told = told_elsewhere(result, folder);
+    EXPECT_NE(
+        told.find("another recoil is at work on this result (process " + std::to_string(getpid())),
+        std::string::npos)
+        << told;
+    EXPECT_EQ(told_elsewhere(folder / "new/deep/other.json", folder), "no error");
+  }
+  EXPECT_FALSE(folder.has("new")) << "folders that were made for nothing";
+  EXPECT_EQ(told_elsewhere(result, folder), "no error");
+}
+
+TEST(Claim, OneThatWasKilledIsTakenOver) {
+  const support::TemporaryFolder folder;
+  const auto result = folder / "fit.json";
+  const pid_t child = fork();
+  if (child == 0) {
+    const Claim claim(result);
+    std::raise(SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  ASSERT_TRUE(folder.has("fit.json.lock"));
+  { const Claim claim(result); }
+  EXPECT_FALSE(folder.has("fit.json.lock"));
+}
+
+}  // namespace
+}  // namespace recoil

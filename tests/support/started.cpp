@@ -1,0 +1,61 @@
+#include "support/started.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <thread>
+
+namespace support {
+
+Started::Started(std::vector<std::string> arguments, const std::filesystem::path& folder) {
+  arguments.insert(arguments.begin(), RECOIL_BINARY);
+  std::vector<char*> argv;
+  for (std::string& word : arguments) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const std::string out = outputs_ / "out";
+  const std::string err = outputs_ / "err";
+  child_ = fork();
+  if (child_ != 0) return;
+  dup2(open("/dev/null", O_RDONLY), 0);
+  dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
+  dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+  std::signal(SIGINT, SIG_DFL);  // a test run in the background would hand down "ignore"
+  if (chdir(folder.c_str()) != 0) _exit(127);
+  execv(argv[0], argv.data());
+  _exit(127);
+}
+
+Started::~Started() {
+  if (!runs()) return;
+  send(SIGKILL);
+  end();
+}
+
+void Started::send(int signal) const {
+  if (!ended_) kill(child_, signal);
+}
+
+bool Started::runs() {
+  if (!ended_) ended_ = waitpid(child_, &status_, WNOHANG) == child_;
+  return !ended_;
+}
+
+bool Started::wait_until(const std::function<bool()>& happened) {
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!happened()) {
+    if (!runs() || std::chrono::steady_clock::now() > limit) return happened();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+Outcome Started::end() {
+  if (!ended_) waitpid(child_, &status_, 0);
+  ended_ = true;
+  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_), outputs_.read("out"),
+          outputs_.read("err")};
+}
+
+}  // namespace support

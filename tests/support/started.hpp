@@ -1,0 +1,40 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "support/command.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace support {
+
+/// The `recoil` that was built with these tests, started in `folder`, while the test does something
+/// else.
+class Started {
+ public:
+  Started(std::vector<std::string> arguments, const std::filesystem::path& folder);
+  /// Kills it where it still runs.
+  ~Started();
+  Started(const Started&) = delete;
+  Started& operator=(const Started&) = delete;
+
+  void send(int signal) const;
+  bool runs();
+  /// Waits until `happened`, a minute at most, as long as it runs. @return whether it happened
+  bool wait_until(const std::function<bool()>& happened);
+  /// Waits for its end.
+  Outcome end();
+
+ private:
+  TemporaryFolder outputs_;
+  pid_t child_ = 0;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace support
