@@ -92,7 +92,8 @@ std::string errors_words(const UnstatedErrors& errors) {
   if (errors.source == ErrorSource::shared_setting) {
     return fmt::format(
         "an error of {:.2g} in e that all points of one setting of the apparatus have in common "
-        "leaves nothing systematic (p = {:.2g}): repeating one setting does not average it out, and "
+        "leaves nothing systematic (p = {:.2g}): repeating one setting does not average it out, "
+        "and "
         "setting_sd = {:.2g} under [noise] takes it into the fit",
         errors.value, errors.remaining_p, errors.value);
   }

@@ -1,4 +1,5 @@
-// Balls of centimetres that are dropped by hand: no adhesion, one size, several drops from a height.
+// Balls of centimetres that are dropped by hand: no adhesion, one size, several drops from a
+// height.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,12 +35,30 @@ class Balls : public Workplace {
     write("ball.toml",
           "dataset = \"ball\"\n[parameters]\nC_H = { initial = 3e-2, bounds = [0, 1] }\n"
           "[uncertainty]\nreplicates = 19\nseed = 1\n");
-    imported = run({"import", "heights.csv", "--format", "heights", "--into", "ball", "--map",
-                    "drop_height=h1:mm,rebound_height=h2:mm", "--diameter", "42mm",
-                    "--adhesion-energy", "0", "--rebound-error", "2mm", "--provenance", "measured",
-                    "--source", "A test", "--ambient-pressure", "0", "--particle",
+    imported = run({"import",
+                    "heights.csv",
+                    "--format",
+                    "heights",
+                    "--into",
+                    "ball",
+                    "--map",
+                    "drop_height=h1:mm,rebound_height=h2:mm",
+                    "--diameter",
+                    "42mm",
+                    "--adhesion-energy",
+                    "0",
+                    "--rebound-error",
+                    "2mm",
+                    "--provenance",
+                    "measured",
+                    "--source",
+                    "A test",
+                    "--ambient-pressure",
+                    "0",
+                    "--particle",
                     "material=rubber,density=1100,youngs_modulus=5e6,poisson_ratio=0.48",
-                    "--surface", "material=steel,youngs_modulus=2e11,poisson_ratio=0.3"});
+                    "--surface",
+                    "material=steel,youngs_modulus=2e11,poisson_ratio=0.3"});
   }
   Outcome imported;
 };
@@ -57,7 +76,7 @@ TEST(BallsByHand, AreNotToldOfAdhesionThatIsNotThere) {
   const Outcome fitted = balls.run({"fit", "ball.toml", "--out", "out"});
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   EXPECT_THAT(fitted.out,
-              AllOf(HasSubstr("none (no adhesion)"), HasSubstr("points of one setting share"),
+              AllOf(HasSubstr("none (no adhesion)"), HasSubstr("4 settings, 20 points"),
                     Not(HasSubstr("Two Points")), Not(HasSubstr("wo-point iteration")),
                     Not(HasSubstr("Tabor")), Not(HasSubstr("times the fitted capture velocity")),
                     Not(HasSubstr("e+04 um"))));
