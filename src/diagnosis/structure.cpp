@@ -159,9 +159,9 @@ void StructureStatistics::add_global_functions(const Observations& data) {
   const auto used = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
   std::size_t longest = 0;  // different velocities of one size
   for (const auto& run : runs_) {
-    std::set<double> velocities;
-    for (const std::size_t i : run) velocities.insert(data.points[i].velocity);
-    longest = std::max(longest, velocities.size());
+    std::set<double> different;
+    for (const std::size_t i : run) different.insert(data.points[i].velocity);
+    longest = std::max(longest, different.size());
   }
   const int degrees = std::min<int>(highest_degree, static_cast<int>(longest) - 2);
   for (int degree = 0; degree <= degrees; ++degree) {
