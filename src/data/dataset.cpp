@@ -13,8 +13,8 @@
 namespace recoil {
 namespace {
 
-Dataset assemble(Package package, const std::string& package_text, const std::string& csv_text,
-                 const std::filesystem::path& folder) {
+Dataset assemble(const Package& package, const std::string& package_text,
+                 const std::string& csv_text, const std::filesystem::path& folder) {
   const std::string file = (folder / package.points_path).string();
   Dataset dataset = dataset_without_points(package, folder);
   read_points(csv_text, file, package, dataset);

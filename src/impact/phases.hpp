@@ -37,8 +37,8 @@ class Phases {
   template <std::size_t count, PhaseEnd end>
   void fly(std::span<const ImpactGroups> queue, std::span<const std::uint32_t> order,
            std::span<ImpactResult> results, std::array<Verdict, lanes>& verdicts) {
-    static constexpr auto& inwards = table<count, PhaseEnd::release>;
-    static constexpr auto& outwards = table<count, end>;
+    static constexpr auto& inwards = phase_rule<Pack, count, PhaseEnd::release>;
+    static constexpr auto& outwards = phase_rule<Pack, count, end>;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       take(lane, queue[order[lane < order.size() ? lane : 0]]);
     }
@@ -74,9 +74,6 @@ class Phases {
   static constexpr std::size_t place_of_range = 4;  // in ImpactResult::gradient
   static constexpr std::size_t block = phase_block;
 
-  template <std::size_t count, PhaseEnd end>
-  static constexpr const auto& table = phase_rule<Pack, count, end>;
-
   template <std::size_t count>
   using Path = Phase<Pack, count>;
   template <std::size_t count>
@@ -89,9 +86,9 @@ class Phases {
       deepest_ -= (law_.potential(deepest_) - target_) / law_.slope(deepest_);
     }
     Path<few_nodes> coarse;
-    compress_by(table<few_nodes, PhaseEnd::release>, coarse, coarse_change);
-    phase.refine(table<count, PhaseEnd::release>, coarse);
-    compress_by(table<count, PhaseEnd::release>, phase, settled_change_);
+    compress_by(phase_rule<Pack, few_nodes, PhaseEnd::release>, coarse, coarse_change);
+    phase.refine(phase_rule<Pack, count, PhaseEnd::release>, coarse);
+    compress_by(phase_rule<Pack, count, PhaseEnd::release>, phase, settled_change_);
   }
   template <class Rule, std::size_t count>
   [[gnu::always_inline]] void compress_by(const Rule& rule, Path<count>& phase,
@@ -122,9 +119,9 @@ class Phases {
       guess_outer_turning_point(bottom, lost_before);
     }
     Path<few_nodes> coarse;
-    restore_by<end>(table<few_nodes, end>, bottom, coarse, coarse_change);
-    phase.refine(table<count, end>, coarse);
-    restore_by<end>(table<count, end>, bottom, phase, settled_change_);
+    restore_by<end>(phase_rule<Pack, few_nodes, end>, bottom, coarse, coarse_change);
+    phase.refine(phase_rule<Pack, count, end>, coarse);
+    restore_by<end>(phase_rule<Pack, count, end>, bottom, phase, settled_change_);
   }
   template <PhaseEnd end, class Rule, std::size_t count>
   [[gnu::always_inline]] void restore_by(const Rule& rule, const Pack& bottom, Path<count>& phase,
