@@ -54,7 +54,7 @@ Dataset parse_dataset(const std::string& datapackage_text, const std::string& cs
                       const std::filesystem::path& folder) {
   Package package =
       read_package(datapackage_text, (folder / package_file_name).string(), name_of_folder(folder));
-  return assemble(std::move(package), datapackage_text, csv_text, folder);
+  return assemble(package, datapackage_text, csv_text, folder);
 }
 
 Dataset load_dataset(const std::filesystem::path& folder) {
@@ -73,7 +73,7 @@ Dataset load_dataset(const std::filesystem::path& folder) {
                      "correct the path or add the file");
   }
   const std::string csv_text = read_text_file(points_file);
-  return assemble(std::move(package), package_text, csv_text, folder);
+  return assemble(package, package_text, csv_text, folder);
 }
 
 }  // namespace recoil
