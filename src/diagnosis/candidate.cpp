@@ -252,13 +252,14 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
 }
 
 std::vector<double> carried_over(const ImpactModel& model, std::span<const double> theta,
-                                 const ImpactModel& to) {
+                                 const ImpactModel& to, CarriedTo slots) {
   std::map<std::string, double> values;
   for (std::size_t j = 0; j < theta.size(); ++j) values[model.slots[j].label()] = theta[j];
   std::vector<double> carried = to.initial();
   for (std::size_t j = 0; j < carried.size(); ++j) {
     const auto found = values.find(to.slots[j].label());
-    if (found != values.end() && to.slots[j].moves()) carried[j] = found->second;
+    const bool takes = slots == CarriedTo::all || to.slots[j].moves();
+    if (found != values.end() && takes) carried[j] = found->second;
   }
   return carried;
 }

@@ -70,10 +70,13 @@ struct Refit {
   std::shared_ptr<const Discrepancy> discrepancy = nothing_shared();
 };
 
-/// The values of `theta` under `model` carried over to the free slots of another one by their
-/// labels; the others keep their initial value.
+/// Which slots take values over from another model.
+enum class CarriedTo { moving, all };
+
+/// The values of `theta` under `model` carried over to the slots of another one by their labels;
+/// the others keep their initial value.
 std::vector<double> carried_over(const ImpactModel& model, std::span<const double> theta,
-                                 const ImpactModel& to);
+                                 const ImpactModel& to, CarriedTo slots = CarriedTo::moving);
 
 /// Minimises from `near`, with the parameters of the added mechanisms also at every start that the
 /// catalogue advises; of these starts the `tries` with the smallest deviance are followed, and as

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "estimate/shared_settings.hpp"
+
 namespace recoil {
 namespace {
 
@@ -83,6 +85,13 @@ void Discrepancy::whiten(std::span<double> jacobian, std::size_t p) const {
   if (shares_nothing() || p == 0) return;
   Eigen::Map<RowMajor> J(jacobian.data(), directions_.rows(), static_cast<Eigen::Index>(p));
   scale_along(directions_, whiter_, J);
+}
+
+void whiten_settings(const Observations& data, Eigen::MatrixXd& columns) {
+  const SharedSettings settings(data.points);
+  for (Eigen::Index k = 0; k < columns.cols() && !settings.none(); ++k) {
+    settings.whiten({columns.col(k).data(), data.points.size()});
+  }
 }
 
 LeastSquaresProblem whitened(LeastSquaresProblem problem, const Discrepancy& discrepancy) {

@@ -41,6 +41,10 @@ class Discrepancy {
   double log_determinant_ = 0.0;
 };
 
+/// Takes out of every column [points x any] what the points of one setting share, as the residuals
+/// of a fit have it (SharedSettings).
+void whiten_settings(const Observations& data, Eigen::MatrixXd& columns);
+
 /// The same problem in whitened residuals. `discrepancy` has to outlive it.
 LeastSquaresProblem whitened(LeastSquaresProblem problem, const Discrepancy& discrepancy);
 

@@ -7,7 +7,6 @@
 
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
-#include "estimate/shared_settings.hpp"
 
 namespace recoil {
 namespace {
@@ -73,10 +72,7 @@ std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
     columns.middleCols(static_cast<Eigen::Index>(k) * rank, rank) =
         slopes.cwiseProduct(sizes[k]).asDiagonal() * laws.functions;
   }
-  const SharedSettings settings(data.points);
-  for (Eigen::Index k = 0; k < columns.cols() && !settings.none(); ++k) {
-    settings.whiten({columns.col(k).data(), data.points.size()});
-  }
+  whiten_settings(data, columns);
   return columns;
 }
 

@@ -169,14 +169,10 @@ Eigen::MatrixXd setting_columns(const SearchBase& base, double sd) {
     const Observation& point = data.points[i];
     if (point.censored) continue;
     const double square = base.fitted.prediction_squared[i];
-    const double slope = weighted_residual(point, square, data.noise.student).slope;
     columns(static_cast<Eigen::Index>(i), place[point.setting]) =
-        slope * 2.0 * std::sqrt(std::max(square, 0.0)) * sd;
+        sd * slope_in_restitution(weighted_residual(point, square, data.noise.student), square);
   }
-  const SharedSettings known(data.points);
-  for (Eigen::Index k = 0; k < columns.cols() && !known.none(); ++k) {
-    known.whiten({columns.col(k).data(), data.points.size()});
-  }
+  whiten_settings(data, columns);
   return columns;
 }
 

@@ -25,21 +25,16 @@ struct SettingMean {
   double within() const { return std::max(0.0, square - sum * sum / weight); }
 };
 
-/// |dr / de| of a point that came back, r its residual before any whitening.
-double slope_in_restitution(const Observation& point, double square) {
-  return std::abs(weighted_residual(point, square).slope) * 2.0 * std::sqrt(std::max(square, 0.0));
-}
-
 std::map<std::size_t, SettingMean> means_of(const Observations& data,
                                             std::span<const double> predicted) {
   std::map<std::size_t, SettingMean> means;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
     if (point.censored) continue;
-    const double slope = slope_in_restitution(point, predicted[i]);
+    const WeightedResidual r = weighted_residual(point, predicted[i]);
+    const double slope = slope_in_restitution(r, predicted[i]);
     if (!(slope > 0.0)) continue;
-    // dr / de is negative: a larger prediction is a smaller residual.
-    const double deviation = weighted_residual(point, predicted[i]).value / slope;
+    const double deviation = r.value / slope;  // of what was measured from what is predicted
     SettingMean& setting = means[point.setting];
     setting.weight += slope * slope;
     setting.sum += deviation * slope * slope;
@@ -50,6 +45,10 @@ std::map<std::size_t, SettingMean> means_of(const Observations& data,
 }
 
 }  // namespace
+
+double slope_in_restitution(const WeightedResidual& residual, double restitution_squared) {
+  return std::abs(residual.slope) * 2.0 * std::sqrt(std::max(restitution_squared, 0.0));
+}
 
 SharedSettings::SharedSettings(const std::vector<Observation>& points) {
   std::map<std::size_t, std::vector<Member>> members;
@@ -130,7 +129,9 @@ void renew_settings(std::span<const double> predicted, int free_count, Observati
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     Observation& point = data.points[i];
     point.weights.setting_load =
-        point.censored ? 0.0 : error * slope_in_restitution(point, predicted[i]);
+        point.censored
+            ? 0.0
+            : error * slope_in_restitution(weighted_residual(point, predicted[i]), predicted[i]);
   }
 }
 

@@ -8,6 +8,9 @@
 
 namespace recoil {
 
+/// |dr / de| where the model predicts e^2 = `restitution_squared`, r = `residual`.
+double slope_in_restitution(const WeightedResidual& residual, double restitution_squared);
+
 /// The errors that the points of one setting of the apparatus share: a height, a day. Every setting
 /// k has an error z_k of e, normal with standard deviation sigma, so that the weighted residuals r
 /// of its points have the covariance I + g g', with loads g_i = sigma |dr_i / de|. Whitening takes

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -39,6 +41,29 @@ std::vector<Dataset> datasets_to_plan(std::vector<Dataset> datasets,
     }
   }
   return datasets;
+}
+
+void take_points(ExperimentPlan& plan) {
+  for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
+    Dataset& dataset = plan.datasets[d];
+    const std::vector<ImpactPoint> sizes = std::move(dataset.points);
+    dataset.points.clear();
+    for (const PlannedSetting& setting : plan.settings) {
+      if (setting.dataset != d) continue;
+      ImpactPoint point;
+      for (const ImpactPoint& size : sizes) {
+        if (size.diameter == setting.diameter) point.series = size.series;
+      }
+      point.diameter = setting.diameter;
+      point.incident_velocity = setting.velocity;
+      point.events = setting.points * plan.options.events;
+      point.captured = static_cast<int>(std::round(setting.captured * point.events));
+      point.counted = true;
+      if (!point.all_captured()) point.restitution = setting.restitution;
+      if (setting.sd > 0.0) point.restitution_sd = setting.sd;
+      dataset.points.push_back(point);
+    }
+  }
 }
 
 }  // namespace recoil

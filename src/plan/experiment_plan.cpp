@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "estimate/capture_velocity.hpp"
+#include "plan/datasets_to_plan.hpp"
 #include "plan/design.hpp"
 #include "plan/planned_causes.hpp"
 #include "plan/possible_points.hpp"
@@ -414,30 +415,6 @@ class Planner {
   PossiblePoints grid_;
   DesignProblem problem_;
 };
-
-/// One point for each setting, as it is expected.
-void take_points(ExperimentPlan& plan) {
-  for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
-    Dataset& dataset = plan.datasets[d];
-    const std::vector<ImpactPoint> placeholders = std::move(dataset.points);
-    dataset.points.clear();
-    for (const PlannedSetting& setting : plan.settings) {
-      if (setting.dataset != d) continue;
-      ImpactPoint point;
-      for (const ImpactPoint& other : placeholders) {
-        if (other.diameter == setting.diameter) point.series = other.series;
-      }
-      point.diameter = setting.diameter;
-      point.incident_velocity = setting.velocity;
-      point.events = setting.points * plan.options.events;
-      point.captured = static_cast<int>(std::round(setting.captured * point.events));
-      point.counted = true;
-      if (!point.all_captured()) point.restitution = setting.restitution;
-      if (setting.sd > 0.0) point.restitution_sd = setting.sd;
-      dataset.points.push_back(point);
-    }
-  }
-}
 
 }  // namespace
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "diagnosis/candidate.hpp"
 #include "diagnosis/discrepancy.hpp"
@@ -15,19 +14,6 @@ namespace {
 
 constexpr int beyond_velocities = 24;  // of one size
 constexpr double slower = 0.7, faster = 1.5, smaller = 0.6, larger = 1.6;
-
-/// Values of `from` carried to the slots of the same label.
-std::vector<double> with_values(const ImpactModel& model, const std::vector<double>& theta,
-                                const ImpactModel& to) {
-  std::map<std::string, double> values;
-  for (std::size_t j = 0; j < theta.size(); ++j) values[model.slots[j].label()] = theta[j];
-  std::vector<double> carried = to.initial();
-  for (std::size_t j = 0; j < carried.size(); ++j) {
-    const auto found = values.find(to.slots[j].label());
-    if (found != values.end()) carried[j] = found->second;
-  }
-  return carried;
-}
 
 std::vector<PointConditions> places_to_look(const ExperimentPlan& plan) {
   std::vector<PointConditions> at;
@@ -85,7 +71,7 @@ class Examined {
       : ground_(ground),
         candidate_(candidate),
         mechanism_(mechanism),
-        theta_(with_values(plan.model, plan.theta, candidate.model)),
+        theta_(carried_over(plan.model, plan.theta, candidate.model, CarriedTo::all)),
         predictor_(candidate.model, ground.at),
         without_(
             squares_at(predictor_, without_mechanism(candidate.model, theta_, mechanism), false)) {}

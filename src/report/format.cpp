@@ -42,6 +42,11 @@ std::string diameter_text(double diameter) {
   return fmt::format("{:.{}f}", um, decimals);
 }
 
+std::string diameter_words(double diameter) {
+  return diameter < 1e-3 ? fmt::format("{:.3g} um", diameter / units::um)
+                         : fmt::format("{:.3g} mm", diameter / 1e-3);
+}
+
 std::string as_sentence(std::string words) {
   if (words.empty()) return words;
   if (words[0] >= 'a' && words[0] <= 'z' && !words.starts_with("f0")) {

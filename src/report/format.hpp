@@ -22,6 +22,8 @@ Cell interval_cell(const Interval& interval, const Notation& notation = padded(4
 
 /// A diameter in micrometres, three or more digits: "4.90".
 std::string diameter_text(double diameter);
+/// "4.9 um", "42 mm"
+std::string diameter_words(double diameter);
 
 /// `words` with a capital at the start and a full stop at the end; empty stays empty.
 std::string as_sentence(std::string words);

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/units.hpp"
 #include "data/text.hpp"
 #include "document/sentence.hpp"
 #include "mechanism/catalogue.hpp"
+#include "report/format.hpp"
 
 namespace recoil {
 namespace {
@@ -28,11 +28,6 @@ std::string p_words(double p, int simulated) {
   const double smallest = 1.0 / (simulated + 1.0);
   return p <= smallest * 1.001 ? fmt::format("p < {:.2g}", 2.0 * smallest)
                                : fmt::format("p = {:.2g}", p);
-}
-
-std::string diameter_words(double diameter) {
-  return diameter < 1e-3 ? fmt::format("{:.3g} um", diameter / units::um)
-                         : fmt::format("{:.3g} mm", diameter / 1e-3);
 }
 
 std::string condition_words(Condition condition) {

@@ -11,9 +11,6 @@ namespace recoil {
 /// "p = 0.03", or "p < 0.002" where no simulated data set looked as systematic.
 std::string p_words(double p, int simulated);
 
-/// "4.9 um", "42 mm"
-std::string diameter_words(double diameter);
-
 /// "ambient pressure"
 std::string condition_words(Condition condition);
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "report/words_diagnosis.hpp"
+#include "report/format.hpp"
 #include "report/words_intervals.hpp"
 
 namespace recoil {

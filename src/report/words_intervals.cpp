@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/units.hpp"
 #include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
-#include "report/words_diagnosis.hpp"
+#include "report/format.hpp"
 #include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/units.hpp"
-#include "report/words_diagnosis.hpp"
+#include "report/format.hpp"
 
 namespace recoil {
 namespace {
