@@ -77,4 +77,25 @@ CalibratedLevels calibrate_levels(const std::vector<NoiseAlternative>& alternati
   return result;
 }
 
+CalibratedIntervals calibrated_intervals(const std::vector<NoiseAlternative>& alternatives,
+                                         const std::vector<CaptureEstimate>& capture,
+                                         const CalibrationOptions& options) {
+  constexpr double most = 0.9999;
+  const CalibratedLevels levels = calibrate_levels(alternatives, capture, options);
+  CalibratedIntervals result;
+  for (std::size_t j = 0; j < levels.parameters.size(); ++j) {
+    const double level = levels.parameters[j];
+    result.parameters.push_back(std::isfinite(level) ? profile_interval(alternatives.front().fitted,
+                                                                        j, std::min(level, most))
+                                                     : no_interval(NoInterval::refits_failed));
+  }
+  for (std::size_t k = 0; k < capture.size(); ++k) {
+    const double level = levels.capture[k];
+    result.capture.push_back(std::isfinite(level)
+                                 ? capture_interval(alternatives, capture[k], std::min(level, most))
+                                 : no_interval(NoInterval::refits_failed));
+  }
+  return result;
+}
+
 }  // namespace recoil

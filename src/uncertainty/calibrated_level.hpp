@@ -33,4 +33,16 @@ CalibratedLevels calibrate_levels(const std::vector<NoiseAlternative>& alternati
                                   const std::vector<CaptureEstimate>& capture,
                                   const CalibrationOptions& options);
 
+struct CalibratedIntervals {
+  std::vector<Interval> parameters;  ///< [slots]: of the profile
+  std::vector<Interval> capture;     ///< in the order of the estimates: of the delta method
+};
+
+/// The intervals at those levels. They are measured beside the others (reports/coverage-grid-*.md)
+/// and not offered: their levels come from the same choice of the variance function that the plain
+/// ones suffer from.
+CalibratedIntervals calibrated_intervals(const std::vector<NoiseAlternative>& alternatives,
+                                         const std::vector<CaptureEstimate>& capture,
+                                         const CalibrationOptions& options);
+
 }  // namespace recoil

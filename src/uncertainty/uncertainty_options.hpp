@@ -26,7 +26,6 @@ struct UncertaintyOptions {
   bool capture = true;        ///< intervals of the capture velocities
   bool posterior = false;     ///< sample it
   PosteriorOptions sampling;  ///< how; level, seed and threads are those below and above
-  int calibration = 0;
   bool budget = true;     ///< what the errors come from, and what they were with exact materials
   bool two_point = true;  ///< compare with the paper's calibration; without it the list is empty
   /// Simulated data sets on which every pair of points is tried
