@@ -140,7 +140,8 @@ std::vector<std::size_t> without_effect(const LeastSquaresProblem& problem,
                                         const LeastSquaresResult& result,
                                         const std::vector<std::size_t>& moving) {
   std::vector<std::size_t> flat;
-  const Eigen::VectorXd lengths = columns_of(result, moving).colwise().norm();
+  const Eigen::MatrixXd rows = linearised_rows(result, moving);
+  const Eigen::VectorXd lengths = rows.leftCols(rows.cols() - 1).colwise().norm();
   const double residual = std::sqrt(result.sum_of_squares);
   for (std::size_t k = 0; k < moving.size(); ++k) {
     const std::size_t j = moving[k];
@@ -291,7 +292,18 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
 LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<const double> start,
                                  const std::vector<bool>& fixed,
                                  const LeastSquaresOptions& options) {
-  LeastSquaresResult result = descend_within_bounds(problem, start, fixed, options);
+  LeastSquaresResult result;
+  bool finished = false;
+  if (options.nearby) {
+    if (auto found = gauss_newton_from(problem, start, fixed, options.finish)) {
+      result = std::move(*found);
+      result.end = DescentEnd::minimum;
+      result.message = "steps of Gauss and Newton closed in";
+      result.at_bound.assign(start.size(), false);
+      finished = true;
+    }
+  }
+  if (!finished) result = descend_within_bounds(problem, start, fixed, options);
   if (result.end != DescentEnd::minimum) return result;
   const std::vector<std::size_t> moving = moving_of(result, fixed);
   result.flat = without_effect(problem, start, result, moving);
@@ -304,9 +316,10 @@ LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<c
     if (options.covariance) result.covariance.assign(start.size() * start.size(), 0.0);
     return result;
   }
-  if (options.finish) finish_by_gauss_newton(problem, moving, result);
+  if (options.finish && !finished) finish_by_gauss_newton(problem, moving, result);
   if (options.covariance) {
-    const LinearisedResiduals linear(columns_of(result, moving));
+    const Eigen::MatrixXd rows = linearised_rows(result, moving);
+    const LinearisedResiduals linear(rows.leftCols(rows.cols() - 1));
     if (linear.singular()) {
       result.end = DescentEnd::valley;
     } else {

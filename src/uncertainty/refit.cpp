@@ -11,6 +11,7 @@ LeastSquaresOptions refit_options() {
   options.parameter_tolerance = 1e-8;
   options.max_iterations = 100;
   options.finish = false;
+  options.nearby = true;
   return options;
 }
 
