@@ -12,6 +12,7 @@ LeastSquaresOptions refit_options() {
   options.max_iterations = 100;
   options.finish = false;
   options.nearby = true;
+  options.boxed = true;
   return options;
 }
 
