@@ -103,7 +103,7 @@ ImpactGroups PointPredictor::groups_at(std::size_t i) const {
 /// The answers of the points from `first` on, as many as there is room for.
 long PointPredictor::fly(std::size_t first, const ImpactOptions& options,
                          std::span<ImpactResult> answers) const {
-  std::array<ImpactGroups, points_of_block> groups;
+  static thread_local std::array<ImpactGroups, points_of_block> groups;
   long handed_over = 0;
   for (std::size_t done = 0; done < answers.size();) {
     const std::size_t count = std::min(points_of_block, answers.size() - done);

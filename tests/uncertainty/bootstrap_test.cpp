@@ -39,9 +39,8 @@ ReplicateTable loaded(const fs::path& file, const std::string& key, std::size_t 
 TEST(Bootstrap, RefitsEndAtTheirMinimum) {
   const Case made = noisy_case();
   const ResamplingPlan plan = plan_resampling(made.fitted, Scheme::parametric);
-  UncertaintyOptions options = small();
+  UncertaintyOptions options = small(2);
   options.scheme = Scheme::parametric;
-  options.replicates = 40;
   const BootstrapResult run = bootstrap(made.fitted, {}, {}, options);
   ASSERT_EQ(run.failed, 0);
   Observations sample = made.fitted.data;
