@@ -99,6 +99,8 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
   command->add_option("--bent", size.bent,
                       "of each effect, design and visible strength, by a law bent by 10 % (half as "
                       "many by 20 %)");
+  command->add_option("--other-law", size.other_law,
+                      "of each effect with a second published law, design and visible strength");
   command->add_option("--base-bent", size.base_bent,
                       "with nothing hidden and the losses of the base model bent by 3 %");
   command->add_option("--impossible", size.impossible,

@@ -133,6 +133,7 @@ Json json_of(const Answered& a) {
           {"law_bend", a.order.law_bend},
           {"base_bend", a.order.base_bend},
           {"beyond", a.order.beyond},
+          {"other_law", a.order.other_law},
           {"circumstances", recoil::to_string(a.order.circumstances)},
           {"most_rounds", a.order.rounds},
           {"rounds", a.rounds},
@@ -169,6 +170,7 @@ Answered answered_of(const Json& json) {
              json.at("beyond"),
              recoil::value_named<Circumstances>(json.value("circumstances", "unstated"))
                  .value_or(Circumstances::unstated),
+             json.value("other_law", false),
              json.value("most_rounds", 0)};
   a.rounds = json.value("rounds", 0);
   a.events = json.value("events", 0LL);

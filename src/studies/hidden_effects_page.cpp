@@ -60,6 +60,12 @@ Sentence bar_words(Bar bar) {
       return "law bent by 10 %: wrong cause named";
     case Bar::bent_unexplained:
       return "law bent by 10 %: unexplained";
+    case Bar::other_listed:
+      return "made by another published law: among named and rivals, or its shape recognised";
+    case Bar::other_wrong:
+      return "made by another published law: wrong cause named";
+    case Bar::other_unexplained:
+      return "made by another published law: unexplained";
     case Bar::base_alarm:
       return "nothing hidden, losses of the base model bent by 3 %: alarms";
     case Bar::impossible_named:
@@ -342,6 +348,12 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
       {Paragraph{"What the effect does to e² is multiplied by a smooth random factor of V and d, "
                  "first of 10 %, then of 20 %."}},
       {Arm::bent, Arm::bent_more});
+  arms_section(
+      "Made by another published law",
+      {Paragraph{"Yielding by Jackson, Green & Marghitu (2010), losses in the bulk to second "
+                 "order by Ramirez et al. (1999), the thin plate by Boettcher et al. "
+                 "(2017), the film of gas to leading order by Barnocky & Davis (1988)."}},
+      {Arm::other_law});
   arms_section("Effects of impossible size",
                {Paragraph{"At three times the largest strength that nature or a careful "
                           "experimenter still has."}},

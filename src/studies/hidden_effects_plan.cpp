@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "studies/synthetic/other_laws.hpp"
+
 namespace hidden {
 namespace {
 
@@ -52,6 +54,7 @@ Arm arm_of(const CaseOrder& order) {
   if (order.effects.empty()) return order.base_bend > 0.0 ? Arm::base_bent : Arm::correct;
   if (order.beyond > 0.0) return Arm::impossible;
   if (order.law_bend > 0.0) return order.law_bend > some_bend ? Arm::bent_more : Arm::bent;
+  if (order.other_law) return Arm::other_law;
   if (order.circumstances == Circumstances::stated) return Arm::stated;
   if (order.circumstances == Circumstances::varied) return Arm::varied;
   if (order.rounds > 0) return Arm::loop;
@@ -95,6 +98,12 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
       for (const double strength : {10.0, 20.0}) {
         plan.add(design, effect, strength, size.bent, {.law_bend = some_bend});
         plan.add(design, effect, strength, size.bent / 2, {.law_bend = great_bend});
+      }
+      const auto& others = effects_with_other_law();
+      if (std::find(others.begin(), others.end(), effect.front()) != others.end()) {
+        for (const double strength : {10.0, 20.0}) {
+          plan.add(design, effect, strength, size.other_law, {.other_law = true});
+        }
       }
       plan.add(design, effect, 0.0, size.impossible, {.beyond = too_strong});
       for (const double strength : {10.0, 20.0}) {

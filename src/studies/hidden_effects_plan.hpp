@@ -10,13 +10,15 @@ namespace hidden {
 
 /// How many data sets of each kind.
 struct StudySize {
-  int per_cell = 4;     ///< of each effect, design and strength
-  int correct = 400;    ///< with nothing hidden, in designs of several diameters
-  int pairs = 4;        ///< of each pair and design
-  int outside = 10;     ///< of each outside effect, design and strength
-  int single = 4;       ///< of each effect and strength in designs of one diameter
-  int careless = 6;     ///< of each kind of error that is not stated, and design
-  int bent = 2;         ///< of each effect, design and visible strength, with laws bent by 10 %
+  int per_cell = 4;   ///< of each effect, design and strength
+  int correct = 400;  ///< with nothing hidden, in designs of several diameters
+  int pairs = 4;      ///< of each pair and design
+  int outside = 10;   ///< of each outside effect, design and strength
+  int single = 4;     ///< of each effect and strength in designs of one diameter
+  int careless = 6;   ///< of each kind of error that is not stated, and design
+  int bent = 2;       ///< of each effect, design and visible strength, with laws bent by 10 %
+  int other_law = 2;  ///< of each effect that has one, design and visible strength, made by another
+                      ///< published law
   int base_bent = 100;  ///< with nothing hidden and the losses of the base model bent by 3 %
   int impossible = 1;   ///< of each effect and design, at three times what nature has
   int conditions = 1;  ///< of each effect that a condition takes away, design and visible strength,
@@ -45,6 +47,7 @@ enum class Arm {
   careless,
   bent,        ///< an effect whose law is wrong by 10 %
   bent_more,   ///< by 20 %
+  other_law,   ///< an effect by another published law
   base_bent,   ///< nothing hidden, the losses of the base model wrong by 3 %
   impossible,  ///< an effect beyond what nature has
   stated,      ///< an effect whose condition is stated
@@ -64,7 +67,8 @@ std::vector<CaseOrder> plan_study(const StudySize& size);
 
 template <>
 struct recoil::NamesOf<hidden::Arm> {
-  static constexpr std::array<std::string_view, 16> names = {
-      "effect",    "correct",    "pair",   "outside", "single", "careless", "bent",     "bent_more",
-      "base_bent", "impossible", "stated", "varied",  "loop",   "dropped",  "settings", "odd"};
+  static constexpr std::array<std::string_view, 17> names = {
+      "effect", "correct",   "pair",      "outside",   "single",     "careless",
+      "bent",   "bent_more", "other_law", "base_bent", "impossible", "stated",
+      "varied", "loop",      "dropped",   "settings",  "odd"};
 };

@@ -73,6 +73,7 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
   const Answers single =
       those(all, [](const Answered& a) { return in(Arm::single)(a) && !a.order.effects.empty(); });
   const Answers bent = those(all, in(Arm::bent));
+  const Answers other = those(all, in(Arm::other_law));
   const Test named = marked({Mark::named});
   const Answers loop = those(all, in(Arm::loop));
   const Answers odd = those(all, in(Arm::odd));
@@ -100,6 +101,9 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
           {Bar::bent_listed, count(bent, marked({Mark::named, Mark::inside, Mark::resembled}))},
           {Bar::bent_wrong, count(bent, wrong)},
           {Bar::bent_unexplained, count(bent, marked({Mark::unexplained}))},
+          {Bar::other_listed, count(other, marked({Mark::named, Mark::inside, Mark::resembled}))},
+          {Bar::other_wrong, count(other, wrong)},
+          {Bar::other_unexplained, count(other, marked({Mark::unexplained}))},
           {Bar::base_alarm, count(those(all, in(Arm::base_bent)),
                                   [](const Answered& a) { return mark_of(a) != Mark::nothing; })},
           {Bar::impossible_named, count(those(all, in(Arm::impossible)), names_a_cause)},
@@ -364,6 +368,7 @@ Wanted wanted_of(Bar bar) {
     case Bar::odd_found:
       return {0.95, true};
     case Bar::bent_listed:
+    case Bar::other_listed:
       return {0.90, true};
     case Bar::odd_accused:
       return {0.01, false};
@@ -372,6 +377,7 @@ Wanted wanted_of(Bar bar) {
     case Bar::dropped_wrong:
       return {0.02, false};
     case Bar::bent_wrong:
+    case Bar::other_wrong:
     case Bar::unstated_named:
     case Bar::impossible_named:
     case Bar::settings_named:
@@ -382,6 +388,7 @@ Wanted wanted_of(Bar bar) {
     case Bar::unseen:
       return {0.05, false};
     case Bar::bent_unexplained:
+    case Bar::other_unexplained:
       return {0.10, false};
     default:
       return {0.80, true};

@@ -47,6 +47,9 @@ enum class Bar {
   bent_listed,          ///< law bent by 10 %: named, listed, or its shape recognised
   bent_wrong,           ///< the same: a wrong cause named
   bent_unexplained,     ///< the same: unexplained
+  other_listed,         ///< made by another published law: named, listed, or its shape recognised
+  other_wrong,          ///< the same: a wrong cause named
+  other_unexplained,    ///< the same: unexplained
   base_alarm,           ///< anything but adequate where the losses are bent by 3 %
   impossible_named,     ///< a cause named for an effect of impossible size
   loop_named,           ///< named, or its cause told, after doing what is advised, three times at
@@ -157,28 +160,11 @@ StudyTally read_tally(const std::filesystem::path& file);
 
 template <>
 struct recoil::NamesOf<hidden::Bar> {
-  static constexpr std::array<std::string_view, 24> names = {"named",
-                                                             "separable_named",
-                                                             "named_or_law",
-                                                             "listed",
-                                                             "wrong",
-                                                             "false_alarm",
-                                                             "outside_unexplained",
-                                                             "unstated_named",
-                                                             "unstated_told",
-                                                             "single_diameter",
-                                                             "unseen",
-                                                             "bent_listed",
-                                                             "bent_wrong",
-                                                             "bent_unexplained",
-                                                             "base_alarm",
-                                                             "impossible_named",
-                                                             "loop_named",
-                                                             "loop_wrong",
-                                                             "dropped_listed",
-                                                             "dropped_wrong",
-                                                             "settings_named",
-                                                             "odd_named",
-                                                             "odd_found",
-                                                             "odd_accused"};
+  static constexpr std::array<std::string_view, 27> names = {
+      "named",       "separable_named",     "named_or_law",   "listed",           "wrong",
+      "false_alarm", "outside_unexplained", "unstated_named", "unstated_told",    "single_diameter",
+      "unseen",      "bent_listed",         "bent_wrong",     "bent_unexplained", "other_listed",
+      "other_wrong", "other_unexplained",   "base_alarm",     "impossible_named", "loop_named",
+      "loop_wrong",  "dropped_listed",      "dropped_wrong",  "settings_named",   "odd_named",
+      "odd_found",   "odd_accused"};
 };

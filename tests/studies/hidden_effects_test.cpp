@@ -106,6 +106,18 @@ std::vector<Question> bent_laws() {
   return all;
 }
 
+/// Made by a published law that is not the catalogue's.
+std::vector<Question> other_laws() {
+  std::vector<Question> all;
+  const std::pair<const char*, const char*> cases[] = {{"li", "plastic_yield"},
+                                                       {"wall", "gas_film"}};
+  for (const auto& [design, effect] : cases) {
+    all.push_back({{design, {effect}, 10.0, 0}, {Mark::named, Mark::inside, Mark::resembled}});
+    all.back().order.other_law = true;
+  }
+  return all;
+}
+
 /// As strong as nature has it this is no more than losses that are good to 3 %: what the errors of
 /// laws cost in power.
 std::vector<Question> within_law_errors() {
@@ -193,6 +205,7 @@ INSTANTIATE_TEST_SUITE_P(KnownConditions, Bar, testing::ValuesIn(known_condition
 INSTANTIATE_TEST_SUITE_P(CloseCause, Bar, testing::ValuesIn(close_causes()), test_name);
 INSTANTIATE_TEST_SUITE_P(NothingHidden, Bar, testing::ValuesIn(nothing_hidden()), test_name);
 INSTANTIATE_TEST_SUITE_P(BentLaw, Bar, testing::ValuesIn(bent_laws()), test_name);
+INSTANTIATE_TEST_SUITE_P(OtherLaw, Bar, testing::ValuesIn(other_laws()), test_name);
 INSTANTIATE_TEST_SUITE_P(WithinLawErrors, Bar, testing::ValuesIn(within_law_errors()), test_name);
 INSTANTIATE_TEST_SUITE_P(BentBase, Bar, testing::ValuesIn(bent_base()), test_name);
 INSTANTIATE_TEST_SUITE_P(Impossible, Bar, testing::ValuesIn(impossible_sizes()), test_name);

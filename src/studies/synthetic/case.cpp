@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "studies/synthetic/observed_mean.hpp"
+#include "studies/synthetic/other_laws.hpp"
 #include "studies/synthetic/purpose.hpp"
 
 namespace hidden {
@@ -48,6 +50,14 @@ double reading_of(const Case& made, const Point& p, recoil::RandomStream& random
   return reading * (set / p.velocity);  // e as the quotient of the velocities that are read
 }
 
+Sphere sphere_of(const Design& design, const Row& row) {
+  Sphere sphere;
+  sphere.mass = design.base.density * std::numbers::pi / 6.0 * std::pow(row.diameter, 3);
+  sphere.radius = 0.5 * row.diameter;
+  sphere.stiffness = design.base.stiffness();
+  return sphere;
+}
+
 /// A misreading of 6 to 15 standard deviations, or none.
 double misreading(const Case& made, const Point& p, recoil::RandomStream& random) {
   const bool odd = random.uniform() < made.effects.odd_share;
@@ -59,7 +69,7 @@ double misreading(const Case& made, const Point& p, recoil::RandomStream& random
 }  // namespace
 
 std::string CaseOrder::key() const {
-  std::string bends;
+  std::string bends = other_law ? ":other" : "";
   if (law_bend > 0.0) bends += fmt::format("~{:g}%", 100.0 * law_bend);
   if (base_bend > 0.0) bends += fmt::format("~base{:g}%", 100.0 * base_bend);
   if (beyond > 0.0) bends += fmt::format("*{:g}", beyond);
@@ -90,6 +100,7 @@ Case make_case(const CaseOrder& order) {
     made.design = draw_design(order.design, ++seed);
   }
   made.reached = true;
+  made.effects.other_laws = order.other_law;
   for (std::size_t k = 0; k < order.effects.size(); ++k) {
     const HiddenEffect& effect = find_hidden_effect(order.effects[k]);
     if (effect.kind == EffectKind::careless) {  // leaves nothing without noise: of one size
@@ -100,6 +111,7 @@ Case make_case(const CaseOrder& order) {
     const Nuisances nuisances = draw_nuisances(effect, made.design, seed + k);
     const auto alone = [&](double strength) {
       Effects effects;
+      effects.other_laws = order.other_law;
       add_effect(effects, effect, nuisances, made.design, strength);
       return effects;
     };
@@ -109,8 +121,14 @@ Case make_case(const CaseOrder& order) {
       add_effect(made.effects, effect, nuisances, made.design, strength);
       continue;
     }
-    const Strength found = find_strength(made.design, alone, largest_strength(effect, nuisances),
-                                         order.signal_to_noise);
+    double largest = largest_strength(effect, nuisances);
+    if (order.other_law) {
+      for (const Row& row : made.design.rows) {
+        largest = std::min(
+            largest, largest_by_other_law(effect.id, sphere_of(made.design, row), row.highest));
+      }
+    }
+    const Strength found = find_strength(made.design, alone, largest, order.signal_to_noise);
     made.reached = made.reached && found.reached;
     made.strengths.push_back(nuisances.sign * found.value);
     add_effect(made.effects, effect, nuisances, made.design, found.value);

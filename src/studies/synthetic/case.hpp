@@ -30,9 +30,11 @@ struct CaseOrder {
   /// Above 0: the one effect at so many times the largest strength that nature has.
   double beyond = 0.0;
   Circumstances circumstances = Circumstances::unstated;
+  bool other_law = false;  ///< the effects follow second published laws (other_laws.hpp)
   int rounds = 0;  ///< how often the first of what the answer advises is done, and asked again
 
   /// wall+plastic_yield+probe_plane@10#3; bent by 10 % and 3 %: wall+plastic_yield~10%~base3%@20#0;
+  /// by another published law: wall+plastic_yield:other@20#0;
   /// three times what is possible: wall+velocity_offset*3@0#0; with its condition varied, and asked
   /// again up to three times: wall+gas_film|varied@10#0^3
   std::string key() const;

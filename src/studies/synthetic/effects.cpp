@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "studies/synthetic/other_laws.hpp"
 #include "studies/synthetic/runge_kutta.hpp"
 
 namespace hidden {
@@ -112,7 +113,27 @@ double image_work(const Base& base, const Effects& effects, double mass, double 
   return 2.0 * energy / mass;
 }
 
-/// By exact laws.
+/// Speed after the gas on the way in or out.
+double after_gas(const Effects& effects, const Sphere& sphere, double speed, bool inward) {
+  if (!effects.other_laws) {
+    return through_gas(effects, sphere.mass, sphere.radius, speed, inward);
+  }
+  const double path = free_path * bar / effects.gas_pressure;
+  return speed - speed_lost_in_film(viscosity, sphere, effects.gas_distance, path);
+}
+
+/// Takes from the contact what a second published law says of it, and returns what is left of the
+/// speed.
+double by_other_laws(const Sphere& sphere, ContactExtras& extras, double speed) {
+  double e = 1.0;
+  if (extras.yield_pressure > 0.0) e *= jackson_restitution(sphere, extras.yield_pressure, speed);
+  if (extras.bulk_relaxation > 0.0) e *= ramirez_restitution(sphere, extras.bulk_relaxation, speed);
+  if (extras.plate_mobility > 0.0) e *= boettcher_restitution(sphere, extras.plate_mobility, speed);
+  extras.yield_pressure = extras.bulk_relaxation = extras.plate_mobility = 0.0;
+  return speed * e;
+}
+
+/// By exact laws, or other ones.
 double exact_square(const Base& base, const Effects& effects, double velocity, double diameter,
                     double size_factor, double adhesion_factor) {
   const double d = diameter * (1.0 + effects.diameter_error) * size_factor;
@@ -138,7 +159,7 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
     square = v * v;
   }
   if (effects.gas_pressure > 0.0) {
-    v = through_gas(effects, sphere.mass, 0.5 * d, std::sqrt(square), true);
+    v = after_gas(effects, sphere, std::sqrt(square), true);
     if (!(v > 0.0)) return -1.0;
     square = v * v;
   }
@@ -149,16 +170,18 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
 
   // contact
   v = std::sqrt(square);
-  if (effects.contact.yield_pressure > 0.0) {
-    const PlasticResult plastic =
-        plastic_contact(sphere.mass, sphere.radius, sphere.stiffness,
-                        effects.contact.yield_pressure, v, work_at_rest(sphere));
+  ContactExtras extras = effects.contact;
+  if (effects.other_laws) v = by_other_laws(sphere, extras, v);
+  if (!(v > 0.0)) return -1e-6 / (velocity * velocity);
+  if (extras.yield_pressure > 0.0) {
+    const PlasticResult plastic = plastic_contact(sphere.mass, sphere.radius, sphere.stiffness,
+                                                  extras.yield_pressure, v, work_at_rest(sphere));
     if (!(plastic.square > 0.0)) return plastic.square / (velocity * velocity);
     sphere.adhesion_force *= std::cbrt(plastic.radius / sphere.radius);
     sphere.radius = plastic.radius;
     v = std::sqrt(plastic.square);
   }
-  square = contact(sphere, effects.contact, base, v).square;
+  square = contact(sphere, extras, base, v).square;
   double work = effects.asperity_energy;
   work += 4.0 * pi * 0.5 * d * surface_tension * effects.bridge_length;
   if (effects.jkr_work > 0.0) {
@@ -169,7 +192,7 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   // out
   square -= image + attraction;
   if (effects.gas_pressure > 0.0 && square > 0.0) {
-    v = through_gas(effects, sphere.mass, 0.5 * d, std::sqrt(square), false);
+    v = after_gas(effects, sphere, std::sqrt(square), false);
     square = v > 0.0 ? v * v : -1e-6;
   }
   if (effects.flight_pressure > 0.0 && square > 0.0) {

@@ -42,6 +42,7 @@ struct Effects {
   double oddity_size = 0.0;    ///< on ln e
   double oddity_centre = 1.0;  ///< [m/s]
   double oddity_width = 1.0;   ///< in ln V
+  bool other_laws = false;     ///< those of other_laws.hpp, where there are any
   Bend bend_of_laws;           ///< a factor on what the effects do to e^2
   Bend bend_of_base;           ///< a factor on 1 - e^2 of the base model
 };
