@@ -125,12 +125,14 @@ Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {
   Analysis analysis;
   analysis.spec = std::move(inputs.spec);
   analysis.datasets = std::move(inputs.datasets);
-  const Observations gathered = gather(analysis.datasets, analysis.spec);
+  Observations gathered = gather(analysis.datasets, analysis.spec);
   require_scheme(analysis.spec, options.scheme.value_or(analysis.spec.uncertainty.scheme),
                  gathered);
   ImpactModel model = make_model(analysis.spec, analysis.datasets);
   model.solver.kind = options.solver;
-  analysis.fitted = fit(model, gathered);
+  FitOptions fitting;
+  fitting.threads = options.threads;
+  analysis.fitted = fit(model, std::move(gathered), fitting);
   if (!analysis.fitted.usable) {
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}",
                                        analysis.spec.file.string(), analysis.fitted.failure));

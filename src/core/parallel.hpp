@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 
@@ -33,6 +34,32 @@ void parallel_over(std::size_t count, int threads, const Body& body) {
                         }
                       });
   });
+}
+
+/// Calls body(first, count) for blocks of at most `size` of `count` things, several at the same
+/// time on the threads of the arena that asks. It may be called from within `parallel_over`: a
+/// thread that waits for its blocks takes up nothing else.
+/// @throws CalledOff between two blocks
+template <class Body>
+void over_blocks(std::size_t count, std::size_t size, const Body& body) {
+  if (count <= size) return body(std::size_t{0}, count);
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (count + size - 1) / size, 1),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t b = range.begin(); b != range.end(); ++b) {
+                          end_if_called_off();
+                          body(b * size, std::min(size, count - b * size));
+                        }
+                      });
+  });
+}
+
+/// What `work` returns, on at most `threads` threads (0: those of the caller).
+template <class Work>
+auto on_threads(int threads, const Work& work) {
+  if (threads <= 0) return work();
+  tbb::task_arena arena(threads);
+  return arena.execute(work);
 }
 
 }  // namespace recoil

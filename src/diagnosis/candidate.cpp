@@ -26,15 +26,15 @@ LeastSquaresOptions descent() {
   options.parameter_tolerance = 1e-10;
   options.covariance = false;
   options.finish = false;
-  options.search_along_steps = false;
+  options.boxed = true;
   options.first_radius = 10.0;
   return options;
 }
 
-/// Where that one does not end: along each step, as far as it leads down.
+/// Where that one does not end: by Ceres, along each step as far as it leads down.
 LeastSquaresOptions careful_descent() {
   LeastSquaresOptions options = descent();
-  options.search_along_steps = true;
+  options.boxed = false;
   options.max_iterations = 500;
   return options;
 }

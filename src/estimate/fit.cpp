@@ -7,12 +7,14 @@
 #include <numeric>
 #include <utility>
 
+#include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/misfit.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/reweighting.hpp"
+#include "estimate/start_search.hpp"
 #include "estimate/weights.hpp"
 
 namespace recoil {
@@ -25,56 +27,15 @@ constexpr double doubtful_level = 0.05;
 // Two minima within this relative difference of chi2 are a tie, if their parameters differ.
 constexpr double tie_tolerance = 1e-6;
 
-/// The stated start, and the damping factors ten times smaller and larger in all combinations:
-/// capture and strong damping make flat and non-convex regions on either side. Then what the
-/// catalogue of mechanisms advises, one parameter at a time.
-std::vector<std::vector<double>> starting_points(const ImpactModel& model,
-                                                 const std::vector<double>& first, bool several) {
-  std::vector<std::vector<double>> starts = {first};
-  if (!several) return starts;
-  for (const double hertz : {0.1, 1.0, 10.0}) {
-    for (const double adhesion : {0.1, 1.0, 10.0}) {
-      if (hertz == 1.0 && adhesion == 1.0) continue;
-      std::vector<double> start = first;
-      bool moved = false;
-      for (std::size_t j = 0; j < start.size(); ++j) {
-        const ParameterSlot& slot = model.slots[j];
-        if (!slot.free || !slot.parameter->is_damping()) continue;
-        const double factor =
-            slot.parameter->role == ParameterRole::hertz_damping ? hertz : adhesion;
-        start[j] = std::clamp(start[j] * factor, slot.lower, slot.upper);
-        moved = moved || start[j] != first[j];
-      }
-      if (moved) starts.push_back(std::move(start));
-    }
-  }
-  for (std::size_t j = 0; j < first.size(); ++j) {
-    const ParameterSlot& slot = model.slots[j];
-    if (!slot.free) continue;
-    for (const double value : slot.parameter->starts) {
-      if (value < slot.lower || value > slot.upper || value == first[j]) continue;
-      starts.push_back(first);
-      starts.back()[j] = value;
-    }
-  }
-  return starts;
-}
-
 std::string describe_point(const Observation& point) {
   return fmt::format("the point at d = {:.4g} um, V = {:.4g} m/s", point.diameter / units::um,
                      point.velocity);
 }
 
-std::vector<Prediction> predict_observations(const ImpactModel& model,
-                                             std::span<const double> theta,
-                                             const Observations& data) {
-  return predict(model, theta, data.conditions(), false);
-}
-
 /// The first point that the model cannot answer at `theta`, in words.
 std::string unanswered_point(const ImpactModel& model, const Observations& data,
                              std::span<const double> theta) {
-  const std::vector<Prediction> predictions = predict_observations(model, theta, data);
+  const std::vector<Prediction> predictions = predict(model, theta, data.conditions(), false);
   for (std::size_t i = 0; i < predictions.size(); ++i) {
     if (!predictions[i].usable()) {
       return fmt::format("{}: {}", describe_point(data.points[i]),
@@ -85,10 +46,17 @@ std::string unanswered_point(const ImpactModel& model, const Observations& data,
 }
 
 void record_predictions(FitResult& result) {
-  for (const Prediction& at : predict_observations(result.model, result.theta, result.data)) {
-    result.prediction_squared.push_back(at.restitution_squared);
-    result.prediction.push_back(at.restitution());
-  }
+  result.prediction.resize(result.data.points.size());
+  result.prediction_squared.resize(result.data.points.size());
+  PointPredictor predictor(result.model, result.data.conditions());
+  const auto take = [&](std::size_t first, std::span<const ImpactResult> answers) {
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      const double square = answers[k].restitution_squared;
+      result.prediction_squared[first + k] = square;
+      result.prediction[first + k] = std::sqrt(std::max(square, 0.0));
+    }
+  };
+  predictor.evaluate_blocks(result.theta, false, take);
 }
 
 void record_leverage(FitResult& result, const std::vector<double>& jacobian,
@@ -121,6 +89,16 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
   }
 }
 
+double root_mean_square(const FitResult& result) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < result.data.points.size(); ++i) {
+    const Observation& point = result.data.points[i];
+    const double measured = point.censored ? 0.0 : point.restitution;
+    sum += std::pow(measured - expected_restitution(point, result.prediction_squared[i]), 2);
+  }
+  return std::sqrt(sum / std::max(1.0, static_cast<double>(result.data.points.size())));
+}
+
 /// Everything at the end of a descent.
 void take_over(FitResult& result, const LeastSquaresResult& run) {
   const std::size_t n = result.data.points.size();
@@ -132,8 +110,6 @@ void take_over(FitResult& result, const LeastSquaresResult& run) {
                           run.residuals.begin() + static_cast<std::ptrdiff_t>(n));
   result.least = run.sum_of_squares;
   result.constants_moved = constant_deviations(result.model, result.data, result.theta);
-  result.prediction.clear();
-  result.prediction_squared.clear();
   record_predictions(result);
   record_leverage(result, run.jacobian, run.covariance);
 }
@@ -199,17 +175,6 @@ void compare_starts(FitResult& result, std::size_t best_start) {
   }
 }
 
-/// The points for the search from several starts. A mean of survivors lies far above the curve
-/// until the scatter of the impacts is known, so points with rebounds and captures wait for
-/// `reweighted_fit`, if the others suffice.
-Observations without_mixed_points(const Observations& data, std::ptrdiff_t free_count) {
-  Observations rest = data;
-  std::erase_if(rest.points, [](const Observation& point) { return point.mixed(); });
-  const auto rebounds = std::count_if(rest.points.begin(), rest.points.end(),
-                                      [](const Observation& point) { return !point.censored; });
-  return rebounds > free_count ? rest : data;
-}
-
 /// Where a mechanism of the model says how the impacts of a point differ, its survivors are what
 /// the mean e is of: their spread must not be estimated a second time from the counts.
 void leave_counts_to_mechanism(const ImpactModel& model, FitResult& result) {
@@ -226,55 +191,40 @@ void leave_counts_to_mechanism(const ImpactModel& model, FitResult& result) {
   if (counts > 0) result.unused_counts = {*found, counts};
 }
 
-}  // namespace
-
-const StartSummary& FitResult::best_start() const {
-  return *std::find_if(starts.begin(), starts.end(), [](const StartSummary& start) {
-    return start.outcome == StartOutcome::best;
-  });
-}
-
-FitResult fit(const ImpactModel& model, const Observations& observed, const FitOptions& options) {
+/// `fit` on the threads of the arena that asks.
+FitResult fitted_here(const ImpactModel& model, Observations&& observed,
+                      const FitOptions& options) {
   FitResult result;
   result.model = model;
-  result.data = observed;
+  result.data = std::move(observed);
   result.data.constants_weight = 1.0;
   leave_counts_to_mechanism(model, result);
-  const Observations& data = result.data;  // until `reweighted_fit` has weighed them
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
   const int free_count = model.free_count();
-  result.dof = static_cast<int>(data.points.size()) - free_count;
+  result.dof = static_cast<int>(result.data.points.size()) - free_count;
   if (result.dof < 0) {
     result.failure = fmt::format("{} points cannot determine {} free parameters",
-                                 data.points.size(), free_count);
+                                 result.data.points.size(), free_count);
     return result;
   }
-
-  const Observations searched = without_mixed_points(data, free_count);
-  const LeastSquaresProblem problem = impact_problem(model, searched, &result.handovers);
-  LeastSquaresOptions search = options.minimiser;
-  search.finish = false;  // only the best
-  LeastSquaresResult best;
-  std::size_t best_start = 0;
-  for (const std::vector<double>& start : starting_points(model, first, options.several_starts)) {
-    LeastSquaresResult run = minimise(problem, start, search);
-    result.starts.push_back({start, run.theta, run.sum_of_squares, run.end, run.message});
-    const bool better = run.ended() && (!best.ended() || run.sum_of_squares < best.sum_of_squares);
-    if (better) {
-      best = std::move(run);
-      best_start = result.starts.size() - 1;
-    }
-  }
-  if (!best.ended()) {
-    const std::string where = unanswered_point(model, data, first);
+  StartSearch search =
+      search_from_starts(model, result.data, first, options.several_starts, options.minimiser);
+  result.starts = std::move(search.starts);
+  result.searched_points = search.points;
+  result.handovers += search.handovers;
+  if (search.leads.empty()) {
+    const std::string where = unanswered_point(model, result.data, first);
     result.failure = where.empty() ? "no start converged: " + result.starts.front().message
                                    : "no start converged; " + where;
     return result;
   }
-
-  if (data.weights_depend_on_fit()) {
-    ReweightedFit reweighted =
-        reweighted_fit(model, data, best.theta, {.minimiser = options.minimiser});
+  LeastSquaresOptions minimiser = options.minimiser;
+  minimiser.nearby = search.sampled;
+  LeastSquaresResult best;
+  std::size_t best_start = search.leads.front().start;
+  if (result.data.weights_depend_on_fit()) {
+    ReweightedFit reweighted = reweighted_fit(model, result.data, search.leads.front().run.theta,
+                                              {.minimiser = minimiser});
     if (!reweighted.run.ended()) {
       result.failure = "no fit together with its weights: " + reweighted.run.message;
       return result;
@@ -282,9 +232,19 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
     result.weights_at_rest = reweighted.at_rest;
     best = std::move(reweighted.run);
     result.data = std::move(reweighted.data);
-  } else if (LeastSquaresResult run = minimise(problem, best.theta, options.minimiser);
-             run.ended()) {
-    best = std::move(run);
+  } else {
+    const LeastSquaresProblem problem = impact_problem(model, result.data, &result.handovers);
+    for (StartLead& lead : search.leads) {
+      LeastSquaresResult run = minimise(problem, lead.run.theta, minimiser);
+      if (!run.ended() && !search.sampled) run = std::move(lead.run);
+      if (!run.ended() || (best.ended() && !(run.sum_of_squares < best.sum_of_squares))) continue;
+      best = std::move(run);
+      best_start = lead.start;
+    }
+    if (!best.ended()) {
+      result.failure = "no fit to all points from where the starts ended on a part of them";
+      return result;
+    }
   }
   result.usable = true;
   take_over(result, best);
@@ -307,9 +267,22 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
   for (std::size_t j = 0; !result.covariance.empty() && j < result.theta.size(); ++j) {
     result.std_error[j] = std::sqrt(result.covariance[j * result.theta.size() + j]);
   }
-  result.rmse = root_mean_square(model, result.theta, result.data);
+  result.rmse = root_mean_square(result);
   compare_starts(result, best_start);
   return result;
+}
+
+}  // namespace
+
+const StartSummary& FitResult::best_start() const {
+  return *std::find_if(starts.begin(), starts.end(), [](const StartSummary& start) {
+    return start.outcome == StartOutcome::best;
+  });
+}
+
+FitResult fit(const ImpactModel& model, Observations observed, const FitOptions& options) {
+  return on_threads(options.threads,
+                    [&] { return fitted_here(model, std::move(observed), options); });
 }
 
 double root_mean_square(const ImpactModel& model, std::span<const double> theta,

@@ -20,42 +20,64 @@ class GaussNewton {
   GaussNewton(const LeastSquaresProblem& problem, const std::vector<std::size_t>& moving)
       : problem_(problem), moving_(moving) {}
 
-  /// The step from `at`, and its length in units of how far the residuals tell.
+  /// The step from `at`, its length in units of how far the residuals tell, and how far it moves a
+  /// parameter at most in units of that one's standard error where the residuals scatter by 1.
   struct Step {
     Eigen::VectorXd d;
     double length = 0.0;
+    double errors = 0.0;
   };
   std::optional<Step> step_from(const LeastSquaresResult& at) const {
-    Eigen::MatrixXd jacobian = columns_of(at, moving_);
+    const Eigen::MatrixXd rows = linearised_rows(at, moving_);
+    Eigen::MatrixXd jacobian = rows.leftCols(rows.cols() - 1);
     for (std::size_t k = 0; k < moving_.size(); ++k) {
       const std::size_t j = moving_[k];
       if (problem_.log_scale[j]) jacobian.col(static_cast<Eigen::Index>(k)) *= at.theta[j];
     }
     const LinearisedResiduals linear(jacobian);
     if (linear.singular()) return std::nullopt;
-    const Eigen::Map<const Eigen::VectorXd> residuals(
-        at.residuals.data(), static_cast<Eigen::Index>(at.residuals.size()));
-    Step step{linear.step(residuals), 0.0};
+    Step step{linear.step(rows.col(rows.cols() - 1)), 0.0, 0.0};
     step.length = (jacobian * step.d).norm();
+    const Eigen::ArrayXd variance = linear.covariance().diagonal();
+    step.errors = std::sqrt((step.d.array().square() / variance).maxCoeff());
     return step;
+  }
+
+  /// Moves theta by `d`. @return whether it lies within the bounds
+  bool move(std::vector<double>& theta, const Eigen::VectorXd& d) const {
+    for (std::size_t k = 0; k < moving_.size(); ++k) {
+      const std::size_t j = moving_[k];
+      const double by = d[static_cast<Eigen::Index>(k)];
+      theta[j] = problem_.log_scale[j] ? theta[j] * std::exp(by) : theta[j] + by;
+      if (!(theta[j] > problem_.lower[j] && theta[j] < problem_.upper[j])) return false;
+    }
+    return true;
   }
 
   /// Goes from `from` by `d`; nothing where that leads nowhere.
   std::optional<LeastSquaresResult> gone(const LeastSquaresResult& from,
                                          const Eigen::VectorXd& d) const {
     LeastSquaresResult to = from;
-    for (std::size_t k = 0; k < moving_.size(); ++k) {
-      const std::size_t j = moving_[k];
-      const double by = d[static_cast<Eigen::Index>(k)];
-      to.theta[j] = problem_.log_scale[j] ? to.theta[j] * std::exp(by) : to.theta[j] + by;
-      if (!(to.theta[j] > problem_.lower[j] && to.theta[j] < problem_.upper[j]))
-        return std::nullopt;
-    }
+    if (!move(to.theta, d)) return std::nullopt;
     if (!problem_.evaluate(to.theta, to.residuals, to.jacobian)) return std::nullopt;
     to.sum_of_squares = 0.0;
     for (const double r : to.residuals) to.sum_of_squares += r * r;
     if (!(to.sum_of_squares <= from.sum_of_squares * (1.0 + rounding_of_sum))) return std::nullopt;
     return to;
+  }
+
+  /// Takes a small step without an evaluation.
+  bool take_last(LeastSquaresResult& at, const Eigen::VectorXd& d) const {
+    const std::vector<double> before = at.theta;
+    if (!move(at.theta, d)) return false;
+    at.sum_of_squares = 0.0;
+    for (std::size_t i = 0; i < at.residuals.size(); ++i) {
+      for (const std::size_t j : moving_) {
+        at.residuals[i] += at.jacobian[i * before.size() + j] * (at.theta[j] - before[j]);
+      }
+      at.sum_of_squares += at.residuals[i] * at.residuals[i];
+    }
+    return true;
   }
 
   /// By how much of themselves `d` moves the parameters at most.
@@ -77,8 +99,10 @@ class GaussNewton {
 /// The steps so far and the ways that were gone, as differences from one place to the next.
 class StepHistory {
  public:
-  /// @param scale of each parameter
-  explicit StepHistory(Eigen::VectorXd scale) : scale_(std::move(scale)) {}
+  /// @param first the first step: the scale of each parameter
+  explicit StepHistory(const Eigen::VectorXd& first) : scale_(first.cwiseAbs()) {
+    scale_ = (scale_.array() > 0.0).select(scale_, 1.0);
+  }
 
   /// The way to go from here, `d` being the Gauss-Newton step.
   Eigen::VectorXd way(const Eigen::VectorXd& d) {
@@ -112,17 +136,91 @@ class StepHistory {
 
 }  // namespace
 
-Eigen::MatrixXd columns_of(const LeastSquaresResult& result,
-                           const std::vector<std::size_t>& moving) {
+Eigen::MatrixXd linearised_rows(const LeastSquaresResult& result,
+                                const std::vector<std::size_t>& moving) {
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto n = static_cast<Eigen::Index>(result.residuals.size());
   const auto p = static_cast<Eigen::Index>(result.theta.size());
+  const auto q = static_cast<Eigen::Index>(moving.size());
   const Eigen::Map<const RowMatrix> full(result.jacobian.data(), n, p);
-  Eigen::MatrixXd columns(n, static_cast<Eigen::Index>(moving.size()));
-  for (std::size_t k = 0; k < moving.size(); ++k) {
-    columns.col(static_cast<Eigen::Index>(k)) = full.col(static_cast<Eigen::Index>(moving[k]));
+  const Eigen::Map<const Eigen::VectorXd> residuals(result.residuals.data(), n);
+  const auto some = [&](Eigen::Index first, Eigen::Index count) {
+    Eigen::MatrixXd rows(count, q + 1);
+    for (Eigen::Index k = 0; k < q; ++k) {
+      const auto j = static_cast<Eigen::Index>(moving[static_cast<std::size_t>(k)]);
+      rows.col(k) = full.col(j).segment(first, count);
+    }
+    rows.col(q) = residuals.segment(first, count);
+    return rows;
+  };
+  const Eigen::Index at_a_time = std::max<Eigen::Index>(2048, 16 * (q + 1));
+  if (n <= 2 * at_a_time) return some(0, n);
+  // The triangle of the first rows, then that of itself and the next rows, and so on.
+  Eigen::MatrixXd triangle(0, q + 1);
+  for (Eigen::Index first = 0; first < n; first += at_a_time) {
+    const Eigen::Index count = std::min(at_a_time, n - first);
+    Eigen::MatrixXd rows(triangle.rows() + count, q + 1);
+    rows << triangle, some(first, count);
+    const Eigen::Index left = std::min(rows.rows(), q + 1);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(rows);
+    triangle = factors.matrixQR().topRows(left).triangularView<Eigen::Upper>();
   }
-  return columns;
+  return triangle;
+}
+
+std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& problem,
+                                                    std::span<const double> start,
+                                                    const std::vector<bool>& fixed,
+                                                    bool to_the_last_digit) {
+  std::vector<std::size_t> moving;
+  LeastSquaresResult result;
+  result.theta.assign(start.begin(), start.end());
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    if (fixed[j]) continue;
+    if (!(start[j] > problem.lower[j] && start[j] < problem.upper[j])) return std::nullopt;
+    moving.push_back(j);
+  }
+  result.residuals.resize(problem.residual_count);
+  result.jacobian.resize(problem.residual_count * start.size());
+  if (moving.empty() || !problem.evaluate(result.theta, result.residuals, result.jacobian)) {
+    return std::nullopt;
+  }
+  for (const double r : result.residuals) result.sum_of_squares += r * r;
+  const GaussNewton method(problem, moving);
+  const auto n = static_cast<double>(problem.residual_count);
+  const double freedom = std::max(1.0, n - static_cast<double>(moving.size()));
+  constexpr double close_enough = 3e-7;  // of a standard error
+  const auto is_close = [&](double error) {
+    return error * error <= close_enough * close_enough * result.sum_of_squares / freedom;
+  };
+  std::optional<GaussNewton::Step> step = method.step_from(result);
+  std::optional<StepHistory> history;
+  double ratio = 1.0;  // of successive steps: what the last one leaves of itself
+  int count = 0;
+  bool done = false;
+  while (step && count < most_steps) {
+    done = method.moves(result, step->d) <= all_digits;
+    if (done) break;
+    if (!to_the_last_digit && is_close(ratio * step->errors)) {
+      done = method.take_last(result, step->d);
+      break;
+    }
+    if (!history) history.emplace(step->d);
+    auto next = method.gone(result, history->way(step->d));
+    if (!next) break;
+    auto next_step = method.step_from(*next);
+    if (!next_step) return std::nullopt;
+    const double shorter = next_step->length / step->length;
+    if (!(shorter < 1.0)) break;
+    if (!(shorter < 0.5) && !is_close(step->errors)) return std::nullopt;
+    ratio = std::max(shorter, next_step->errors / step->errors);
+    result = std::move(*next);
+    step = std::move(next_step);
+    ++count;
+  }
+  if (!step || !(done || is_close(step->errors))) return std::nullopt;
+  result.iterations = count;
+  return result;
 }
 
 void finish_by_gauss_newton(const LeastSquaresProblem& problem,
@@ -130,12 +228,7 @@ void finish_by_gauss_newton(const LeastSquaresProblem& problem,
   const GaussNewton method(problem, moving);
   std::optional<GaussNewton::Step> step = method.step_from(result);
   if (!step) return;
-  Eigen::VectorXd scale = step->d.cwiseAbs();
-  for (std::size_t k = 0; k < moving.size(); ++k) {
-    const auto own = static_cast<Eigen::Index>(k);
-    if (!(scale[own] > 0.0)) scale[own] = 1.0;
-  }
-  StepHistory history(std::move(scale));
+  StepHistory history(step->d);
   for (int count = 0; count < most_steps && method.moves(result, step->d) > all_digits; ++count) {
     auto next = method.gone(result, history.way(step->d));
     if (!next) return;

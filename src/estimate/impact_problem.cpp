@@ -1,6 +1,7 @@
 #include "estimate/impact_problem.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 
 #include "core/interrupt.hpp"
@@ -62,15 +63,24 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
                                                                      std::span<double> jacobian) {
     if (called_off()) return false;  // the minimiser ends; its caller is told when it next asks
     const std::size_t p = theta.size();
-    const long handed_over = predictor->evaluate(theta, !jacobian.empty());
+    std::atomic<bool> answered = true;
+    const auto take = [&](std::size_t first, std::span<const ImpactResult> answers) {
+      for (std::size_t k = 0; k < answers.size(); ++k) {
+        const std::size_t i = first + k;
+        if (!answers[k].usable()) {
+          answered = false;
+          return;
+        }
+        const WeightedResidual r =
+            weighted_residual(data.points[i], answers[k].restitution_squared, data.noise.student);
+        residuals[i] = r.value;
+        if (jacobian.empty()) continue;
+        predictor->gradient_row(i, answers[k], r.slope, jacobian.subspan(i * p, p));
+      }
+    };
+    const long handed_over = predictor->evaluate_blocks(theta, !jacobian.empty(), take);
     if (handovers != nullptr) *handovers += handed_over;
-    for (std::size_t i = 0; i < data.points.size(); ++i) {
-      if (!predictor->at(i).usable()) return false;
-      const WeightedResidual r = weighted_residual(
-          data.points[i], predictor->at(i).restitution_squared, data.noise.student);
-      residuals[i] = r.value;
-      if (!jacobian.empty()) predictor->gradient_row(i, r.slope, jacobian.subspan(i * p, p));
-    }
+    if (!answered) return false;
     settings->whiten(residuals);
     if (!jacobian.empty()) settings->whiten(jacobian, p);
     if (!model.constants.empty()) add_constants_rows(model, data, theta, residuals, jacobian);

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <utility>
 
+#include "estimate/box_descent.hpp"
 #include "estimate/gauss_newton.hpp"
 #include "estimate/linearised.hpp"
 
@@ -59,50 +60,73 @@ class Coordinates {
   std::vector<std::size_t> free_;
 };
 
+/// What a problem answers at one place.
+struct Answer {
+  std::vector<double> theta;
+  std::vector<double> residuals;
+  std::vector<double> jacobian;
+  double sum_of_squares = 0.0;
+  bool usable = false;
+
+  bool is_at(std::span<const double> place) const {
+    return usable && std::equal(place.begin(), place.end(), theta.begin(), theta.end());
+  }
+};
+
+/// The answer of `problem` at `theta`, in the memory of `answer`.
+void ask(const LeastSquaresProblem& problem, std::vector<double> theta, Answer& answer) {
+  answer.theta = std::move(theta);
+  answer.residuals.resize(problem.residual_count);
+  answer.jacobian.resize(problem.residual_count * answer.theta.size());
+  answer.usable = problem.evaluate(answer.theta, answer.residuals, answer.jacobian);
+  answer.sum_of_squares = 0.0;
+  for (const double r : answer.residuals) answer.sum_of_squares += r * r;
+}
+
 /// The problem as Ceres sees it. A trial step is evaluated with its Jacobian at once and kept: most
-/// trials are accepted, and then Ceres asks for the Jacobian at the same place.
+/// trials are accepted, and then Ceres asks for the Jacobian at the same place. So is the answer at
+/// the best place so far, where the descent will end.
 class Residuals : public ceres::CostFunction {
  public:
-  Residuals(const LeastSquaresProblem& problem, const Coordinates& coordinates)
-      : problem_(problem), coordinates_(coordinates) {
+  Residuals(const LeastSquaresProblem& problem, const Coordinates& coordinates, Answer& best)
+      : problem_(problem), coordinates_(coordinates), best_(best) {
     set_num_residuals(static_cast<int>(problem.residual_count));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(coordinates.free().size()));
   }
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
-    if (!refresh(parameters[0])) return false;
-    std::copy(residuals_.begin(), residuals_.end(), residuals);
+    const Answer& answer = answer_at(coordinates_.to_theta(parameters[0]));
+    if (!answer.usable) return false;
+    std::copy(answer.residuals.begin(), answer.residuals.end(), residuals);
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     const std::vector<std::size_t>& free = coordinates_.free();
-    const std::size_t p = theta_.size();
-    for (std::size_t i = 0; i < residuals_.size(); ++i) {
+    const std::size_t p = answer.theta.size();
+    for (std::size_t i = 0; i < answer.residuals.size(); ++i) {
       for (std::size_t k = 0; k < free.size(); ++k) {
         const std::size_t j = free[k];
-        const double chain = problem_.log_scale[j] ? theta_[j] : 1.0;
-        jacobians[0][i * free.size() + k] = jacobian_[i * p + j] * chain;
+        const double chain = problem_.log_scale[j] ? answer.theta[j] : 1.0;
+        jacobians[0][i * free.size() + k] = answer.jacobian[i * p + j] * chain;
       }
     }
     return true;
   }
 
  private:
-  bool refresh(const double* z) const {
-    std::vector<double> theta = coordinates_.to_theta(z);
-    if (answered_ && theta == theta_) return true;
-    theta_ = std::move(theta);
-    residuals_.resize(problem_.residual_count);
-    jacobian_.resize(problem_.residual_count * theta_.size());
-    answered_ = problem_.evaluate(theta_, residuals_, jacobian_);
-    return answered_;
+  const Answer& answer_at(std::vector<double> theta) const {
+    if (best_.is_at(theta)) return best_;
+    if (last_.is_at(theta)) return last_;
+    ask(problem_, std::move(theta), last_);
+    if (!last_.usable || (best_.usable && !(last_.sum_of_squares <= best_.sum_of_squares)))
+      return last_;
+    std::swap(last_, best_);
+    return best_;
   }
 
   const LeastSquaresProblem& problem_;
   const Coordinates& coordinates_;
-  mutable std::vector<double> theta_;
-  mutable std::vector<double> residuals_;
-  mutable std::vector<double> jacobian_;
-  mutable bool answered_ = false;
+  Answer& best_;
+  mutable Answer last_;
 };
 
 bool rests_on_bound(double value, double bound) {
@@ -140,7 +164,8 @@ std::vector<std::size_t> without_effect(const LeastSquaresProblem& problem,
                                         const LeastSquaresResult& result,
                                         const std::vector<std::size_t>& moving) {
   std::vector<std::size_t> flat;
-  const Eigen::VectorXd lengths = columns_of(result, moving).colwise().norm();
+  const Eigen::MatrixXd rows = linearised_rows(result, moving);
+  const Eigen::VectorXd lengths = rows.leftCols(rows.cols() - 1).colwise().norm();
   const double residual = std::sqrt(result.sum_of_squares);
   for (std::size_t k = 0; k < moving.size(); ++k) {
     const std::size_t j = moving[k];
@@ -165,14 +190,14 @@ void silence_library_log() {
   std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
 }
 
-/// Runs Ceres from `z`, which receives the minimum.
+/// Runs Ceres from `z`, which receives the minimum, and `best` what is known there.
 void descend(const LeastSquaresProblem& problem, const Coordinates& coordinates,
-             const LeastSquaresOptions& options, std::vector<double>& z,
-             LeastSquaresResult& result) {
+             const LeastSquaresOptions& options, std::vector<double>& z, LeastSquaresResult& result,
+             Answer& best) {
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem ceres_problem(ownership);
-  Residuals residuals(problem, coordinates);
+  Residuals residuals(problem, coordinates, best);
   ceres_problem.AddResidualBlock(&residuals, nullptr, z.data());
   for (std::size_t k = 0; k < z.size(); ++k) {
     const std::size_t j = coordinates.free()[k];
@@ -193,7 +218,6 @@ void descend(const LeastSquaresProblem& problem, const Coordinates& coordinates,
   solver.gradient_tolerance = options.gradient_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
   solver.initial_trust_region_radius = options.first_radius;
-  if (!options.search_along_steps) solver.max_num_line_search_step_size_iterations = 0;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &ceres_problem, &summary);
   result.end = summary.termination_type == ceres::CONVERGENCE      ? DescentEnd::minimum
@@ -214,28 +238,30 @@ double slope_along(const LeastSquaresResult& result, std::size_t j) {
 }
 
 /// One descent with `held` parameters kept where they are, and everything known at its end.
+/// @param known what is known of some place, perhaps of the start; its memory is taken
 LeastSquaresResult solve(const LeastSquaresProblem& problem, std::span<const double> start,
-                         const std::vector<bool>& held, const LeastSquaresOptions& options) {
+                         const std::vector<bool>& held, const LeastSquaresOptions& options,
+                         Answer known = {}) {
   const Coordinates coordinates(problem, start, held);
-  const std::size_t n = problem.residual_count;
-  const std::size_t p = start.size();
   LeastSquaresResult result;
   std::vector<double> z = coordinates.start();
   if (z.empty()) {
     result.end = DescentEnd::minimum;
     result.message = "nothing is free";
   } else {
-    descend(problem, coordinates, options, z, result);
+    descend(problem, coordinates, options, z, result, known);
   }
-  result.theta = coordinates.to_theta(z.data());
-  result.residuals.assign(n, 0.0);
-  result.jacobian.assign(n * p, 0.0);
-  if (!problem.evaluate(result.theta, result.residuals, result.jacobian)) {
+  std::vector<double> theta = coordinates.to_theta(z.data());
+  if (!known.is_at(theta)) ask(problem, std::move(theta), known);
+  result.theta = std::move(known.theta);
+  result.residuals = std::move(known.residuals);
+  result.jacobian = std::move(known.jacobian);
+  if (!known.usable) {
     result.end = DescentEnd::no_answer;
     if (result.message.empty()) result.message = "the residuals cannot be evaluated";
     return result;
   }
-  for (const double r : result.residuals) result.sum_of_squares += r * r;
+  result.sum_of_squares = known.sum_of_squares;
   return result;
 }
 
@@ -252,11 +278,12 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
                                          const LeastSquaresOptions& options) {
   const std::size_t p = start.size();
   std::vector<bool> held = fixed;
-  LeastSquaresResult result = solve(problem, start, held, options);
+  LeastSquaresResult result = options.boxed ? descend_in_box(problem, start, fixed, options)
+                                            : solve(problem, start, held, options);
   // A projected trust-region step that runs into a bound can end the descent short of the minimum
   // along the others. Hold what rests on a bound, descend along the rest, and let go of whatever
   // the slope pulls back inside, until nothing changes (an active-set iteration).
-  for (std::size_t round = 0; result.end == DescentEnd::minimum; ++round) {
+  for (std::size_t round = 0; !options.boxed && result.end == DescentEnd::minimum; ++round) {
     bool changed = false;
     for (std::size_t j = 0; j < p; ++j) {
       if (fixed[j]) continue;
@@ -273,7 +300,9 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
       result.message = "parameters went to their bounds and came back in turns without end";
       break;
     }
-    LeastSquaresResult again = solve(problem, result.theta, held, options);
+    LeastSquaresResult again =
+        solve(problem, result.theta, held, options,
+              {result.theta, result.residuals, result.jacobian, result.sum_of_squares, true});
     if (again.end == DescentEnd::no_answer ||
         again.sum_of_squares > result.sum_of_squares * (1.0 + 1e-12)) {
       break;
@@ -291,7 +320,18 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
 LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<const double> start,
                                  const std::vector<bool>& fixed,
                                  const LeastSquaresOptions& options) {
-  LeastSquaresResult result = descend_within_bounds(problem, start, fixed, options);
+  LeastSquaresResult result;
+  bool finished = false;
+  if (options.nearby) {
+    if (auto found = gauss_newton_from(problem, start, fixed, options.finish)) {
+      result = std::move(*found);
+      result.end = DescentEnd::minimum;
+      result.message = "steps of Gauss and Newton closed in";
+      result.at_bound.assign(start.size(), false);
+      finished = true;
+    }
+  }
+  if (!finished) result = descend_within_bounds(problem, start, fixed, options);
   if (result.end != DescentEnd::minimum) return result;
   const std::vector<std::size_t> moving = moving_of(result, fixed);
   result.flat = without_effect(problem, start, result, moving);
@@ -304,9 +344,10 @@ LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<c
     if (options.covariance) result.covariance.assign(start.size() * start.size(), 0.0);
     return result;
   }
-  if (options.finish) finish_by_gauss_newton(problem, moving, result);
+  if (options.finish && !finished) finish_by_gauss_newton(problem, moving, result);
   if (options.covariance) {
-    const LinearisedResiduals linear(columns_of(result, moving));
+    const Eigen::MatrixXd rows = linearised_rows(result, moving);
+    const LinearisedResiduals linear(rows.leftCols(rows.cols() - 1));
     if (linear.singular()) {
       result.end = DescentEnd::valley;
     } else {

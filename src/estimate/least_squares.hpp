@@ -39,9 +39,11 @@ struct LeastSquaresOptions {
   /// sum of squares does, which knows half as many. One or two Jacobians where the residuals are
   /// nearly linear.
   bool finish = true;
-  /// Where there are bounds, look along every step for its best length: up to eight evaluations for
-  /// each step that is refused.
-  bool search_along_steps = true;
+  /// The start is thought to lie near the minimum, away from the bounds: the steps of Gauss and
+  /// Newton from there, a few evaluations, and the descent only where these do not close in.
+  bool nearby = false;
+  /// Descend by `descend_in_box` instead of Ceres: fewer evaluations where steps meet bounds.
+  bool boxed = false;
   double first_radius = 1e4;  ///< of the trust region, in parameters scaled by the Jacobian
 };
 

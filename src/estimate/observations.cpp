@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -45,22 +47,37 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
   return point;
 }
 
-/// Numbers the settings of all datasets. What states none shares it with the points of its series,
-/// diameter and velocity.
+/// Numbers the settings of all datasets in the order in which they appear. What states none shares
+/// it with the points of its series, diameter and velocity.
 /// @returns whether some setting that `spec` asks about has several points
 bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
+  std::vector<const ImpactPoint*> stated;
+  for (const Dataset& dataset : datasets) {
+    for (const ImpactPoint& p : dataset.points) stated.push_back(&p);
+  }
+  const auto key = [&](std::size_t i) {
+    const ImpactPoint& p = *stated[i];
+    const bool named = !p.setting.empty();
+    return std::tuple(data.points[i].dataset, std::string_view(p.setting),
+                      named ? std::size_t{0} : p.series, named ? 0.0 : p.diameter,
+                      named ? 0.0 : p.incident_velocity);
+  };
+  std::vector<std::size_t> order(stated.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(key(a), a) < std::pair(key(b), b);
+  });
   bool several = false;
-  std::map<std::tuple<std::size_t, std::string, std::size_t, double, double>, std::size_t> known;
-  std::size_t i = 0;
-  for (std::size_t d = 0; d < datasets.size(); ++d) {
-    for (const ImpactPoint& p : datasets[d].points) {
-      const auto key = p.setting.empty()
-                           ? std::tuple(d, std::string(), p.series, p.diameter, p.incident_velocity)
-                           : std::tuple(d, p.setting, std::size_t{0}, 0.0, 0.0);
-      const auto [place, is_new] = known.try_emplace(key, known.size());
-      data.points[i++].setting = place->second;
-      several = several || (!is_new && (data.spec.every_setting || !p.setting.empty()));
-    }
+  for (std::size_t k = 0; k < order.size(); ++k) {  // of each setting its first point, for now
+    const bool is_new = k == 0 || key(order[k]) != key(order[k - 1]);
+    data.points[order[k]].setting = is_new ? order[k] : data.points[order[k - 1]].setting;
+    several =
+        several || (!is_new && (data.spec.every_setting || !stated[order[k]]->setting.empty()));
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const std::size_t first = data.points[i].setting;
+    data.points[i].setting = first == i ? count++ : data.points[first].setting;
   }
   return several;
 }
@@ -115,6 +132,9 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
   int missing = 0;
   int stated = 0;
   if (spec.student) data.noise.student = student_noise(spec.student_dof);
+  std::size_t count = 0;
+  for (const Dataset& dataset : datasets) count += dataset.points.size();
+  data.points.reserve(count);
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     for (const ImpactPoint& p : datasets[d].points) {
       data.points.push_back(observe(datasets[d], d, p, spec));

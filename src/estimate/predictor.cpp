@@ -1,16 +1,20 @@
 #include "estimate/predictor.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 
 #include "core/interrupt.hpp"
+#include "core/parallel.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
 constexpr std::size_t place_of_force = 2;  // of f0 among the values of a point
+constexpr std::size_t points_of_block = 512;
 
 }  // namespace
 
@@ -22,24 +26,26 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       points_(std::move(points)),
       beta_per_f0_(points_.size()),
       range_per_f0_(points_.size()),
+      C_H_(model.contacts.size()),
+      C_A_(model.contacts.size()),
       force_(model.contacts.size()),
       force_slope_(model.contacts.size()),
       beta_scale_(model.contacts.size(), 1.0),
       range_scale_(model.contacts.size(), 1.0),
       material_slopes_(model.contacts.size()),
-      surroundings_(model.surroundings),
-      groups_(points_.size()),
-      results_(points_.size()) {
+      surroundings_(model.surroundings) {
   const std::vector<double> initial = model.initial();
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const PointConditions& p = points_[i];
-    ImpactConditions unit = conditions_at(model, initial, p.dataset, p.diameter, p.velocity);
-    unit.adhesion_force =
-        adhesion_force_at(1.0, model.contacts[p.dataset].reference_diameter, p.diameter);
-    const ImpactGroups groups = impact_groups(unit);
-    beta_per_f0_[i] = groups.beta;
-    range_per_f0_[i] = groups.range;
-  }
+  over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) {
+      const PointConditions& p = points_[i];
+      ImpactConditions unit = conditions_at(model, initial, p.dataset, p.diameter, p.velocity);
+      unit.adhesion_force =
+          adhesion_force_at(1.0, model.contacts[p.dataset].reference_diameter, p.diameter);
+      const ImpactGroups groups = impact_groups(unit);
+      beta_per_f0_[i] = groups.beta;
+      range_per_f0_[i] = groups.range;
+    }
+  });
 
   std::vector<const Mechanism*> chain;
   std::vector<std::size_t> own;  // which parameters of the model's chain
@@ -74,24 +80,80 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
   values_.resize(slots_.size());
 }
 
-long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
+void PointPredictor::take_parameters(std::span<const double> theta, bool gradient) {
   assert(theta.size() == model_.slots.size());
   end_if_called_off();
-  const ImpactOptions options = model_.impact_options(gradient);
   for (std::size_t d = 0; d < force_.size(); ++d) {
+    C_H_[d] = theta[model_.slot_C_H[d]];
+    C_A_[d] = theta[model_.slot_C_A[d]];
     force_[d] = adhesion_force_under(model_, theta, d);
     force_slope_[d] = adhesion_force_slope(model_, theta, d);
   }
   if (!model_.constants.empty()) take_materials(theta, gradient);
-  if (extended_) return evaluate_extended(theta, options);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const PointConditions& p = points_[i];
-    groups_[i] = {theta[model_.slot_C_H[p.dataset]] * p.velocity,
-                  force_[p.dataset] * beta_per_f0_[i] * beta_scale_[p.dataset],
-                  theta[model_.slot_C_A[p.dataset]] * p.velocity, 0.0,
-                  force_[p.dataset] * range_per_f0_[i] * range_scale_[p.dataset]};
+}
+
+ImpactGroups PointPredictor::groups_at(std::size_t i) const {
+  const PointConditions& p = points_[i];
+  return {C_H_[p.dataset] * p.velocity,
+          force_[p.dataset] * beta_per_f0_[i] * beta_scale_[p.dataset],
+          C_A_[p.dataset] * p.velocity, 0.0,
+          force_[p.dataset] * range_per_f0_[i] * range_scale_[p.dataset]};
+}
+
+/// The answers of the points from `first` on, as many as there is room for.
+long PointPredictor::fly(std::size_t first, const ImpactOptions& options,
+                         std::span<ImpactResult> answers) const {
+  static thread_local std::array<ImpactGroups, points_of_block> groups;
+  long handed_over = 0;
+  for (std::size_t done = 0; done < answers.size();) {
+    const std::size_t count = std::min(points_of_block, answers.size() - done);
+    for (std::size_t k = 0; k < count; ++k) groups[k] = groups_at(first + done + k);
+    handed_over +=
+        model_.simulator()(std::span(groups).first(count), options, answers.subspan(done, count));
+    done += count;
   }
-  return model_.simulator()(groups_, options, results_);
+  return handed_over;
+}
+
+long PointPredictor::evaluate(std::span<const double> theta, bool gradient) {
+  take_parameters(theta, gradient);
+  results_.resize(points_.size());
+  const ImpactOptions options = model_.impact_options(gradient);
+  if (extended_) return evaluate_extended(theta, options);
+  std::atomic<long> handed_over = 0;
+  over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
+    handed_over += fly(first, options, std::span(results_).subspan(first, count));
+  });
+  return handed_over;
+}
+
+long PointPredictor::evaluate_blocks(std::span<const double> theta, bool gradient,
+                                     const TakeBlock& take) {
+  if (extended_ || points_.size() <= points_of_block) {
+    long handed_over = 0;
+    if (!first_theta_.empty() && std::equal(theta.begin(), theta.end(), first_theta_.begin())) {
+      take_parameters(theta, gradient);
+      results_ = first_results_;
+    } else {
+      handed_over = evaluate(theta, gradient);
+    }
+    if (gradient && first_theta_.empty() && !extended_) {
+      first_theta_.assign(theta.begin(), theta.end());
+      first_results_ = results_;
+    }
+    take(0, results_);
+    return handed_over;
+  }
+  take_parameters(theta, gradient);
+  const ImpactOptions options = model_.impact_options(gradient);
+  std::atomic<long> handed_over = 0;
+  over_blocks(points_.size(), points_of_block, [&](std::size_t first, std::size_t count) {
+    std::array<ImpactResult, points_of_block> room;
+    const std::span<ImpactResult> answers = std::span(room).first(count);
+    handed_over += fly(first, options, answers);
+    take(first, answers);
+  });
+  return handed_over;
 }
 
 void PointPredictor::take_materials(std::span<const double> theta, bool gradient) {
@@ -124,9 +186,10 @@ long PointPredictor::evaluate_extended(std::span<const double> theta,
   return handed_over;
 }
 
-void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double> row) const {
+void PointPredictor::gradient_row(std::size_t i, const ImpactResult& answer, double scale,
+                                  std::span<double> row) const {
   const PointConditions& p = points_[i];
-  const auto& by_group = results_[i].gradient;
+  const auto& by_group = answer.gradient;
   std::fill(row.begin(), row.end(), 0.0);
   if (extended_) {
     const std::span<const double> slopes = extended_->slopes(i).subspan(2);
@@ -153,17 +216,19 @@ void PointPredictor::gradient_row(std::size_t i, double scale, std::span<double>
       (beta_per_f0_[i] * beta_scale_[p.dataset] * by_group[1] +
        range_per_f0_[i] * range_scale_[p.dataset] * by_group[4]);
   row[model_.slot_C_A[p.dataset]] += scale * p.velocity * by_group[2];
+  if (material_slopes_[p.dataset].empty()) return;
+  const ImpactGroups g = groups_at(i);
   for (const MaterialSlope& material : material_slopes_[p.dataset]) {
     row[model_.first_constant() + material.index] +=
-        scale * (groups_[i].beta * by_group[1] *
+        scale * (g.beta * by_group[1] *
                      (material.adhesion_force - 0.6 * material.stiffness - 0.4 * material.density) +
-                 groups_[i].range * by_group[4] * (material.adhesion_force - material.stiffness));
+                 g.range * by_group[4] * (material.adhesion_force - material.stiffness));
   }
 }
 
 double PointPredictor::velocity_slope(std::size_t i) const {
   if (extended_) return extended_->slopes(i)[0];
-  const ImpactGroups& g = groups_[i];
+  const ImpactGroups g = groups_at(i);
   const auto& by_group = results_[i].gradient;
   return (g.alpha * by_group[0] - 0.8 * g.beta * by_group[1] + g.gamma * by_group[2]) /
          points_[i].velocity;
@@ -172,23 +237,26 @@ double PointPredictor::velocity_slope(std::size_t i) const {
 double PointPredictor::diameter_slope(std::size_t i) const {
   if (extended_) return extended_->slopes(i)[1];
   // beta ~ f0 / D with f0 ~ D^(1/3) (eq. 12); lambda ~ f0.
+  const ImpactGroups g = groups_at(i);
   const auto& by_group = results_[i].gradient;
-  return (groups_[i].range * by_group[4] - 2.0 * groups_[i].beta * by_group[1]) /
-         (3.0 * points_[i].diameter);
+  return (g.range * by_group[4] - 2.0 * g.beta * by_group[1]) / (3.0 * points_[i].diameter);
 }
 
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
                                 std::vector<PointConditions> points, bool gradient) {
+  std::vector<Prediction> predictions(points.size());
   PointPredictor predictor(model, std::move(points));
-  predictor.evaluate(theta, gradient);
-  std::vector<Prediction> predictions(predictor.size());
-  for (std::size_t i = 0; i < predictor.size(); ++i) {
-    predictions[i].outcome = predictor.at(i).outcome;
-    predictions[i].restitution_squared = predictor.at(i).restitution_squared;
-    if (!gradient) continue;
-    predictions[i].gradient.resize(model.slots.size());
-    predictor.gradient_row(i, 1.0, predictions[i].gradient);
-  }
+  const auto take = [&](std::size_t first, std::span<const ImpactResult> answers) {
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      Prediction& prediction = predictions[first + k];
+      prediction.outcome = answers[k].outcome;
+      prediction.restitution_squared = answers[k].restitution_squared;
+      if (!gradient) continue;
+      prediction.gradient.resize(model.slots.size());
+      predictor.gradient_row(first + k, answers[k], 1.0, prediction.gradient);
+    }
+  };
+  predictor.evaluate_blocks(theta, gradient, take);
   return predictions;
 }
 

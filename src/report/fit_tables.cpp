@@ -388,6 +388,10 @@ Table starts_table(const Analysis& a) {
   Table table;
   if (a.fitted.starts.empty()) return table;
   table.caption = "Where the minimisation began and ended";
+  if (a.fitted.searched_points < a.fitted.data.points.size()) {
+    table.caption = say("Where the minimisation began and ended, on {} of the {} points",
+                        a.fitted.searched_points, a.fitted.data.points.size());
+  }
   table.columns = {{"start"}};
   std::vector<std::size_t> free;
   for (std::size_t s = 0; s < a.fitted.model.slots.size(); ++s) {

@@ -200,7 +200,8 @@ void Bootstrap::extend(int count) {
     Progress progress("bootstrap", left.size());
     std::size_t batch = first_batch;
     for (std::size_t first = 0; first < left.size();) {
-      const std::size_t size = std::min(batch, left.size() - first);
+      const std::size_t rest = left.size() - first;
+      const std::size_t size = guard ? std::min(batch, rest) : rest;
       const auto begin = Clock::now();
       parallel_over(size, options_.threads, [&](std::size_t k) {
         run(left[first + k]);

@@ -11,6 +11,8 @@ LeastSquaresOptions refit_options() {
   options.parameter_tolerance = 1e-8;
   options.max_iterations = 100;
   options.finish = false;
+  options.nearby = true;
+  options.boxed = true;
   return options;
 }
 

@@ -167,6 +167,29 @@ TEST(Table, ReplacesOnlyWhatIsBetweenTheMarkers) {
   EXPECT_THROW(with_block(before + before, "new\n"), std::invalid_argument);
 }
 
+TEST(Table, PutsEarlierFiguresBesideTheirLikes) {
+  const Json results = Json::parse(R"({
+    "impact_with_gradient": {"fast_ns": 500.0, "laws": [{"adhesion": "jkr", "fast_ns": 800.0}]},
+    "bootstrap": {"scaling": [{"threads": 1, "seconds": 0.4}]},
+    "peer": {"fits": [{"seconds_of_full_fit": 0.02}]},
+    "scaling": [{"points": 100, "seconds": 0.001, "peak_memory_mb": 17.0},
+                {"points": 1000000, "seconds": 4.0, "peak_memory_mb": 430.0}]})");
+  const Json earlier = Json::parse(R"({"of": "a version", "figures": [
+    {"what": "one", "key": "ring", "seconds": 1e-6},
+    {"what": "two", "key": "jkr", "seconds": 1.6e-6},
+    {"what": "three", "key": "refits_1", "seconds": 0.6},
+    {"what": "four", "key": "refits_16", "seconds": 0.1},
+    {"what": "five", "key": "points_1000000", "seconds": 16.0, "memory_mb": 1254.0}]})");
+  const std::string text = earlier_section(results, earlier);
+  EXPECT_NE(text.find("of a version."), std::string::npos) << text;
+  for (const char* row :
+       {"| one | 1 us | 500 ns | 2 |\n", "| two | 1.6 us | 800 ns | 2 |\n",
+        "| three | 600 ms | 400 ms | 1.5 |\n", "| five | 16 s, 1254 MB | 4 s, 430 MB | 4 |\n"}) {
+    EXPECT_NE(text.find(row), std::string::npos) << row << text;
+  }
+  EXPECT_EQ(text.find("four"), std::string::npos) << "there is no figure of 16 threads to compare";
+}
+
 /// The cells of the rows of a Markdown table, without its head.
 std::vector<std::vector<std::string>> cells_of(const std::string& text) {
   std::vector<std::vector<std::string>> rows;

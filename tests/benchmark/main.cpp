@@ -235,8 +235,9 @@ int run_all(const fs::path& program, const fs::path& root, std::size_t most_poin
   for (const Json& missing : results["peer"].value("missing", Json::array())) {
     fmt::print("  not run: {}\n", missing.get<std::string>());
   }
+  const Json earlier = Json::parse(read_text_file(root / "tests/benchmark/earlier.json"));
   write_whole_file(build / "benchmark.json", results.dump(2) + "\n");
-  write_whole_file(root / "reports/benchmark.md", benchmark_page(results));
+  write_whole_file(root / "reports/benchmark.md", benchmark_page(results, earlier));
   const fs::path readme = root / "README.md";
   write_whole_file(readme, with_block(read_text_file(readme), short_table(results)));
   fmt::print("\n{}\nWrote {}, reports/benchmark.md and the table of README.md\n",

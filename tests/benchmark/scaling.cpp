@@ -40,13 +40,16 @@ double exponent(const std::vector<Json>& cases, const char* size, const char* co
 
 Json scaling_case(std::size_t points, int free_parameters) {
   const double resting = peak_memory_mb();
-  const Case large = large_case(points, free_parameters);
+  Case large = large_case(points, free_parameters);
   FitOptions options;
   options.several_starts = false;
   FitResult fitted;
   constexpr double budget = 0.3;  // seconds; one fit of many points takes longer, and is run once
-  const double seconds =
-      median_seconds([&] { fitted = fit(large.model, large.data, options); }, budget);
+  const auto work = [&] {         // the points go to the fit and come back with it
+    if (fitted.usable) large.data = std::move(fitted.data);
+    fitted = fit(large.model, std::move(large.data), options);
+  };
+  const double seconds = median_seconds(work, budget);
   if (!fitted.usable) throw ComputationError("the fit did not converge: " + fitted.failure);
   return {{"points", points},
           {"free_parameters", free_parameters},

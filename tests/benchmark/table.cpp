@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -194,7 +195,51 @@ std::string scaling_section(const Json& results) {
   return text + ".\n";
 }
 
+/// Seconds and, where it was measured, memory.
+std::string cost_text(double seconds, double memory_mb) {
+  const std::string time = time_text(seconds);
+  return memory_mb > 0.0 ? fmt::format("{}, {:.0f} MB", time, memory_mb) : time;
+}
+
+/// The figures of this run by the keys of earlier ones: seconds, and memory [MB] where it is kept.
+std::map<std::string, std::pair<double, double>> figures_of(const Json& results) {
+  std::map<std::string, std::pair<double, double>> figures;
+  const Json& impact = results.at("impact_with_gradient");
+  figures["ring"] = {impact.at("fast_ns").get<double>() * 1e-9, 0.0};
+  for (const Json& law : impact.value("laws", Json::array())) {
+    figures[law.at("adhesion").get<std::string>()] = {law.at("fast_ns").get<double>() * 1e-9, 0.0};
+  }
+  figures["full_fit"] = {results.at("peer").at("fits")[0].at("seconds_of_full_fit").get<double>(),
+                         0.0};
+  for (const Json& row : results.at("bootstrap").at("scaling")) {
+    figures[fmt::format("refits_{}", row.at("threads").get<int>())] = {
+        row.at("seconds").get<double>(), 0.0};
+  }
+  const Json& largest = largest_case(results.at("scaling"));
+  figures[fmt::format("points_{}", largest.at("points").get<std::size_t>())] = {
+      largest.at("seconds").get<double>(), largest.at("peak_memory_mb").get<double>()};
+  return figures;
+}
+
 }  // namespace
+
+std::string earlier_section(const Json& results, const Json& earlier) {
+  const auto now = figures_of(results);
+  std::string text = fmt::format(
+      "## Beside what it was\n\nThe same measurements by `./run bench` of {}.\n\n"
+      "| what | was | is | ratio |\n|---|---|---|---|\n",
+      earlier.at("of").get<std::string>());
+  for (const Json& one : earlier.at("figures")) {
+    const auto found = now.find(one.at("key").get<std::string>());
+    if (found == now.end()) continue;
+    const auto& [seconds, memory] = found->second;
+    const double before = one.at("seconds");
+    text += fmt::format("| {} | {} | {} | {} |\n", one.at("what").get<std::string>(),
+                        cost_text(before, one.value("memory_mb", 0.0)), cost_text(seconds, memory),
+                        ratio_text(before / seconds));
+  }
+  return text + "\n";
+}
 
 std::string short_table(const Json& results) {
   const Json& impact = results.at("impact_with_gradient");
@@ -242,9 +287,9 @@ std::string short_table(const Json& results) {
              bootstrap.at("replicates").get<int>(), machine_text(results));
 }
 
-std::string benchmark_page(const Json& results) {
+std::string benchmark_page(const Json& results, const Json& earlier) {
   return std::string("# How fast\n\n") + begin_marker + short_table(results) + end_marker + "\n" +
-         impact_section(results.at("impact_with_gradient")) +
+         earlier_section(results, earlier) + impact_section(results.at("impact_with_gradient")) +
          bootstrap_section(results.at("bootstrap")) + peer_section(results.at("peer")) +
          scaling_section(results);
 }

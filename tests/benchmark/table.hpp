@@ -10,8 +10,12 @@ namespace recoil::bench {
 /// command, and what is a ratio and what is extrapolated. Ends with a line break.
 std::string short_table(const Json& results);
 
+/// What an earlier run of `./run bench` measured (tests/benchmark/earlier.json) beside what this
+/// one did, where both have a figure.
+std::string earlier_section(const Json& results, const Json& earlier);
+
 /// reports/benchmark.md: the short table between its markers, then everything else in `results`.
-std::string benchmark_page(const Json& results);
+std::string benchmark_page(const Json& results, const Json& earlier);
 
 /// The lines between the markers of `text`, the markers not included.
 /// @throws std::invalid_argument when `text` does not hold both markers, once each and in order.

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "estimate/impact_problem.hpp"
 #include "support/noisy_case.hpp"
 #include "support/temporary_folder.hpp"
 #include "uncertainty/locate_failures.hpp"
+#include "uncertainty/resample.hpp"
 #include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
@@ -32,6 +34,27 @@ ReplicateTable loaded(const fs::path& file, const std::string& key, std::size_t 
   table.derived = derived;
   load_replicates(file, key, table);
   return table;
+}
+
+TEST(Bootstrap, RefitsEndAtTheirMinimum) {
+  const Case made = noisy_case();
+  const ResamplingPlan plan = plan_resampling(made.fitted, Scheme::parametric);
+  UncertaintyOptions options = small(2);
+  options.scheme = Scheme::parametric;
+  const BootstrapResult run = bootstrap(made.fitted, {}, {}, options);
+  ASSERT_EQ(run.failed, 0);
+  Observations sample = made.fitted.data;
+  for (std::size_t b = 0; b < run.theta.size(); ++b) {
+    resample(plan, options.seed, b, sample);
+    const LeastSquaresResult exact =
+        minimise(impact_problem(made.fitted.model, sample), made.fitted.model.initial());
+    ASSERT_TRUE(exact.converged);
+    for (std::size_t j = 0; j < exact.theta.size(); ++j) {
+      // Their impacts are integrated to a hundred times the tolerance, which tells first.
+      const double error = std::sqrt(exact.covariance[j * exact.theta.size() + j]);
+      EXPECT_NEAR(run.theta[b][j], exact.theta[j], 1e-6 * error) << b << " " << j;
+    }
+  }
 }
 
 TEST(Bootstrap, ExtendingIsTheSameAsOneRun) {

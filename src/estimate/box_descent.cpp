@@ -1,0 +1,257 @@
+#include "estimate/box_descent.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace recoil {
+namespace {
+
+// As Ceres has them: what part of the promised decrease a step has to keep, and the radii.
+constexpr double least_decrease = 1e-3;
+constexpr double least_radius = 1e-32;
+constexpr double largest_radius = 1e16;
+constexpr double shortest_column = 1e-3;  // of D
+
+/// The d that minimises |R d + c|^2 within low <= d <= high, low <= 0 <= high: from d = 0 along the
+/// steps of the parameters that are free, each up to the first bound that it meets, which is held
+/// until the slope pulls back inside (an active-set method).
+class BoxedStep {
+ public:
+  BoxedStep(const Eigen::MatrixXd& R, const Eigen::VectorXd& c, const Eigen::VectorXd& low,
+            const Eigen::VectorXd& high)
+      : R_(R), c_(c), low_(low), high_(high), d_(Eigen::VectorXd::Zero(R.cols())) {}
+
+  Eigen::VectorXd solved() {
+    const Eigen::Index q = d_.size();
+    std::vector<bool> held(static_cast<std::size_t>(q), false);
+    hold_at_start(held);
+    for (Eigen::Index round = 0; round < 4 * q + 4; ++round) {
+      if (!step_of_free(held)) continue;
+      if (!release_one(held)) break;
+    }
+    return d_;
+  }
+
+ private:
+  Eigen::VectorXd slope() const { return R_.transpose() * (R_ * d_ + c_); }
+
+  /// Is d_k at a bound that a fall along -slope would leave?
+  bool pushed_out(Eigen::Index k, double slope) const {
+    return (d_(k) <= low_(k) && slope >= 0.0) || (d_(k) >= high_(k) && slope <= 0.0);
+  }
+
+  void hold_at_start(std::vector<bool>& held) const {
+    const Eigen::VectorXd at = slope();
+    for (Eigen::Index k = 0; k < d_.size(); ++k) {
+      held[static_cast<std::size_t>(k)] = pushed_out(k, at(k));
+    }
+  }
+
+  /// Goes to the minimum over what is not held, or to the first bound on the way, which is held
+  /// from then on. @return whether it got there
+  bool step_of_free(std::vector<bool>& held) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index k = 0; k < d_.size(); ++k) {
+      if (!held[static_cast<std::size_t>(k)]) free.push_back(k);
+    }
+    if (free.empty()) return true;
+    Eigen::MatrixXd columns(R_.rows(), static_cast<Eigen::Index>(free.size()));
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      columns.col(static_cast<Eigen::Index>(k)) = R_.col(free[k]);
+    }
+    const Eigen::VectorXd by = columns.colPivHouseholderQr().solve(-(R_ * d_ + c_));
+    double part = 1.0;
+    Eigen::Index met = -1;
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const double way = by(static_cast<Eigen::Index>(k));
+      const double room = way > 0.0 ? high_(free[k]) - d_(free[k]) : low_(free[k]) - d_(free[k]);
+      if (!(std::abs(room) < part * std::abs(way))) continue;
+      part = std::abs(room) / std::abs(way);
+      met = free[k];
+    }
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      d_(free[k]) += part * by(static_cast<Eigen::Index>(k));
+    }
+    if (met < 0) return true;
+    d_(met) =
+        by(std::find(free.begin(), free.end(), met) - free.begin()) > 0.0 ? high_(met) : low_(met);
+    held[static_cast<std::size_t>(met)] = true;
+    return false;
+  }
+
+  /// Lets go of what is held against the steepest slope inwards.
+  bool release_one(std::vector<bool>& held) const {
+    const Eigen::VectorXd at = slope();
+    Eigen::Index most = -1;
+    for (Eigen::Index k = 0; k < d_.size(); ++k) {
+      if (!held[static_cast<std::size_t>(k)] || pushed_out(k, at(k))) continue;
+      if (most < 0 || std::abs(at(k)) > std::abs(at(most))) most = k;
+    }
+    if (most < 0) return false;
+    held[static_cast<std::size_t>(most)] = false;
+    return true;
+  }
+
+  const Eigen::MatrixXd& R_;
+  const Eigen::VectorXd& c_;
+  const Eigen::VectorXd& low_;
+  const Eigen::VectorXd& high_;
+  Eigen::VectorXd d_;
+};
+
+/// The descent, in ln theta where the problem asks for that.
+class BoxDescent {
+ public:
+  BoxDescent(const LeastSquaresProblem& problem, std::span<const double> start,
+             const std::vector<bool>& fixed)
+      : problem_(problem) {
+    result_.theta.assign(start.begin(), start.end());
+    for (std::size_t j = 0; j < start.size(); ++j) {
+      result_.theta[j] = std::clamp(start[j], problem.lower[j], problem.upper[j]);
+      if (!fixed[j]) free_.push_back(j);
+    }
+  }
+
+  LeastSquaresResult run(const LeastSquaresOptions& options) {
+    if (!ask(result_)) {
+      result_.message = "the residuals cannot be evaluated";
+      return std::move(result_);
+    }
+    result_.end = DescentEnd::minimum;
+    if (free_.empty()) {
+      result_.message = "nothing is free";
+      return std::move(result_);
+    }
+    double radius = options.first_radius;
+    double shrink = 2.0;
+    linearise();
+    for (result_.iterations = 0; result_.iterations < options.max_iterations;
+         ++result_.iterations) {
+      if (largest_slope() <= options.gradient_tolerance) return ended("the slope vanishes");
+      const Eigen::VectorXd d = step(radius);
+      if (d.norm() <= options.parameter_tolerance * (where_.norm() + options.parameter_tolerance)) {
+        return ended("the steps vanish");
+      }
+      LeastSquaresResult trial = moved(d);
+      const bool answered = ask(trial);
+      const double change = result_.sum_of_squares - trial.sum_of_squares;
+      const bool no_more =
+          answered && std::abs(change) <= options.function_tolerance * result_.sum_of_squares;
+      const double promised = result_.sum_of_squares - (residuals_ + jacobian_ * d).squaredNorm();
+      const double kept = change / promised;
+      if (answered && (kept > least_decrease || (no_more && change > 0.0))) {
+        trial.iterations = result_.iterations;
+        trial.end = DescentEnd::minimum;
+        result_ = std::move(trial);
+        if (no_more) return ended("the sum of squares does not fall any more");
+        radius = std::min(largest_radius,
+                          radius / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * kept - 1.0, 3)));
+        shrink = 2.0;
+        linearise();
+        continue;
+      }
+      if (no_more) return ended("the sum of squares does not fall any more");
+      radius /= shrink;
+      shrink *= 2.0;
+      if (radius < least_radius) return ended("no step leads down");
+    }
+    result_.end = DescentEnd::limit;
+    return ended("the iterations ran out");
+  }
+
+ private:
+  LeastSquaresResult ended(const char* message) {
+    result_.message = message;
+    return std::move(result_);
+  }
+
+  bool ask(LeastSquaresResult& at) const {
+    at.residuals.resize(problem_.residual_count);
+    at.jacobian.resize(problem_.residual_count * at.theta.size());
+    if (!problem_.evaluate(at.theta, at.residuals, at.jacobian)) return false;
+    at.sum_of_squares = 0.0;
+    for (const double r : at.residuals) at.sum_of_squares += r * r;
+    return std::isfinite(at.sum_of_squares);
+  }
+
+  double coordinate(std::size_t j, double theta) const {
+    return problem_.log_scale[j] ? std::log(theta) : theta;
+  }
+
+  /// Residuals, Jacobian, place and room in the coordinates of the free parameters.
+  void linearise() {
+    const auto n = static_cast<Eigen::Index>(result_.residuals.size());
+    const auto q = static_cast<Eigen::Index>(free_.size());
+    const std::size_t p = result_.theta.size();
+    residuals_ = Eigen::Map<const Eigen::VectorXd>(result_.residuals.data(), n);
+    jacobian_.resize(n, q);
+    where_.resize(q);
+    low_.resize(q);
+    high_.resize(q);
+    for (Eigen::Index k = 0; k < q; ++k) {
+      const std::size_t j = free_[static_cast<std::size_t>(k)];
+      const double theta = result_.theta[j];
+      const double chain = problem_.log_scale[j] ? theta : 1.0;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        jacobian_(i, k) = chain * result_.jacobian[static_cast<std::size_t>(i) * p + j];
+      }
+      where_(k) = coordinate(j, theta);
+      low_(k) = coordinate(j, problem_.lower[j]) - where_(k);
+      high_(k) = coordinate(j, problem_.upper[j]) - where_(k);
+    }
+  }
+
+  /// Of the gradient, as far as the bounds let it be followed.
+  double largest_slope() const {
+    const Eigen::ArrayXd slope = (jacobian_.transpose() * residuals_).array();
+    return (-slope).max(low_.array()).min(high_.array()).abs().maxCoeff();
+  }
+
+  Eigen::VectorXd step(double radius) const {
+    const Eigen::Index q = jacobian_.cols();
+    const Eigen::VectorXd lengths = jacobian_.colwise().norm().cwiseMax(shortest_column);
+    Eigen::MatrixXd rows(jacobian_.rows() + q, q);
+    rows.topRows(jacobian_.rows()) = jacobian_;
+    rows.bottomRows(q) = Eigen::MatrixXd(lengths.asDiagonal()) / std::sqrt(radius);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(rows.rows());
+    right.head(residuals_.size()) = residuals_;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(rows);
+    right.applyOnTheLeft(factors.householderQ().adjoint());
+    const Eigen::MatrixXd R = factors.matrixQR().topRows(q).triangularView<Eigen::Upper>();
+    const Eigen::VectorXd c = right.head(q);
+    return BoxedStep(R, c, low_, high_).solved();
+  }
+
+  LeastSquaresResult moved(const Eigen::VectorXd& d) const {
+    LeastSquaresResult to;
+    to.theta = result_.theta;
+    for (Eigen::Index k = 0; k < d.size(); ++k) {
+      const std::size_t j = free_[static_cast<std::size_t>(k)];
+      if (d(k) == 0.0) continue;
+      const double theta =
+          problem_.log_scale[j] ? to.theta[j] * std::exp(d(k)) : to.theta[j] + d(k);
+      to.theta[j] = d(k) <= low_(k)    ? problem_.lower[j]
+                    : d(k) >= high_(k) ? problem_.upper[j]
+                                       : std::clamp(theta, problem_.lower[j], problem_.upper[j]);
+    }
+    return to;
+  }
+
+  const LeastSquaresProblem& problem_;
+  std::vector<std::size_t> free_;
+  LeastSquaresResult result_;
+  Eigen::VectorXd residuals_, where_, low_, high_;
+  Eigen::MatrixXd jacobian_;
+};
+
+}  // namespace
+
+LeastSquaresResult descend_in_box(const LeastSquaresProblem& problem, std::span<const double> start,
+                                  const std::vector<bool>& fixed,
+                                  const LeastSquaresOptions& options) {
+  return BoxDescent(problem, start, fixed).run(options);
+}
+
+}  // namespace recoil

@@ -1,0 +1,153 @@
+#include "estimate/start_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "estimate/impact_problem.hpp"
+
+namespace recoil {
+namespace {
+
+// More points than this are searched by a part of them, about half as many: the starts need a rough
+// answer each, and all points only the last steps.
+constexpr std::size_t many_points = 20000;
+constexpr std::size_t searched_of_many = 10000;
+
+/// The stated start, and the damping factors ten times smaller and larger in all combinations:
+/// capture and strong damping make flat and non-convex regions on either side. Then what the
+/// catalogue of mechanisms advises, one parameter at a time.
+std::vector<std::vector<double>> starting_points(const ImpactModel& model,
+                                                 const std::vector<double>& first, bool several) {
+  std::vector<std::vector<double>> starts = {first};
+  if (!several) return starts;
+  for (const double hertz : {0.1, 1.0, 10.0}) {
+    for (const double adhesion : {0.1, 1.0, 10.0}) {
+      if (hertz == 1.0 && adhesion == 1.0) continue;
+      std::vector<double> start = first;
+      bool moved = false;
+      for (std::size_t j = 0; j < start.size(); ++j) {
+        const ParameterSlot& slot = model.slots[j];
+        if (!slot.free || !slot.parameter->is_damping()) continue;
+        const double factor =
+            slot.parameter->role == ParameterRole::hertz_damping ? hertz : adhesion;
+        start[j] = std::clamp(start[j] * factor, slot.lower, slot.upper);
+        moved = moved || start[j] != first[j];
+      }
+      if (moved) starts.push_back(std::move(start));
+    }
+  }
+  for (std::size_t j = 0; j < first.size(); ++j) {
+    const ParameterSlot& slot = model.slots[j];
+    if (!slot.free) continue;
+    for (const double value : slot.parameter->starts) {
+      if (value < slot.lower || value > slot.upper || value == first[j]) continue;
+      starts.push_back(first);
+      starts.back()[j] = value;
+    }
+  }
+  return starts;
+}
+
+/// Every so-manieth point in the order of dataset, diameter and velocity: as many of every kind as
+/// there are among all.
+std::vector<Observation> spread_part(const std::vector<Observation>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    return std::tuple(points[i].dataset, points[i].diameter, points[i].velocity, i);
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<Observation> part;
+  const std::size_t stride = points.size() / searched_of_many;
+  for (std::size_t k = stride / 2; k < order.size(); k += stride) part.push_back(points[order[k]]);
+  return part;
+}
+
+/// The points that the starts see, where these are not all of `data`. A mean of survivors lies far
+/// above the curve until the scatter of the impacts is known, so points with rebounds and captures
+/// wait for `reweighted_fit`, if the others suffice.
+std::optional<Observations> searched_part(const Observations& data, std::ptrdiff_t free_count) {
+  const auto is_mixed = [](const Observation& point) { return point.mixed(); };
+  std::ptrdiff_t rebounds = 0;
+  std::ptrdiff_t mixed = 0;
+  for (const Observation& point : data.points) {
+    if (point.mixed()) ++mixed;
+    if (!point.mixed() && !point.censored) ++rebounds;
+  }
+  const bool leave_mixed = mixed > 0 && rebounds > free_count;
+  if (!leave_mixed && data.points.size() <= many_points) return std::nullopt;
+  Observations part;
+  if (data.points.size() <= many_points) {
+    part = data;
+  } else {
+    part.points = spread_part(data.points);
+    part.sd_stated = data.sd_stated;
+    part.spec = data.spec;
+    part.noise = data.noise;
+    part.constants = data.constants;
+    part.constants_weight = data.constants_weight;
+    part.setting_sd_estimated = data.setting_sd_estimated;
+  }
+  if (leave_mixed) std::erase_if(part.points, is_mixed);
+  return part;
+}
+
+/// Is the end of `run` another place than that of `best`, in its standard errors?
+bool ends_elsewhere(const LeastSquaresResult& run, const LeastSquaresResult& best) {
+  const std::size_t p = run.theta.size();
+  for (std::size_t j = 0; j < p; ++j) {
+    const double error = best.covariance.empty() ? 0.0 : std::sqrt(best.covariance[j * p + j]);
+    const double unit = error > 0.0 ? 0.1 * error : 1e-3 * std::abs(best.theta[j]);
+    if (std::abs(run.theta[j] - best.theta[j]) > unit) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+StartSearch search_from_starts(const ImpactModel& model, const Observations& data,
+                               const std::vector<double>& first, bool several,
+                               LeastSquaresOptions options) {
+  StartSearch search;
+  const std::optional<Observations> part = searched_part(data, model.free_count());
+  const Observations& seen = part ? *part : data;
+  search.points = seen.points.size();
+  search.sampled = data.points.size() > many_points;
+  const LeastSquaresProblem problem = impact_problem(model, seen, &search.handovers);
+  options.finish = false;  // only the best
+  std::vector<StartLead> ended;
+  for (const std::vector<double>& start : starting_points(model, first, several)) {
+    LeastSquaresResult run = minimise(problem, start, options);
+    search.starts.push_back({start, run.theta, run.sum_of_squares, run.end, run.message});
+    if (run.ended()) ended.push_back({search.starts.size() - 1, std::move(run)});
+  }
+  if (ended.empty()) return search;
+  const auto best =
+      std::min_element(ended.begin(), ended.end(), [](const StartLead& a, const StartLead& b) {
+        return a.run.sum_of_squares < b.run.sum_of_squares;
+      });
+  std::iter_swap(ended.begin(), best);
+  search.leads.push_back(std::move(ended.front()));
+  if (!search.sampled) return search;
+  // Sums of squares that differ by D on average do so with a standard deviation of 2 sqrt(D): for
+  // the one that all points make the larger to be ahead by so much here takes seven of these.
+  constexpr double telling = 50.0;
+  const double least = search.leads.front().run.sum_of_squares;
+  const double noise = std::max(1.0, least / static_cast<double>(problem.residual_count));
+  for (std::size_t k = 1; k < ended.size(); ++k) {
+    const LeastSquaresResult& run = ended[k].run;
+    if (run.end == DescentEnd::flat || run.sum_of_squares > least + telling * noise) continue;
+    const bool is_new =
+        std::all_of(search.leads.begin(), search.leads.end(),
+                    [&](const StartLead& lead) { return ends_elsewhere(run, lead.run); });
+    if (is_new) search.leads.push_back(std::move(ended[k]));
+  }
+  return search;
+}
+
+}  // namespace recoil
