@@ -210,20 +210,22 @@ Observations without_mixed_points(const Observations& data, std::ptrdiff_t free_
   return rebounds > free_count ? rest : data;
 }
 
-/// Where a mechanism of the model says how the impacts of a point differ, its survivors are what
-/// the mean e is of: their spread must not be estimated a second time from the counts.
-void leave_counts_to_mechanism(const ImpactModel& model, FitResult& result) {
+/// Where a mechanism of the model, or the sizes that a dataset states, say how the impacts of a
+/// point differ, its survivors are what the mean e is of: their spread must not be estimated a
+/// second time from the counts.
+void leave_out_explained_counts(const ImpactModel& model, FitResult& result) {
   const auto found = std::find_if(model.chain.begin(), model.chain.end(),
                                   [](const Mechanism* mechanism) { return mechanism->spreads(); });
-  if (found == model.chain.end()) return;
+  const Mechanism* const by = found == model.chain.end() ? nullptr : *found;
   int counts = 0;
   for (Observation& point : result.data.points) {
     if (point.censored || !point.counted) continue;
+    if (by == nullptr && !averages_over_sizes(model, point.dataset)) continue;
     point.events -= std::exchange(point.captured, 0);
     point.counted = false;
     ++counts;
   }
-  if (counts > 0) result.unused_counts = {*found, counts};
+  if (counts > 0) result.unused_counts = {by, counts};
 }
 
 }  // namespace
@@ -239,7 +241,7 @@ FitResult fit(const ImpactModel& model, const Observations& observed, const FitO
   result.model = model;
   result.data = observed;
   result.data.constants_weight = 1.0;
-  leave_counts_to_mechanism(model, result);
+  leave_out_explained_counts(model, result);
   const Observations& data = result.data;  // until `reweighted_fit` has weighed them
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
   const int free_count = model.free_count();

@@ -251,6 +251,9 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     model.surroundings.push_back(surroundings_of(dataset.system, model.contacts.back()));
     model.surroundings.back().adhesion = spec.adhesion;
     model.surroundings.back().separation = spec.separation;
+    if (spec.mixed_sizes && dataset.mixed_sizes) {
+      model.surroundings.back().sizes = mixed_sizes_of(*dataset.mixed_sizes);
+    }
   }
   model.chain = chain_of(spec.mechanisms);
   for (const Parameter* parameter : parameters_with(spec.mechanisms, spec.adhesion)) {
@@ -309,6 +312,15 @@ bool without_adhesion(const ImpactModel& model, std::size_t dataset) {
   if (dataset >= model.contacts.size() || !model.chain.empty()) return false;
   return model.contacts[dataset].adhesion_force == 0.0 &&
          !model.slots[model.slot_adhesion[dataset]].free;
+}
+
+bool averages_over_sizes(const ImpactModel& model, std::size_t dataset) {
+  return dataset < model.surroundings.size() && model.surroundings[dataset].sizes.mixed();
+}
+
+bool averages_over_sizes(const ImpactModel& model) {
+  return std::any_of(model.surroundings.begin(), model.surroundings.end(),
+                     [](const Surroundings& at) { return at.sizes.mixed(); });
 }
 
 bool follows_materials(const ImpactModel& model, std::size_t dataset) {

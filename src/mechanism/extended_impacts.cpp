@@ -201,10 +201,13 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       work.squares[node] = e.square / (e.measured_velocity * e.measured_velocity);
     }
     if (answer.outcome != ImpactOutcome::rebound) continue;
+    const double slowest = points_[i].at->sizes.slowest_seen;
+    const T& velocity = work.encounters[i * nodes_].measured_velocity;
+    const T seen = T(slowest * slowest) / (velocity * velocity);
     for (std::size_t left = nodes_; left > 1; left /= spread_nodes) {
       for (std::size_t k = 0; k < left / spread_nodes; ++k) {
         const std::span<const T> siblings(&work.squares[k * spread_nodes], spread_nodes);
-        work.squares[k] = survivors_square<T>(siblings);
+        work.squares[k] = survivors_square<T>(siblings, seen);
       }
     }
     Observed<T> observed{work.squares.front(), work.encounters[i * nodes_].measured_velocity};

@@ -78,9 +78,9 @@ double slope_at(const Basis& basis, std::span<const T> x) {
   return sum;
 }
 
-/// Where the interpolated e^2 passes through zero, between nodes of opposite sign.
+/// Where the interpolated e^2 passes through `seen`, which lies between its ends.
 template <class T>
-T crossing(std::span<const T> x) {
+T crossing(std::span<const T> x, const T& seen) {
   double inside =
       value_of(x.front()) > value_of(x.back()) ? -spread_reach : spread_reach;  // comes back
   double outside = -inside;
@@ -90,24 +90,26 @@ T crossing(std::span<const T> x) {
     const Basis basis = basis_at(middle);
     double at = 0.0;
     for (std::size_t k = 0; k < spread_nodes; ++k) at += basis.value[k] * value_of(x[k]);
-    (at > 0.0 ? inside : outside) = middle;
+    (at > value_of(seen) ? inside : outside) = middle;
   }
   const Basis basis = basis_at(inside);
-  const T there = combine(basis, x);
+  const T there = combine(basis, x) - seen;
   T z = inside;
   add_slopes(z, -1.0 / slope_at(basis, x), there);
   return z;
 }
 
-/// e^2 where even the last sphere is captured. With D = its distance to the other end, the slope is
-/// 4/9 at first (the mean of sqrt(t) over a short interval is 2/3 of its largest value) and 1 far
-/// below, or when all are alike.
+/// e^2 where even the last sphere is captured, or not seen. With D = its distance to the other end,
+/// the slope is at first 4/9 (the mean of sqrt(t) over a short interval is 2/3 of its largest
+/// value), or 1/2 where it begins above zero (the square root hardly bends over a short interval),
+/// and 1 far below, or when all are alike.
 template <class T>
-T beyond_the_last(const T& last, const T& other) {
-  const T depth = -1.0 * last;
+T beyond_the_last(const T& last, const T& other, const T& seen) {
+  const T depth = seen - last;
   const T width = last - other;
   if (value_of(depth) + value_of(width) == 0.0) return last;
-  return last * ((4.0 / 9.0 * width + depth) / (width + depth));
+  const double at_first = value_of(seen) > 0.0 ? 0.5 : 4.0 / 9.0;
+  return seen - depth * ((at_first * width + depth) / (width + depth));
 }
 
 }  // namespace
@@ -126,17 +128,17 @@ const std::array<double, spread_nodes>& spread_positions() {
 }
 
 template <class T>
-T survivors_square(std::span<const T> x) {
+T survivors_square(std::span<const T> x, const T& seen) {
   assert(x.size() == spread_nodes);
   const double low = value_of(x.front());
   const double high = value_of(x.back());
   const bool low_best = low >= high;  // small z comes back most easily
   const T& best = low_best ? x.front() : x.back();
   const T& worst = low_best ? x.back() : x.front();
-  if (!(value_of(best) > 0.0)) return beyond_the_last(best, worst);
-  const bool whole = value_of(worst) > 0.0;
+  if (!(value_of(best) > value_of(seen))) return beyond_the_last(best, worst, seen);
+  const bool whole = value_of(worst) > value_of(seen);
   const double from = low_best ? -spread_reach : spread_reach;
-  const T edge = whole ? T(-from) : crossing(x);
+  const T edge = whole ? T(-from) : crossing(x, seen);
   // z = edge + (from - edge) (1 - s^2 ...): points crowd at the edge, where sqrt(e^2) is steep.
   const Quadrature& rule = quadrature();
   T total = 0.0;
@@ -158,9 +160,9 @@ T survivors_square(std::span<const T> x) {
   return mean * mean;
 }
 
-template double survivors_square(std::span<const double>);
-template FewDirections survivors_square(std::span<const FewDirections>);
-template SomeDirections survivors_square(std::span<const SomeDirections>);
-template ManyDirections survivors_square(std::span<const ManyDirections>);
+template double survivors_square(std::span<const double>, const double&);
+template FewDirections survivors_square(std::span<const FewDirections>, const FewDirections&);
+template SomeDirections survivors_square(std::span<const SomeDirections>, const SomeDirections&);
+template ManyDirections survivors_square(std::span<const ManyDirections>, const ManyDirections&);
 
 }  // namespace recoil

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include "core/units.hpp"
+#include "document/sentence.hpp"
+#include "mechanism/mixed_sizes.hpp"
 
 namespace recoil {
 
@@ -46,6 +48,39 @@ std::string warning_sentence(const DatasetWarning& warning) {
                  "kept; a point that was copied by accident would count twice");
   }
   return "";
+}
+
+std::string mixed_sizes_words(const MeasuredSizes& sizes) {
+  const MixedSizes mixed = mixed_sizes_of(sizes);
+  std::string words = fmt::format(
+      "every point averages over {:.4g} to {:.4g} um (mean {:.4g} um, standard deviation of ln d "
+      "{:.3g}{})",
+      sizes.smallest / units::um, sizes.largest / units::um, sizes.mean_diameter() / units::um,
+      mixed.spread,
+      sizes.provenance == name_of(Provenance::reconstruction) ? ", a reconstruction" : "");
+  if (mixed.slowest_seen > 0.0) {
+    words += fmt::format("; rebounds below {:.3g} m/s are not seen", mixed.slowest_seen);
+  }
+  return words;
+}
+
+std::string stated_errors_words(const ImpactSystem& system) {
+  std::string words;
+  for (const Body body : values_of<Body>()) {
+    std::vector<std::string> of_body;
+    for (const ConstantError& error : system.errors) {
+      if (error.body != body) continue;
+      const std::string name = words_of(std::string(name_of(error.constant)));
+      const double value = system.value_of(error.body, error.constant).value_or(1.0);
+      of_body.push_back(is_positive(error.constant)
+                            ? fmt::format("{} {:.3g} %", name, 100.0 * error.sd / value)
+                            : fmt::format("{} {:.3g}", name, error.sd));
+    }
+    if (of_body.empty()) continue;
+    words +=
+        fmt::format("{}{}: {}", words.empty() ? "" : "; ", name_of(body), fmt::join(of_body, ", "));
+  }
+  return words;
 }
 
 std::string left_out_sentence(const std::vector<LeftOverride>& left_out) {
