@@ -142,7 +142,7 @@ TEST(MixedSizes, AreTheMeanOverTheStatedHistogram) {
       }
       ASSERT_GT(seen, 0.0) << V;
       const double found = square(at, {"polydispersity"}, {at.sizes.spread}, kDiameter, V, kBase);
-      EXPECT_NEAR(std::sqrt(std::max(found, 0.0)), sum / seen, 8e-3) << V << " " << height;
+      EXPECT_NEAR(std::sqrt(std::max(found, 0.0)), sum / seen, 3e-3) << V << " " << height;
     }
   }
 }
