@@ -190,6 +190,21 @@ bool is_exact(const ImpactModel& model, std::size_t dataset) {
   return model.constants.empty() || model.materials[dataset].exact();
 }
 
+/// Does `dataset` state its adhesion, without an error? Then no constant moves it.
+bool states_exact_adhesion(const ImpactModel& model, std::size_t dataset) {
+  const ContactProperties& contact = model.contacts[dataset];
+  const bool ring = model.adhesion == AdhesionLaw::ring;
+  const bool stated = ring ? contact.adhesion_force != contact.adhesion_force_derived
+                           : contact.adhesion_energy != contact.adhesion_energy_derived;
+  const Constant own = ring ? Constant::adhesion_force_f0 : Constant::adhesion_energy;
+  return stated && std::none_of(model.constants.begin(), model.constants.end(),
+                                [&](const UncertainConstant& constant) {
+                                  const auto& its = constant.datasets;
+                                  return constant.constant == own &&
+                                         std::find(its.begin(), its.end(), dataset) != its.end();
+                                });
+}
+
 long simulate_by_reference(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                            std::span<ImpactResult> results) {
   for (std::size_t i = 0; i < groups.size(); ++i) results[i] = simulate_impact(groups[i], options);
@@ -325,7 +340,8 @@ bool averages_over_sizes(const ImpactModel& model) {
 
 bool follows_materials(const ImpactModel& model, std::size_t dataset) {
   const ParameterSlot& slot = model.slots[model.slot_adhesion[dataset]];
-  return !is_exact(model, dataset) && slot.derived && !slot.free && slot.initial > 0.0;
+  return !is_exact(model, dataset) && slot.derived && !slot.free && slot.initial > 0.0 &&
+         !states_exact_adhesion(model, dataset);
 }
 
 double adhesion_value_under(const ImpactModel& model, std::span<const double> theta,

@@ -4,10 +4,35 @@
 #include <fmt/ranges.h>
 
 #include "core/units.hpp"
-#include "document/sentence.hpp"
 #include "mechanism/mixed_sizes.hpp"
 
 namespace recoil {
+
+namespace {
+
+std::string_view words_of_constant(Constant constant) {
+  switch (constant) {
+    case Constant::density:
+      return "density";
+    case Constant::youngs_modulus:
+      return "Young's modulus";
+    case Constant::poisson_ratio:
+      return "Poisson's ratio";
+    case Constant::surface_energy:
+      return "surface energy";
+    case Constant::gilman_factor:
+      return "surface energy by Gilman's estimate";
+    case Constant::stiffness_K:
+      return "K";
+    case Constant::adhesion_energy:
+      return "adhesion energy";
+    case Constant::adhesion_force_f0:
+      return "f0";
+  }
+  return "";
+}
+
+}  // namespace
 
 std::string provenance_sentence(Provenance provenance) {
   switch (provenance) {
@@ -70,7 +95,7 @@ std::string stated_errors_words(const ImpactSystem& system) {
     std::vector<std::string> of_body;
     for (const ConstantError& error : system.errors) {
       if (error.body != body) continue;
-      const std::string name = words_of(std::string(name_of(error.constant)));
+      const std::string_view name = words_of_constant(error.constant);
       const double value = system.value_of(error.body, error.constant).value_or(1.0);
       of_body.push_back(is_positive(error.constant)
                             ? fmt::format("{} {:.3g} %", name, 100.0 * error.sd / value)
