@@ -165,6 +165,9 @@ void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
   std::vector<double> stated;
   for (const UncertainConstant& constant : all) stated.push_back(constant.stated);
   std::vector<bool> acts(all.size(), false);
+  const bool uses_energy =
+      std::any_of(model.chain.begin(), model.chain.end(),
+                  [](const Mechanism* mechanism) { return mechanism->info.needs_adhesion; });
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     const MaterialLaw law(datasets[d].system, model.contacts[d].reference_diameter, all, d);
     const ParameterSlot& adhesion = model.slots[model.slot_adhesion[d]];
@@ -173,8 +176,8 @@ void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
       const double by_force = !follows                              ? 0.0
                               : model.adhesion == AdhesionLaw::ring ? slope.adhesion_force
                                                                     : slope.adhesion_energy;
-      const bool in_chain =
-          !model.chain.empty() && (slope.adhesion_energy != 0.0 || slope.wave_mobility != 0.0);
+      const bool in_chain = (uses_energy && slope.adhesion_energy != 0.0) ||
+                            (!model.chain.empty() && slope.wave_mobility != 0.0);
       if (slope.density != 0.0 || slope.stiffness != 0.0 || by_force != 0.0 || in_chain) {
         acts[slope.index] = true;
       }

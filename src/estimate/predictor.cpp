@@ -23,13 +23,16 @@ struct Acting {
 /// estimates, with nothing to estimate: where none of the chain does it already.
 void add_stated_sizes(const ImpactModel& model, std::vector<Acting>& acting) {
   if (!averages_over_sizes(model)) return;
-  const Mechanism* const sizes = find_mechanism("polydispersity");
-  const auto is_sizes = [&](const Acting& one) { return one.mechanism == sizes; };
+  const std::vector<Mechanism>& catalogue = mechanism_catalogue();
+  const auto sizes =
+      std::find_if(catalogue.begin(), catalogue.end(),
+                   [](const Mechanism& mechanism) { return mechanism.info.mixes_sizes; });
+  const auto is_sizes = [&](const Acting& one) { return one.mechanism == &*sizes; };
   if (std::any_of(acting.begin(), acting.end(), is_sizes)) return;
   const auto later = [&](const Acting& one) {
     return one.mechanism->info.place > sizes->info.place;
   };
-  acting.insert(std::find_if(acting.begin(), acting.end(), later), {sizes, no_slot});
+  acting.insert(std::find_if(acting.begin(), acting.end(), later), {&*sizes, no_slot});
 }
 
 }  // namespace
