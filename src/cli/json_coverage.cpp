@@ -31,6 +31,7 @@ Json row_json(const CoverageRow& row) {
           {"unit", row.unit},
           {"truth", number_or_null(row.truth)},
           {"identifiable", row.identifiable},
+          {"actual_error", number_or_null(row.actual_error)},
           {"intervals", intervals}};
 }
 

@@ -15,9 +15,9 @@
 namespace recoil {
 namespace {
 
-CoverageTrial::Row trial_row(bool identifiable, double truth,
+CoverageTrial::Row trial_row(bool identifiable, double deviation, double truth,
                              const std::vector<const Interval*>& intervals) {
-  CoverageTrial::Row row{identifiable, {}};
+  CoverageTrial::Row row{identifiable, deviation, {}};
   for (const Interval* interval : intervals) {
     auto& cell = row.cells.emplace_back();
     if (interval->available()) {
@@ -27,12 +27,26 @@ CoverageTrial::Row trial_row(bool identifiable, double truth,
   return row;
 }
 
-/// Names of the cells of a row: the recommended interval, then every kind.
+/// Names of the cells of a row: the recommended interval, then every kind, and the posterior.
 template <NamedEnum Kind>
 std::vector<std::string> cell_names() {
   std::vector<std::string> names = {"recommended"};
   for (const Kind kind : values_of<Kind>()) names.emplace_back(name_of(kind));
+  names.emplace_back("posterior");
+  names.emplace_back("calibrated");
   return names;
+}
+
+/// The distance from the truth that the estimates of 68.27 % of the usable trials keep.
+template <class RowOf>
+double actual_error(const std::vector<CoverageTrial>& trials, const RowOf& row_of) {
+  constexpr double one_sigma = 0.6827;
+  std::vector<double> deviations;
+  for (const CoverageTrial& trial : trials) {
+    if (trial.usable) deviations.push_back(row_of(trial).deviation);
+  }
+  std::sort(deviations.begin(), deviations.end());
+  return deviations.empty() ? 0.0 : sorted_quantile(deviations, one_sigma);
 }
 
 /// Counts over the usable trials; `row_of` looks into one of them.
@@ -74,7 +88,7 @@ Json rows_json(const std::vector<CoverageTrial::Row>& rows) {
     for (const auto& cell : row.cells) {
       cells.push_back(cell ? Json::array({cell->held, cell->width}) : Json(nullptr));
     }
-    all.push_back(Json::array({row.identifiable, std::move(cells)}));
+    all.push_back(Json::array({row.identifiable, row.deviation, std::move(cells)}));
   }
   return all;
 }
@@ -82,8 +96,8 @@ Json rows_json(const std::vector<CoverageTrial::Row>& rows) {
 std::vector<CoverageTrial::Row> trial_rows(const Json& json) {
   std::vector<CoverageTrial::Row> rows;
   for (const Json& from : json) {
-    CoverageTrial::Row row{from.at(0).get<bool>(), {}};
-    for (const Json& cell : from.at(1)) {
+    CoverageTrial::Row row{from.at(0).get<bool>(), from.at(1).get<double>(), {}};
+    for (const Json& cell : from.at(2)) {
       auto& to = row.cells.emplace_back();
       // An interval without an end is infinitely wide, which JSON has no number for.
       if (!cell.is_null()) {
@@ -108,11 +122,15 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
   own.threads = 1;  // the data sets themselves run in parallel
   own.curves = false;
   own.budget = false;
-  own.posterior = false;
   own.two_point = false;
   const UncertaintyResult result = assess_uncertainty(fitted, datasets, own);
   const CoverageTruth::At at =
       truth.at ? truth.at(index) : CoverageTruth::At{truth.theta, truth.capture};
+  const Interval none = no_interval(NoInterval::not_asked_for);
+  const auto posterior_of = [&](const auto& marginals, std::size_t k) {
+    return k < marginals.size() ? &marginals[k].interval : &none;
+  };
+  const PosteriorResult posterior = result.posterior.value_or(PosteriorResult{});
   trial.usable = true;
   trial.refits_failed = result.bootstrap.failed;
   for (std::size_t j = 0; j < fitted.model.slots.size(); ++j) {
@@ -120,8 +138,13 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
     const IntervalSet& set = result.intervals[j];
     std::vector<const Interval*> intervals = {&recommended_interval(set)};
     for (const IntervalKind kind : values_of<IntervalKind>()) intervals.push_back(&set[kind]);
-    trial.parameters.push_back(
-        trial_row(result.identifiability.parameter[j].identifiable, at.theta[j], intervals));
+    intervals.push_back(posterior_of(posterior.parameters, j));
+    intervals.push_back(j < result.calibrated.size() ? &result.calibrated[j] : &none);
+    const ParameterIdentifiability& verdict = result.identifiability.parameter[j];
+    const double scale = std::max(std::abs(at.theta[j]), verdict.loss_scale);
+    trial.parameters.push_back(trial_row(verdict.identifiable,
+                                         std::abs(fitted.theta[j] - at.theta[j]) / scale,
+                                         at.theta[j], intervals));
   }
   for (std::size_t k = 0; k < truth.capture.size(); ++k) {
     const CaptureEstimate& capture = result.capture[k];
@@ -129,8 +152,13 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
     for (const CaptureIntervalKind kind : values_of<CaptureIntervalKind>()) {
       intervals.push_back(&capture[kind]);
     }
+    intervals.push_back(posterior_of(posterior.capture, k));
+    intervals.push_back(k < result.calibrated_capture.size() ? &result.calibrated_capture[k]
+                                                             : &none);
     // V* has no verdict of its own but what stands beside its interval.
-    trial.capture.push_back(trial_row(!capture.interval.note, at.capture[k].velocity, intervals));
+    const double velocity = at.capture[k].velocity;
+    trial.capture.push_back(trial_row(
+        !capture.interval.note, std::abs(capture.value / velocity - 1.0), velocity, intervals));
   }
   return trial;
 }
@@ -159,6 +187,7 @@ CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
     for (const CoverageTrial& trial : trials) {
       if (trial.usable && row_of(trial).identifiable) ++row.identifiable;
     }
+    row.actual_error = actual_error(trials, row_of);
     row.cells = count(trials, cell_names<IntervalKind>(), row_of);
     result.rows.push_back(std::move(row));
     ++free;
@@ -168,9 +197,11 @@ CoverageResult count_coverage(const FitSpec& spec, const CoverageTruth& truth,
     row.parameter = fmt::format("V*({:.4g} um)", truth.capture[k].diameter / units::um);
     row.unit = "m/s";
     row.truth = truth.capture[k].velocity;
-    row.cells = count(
-        trials, cell_names<CaptureIntervalKind>(),
-        [k](const CoverageTrial& trial) -> const CoverageTrial::Row& { return trial.capture[k]; });
+    const auto row_of = [k](const CoverageTrial& trial) -> const CoverageTrial::Row& {
+      return trial.capture[k];
+    };
+    row.actual_error = actual_error(trials, row_of);
+    row.cells = count(trials, cell_names<CaptureIntervalKind>(), row_of);
     row.identifiable = row.cells.front().offered_identifiable;
     result.rows.push_back(std::move(row));
   }

@@ -32,6 +32,9 @@ struct CoverageRow {
   std::string unit;
   double truth = 0.0;
   int identifiable = 0;  ///< data sets in which the verdict called the parameter identifiable
+  /// Of the estimate over its scale, as the verdict on it counts it: the distance from the truth
+  /// that 68.27 % of the data sets keep [1].
+  double actual_error = 0.0;
   std::vector<CoverageCell> cells;
 };
 
@@ -87,6 +90,7 @@ struct CoverageTrial {
   };
   struct Row {
     bool identifiable = false;
+    double deviation = 0.0;                  ///< of the estimate from the truth over its scale [1]
     std::vector<std::optional<Cell>> cells;  ///< [kinds]; none: no such interval
   };
   bool usable = false;  ///< else its fit gave no answer, and the rest is empty

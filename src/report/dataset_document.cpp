@@ -37,19 +37,20 @@ struct SeriesSummary {
   std::size_t points = 0;
   long long events = 0;
   long long captured = 0;
-  Span diameter_um;
+  Span diameter;  ///< in the unit of sizes
   Span velocity;
   Span restitution;  ///< of points with rebounds
 };
 
 std::vector<SeriesSummary> summarise(const Dataset& dataset) {
   std::vector<SeriesSummary> summaries(dataset.series.size());
+  const SizeUnit unit = size_unit(std::vector<Dataset>{dataset});
   for (const ImpactPoint& point : dataset.points) {
     SeriesSummary& series = summaries[point.series];
     ++series.points;
     series.events += point.events;
     series.captured += point.captured;
-    series.diameter_um.add(point.diameter / units::um);
+    series.diameter.add(point.diameter / unit.metres);
     series.velocity.add(point.incident_velocity);
     if (!point.all_captured()) series.restitution.add(point.restitution);
   }
@@ -140,12 +141,14 @@ Table dataset_table(const Dataset& dataset) {
 
 Table series_table(const Dataset& dataset) {
   Table table;
-  table.columns = {{"series"},        {"diameter", "um"}, {"points"},  {say("{V}"), "m/s"},
-                   {say("{e}"), "1"}, {"impacts"},        {"captured"}};
+  table.columns = {{"series"},        {"diameter", size_unit(std::vector<Dataset>{dataset}).name},
+                   {"points"},        {say("{V}"), "m/s"},
+                   {say("{e}"), "1"}, {"impacts"},
+                   {"captured"}};
   const std::vector<SeriesSummary> summaries = summarise(dataset);
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     const SeriesSummary& s = summaries[i];
-    table.rows.push_back({Sentence(dataset.series[i]), s.diameter_um.cell(),
+    table.rows.push_back({Sentence(dataset.series[i]), s.diameter.cell(),
                           count_cell(static_cast<long long>(s.points)), s.velocity.cell(),
                           s.restitution.cell(), count_cell(s.events), count_cell(s.captured)});
   }

@@ -66,7 +66,7 @@ void add_curve(const Analysis& analysis, const RestitutionCurve& curve, plot::Pl
 plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, const Axes& axes) {
   const Dataset& dataset = analysis.datasets[panel.dataset];
   plot::Plot shown;
-  shown.heading = fmt::format("d = {} µm", diameter_text(panel.diameter));
+  shown.heading = "d = " + diameter_label(panel.diameter);
   if (analysis.datasets.size() > 1) shown.heading += ", " + dataset.id;
   shown.x = velocity_axis(axes.velocity);
   shown.y = restitution_axis(axes.top);

@@ -32,26 +32,14 @@ struct Misses {
   std::vector<double> in_sd;                  ///< the same in standard deviations
 };
 
-/// Spheres are told in um, balls in mm.
-struct SizeUnit {
-  double metres;
-  const char* name;
-};
-SizeUnit size_unit(const Diagnosis& d) {
-  const auto& points = d.base.data.points;
-  const bool balls = std::all_of(points.begin(), points.end(),
-                                 [](const Observation& point) { return point.diameter >= 1e-3; });
-  return balls ? SizeUnit{1e-3, "mm"} : SizeUnit{units::um, "µm"};
-}
-
 std::string size_text(const Diagnosis& d, double diameter) {
-  const SizeUnit unit = size_unit(d);
-  return diameter_text(diameter * units::um / unit.metres) + " " + unit.name;
+  const SizeUnit unit = size_unit(d.datasets);
+  return size_text(diameter, unit) + " " + unit.sign;
 }
 
 Misses misses_of(const Diagnosis& d, std::size_t dataset) {
   Misses all;
-  const double unit = size_unit(d).metres;
+  const double unit = size_unit(d.datasets).metres;
   for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
     const Observation& point = d.base.data.points[i];
     if (point.dataset != dataset) continue;
@@ -104,7 +92,7 @@ plot::Axis vertical_axis(const Diagnosis& d, const Misses& misses, bool one_size
     axis.about = 5;
     return axis;
   }
-  axis = {"d", size_unit(d).name};
+  axis = {"d", size_unit(d.datasets).sign};
   axis.logarithmic = true;
   const plot::Range range = log_range(misses.diameters, 0.25);
   axis.set_range(range);
@@ -125,9 +113,9 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
                         {{-1.0, plot::blue}, {0.0, "#EEEEEE"}, {1.0, plot::vermillion}}};
   if (one_size) {
     shown.layers.push_back(plot::Rule{plot::Direction::horizontal, 0.0, {plot::ink, 1.0}});
-    shown.layers.push_back(
-        plot::Words{fmt::format("d = {:.4g} {}", misses.diameters.front(), size_unit(d).name),
-                    plot::share_of_plot(0.03), plot::share_of_plot(0.94)});
+    shown.layers.push_back(plot::Words{
+        fmt::format("d = {:.4g} {}", misses.diameters.front(), size_unit(d.datasets).sign),
+        plot::share_of_plot(0.03), plot::share_of_plot(0.94)});
   }
   shown.layers.push_back(
       plot::Discs{misses.velocities, one_size ? misses.misses : misses.diameters, misses.in_sd});

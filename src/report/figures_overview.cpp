@@ -33,7 +33,7 @@ plot::Picture restitution_overview(const Analysis& analysis, const std::string& 
     const Panel& panel = panels[i];
     const plot::Marker& marker = plot::marker(by_dataset ? panel.dataset : i);
     const std::string name =
-        by_dataset ? analysis.datasets[panel.dataset].id : diameter_text(panel.diameter) + " µm";
+        by_dataset ? analysis.datasets[panel.dataset].id : diameter_label(panel.diameter);
     const bool show = by_dataset ? !named[panel.dataset] : panels.size() <= plot::markers.size();
     named[panel.dataset] = true;
     if (panel.curve != nullptr) {

@@ -130,7 +130,7 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
   const double span = (top - bottom) * force.factor;
   plot::Plot shown;
   shown.heading =
-      fmt::format("d = {} µm, V = {} m/s", diameter_text(conditions.diameter), number(velocity, 3));
+      fmt::format("d = {}, V = {} m/s", diameter_label(conditions.diameter), number(velocity, 3));
   if (analysis.datasets.size() > 1) shown.heading += ", " + analysis.datasets[dataset].id;
   shown.x = {"time since contact", time.name};
   shown.x.set_range({0.0, 1.02 * longest * time.factor});
@@ -146,9 +146,9 @@ Figure force_history_figure(const Analysis& analysis, std::size_t dataset) {
   picture.plots = {std::move(shown)};
 
   Sentence caption = fmt::format(
-      "{}. Reference diameter {} µm at {} m/s with the fitted parameters: {}. Forces "
+      "{}. Reference diameter {} at {} m/s with the fitted parameters: {}. Forces "
       "away from the surface are positive.",
-      analysis.datasets[dataset].id, diameter_text(conditions.diameter), number(velocity, 3),
+      analysis.datasets[dataset].id, diameter_label(conditions.diameter), number(velocity, 3),
       to_string(result.outcome));
   if (result.outcome == ImpactOutcome::rebound) {
     caption +=

@@ -37,7 +37,7 @@ plot::Points planned_points(const ExperimentPlan& plan, std::size_t dataset, dou
   plot::Points points;
   points.marker = marker;
   points.size = 0.7;
-  points.name = diameter_text(diameter) + " µm";
+  points.name = diameter_label(diameter);
   std::vector<double> sd;
   for (const PlannedSetting& setting : plan.settings) {
     if (setting.dataset != dataset || setting.diameter != diameter) continue;

@@ -90,7 +90,7 @@ plot::Plot residuals_by_velocity(const std::vector<ResidualRow>& rows) {
   for (auto& [diameter, points] : by_diameter) {
     points.marker = plot::marker(told_apart ? index++ : 0);
     points.size = 0.65;
-    if (told_apart) points.name = diameter_text(diameter) + " µm";
+    if (told_apart) points.name = diameter_label(diameter);
     shown.layers.push_back(std::move(points));
   }
   if (!captured.x.empty()) {
@@ -111,22 +111,25 @@ plot::Plot residuals_by_diameter(const std::vector<ResidualRow>& rows) {
   cloud.width = 1.0;
   cloud.name = "points";
   std::vector<double> diameters;
+  for (const ResidualRow& row : rows) diameters.push_back(row.diameter);
+  const SizeUnit unit = size_unit(diameters);
+  diameters.clear();
   const std::size_t stride = rows.size() / most_residuals + 1;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double um = rows[i].diameter / units::um;
-    by_diameter[um].push_back(rows[i].residual);
-    diameters.push_back(um);
+    const double size = rows[i].diameter / unit.metres;
+    by_diameter[size].push_back(rows[i].residual);
+    diameters.push_back(size);
     if (i % stride != 0) continue;
-    cloud.x.push_back(um);
+    cloud.x.push_back(size);
     cloud.y.push_back(rows[i].residual);
   }
   plot::Points means;
   std::vector<double> errors;
-  for (const auto& [um, residuals] : by_diameter) {
+  for (const auto& [size, residuals] : by_diameter) {
     const double count = static_cast<double>(residuals.size());
     double sum = 0.0;
     for (const double residual : residuals) sum += residual;
-    means.x.push_back(um);
+    means.x.push_back(size);
     means.y.push_back(sum / count);
     errors.push_back(1.0 / std::sqrt(count));
   }
@@ -135,7 +138,7 @@ plot::Plot residuals_by_diameter(const std::vector<ResidualRow>& rows) {
   means.width = 2.0;
   means.name = "mean ± 1 sd";
   plot::Plot shown = residual_plot(rows);
-  shown.x = {"diameter d", "µm"};
+  shown.x = {"diameter d", unit.sign};
   shown.x.set_range(by_diameter.size() == 1
                         ? plot::Range{0.5 * diameters.front(), 1.5 * diameters.front()}
                         : plot::range_of(diameters, 0.08));

@@ -348,16 +348,17 @@ Sentence fit_summary(const Analysis& a) {
   }
   std::sort(diameters.begin(), diameters.end());
   diameters.erase(std::unique(diameters.begin(), diameters.end()), diameters.end());
-  std::string size = diameters.empty() ? std::string() : diameter_text(diameters.front());
-  if (diameters.size() > 1) size += " to " + diameter_text(diameters.back());
+  const SizeUnit sizes = size_unit(diameters);
+  std::string size = diameters.empty() ? std::string() : size_text(diameters.front(), sizes);
+  if (diameters.size() > 1) size += " to " + size_text(diameters.back(), sizes);
   std::vector<std::string> surfaces;
   for (const Dataset& dataset : a.datasets) surfaces.push_back(dataset.system.surface.name);
   std::vector<Sentence> estimates;
   for (std::size_t s = 0; s < a.fitted.model.slots.size(); ++s) {
     if (a.fitted.model.slots[s].free) estimates.push_back(estimate_words(a, s));
   }
-  return say("{} points of {} spheres, {} {um} in diameter, hitting {} at {} to {} m/s. ",
-             a.fitted.data.points.size(), a.datasets.front().system.particle.name, size,
+  return say("{} points of {} spheres, {} {} in diameter, hitting {} at {} to {} m/s. ",
+             a.fitted.data.points.size(), a.datasets.front().system.particle.name, size, sizes.sign,
              fmt::format("{}", fmt::join(surfaces, ", ")), number(smallest, 3),
              number(largest, 3)) +
          say("A least-squares fit to all of them gives {}, with {} intervals in brackets. ",

@@ -243,13 +243,13 @@ Table correlations_table(const Analysis& a) {
 Table capture_table(const Analysis& a) {
   Table table;
   table.columns = {{"dataset"},
-                   {say("{d}"), "um"},
+                   {say("{d}"), size_unit(a.datasets).name},
                    {say("{V*}"), "m/s"},
                    {level_of(a) + " interval"},
                    {"remark", "", true}};
   for (const CaptureEstimate& capture : a.uncertainty.capture) {
     const Cell id = Sentence(a.datasets[capture.dataset].id);
-    const Cell diameter = Sentence(diameter_text(capture.diameter));
+    const Cell diameter = Sentence(size_text(capture.diameter, size_unit(a.datasets)));
     if (without_adhesion(a, capture.dataset)) {
       table.rows.push_back({id, diameter, no_capture_words});
       continue;
@@ -273,9 +273,9 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
     return say("{e} = {} at {} m/s", number(at.restitution), number(at.velocity));
   };
   Table table;
-  table.caption = say("{}, two points calibrated at {d} = {} {um}: {} and {}",
-                      a.datasets[comparison.dataset].id, diameter_text(two.diameter),
-                      point(two.high_point), point(two.low_point));
+  table.caption = say(
+      "{}, two points calibrated at {d} = {} {um}: {} and {}", a.datasets[comparison.dataset].id,
+      size_text(two.diameter, size_unit(a.datasets)), point(two.high_point), point(two.low_point));
   table.columns = {{}, {"two points"}, {"all points"}};
   for (const std::size_t s :
        {f.model.slot_C_H[comparison.dataset], f.model.slot_C_A[comparison.dataset]}) {
@@ -419,14 +419,15 @@ Table points_table(const Analysis& a) {
   Table table;
   table.compact = true;
   if (joint) table.columns = {{"dataset"}};
-  for (const TableColumn& column : std::vector<TableColumn>{{"series"},
-                                                            {say("{d}"), "um"},
-                                                            {say("{V}"), "m/s"},
-                                                            {say("{e}")},
-                                                            {"sd"},
-                                                            {"fit"},
-                                                            {"residual", "sd"},
-                                                            {"leverage"}}) {
+  for (const TableColumn& column :
+       std::vector<TableColumn>{{"series"},
+                                {say("{d}"), size_unit(a.datasets).name},
+                                {say("{V}"), "m/s"},
+                                {say("{e}")},
+                                {"sd"},
+                                {"fit"},
+                                {"residual", "sd"},
+                                {"leverage"}}) {
     table.columns.push_back(column);
   }
   const std::size_t count = std::min(f.data.points.size(), most_residuals);
@@ -437,7 +438,7 @@ Table points_table(const Analysis& a) {
     if (joint) row.emplace_back(Sentence(dataset.id));
     row.emplace_back(
         Sentence(point.series < dataset.series.size() ? dataset.series[point.series] : ""));
-    row.emplace_back(Sentence(diameter_text(point.diameter)));
+    row.emplace_back(Sentence(size_text(point.diameter, size_unit(a.datasets))));
     row.emplace_back(Number{point.velocity});
     row.push_back(point.censored ? Cell("captured") : Cell(Number{point.restitution, fixed(4)}));
     row.push_back(f.data.sd_stated ? Cell(Number{point.weights.sd, significant(2)}) : Cell());

@@ -42,6 +42,31 @@ std::string diameter_text(double diameter) {
   return fmt::format("{:.{}f}", um, decimals);
 }
 
+SizeUnit size_unit(std::span<const double> diameters) {
+  constexpr double ball = 1e-3;  // [m]
+  const bool balls =
+      !diameters.empty() && std::all_of(diameters.begin(), diameters.end(),
+                                        [](double diameter) { return diameter >= ball; });
+  return balls ? SizeUnit{1e-3, "mm", "mm"} : SizeUnit{units::um, "um", "µm"};
+}
+
+SizeUnit size_unit(const std::vector<Dataset>& datasets) {
+  std::vector<double> diameters;
+  for (const Dataset& dataset : datasets) {
+    for (const ImpactPoint& point : dataset.points) diameters.push_back(point.diameter);
+  }
+  return size_unit(diameters);
+}
+
+std::string size_text(double diameter, const SizeUnit& unit) {
+  return diameter_text(diameter * units::um / unit.metres);
+}
+
+std::string diameter_label(double diameter) {
+  const SizeUnit unit = size_unit(std::span<const double>(&diameter, 1));
+  return size_text(diameter, unit) + " " + unit.sign;
+}
+
 std::string diameter_words(double diameter) {
   return diameter < 1e-3 ? fmt::format("{:.3g} um", diameter / units::um)
                          : fmt::format("{:.3g} mm", diameter / 1e-3);

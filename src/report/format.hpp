@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,6 +23,22 @@ Cell interval_cell(const Interval& interval, const Notation& notation = padded(4
 
 /// A diameter in micrometres, three or more digits: "4.90".
 std::string diameter_text(double diameter);
+
+/// What sizes are said in where many stand together: spheres in um, balls, all of 1 mm and more, in
+/// mm.
+struct SizeUnit {
+  double metres;
+  const char* name;  ///< in words and tables
+  const char* sign;  ///< in pictures: "µm"
+};
+SizeUnit size_unit(std::span<const double> diameters);
+/// That of all points.
+SizeUnit size_unit(const std::vector<Dataset>& datasets);
+/// A diameter [m] in that unit, without it: "4.90".
+std::string size_text(double diameter, const SizeUnit& unit);
+
+/// The same in a picture, in the unit of this one: "4.90 µm", "42.0 mm"
+std::string diameter_label(double diameter);
 /// "4.9 um", "42 mm"
 std::string diameter_words(double diameter);
 

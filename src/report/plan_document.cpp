@@ -35,14 +35,14 @@ Cell impacts_cell(const std::optional<double>& impacts) {
 
 Sentence name_of_quantity(const ExperimentPlan& plan, const PlannedQuantity& quantity) {
   if (quantity.kind == PlannedKind::parameter) return symbol(quantity.label);
-  Sentence name = say("{V*} of {} {um}", diameter_text(quantity.diameter));
+  Sentence name = say("{V*} of {}", diameter_words(quantity.diameter));
   if (plan.datasets.size() > 1) name += Sentence(", " + plan.datasets[quantity.dataset].id);
   return name;
 }
 
 Sentence place_words(const ExperimentPlan& plan, std::size_t dataset, double diameter,
                      double velocity) {
-  Sentence words = say("{} {um} at {:.3g} m/s", diameter_text(diameter), velocity);
+  Sentence words = say("{} at {:.3g} m/s", diameter_words(diameter), velocity);
   if (plan.datasets.size() > 1) words += Sentence(" on " + plan.datasets[dataset].id);
   return words;
 }
@@ -77,7 +77,7 @@ Table assumptions(const ExperimentPlan& plan, const std::string& assumed) {
     entries.emplace_back("dataset", say("{}: {} on {}; ", dataset.id, dataset.system.particle.name,
                                         dataset.system.surface.name) +
                                         symbol(adhesion) +
-                                        say(" is that of {} {um}", diameter_text(reference)));
+                                        say(" is that of {}", diameter_words(reference)));
   }
   std::vector<Sentence> values;
   for (std::size_t j = 0; j < plan.theta.size(); ++j) {
@@ -98,6 +98,12 @@ Table assumptions(const ExperimentPlan& plan, const std::string& assumed) {
   return items(entries);
 }
 
+SizeUnit planned_unit(const ExperimentPlan& plan) {
+  std::vector<double> diameters;
+  for (const PlannedSetting& setting : plan.settings) diameters.push_back(setting.diameter);
+  return size_unit(diameters);
+}
+
 Table settings_table(const ExperimentPlan& plan) {
   Table table;
   table.caption =
@@ -105,14 +111,20 @@ Table settings_table(const ExperimentPlan& plan) {
           "{e} of the rebounds, its standard deviation over all points there, and the "
           "share of spheres that stay",
           plan.options.events);
-  table.columns = {{"dataset"}, {say("{d}"), "um"}, {say("{V}"), "m/s"},
-                   {"points"},  {"impacts"},        {say("{e}")},
-                   {"sd"},      {"captured", "%"}};
+  table.columns = {{"dataset"},
+                   {say("{d}"), planned_unit(plan).name},
+                   {say("{V}"), "m/s"},
+                   {"points"},
+                   {"impacts"},
+                   {say("{e}")},
+                   {"sd"},
+                   {"captured", "%"}};
   for (const PlannedSetting& setting : plan.settings) {
     const bool returns = setting.sd > 0.0;
     table.rows.push_back(
         {plan.datasets.size() > 1 ? Cell(Sentence(plan.datasets[setting.dataset].id)) : Cell(),
-         Sentence(diameter_text(setting.diameter)), Number{setting.velocity, significant(3)},
+         Sentence(size_text(setting.diameter, planned_unit(plan))),
+         Number{setting.velocity, significant(3)},
          Number{static_cast<double>(setting.points), fixed(0)},
          Number{static_cast<double>(setting.points * plan.options.events), fixed(0)},
          returns ? Cell(Number{setting.restitution, fixed(3)}) : Cell(),
@@ -239,8 +251,11 @@ Table steps_table(const ExperimentPlan& plan) {
   table.caption =
       "What would do the rest, on top of the plan: each line by itself, so that all "
       "beside it has odds of 99 to 1";
-  table.columns = {
-      {"do", "", true}, {"impacts"}, {say("{d}"), "um"}, {say("{V}"), "m/s"}, {"to", "", true}};
+  table.columns = {{"do", "", true},
+                   {"impacts"},
+                   {say("{d}"), planned_unit(plan).name},
+                   {say("{V}"), "m/s"},
+                   {"to", "", true}};
   for (const PlanStep& step : plan.expected.steps) {
     if (table.rows.size() == most_steps) break;
     const PlanRemedy& remedy = step.remedy;
@@ -248,8 +263,8 @@ Table steps_table(const ExperimentPlan& plan) {
         {Sentence(remedy.kind == ExperimentKind::condition ? std::string(remedy.doing)
                                                            : "more points"),
          Number{static_cast<double>(remedy.impacts), fixed(0)},
-         Sentence(diameter_text(remedy.diameter)), Number{remedy.velocity, significant(3)},
-         Sentence(done_words(step.tells, most_told))});
+         Sentence(size_text(remedy.diameter, planned_unit(plan))),
+         Number{remedy.velocity, significant(3)}, Sentence(done_words(step.tells, most_told))});
   }
   return table;
 }

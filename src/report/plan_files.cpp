@@ -169,7 +169,7 @@ std::string csv_points_to_make(const ExperimentPlan& plan, std::size_t dataset) 
       if (!quantity) continue;
       const double factor = unit_factor(dimension_of(*quantity), columns[c].unit).value_or(1.0);
       if (quantity == Quantity::series) {
-        row += fmt::format("{:.4g} um", setting.diameter / units::um);
+        row += diameter_words(setting.diameter);
       } else if (quantity == Quantity::diameter) {
         row += fmt::format("{:.6g}", setting.diameter / factor);
       } else if (quantity == Quantity::incident_velocity) {

@@ -38,6 +38,10 @@ std::string hindrance_words(const ParameterIdentifiability& found, const Interva
       return "is consistent with zero";
     case Hindrance::large_error:
       return fmt::format("is known only to {:.0f} %", 100.0 * found.relative_error);
+    case Hindrance::uncertain_error:
+      return fmt::format(
+          "is known to {:.0f} % as it seems, but the noise is estimated, and it may be {:.0f} %",
+          100.0 * found.relative_error, 100.0 * found.largest_relative_error);
     case Hindrance::undecided_noise:
     case Hindrance::wide_spread:
       break;  // sentences of their own
@@ -174,13 +178,13 @@ std::vector<std::string> uncertainty_warnings(const UncertaintyResult& uncertain
         boot.replicates, 100.0 * *boot.relative_error, 100.0 * options.wanted_error));
   }
   for (const CaptureEstimate& capture : uncertainty.capture) {
-    const double um = capture.diameter / units::um;
+    const std::string size = diameter_words(capture.diameter);
     if (!capture.found) {
-      warnings.push_back(fmt::format("no capture velocity at d = {:.4g} um: {}", um,
-                                     missing_words(capture.interval)));
+      warnings.push_back(
+          fmt::format("no capture velocity at d = {}: {}", size, missing_words(capture.interval)));
     } else if (capture.interval.note) {
-      warnings.push_back(fmt::format("d = {:.4g} um: {}", um,
-                                     note_words(capture.interval, "the capture velocity")));
+      warnings.push_back(
+          fmt::format("d = {}: {}", size, note_words(capture.interval, "the capture velocity")));
     }
   }
   return warnings;

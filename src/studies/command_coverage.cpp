@@ -17,6 +17,8 @@ struct CoverageRun {
   int datasets = 100;
   int replicates = 39;
   std::vector<std::string> designs;
+  bool posterior = false;
+  int calibration = 0;
   StudyRun run;
 };
 
@@ -34,6 +36,14 @@ CoverageOptions coverage_options(const CoverageRun& options, const FitSpec& spec
   coverage.uncertainty.level = spec.uncertainty.level;
   coverage.uncertainty.seed = spec.uncertainty.seed;
   coverage.uncertainty.threads = options.run.threads;
+  // Of one interval among many: its ends need no more digits than a count of intervals sees.
+  coverage.uncertainty.posterior = options.posterior;
+  coverage.uncertainty.calibration = options.calibration;
+  coverage.uncertainty.sampling.ensembles = 2;
+  coverage.uncertainty.sampling.fewest_steps = 500;
+  coverage.uncertainty.sampling.largest_r_hat = 1.03;
+  coverage.uncertainty.sampling.least_effective = 400;
+  coverage.uncertainty.sampling.kept = 500;
   return coverage;
 }
 
@@ -78,6 +88,9 @@ CLI::App* add_command(CLI::App& program, const char* name, const char* what,
   command->add_option("--replicates", options->replicates, "bootstrap replicates of each")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
+  command->add_flag("--posterior", options->posterior, "sample the posterior of each, too");
+  command->add_option("--calibration", options->calibration,
+                      "simulated data sets that calibrate the levels of each");
   add_run_options(*command, options->run);
   add_shard_option(*command, options->run);
   return command;

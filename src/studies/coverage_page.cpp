@@ -14,8 +14,8 @@
 namespace recoil {
 namespace {
 
-constexpr std::array<const char*, 6> other_intervals = {"profile",    "studentized", "bca",
-                                                        "percentile", "wald",        "delta"};
+constexpr std::array<const char*, 8> other_intervals = {
+    "profile", "studentized", "bca", "percentile", "wald", "delta", "posterior", "calibrated"};
 
 Cell percent_cell(const std::optional<double>& share) {
   return share ? Cell(Sentence(fmt::format("{:.1f}", 100.0 * *share))) : Cell();
@@ -35,7 +35,7 @@ Sentence truth_words(TruthOrigin origin) {
 Table table_of(const std::vector<ParameterCoverage>& rows) {
   Table table;
   table.columns = {{"design", {}, true}, {"parameter", {}, true}, {"identifiable, %"},
-                   {"warned, %"},        {"recommended, %"},      {"where identifiable, %"}};
+                   {"actual error, %"},  {"recommended, %"},      {"where identifiable, %"}};
   for (const char* kind : other_intervals) table.columns.push_back({kind});
   table.columns.push_back({"width / truth"});
   table.columns.push_back({"verdict", {}, true});
@@ -43,7 +43,7 @@ Table table_of(const std::vector<ParameterCoverage>& rows) {
     std::vector<Cell> cells = {Sentence(row.design),
                                symbol(row.parameter),
                                percent_cell(row.share_identifiable()),
-                               percent_cell(1.0 - row.share_identifiable()),
+                               percent_cell(row.actual_error),
                                percent_cell(row.recommended().share()),
                                percent_cell(row.recommended().share_identifiable())};
     for (const char* kind : other_intervals) {
@@ -59,6 +59,30 @@ Table table_of(const std::vector<ParameterCoverage>& rows) {
   return table;
 }
 
+/// Median widths of every kind of interval over the truth; nothing where no row has more than that
+/// of the recommended one.
+std::optional<Table> widths_of(const std::vector<ParameterCoverage>& rows) {
+  Table table;
+  table.columns = {{"width / truth", {}, true}, {"parameter", {}, true}, {"recommended"}};
+  for (const char* kind : other_intervals) table.columns.push_back({kind});
+  bool any = false;
+  for (const ParameterCoverage& row : rows) {
+    const auto width = [](const std::optional<double>& value) {
+      return value ? Cell(Number{*value, significant(3)}) : Cell();
+    };
+    std::vector<Cell> cells = {Sentence(row.design), symbol(row.parameter),
+                               width(row.relative_width)};
+    for (const char* kind : other_intervals) {
+      const IntervalCoverage* at = row.find(kind);
+      any = any || (at != nullptr && at->relative_width);
+      cells.push_back(at == nullptr ? Cell(Sentence()) : width(at->relative_width));
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  if (!any) return std::nullopt;
+  return table;
+}
+
 Sentence tally_words(const CoverageTally& tally) {
   return say(
       "of {} rows {} are nominal, in {} more the verdict warns, {} are too narrow and {} too "
@@ -69,10 +93,33 @@ Sentence tally_words(const CoverageTally& tally) {
 
 Sentence meaning_of_nominal() {
   return say(
-      "Nominal: the interval contains the truth in {:.0f} to {:.0f} % of the data sets, and "
-      "of those in which the verdict calls the parameter identifiable. Warned: the verdict "
-      "called it not identifiable in at least {:.0f} % of the data sets.",
+      "Nominal: the interval contains the truth in {:.0f} to {:.0f} % of the data sets. Warned: "
+      "the verdict called the parameter not identifiable in at least {:.0f} % of them. Where "
+      "identifiable: of those in which it did not, which are those with a small estimate of the "
+      "error; the level of an interval is that over all.",
       100.0 * least_nominal, 100.0 * most_nominal, 100.0 * least_warned);
+}
+
+/// Of the verdict's own coverage: none where no row has it.
+std::optional<Sentence> verdict_words(const std::vector<ParameterCoverage>& rows) {
+  int judged = 0;
+  int misled = 0;
+  double most = 0.0;
+  for (const ParameterCoverage& row : rows) {
+    if (!(row.actual_error.value_or(0.0) > widest_error) || row.parameter.starts_with("V*")) {
+      continue;
+    }
+    ++judged;
+    misled += misleads(row) ? 1 : 0;
+    most = std::max(most, row.share_identifiable());
+  }
+  if (judged == 0) return std::nullopt;
+  return say(
+      "The verdict has a coverage of its own: of {} parameters whose estimates scatter by more "
+      "than "
+      "a tenth of their scale (actual error), {} were called identifiable in more than {:.0f} % of "
+      "the data sets, in {:.1f} % at most.",
+      judged, misled, 100.0 * most_misled, 100.0 * most);
 }
 
 Sentence study_words(const CoverageStudy& study) {
@@ -102,17 +149,10 @@ Sentence failures_words(const CoverageStudy::Design& design) {
   return words;
 }
 
-/// How far a row is from the middle of what is wanted, over all data sets or where identifiable.
+/// How far a row is from the middle of what is wanted.
 double distance(const ParameterCoverage& row) {
   constexpr double wanted = 0.5 * (least_nominal + most_nominal);
-  const double all = std::abs(row.recommended().share().value_or(0.0) - wanted);
-  const CoverageVerdict verdict = verdict_of(row);
-  const std::optional<double> identifiable = row.recommended().share_identifiable();
-  if (verdict == CoverageVerdict::warned || verdict == CoverageVerdict::nominal_warned ||
-      !identifiable) {
-    return all;
-  }
-  return std::max(all, std::abs(*identifiable - wanted));
+  return std::abs(row.recommended().share().value_or(0.0) - wanted);
 }
 
 bool is_warned(CoverageVerdict verdict) {
@@ -154,9 +194,7 @@ std::vector<Cell> grid_row(const GridDesign& design, int datasets,
           Sentence(design.adhesion_free ? "free" : "fixed"),
           design.captures ? Cell(Sentence("with")) : Cell(),
           Sentence(fmt::format("{}", datasets)),
-          symbol(family(worst)) +
-              say(": {} ({})", Sentence(percent_words(worst.recommended().share())),
-                  Sentence(percent_words(worst.recommended().share_identifiable()))),
+          symbol(family(worst)) + say(": {}", Sentence(percent_words(worst.recommended().share()))),
           Sentence(fmt::format("{:.0f}", 100.0 * (1.0 - worst.share_identifiable()))),
           words_or_dash(warnings),
           misses.empty() ? Cell(Sentence("nominal")) : words_or_dash(misses)};
@@ -187,7 +225,7 @@ Section grid_section(const std::vector<const CoverageStudy*>& studies, const std
                    {"f0", {}, true},
                    {"captures", {}, true},
                    {"data sets"},
-                   {"worst parameter: truth contained, % (where identifiable)", {}, true},
+                   {"worst parameter: truth contained, %", {}, true},
                    {"warned, %"},
                    {"warned of", {}, true},
                    {"verdict", {}, true}};
@@ -202,10 +240,9 @@ Section grid_section(const std::vector<const CoverageStudy*>& studies, const std
                 "captures below it) to 50 times that; the tables of every parameter and interval:"},
       tallies,
       Paragraph{say("Together, {}. Below, one row per design: its worst parameter with the share "
-                    "of the data sets whose recommended interval contains the truth (in brackets: "
-                    "of those in which the verdict calls it identifiable), how often the verdict "
-                    "warned of that parameter, and the parameters of which it warned in nine of "
-                    "ten.",
+                    "of the data sets whose recommended interval contains the truth, how often the "
+                    "verdict warned of that parameter, and the parameters of which it warned in "
+                    "nine of ten.",
                     tally_words(all))}};
   if (!picture.empty()) {
     section.blocks.emplace_back(
@@ -245,6 +282,9 @@ Document coverage_page(const CoverageStudy& study, const std::string& picture) {
   page.foreword.emplace_back(Paragraph{study_words(study)});
   page.foreword.emplace_back(
       Paragraph{as_sentence(tally_words(tally_of(study.rows))) + " " + meaning_of_nominal()});
+  if (const auto words = verdict_words(study.rows)) {
+    page.foreword.emplace_back(Paragraph{*words});
+  }
   if (study.grid_of.empty()) {
     List designs;
     for (const CoverageStudy::Design& design : study.designs) {
@@ -256,6 +296,7 @@ Document coverage_page(const CoverageStudy& study, const std::string& picture) {
     page.foreword.emplace_back(Figures{{{picture, "Coverage", "Coverage by kind of data", "-"}}});
   }
   page.foreword.emplace_back(table_of(study.rows));
+  if (auto widths = widths_of(study.rows)) page.foreword.emplace_back(std::move(*widths));
   List sources;
   for (const CoverageStudy::Source& source : study.sources) {
     sources.entries.push_back(code(source.id) +

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/error.hpp"
@@ -35,13 +36,14 @@ Json json_of(const ParameterCoverage& row) {
   for (const IntervalCoverage& at : row.intervals) {
     Json& own = intervals[at.interval];
     if (!at.offered) {
-      own = {{"share", json_of(at.stated_share)}};
+      own = {{"share", json_of(at.stated_share)}, {"relative_width", json_of(at.relative_width)}};
       continue;
     }
     own = {{"offered", *at.offered},
            {"contained", json_of(at.contained)},
            {"offered_identifiable", json_of(at.offered_identifiable)},
-           {"contained_identifiable", json_of(at.contained_identifiable)}};
+           {"contained_identifiable", json_of(at.contained_identifiable)},
+           {"relative_width", json_of(at.relative_width)}};
   }
   return {{"design", row.design},
           {"parameter", row.parameter},
@@ -50,6 +52,7 @@ Json json_of(const ParameterCoverage& row) {
           {"usable", row.usable},
           {"identifiable", row.identifiable},
           {"relative_width", json_of(row.relative_width)},
+          {"actual_error", json_of(row.actual_error)},
           {"intervals", intervals}};
 }
 
@@ -62,11 +65,13 @@ ParameterCoverage row_of(const Json& json) {
   row.usable = json.at("usable");
   row.identifiable = json.at("identifiable");
   row.relative_width = optional_at<double>(json, "relative_width");
+  row.actual_error = optional_at<double>(json, "actual_error");
   for (const auto& [name, own] : json.at("intervals").items()) {
     row.intervals.push_back(
         {name, optional_at<int>(own, "offered"), optional_at<int>(own, "contained"),
          optional_at<int>(own, "offered_identifiable"),
-         optional_at<int>(own, "contained_identifiable"), optional_at<double>(own, "share")});
+         optional_at<int>(own, "contained_identifiable"), optional_at<double>(own, "share"),
+         optional_at<double>(own, "relative_width")});
   }
   if (row.find("recommended") == nullptr) {
     throw std::invalid_argument(row.design + ", " + row.parameter + ": no recommended interval");
@@ -101,7 +106,7 @@ Json kept_json(const CoverageResult& result) {
       cells.push_back({c.interval, c.offered, c.held, c.offered_identifiable, c.held_identifiable,
                        c.median_width});
     }
-    rows.push_back({row.parameter, row.unit, row.truth, row.identifiable, cells});
+    rows.push_back({row.parameter, row.unit, row.truth, row.identifiable, row.actual_error, cells});
   }
   return {{"datasets", result.datasets},
           {"failed", result.failed},
@@ -117,8 +122,8 @@ CoverageResult kept_result(const Json& json) {
   result.refits_failed = json.at("refits_failed");
   result.truth_origin = enum_at<TruthOrigin>(json, "truth");
   for (const Json& r : json.at("rows")) {
-    CoverageRow row{r[0], r[1], r[2], r[3], {}};
-    for (const Json& c : r[4]) row.cells.push_back({c[0], c[1], c[2], c[3], c[4], c[5]});
+    CoverageRow row{r[0], r[1], r[2], r[3], r[4], {}};
+    for (const Json& c : r[5]) row.cells.push_back({c[0], c[1], c[2], c[3], c[4], c[5]});
     result.rows.push_back(std::move(row));
   }
   return result;
@@ -138,9 +143,9 @@ CoverageResult kept_or_measured(const std::filesystem::path& folder, const std::
 }
 
 std::string key_of(const FitSpec& spec, const CoverageOptions& options) {
-  return fmt::format("{} {} {} {} {}", spec.sha256, options.datasets,
+  return fmt::format("{} {} {} {} {} {}", spec.sha256, options.datasets,
                      options.uncertainty.replicates, options.uncertainty.seed,
-                     options.uncertainty.level);
+                     options.uncertainty.level, options.uncertainty.posterior);
 }
 
 void set_options(CoverageStudy& study, const CoverageOptions& options) {
@@ -160,13 +165,18 @@ void add_result(CoverageStudy& study, const std::string& design, const CoverageR
                           result.datasets - result.failed,
                           from.identifiable,
                           {},
+                          from.actual_error,
                           {}};
     for (const CoverageCell& cell : from.cells) {
-      row.intervals.push_back({cell.interval, cell.offered, cell.held, cell.offered_identifiable,
-                               cell.held_identifiable, std::nullopt});
-      if (cell.interval == "recommended" && from.truth > 0.0) {
-        row.relative_width = cell.median_width / from.truth;
+      // A method that no data set was asked for has no column.
+      if (cell.offered == 0 && cell.interval == "posterior") continue;
+      std::optional<double> width;
+      if (from.truth > 0.0 && cell.offered > 0 && std::isfinite(cell.median_width)) {
+        width = cell.median_width / from.truth;
       }
+      row.intervals.push_back({cell.interval, cell.offered, cell.held, cell.offered_identifiable,
+                               cell.held_identifiable, std::nullopt, width});
+      if (cell.interval == "recommended") row.relative_width = width;
     }
     study.rows.push_back(std::move(row));
   }
@@ -208,10 +218,13 @@ CoverageVerdict verdict_of(const ParameterCoverage& row) {
   if (1.0 - row.share_identifiable() >= least_warned) {
     return nominal(share) ? CoverageVerdict::nominal_warned : CoverageVerdict::warned;
   }
-  const double identifiable = row.recommended().share_identifiable().value_or(0.0);
-  if (nominal(share) && nominal(identifiable)) return CoverageVerdict::nominal;
-  return std::min(share, identifiable) < least_nominal ? CoverageVerdict::too_narrow
-                                                       : CoverageVerdict::too_wide;
+  if (nominal(share)) return CoverageVerdict::nominal;
+  return share < least_nominal ? CoverageVerdict::too_narrow : CoverageVerdict::too_wide;
+}
+
+bool misleads(const ParameterCoverage& row) {
+  return !row.parameter.starts_with("V*") && row.actual_error.value_or(0.0) > widest_error &&
+         row.share_identifiable() > most_misled;
 }
 
 std::string coverage_study_json(const CoverageStudy& study) {

@@ -23,7 +23,8 @@ struct IntervalCoverage {
   std::optional<int> contained;             ///< of those
   std::optional<int> offered_identifiable;  ///< the same where the verdict called it identifiable
   std::optional<int> contained_identifiable;
-  std::optional<double> stated_share;  ///< where the counts are missing
+  std::optional<double> stated_share;         ///< where the counts are missing
+  std::optional<double> relative_width = {};  ///< median width over the truth
 
   std::optional<double> share() const;
   std::optional<double> share_identifiable() const;
@@ -38,6 +39,7 @@ struct ParameterCoverage {
   int usable = 0;                        ///< data sets whose fit gave an answer
   int identifiable = 0;                  ///< of those, where the verdict called it identifiable
   std::optional<double> relative_width;  ///< median width of the recommended interval over truth
+  std::optional<double> actual_error;    ///< of the estimate over its scale, see CoverageRow
   std::vector<IntervalCoverage> intervals;
 
   const IntervalCoverage* find(std::string_view interval) const;
@@ -46,10 +48,10 @@ struct ParameterCoverage {
   double share_identifiable() const;  ///< of the usable data sets
 };
 
-/// How a row stands to what a 95 % interval promises.
+/// How a row stands to what a 95 % interval promises, over all data sets.
 enum class CoverageVerdict {
-  nominal,         ///< within `least_nominal` and `most_nominal`, all and where identifiable
-  nominal_warned,  ///< so over all data sets, and the verdict warned in most
+  nominal,         ///< within `least_nominal` and `most_nominal`
+  nominal_warned,  ///< so, and the verdict warned in most data sets
   warned,          ///< not so, but the verdict warned in most data sets
   too_narrow,
   too_wide
@@ -63,6 +65,12 @@ inline constexpr double least_nominal = 0.93, most_nominal = 0.97;
 inline constexpr double least_warned = 0.90;  ///< share of the data sets
 
 CoverageVerdict verdict_of(const ParameterCoverage& row);
+
+/// Is a parameter called identifiable in more than `most_misled` of the data sets, though its
+/// estimates scatter by more than such a parameter may (`widest_error`)? Not asked of a capture
+/// velocity, which has no such verdict.
+bool misleads(const ParameterCoverage& row);
+inline constexpr double most_misled = 0.05;
 
 /// Many designs, of the grid or of fits.
 struct CoverageStudy {

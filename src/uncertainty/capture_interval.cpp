@@ -9,6 +9,25 @@
 namespace recoil {
 namespace {
 
+/// ln V* / V*_1 under every variance function of the noise, V*_1 being that of the first.
+std::vector<WaldTerm> capture_terms(const std::vector<NoiseAlternative>& alternatives,
+                                    const CaptureVelocity& capture, std::size_t dataset,
+                                    double diameter) {
+  const FitResult& fitted = alternatives.front().fitted;
+  std::vector<WaldTerm> terms;
+  for (const NoiseAlternative& alternative : alternatives) {
+    const FitResult& other = alternative.fitted;
+    const bool own = &other == &fitted;
+    const CaptureVelocity v =
+        own ? capture
+            : capture_velocity(other.model, other.theta, dataset, diameter, capture.value);
+    if (!v.found || !(v.value > 0.0)) continue;
+    terms.push_back({alternative.weight, std::log(v.value / capture.value),
+                     logarithmic_error(v, other.covariance), other.data.sd_stated ? 0 : other.dof});
+  }
+  return terms;
+}
+
 /// The interval of V* by the delta method on its logarithm, averaged over the variance
 /// functions of the noise.
 Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
@@ -25,18 +44,7 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
                                                 : NoInterval::no_covariance;
     return interval;
   }
-  std::vector<WaldTerm> terms;
-  for (const NoiseAlternative& alternative : alternatives) {
-    const FitResult& other = alternative.fitted;
-    const bool own = &other == &fitted;
-    const CaptureVelocity v =
-        own ? capture
-            : capture_velocity(other.model, other.theta, dataset, diameter, capture.value);
-    if (!v.found || !(v.value > 0.0)) continue;
-    terms.push_back({alternative.weight, std::log(v.value / capture.value),
-                     own ? error : logarithmic_error(v, other.covariance),
-                     other.data.sd_stated ? 0 : other.dof});
-  }
+  const std::vector<WaldTerm> terms = capture_terms(alternatives, capture, dataset, diameter);
   const Interval logarithm = averaged_wald_interval(terms, level, -INFINITY, INFINITY);
   if (!logarithm.available()) {
     interval.missing = logarithm.missing;
@@ -69,6 +77,26 @@ std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternativ
     }
   }
   return estimates;
+}
+
+double capture_level(const std::vector<NoiseAlternative>& alternatives, const CaptureEstimate& at,
+                     const FitResult& truth) {
+  const FitResult& fitted = alternatives.front().fitted;
+  const CaptureVelocity there =
+      capture_velocity(truth.model, truth.theta, at.dataset, at.diameter, at.value);
+  const CaptureVelocity v =
+      capture_velocity(fitted.model, fitted.theta, at.dataset, at.diameter, at.value);
+  if (!there.found || !v.found || !(there.value > 0.0) || !(v.value > 0.0)) return std::nan("");
+  return averaged_wald_level(capture_terms(alternatives, v, at.dataset, at.diameter),
+                             std::log(there.value / v.value));
+}
+
+Interval capture_interval(const std::vector<NoiseAlternative>& alternatives,
+                          const CaptureEstimate& at, double level) {
+  const FitResult& fitted = alternatives.front().fitted;
+  return delta_interval(alternatives,
+                        capture_velocity(fitted.model, fitted.theta, at.dataset, at.diameter),
+                        at.dataset, at.diameter, level);
 }
 
 void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate& capture) {

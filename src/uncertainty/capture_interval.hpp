@@ -12,6 +12,15 @@ namespace recoil {
 std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternative>& alternatives,
                                                double level, const std::vector<Dataset>& datasets);
 
+/// The level at which the delta interval of a fit at `at` just contains the capture velocity that
+/// `truth` has there; NaN where either has none.
+double capture_level(const std::vector<NoiseAlternative>& alternatives, const CaptureEstimate& at,
+                     const FitResult& truth);
+
+/// The delta interval of V* at another level.
+Interval capture_interval(const std::vector<NoiseAlternative>& alternatives,
+                          const CaptureEstimate& at, double level);
+
 /// Names the interval of V* to quote (reports/coverage-grid-n{10,20,60}-{stated,estimated}.md).
 /// Where the noise is stated and no spread of the impacts is estimated, the percentiles: they
 /// follow the bend of V* in the parameters. Where the spread is estimated, the delta interval,

@@ -11,7 +11,6 @@
 namespace recoil {
 namespace {
 
-constexpr double widest = 0.1;       // standard error relative to the scale of a parameter
 constexpr double least_loss = 0.01;  // 1 - e^2 below which a point tells no scale
 // Two parameters this correlated trade against each other over the whole of their errors.
 
@@ -34,10 +33,11 @@ std::vector<double> loss_scales(const FitResult& fitted) {
   return largest;
 }
 
-/// How much wider the errors are than normal ones, the noise having `dof` degrees of freedom.
-double student_factor(int dof) {
-  constexpr double level = 0.975;
-  return dof > 0 ? gsl_cdf_tdist_Pinv(level, dof) / gsl_cdf_ugaussian_Pinv(level) : 1.0;
+/// Upper 95 % limit of a standard error over the standard error, its noise being estimated with
+/// `dof` degrees of freedom (chi-squared); 1 for known noise.
+double largest_error_factor(int dof) {
+  constexpr double level = 0.95;
+  return dof > 0 ? std::sqrt(dof / gsl_cdf_chisq_Qinv(level, dof)) : 1.0;
 }
 
 /// The standard error of slot j or, where it rests on a bound, what its interval says of one.
@@ -47,15 +47,18 @@ double error_of(const FitResult& fitted, std::size_t j, const Interval& interval
   return (*interval.upper - *interval.lower) / one_sided;
 }
 
-/// @param error of the parameter, @param scale the size against which it counts
+/// @param error of the parameter, `most` its upper limit; `scale` the size against which they count
 std::optional<Hindrance> hindrance_of(const FitResult& fitted, std::size_t j,
-                                      const Interval& interval, double error, double scale) {
+                                      const Interval& interval, double error, double most,
+                                      double scale) {
   const ParameterSlot& slot = fitted.model.slots[j];
   if (!interval.available()) return Hindrance::no_interval;
   const bool low = *interval.lower <= slot.lower;
   if (*interval.upper >= slot.upper) return Hindrance::reaches_upper_bound;
   if (low && slot.lower != 0.0) return Hindrance::reaches_lower_bound;
-  if (!(error > widest * scale)) return std::nullopt;
+  const double allowed = widest_error * scale;
+  if (!(most > allowed)) return std::nullopt;
+  if (!(error > allowed)) return Hindrance::uncertain_error;
   if (fitted.at_bound[j]) return Hindrance::rests_on_bound;
   return low ? Hindrance::consistent_with_zero : Hindrance::large_error;
 }
@@ -114,20 +117,22 @@ Identifiability judge_identifiability(const FitResult& fitted,
   int free_count = 0;
   int good = 0;
   const std::vector<double> scales = loss_scales(fitted);
-  const double widened = student_factor(fitted.data.sd_stated ? 0 : fitted.dof);
+  const double widened = largest_error_factor(fitted.data.sd_stated ? 0 : fitted.dof);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     ParameterIdentifiability& found = result.parameter.emplace_back();
     if (!slot.free) continue;
     ++free_count;
     const Interval& interval = recommended_interval(intervals[j]);
-    const double error = widened * error_of(fitted, j, interval);
+    const double error = error_of(fitted, j, interval);
     found.relative_error = error / std::abs(fitted.theta[j]);
+    found.largest_relative_error = widened * found.relative_error;
+    found.loss_scale = scales[j];
     if (!alternatives.empty()) {
       found.noise_factor = undecided_factor(terms_of_slot(alternatives, j));
     }
-    found.hindrance =
-        hindrance_of(fitted, j, interval, error, std::max(std::abs(fitted.theta[j]), scales[j]));
+    found.hindrance = hindrance_of(fitted, j, interval, error, widened * error,
+                                   std::max(std::abs(fitted.theta[j]), scales[j]));
     if (!found.hindrance && result.event_spread > widest_spread) {
       found.hindrance = Hindrance::wide_spread;
     } else if (!found.hindrance && found.noise_factor > undecided) {

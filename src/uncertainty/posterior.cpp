@@ -142,42 +142,54 @@ struct EnsembleRun {
   std::vector<std::vector<std::vector<double>>> kept;  // [walker][coordinate][step]
 };
 
-void fill_marginal(const std::vector<std::vector<double>>& chains, double level,
-                   PosteriorMarginal& marginal) {
-  std::vector<double> values;
-  for (const std::vector<double>& chain : chains) {
-    values.insert(values.end(), chain.begin(), chain.end());
+/// The sampler's answer under one variance function of the noise.
+struct SampledFit {
+  std::optional<NoPosterior> missing;
+  int steps = 0;
+  std::size_t walkers = 0;
+  double acceptance = 0.0;
+  std::vector<double> r_hat, effective;                  // [moving]
+  std::vector<std::vector<std::vector<double>>> chains;  // [moving][walkers of all][step]
+};
+
+/// The chains of the kept draws as values of the parameters, and whether they have settled.
+bool read_chains(const std::vector<EnsembleRun>& runs, const PosteriorCoordinates& coordinates,
+                 const PosteriorOptions& options, SampledFit& sampled) {
+  const std::size_t p = coordinates.moving().size();
+  sampled.chains.assign(p, {});
+  sampled.r_hat.assign(p, 0.0);
+  sampled.effective.assign(p, 0.0);
+  bool settled = true;
+  for (std::size_t j = 0; j < p; ++j) {
+    auto& chains = sampled.chains[j];
+    for (const EnsembleRun& run : runs) {
+      for (const auto& walker : run.kept) chains.push_back(walker[j]);
+    }
+    // Of the values, which are what the draws are for: towards a bound at 0 the logarithms go on
+    // without end.
+    if (coordinates.logarithmic(coordinates.moving()[j])) {
+      for (std::vector<double>& chain : chains) {
+        for (double& value : chain) value = std::exp(value);
+      }
+    }
+    sampled.r_hat[j] = split_r_hat(chains);
+    sampled.effective[j] = effective_sample_size(chains);
+    settled = settled && sampled.r_hat[j] <= options.largest_r_hat &&
+              sampled.effective[j] >= options.least_effective;
   }
-  std::sort(values.begin(), values.end());
-  const auto n = static_cast<double>(values.size());
-  for (const double v : values) marginal.mean += v / n;
-  for (const double v : values) marginal.sd += (v - marginal.mean) * (v - marginal.mean) / n;
-  marginal.sd = std::sqrt(marginal.sd);
-  marginal.interval.lower = sorted_quantile(values, 0.5 * (1.0 - level));
-  marginal.interval.upper = sorted_quantile(values, 0.5 * (1.0 + level));
+  return settled;
 }
 
-}  // namespace
-
-PosteriorResult sample_posterior(const FitResult& fitted,
-                                 const std::vector<CaptureEstimate>& capture,
-                                 const PosteriorOptions& options) {
-  PosteriorResult result;
-  result.parameters.resize(fitted.theta.size());
-  for (PosteriorMarginal& marginal : result.parameters) {
-    marginal.interval = no_interval(NoInterval::fixed);
-  }
+/// @param first_stream of random numbers; every ensemble has its own
+SampledFit sample_one(const FitResult& fitted, const PosteriorOptions& options,
+                      std::size_t first_stream) {
+  SampledFit sampled;
   const PosteriorCoordinates coordinates(fitted);
   const std::size_t p = coordinates.moving().size();
-  if (p == 0) return result;
-  if (scale_unknown(fitted) && fitted.dof <= 0) {
-    result.missing = NoPosterior::few_points;
-    return result;
-  }
   const std::size_t walkers = std::max<std::size_t>(16, 4 * p);
   std::vector<EnsembleRun> runs(static_cast<std::size_t>(options.ensembles));
   parallel_over(runs.size(), options.threads, [&](std::size_t e) {
-    RandomStream random(options.seed, RandomPurpose::posterior, e);
+    RandomStream random(options.seed, RandomPurpose::posterior, first_stream + e);
     runs[e].density = std::make_unique<LogPosterior>(fitted);
     auto start = scattered(fitted, *runs[e].density, walkers, random);
     if (start.empty()) return;
@@ -187,11 +199,9 @@ PosteriorResult sample_posterior(const FitResult& fitted,
     runs[e].kept.assign(walkers, std::vector<std::vector<double>>(p));
   });
   if (std::any_of(runs.begin(), runs.end(), [](const EnsembleRun& run) { return !run.ensemble; })) {
-    result.missing = NoPosterior::no_walkers;
-    return result;
+    sampled.missing = NoPosterior::no_walkers;
+    return sampled;
   }
-
-  std::vector<std::vector<std::vector<double>>> chains(p);  // [coordinate][all walkers][step]
   for (int steps = options.fewest_steps;; steps *= 2) {
     // What was kept so far becomes what is dropped of the longer run.
     parallel_over(runs.size(), options.threads, [&](std::size_t e) {
@@ -210,56 +220,110 @@ PosteriorResult sample_posterior(const FitResult& fitted,
         }
       }
     });
-    bool settled = true;
-    for (std::size_t j = 0; j < p; ++j) {
-      const std::size_t slot = coordinates.moving()[j];
-      chains[j].clear();
-      for (const EnsembleRun& run : runs) {
-        for (const auto& walker : run.kept) chains[j].push_back(walker[j]);
-      }
-      // Of the values, which are what the draws are for: towards a bound at 0 the logarithms go on
-      // without end.
-      if (coordinates.logarithmic(slot)) {
-        for (std::vector<double>& chain : chains[j]) {
-          for (double& value : chain) value = std::exp(value);
-        }
-      }
-      PosteriorMarginal& marginal = result.parameters[slot];
-      marginal.r_hat = split_r_hat(chains[j]);
-      marginal.effective = effective_sample_size(chains[j]);
-      settled = settled && marginal.r_hat <= options.largest_r_hat &&
-                marginal.effective >= options.least_effective;
-    }
-    result.steps = steps;
-    if (settled) break;
+    sampled.steps = steps;
+    if (read_chains(runs, coordinates, options, sampled)) break;
     if (2 * steps > options.most_steps) {
-      result.missing = NoPosterior::not_settled;
-      return result;
+      sampled.missing = NoPosterior::not_settled;
+      return sampled;
     }
   }
-  result.walkers = static_cast<int>(walkers * runs.size());
+  sampled.walkers = walkers * runs.size();
   for (const EnsembleRun& run : runs) {
-    result.acceptance += run.ensemble->acceptance() / static_cast<double>(runs.size());
+    sampled.acceptance += run.ensemble->acceptance() / static_cast<double>(runs.size());
   }
-  for (std::size_t j = 0; j < p; ++j) {
-    const std::size_t slot = coordinates.moving()[j];
-    PosteriorMarginal& marginal = result.parameters[slot];
-    marginal.interval = {};
-    fill_marginal(chains[j], options.level, marginal);
-  }
+  return sampled;
+}
 
-  // Joint draws: every so many of all that were kept, walker by walker.
-  const std::size_t steps = static_cast<std::size_t>(result.steps);
-  const std::size_t total = chains.front().size() * steps;
-  const std::size_t kept = std::min(options.kept, total);
-  for (std::size_t k = 0; k < kept; ++k) {
-    const std::size_t at = k * total / kept;
-    std::vector<double> theta = fitted.theta;
-    for (std::size_t j = 0; j < p; ++j) {
-      theta[coordinates.moving()[j]] = chains[j][at / steps][at % steps];
-    }
-    result.draws.push_back(std::move(theta));
+/// A value and how much of the posterior it stands for.
+struct WeightedDraw {
+  double value = 0.0;
+  double weight = 0.0;
+};
+
+void fill_marginal(std::vector<WeightedDraw> draws, double level, PosteriorMarginal& marginal) {
+  std::sort(draws.begin(), draws.end(),
+            [](const WeightedDraw& a, const WeightedDraw& b) { return a.value < b.value; });
+  double total = 0.0;
+  for (const WeightedDraw& draw : draws) total += draw.weight;
+  for (const WeightedDraw& draw : draws) marginal.mean += draw.value * draw.weight / total;
+  for (const WeightedDraw& draw : draws) {
+    marginal.sd += std::pow(draw.value - marginal.mean, 2) * draw.weight / total;
   }
+  marginal.sd = std::sqrt(marginal.sd);
+  // The value below which the share p of the weight lies, each draw standing in the middle of its
+  // own.
+  const auto quantile = [&](double p) {
+    double below = 0.0;
+    for (std::size_t k = 0; k < draws.size(); ++k) {
+      const double middle = below + 0.5 * draws[k].weight;
+      if (middle >= p * total) {
+        if (k == 0) return draws[k].value;
+        const double before = below - 0.5 * draws[k - 1].weight;
+        const double part = (p * total - before) / (middle - before);
+        return draws[k - 1].value + part * (draws[k].value - draws[k - 1].value);
+      }
+      below += draws[k].weight;
+    }
+    return draws.back().value;
+  };
+  marginal.interval = {};
+  marginal.interval.lower = quantile(0.5 * (1.0 - level));
+  marginal.interval.upper = quantile(0.5 * (1.0 + level));
+}
+
+/// Marginals of the parameters from the draws under all variance functions.
+void fill_parameters(const std::vector<std::size_t>& moving, const std::vector<SampledFit>& sampled,
+                     const std::vector<double>& weights, double level, PosteriorResult& result) {
+  for (std::size_t j = 0; j < moving.size(); ++j) {
+    PosteriorMarginal& marginal = result.parameters[moving[j]];
+    std::vector<WeightedDraw> draws;
+    double variance = 0.0;  // of a mean, in variances of a draw
+    for (std::size_t k = 0; k < sampled.size(); ++k) {
+      const auto& chains = sampled[k].chains[j];
+      const auto count = static_cast<double>(chains.size() * chains.front().size());
+      for (const std::vector<double>& chain : chains) {
+        for (const double value : chain) draws.push_back({value, weights[k] / count});
+      }
+      marginal.r_hat = std::max(marginal.r_hat, sampled[k].r_hat[j]);
+      variance += weights[k] * weights[k] / sampled[k].effective[j];
+    }
+    marginal.effective = 1.0 / variance;
+    fill_marginal(std::move(draws), level, marginal);
+  }
+}
+
+/// Joint draws: of every variance function its share, every so many of all that were kept, walker
+/// by walker.
+void keep_draws(const std::vector<std::size_t>& moving, std::span<const double> theta,
+                const std::vector<SampledFit>& sampled, const std::vector<double>& weights,
+                std::size_t wanted, PosteriorResult& result) {
+  double before = 0.0;
+  for (std::size_t k = 0; k < sampled.size(); ++k) {
+    const double after = before + weights[k];
+    const auto share = [&](double part) {
+      return static_cast<std::size_t>(
+          std::llround(std::min(part, 1.0) * static_cast<double>(wanted)));
+    };
+    const std::size_t kept =
+        k + 1 == sampled.size() ? wanted - share(before) : share(after) - share(before);
+    before = after;
+    const auto& chains = sampled[k].chains;
+    const auto steps = chains.front().front().size();
+    const std::size_t total = chains.front().size() * steps;
+    for (std::size_t i = 0; i < std::min(kept, total); ++i) {
+      const std::size_t at = i * total / std::min(kept, total);
+      std::vector<double> draw(theta.begin(), theta.end());
+      for (std::size_t j = 0; j < moving.size(); ++j) {
+        draw[moving[j]] = chains[j][at / steps][at % steps];
+      }
+      result.draws.push_back(std::move(draw));
+    }
+  }
+}
+
+void fill_capture(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
+                  const PosteriorOptions& options, PosteriorResult& result) {
+  const std::size_t kept = result.draws.size();
   std::vector<CaptureQuery> queries;
   for (const CaptureEstimate& at : capture) queries.push_back({at.dataset, at.diameter, at.value});
   result.capture_draws.resize(kept);
@@ -271,16 +335,55 @@ PosteriorResult sample_posterior(const FitResult& fitted,
   });
   for (std::size_t q = 0; q < queries.size(); ++q) {
     PosteriorMarginal& marginal = result.capture.emplace_back();
-    std::vector<double> values;
+    std::vector<WeightedDraw> values;
     for (const std::vector<double>& draw : result.capture_draws) {
-      if (std::isfinite(draw[q])) values.push_back(draw[q]);
+      if (std::isfinite(draw[q])) values.push_back({draw[q], 1.0});
     }
     if (static_cast<double>(values.size()) < share_for_band * static_cast<double>(kept)) {
       marginal.interval = no_interval(NoInterval::never_rebounds);
     } else {
-      fill_marginal({values}, options.level, marginal);
+      fill_marginal(std::move(values), options.level, marginal);
     }
   }
+}
+
+}  // namespace
+
+PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternatives,
+                                 const std::vector<CaptureEstimate>& capture,
+                                 const PosteriorOptions& options) {
+  const FitResult& fitted = alternatives.front().fitted;
+  PosteriorResult result;
+  result.parameters.resize(fitted.theta.size());
+  for (PosteriorMarginal& marginal : result.parameters) {
+    marginal.interval = no_interval(NoInterval::fixed);
+  }
+  const std::vector<std::size_t> moving = PosteriorCoordinates(fitted).moving();
+  if (moving.empty()) return result;
+  if (scale_unknown(fitted) && fitted.dof <= 0) {
+    result.missing = NoPosterior::few_points;
+    return result;
+  }
+  std::vector<SampledFit> sampled;
+  std::vector<double> weights;
+  for (const NoiseAlternative& alternative : alternatives) {
+    sampled.push_back(sample_one(alternative.fitted, options,
+                                 sampled.size() * static_cast<std::size_t>(options.ensembles)));
+    weights.push_back(alternative.weight);
+    const SampledFit& own = sampled.back();
+    result.steps = std::max(result.steps, own.steps);
+    result.walkers += static_cast<int>(own.walkers);
+    result.acceptance += alternative.weight * own.acceptance;
+    for (std::size_t j = 0; own.missing && j < own.r_hat.size(); ++j) {
+      result.parameters[moving[j]].r_hat = own.r_hat[j];
+      result.parameters[moving[j]].effective = own.effective[j];
+    }
+    result.missing = own.missing;
+    if (result.missing) return result;
+  }
+  fill_parameters(moving, sampled, weights, options.level, result);
+  keep_draws(moving, fitted.theta, sampled, weights, options.kept, result);
+  fill_capture(fitted, capture, options, result);
   return result;
 }
 

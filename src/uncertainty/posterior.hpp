@@ -7,23 +7,12 @@
 #include <vector>
 
 #include "core/names.hpp"
-#include "estimate/fit.hpp"
 #include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/interval.hpp"
+#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/posterior_options.hpp"
 
 namespace recoil {
-
-struct PosteriorOptions {
-  double level = 0.95;
-  std::uint64_t seed = 20260101;
-  int threads = 0;                ///< 0: all cores. No digit depends on it.
-  int ensembles = 4;              ///< independent of one another
-  int fewest_steps = 1000;        ///< kept of every walker, after as many that are dropped
-  int most_steps = 8000;          ///< beyond it the sampler gives up
-  double largest_r_hat = 1.01;    ///< of every quantity
-  double least_effective = 1000;  ///< draws of every quantity
-  std::size_t kept = 2000;        ///< joint draws that are handed on
-};
 
 /// Why there is no posterior.
 enum class NoPosterior {
@@ -52,13 +41,15 @@ struct PosteriorMarginal {
 /// errors state them. The likelihood is that of the fit, captures included. The scale of the noise
 /// is marginalised with the prior 1 / scale where it is estimated, or where the stated deviations
 /// do not hold (NoiseVerdict::exceeded):
-///   p ~ (sum r^2)^(-n/2) over the n points with rebounds;
-/// ratios between the weights of points, their effective variances and the spread of the impacts
-/// stay those of the fit.
+///   p ~ (sum r^2)^(-n/2) over the n points with rebounds.
+/// Where the fit chose its variance function, the posterior is the mixture of those under each
+/// function, with the weights of `noise_alternatives`. Under one function, ratios between the
+/// weights of points, their effective variances and the spread of the impacts stay those of its
+/// fit.
 struct PosteriorResult {
   std::optional<NoPosterior> missing;
   int steps = 0;    ///< kept of every walker
-  int walkers = 0;  ///< in all ensembles
+  int walkers = 0;  ///< in all ensembles, under all variance functions
   double acceptance = 0.0;
   std::vector<PosteriorMarginal> parameters;       ///< [slots]
   std::vector<PosteriorMarginal> capture;          ///< in the order of the estimates; from `draws`
@@ -68,7 +59,8 @@ struct PosteriorResult {
   bool available() const { return !missing; }
 };
 
-PosteriorResult sample_posterior(const FitResult& fitted,
+/// @param alternatives of `noise_alternatives`; the first is the fit
+PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternatives,
                                  const std::vector<CaptureEstimate>& capture,
                                  const PosteriorOptions& options);
 

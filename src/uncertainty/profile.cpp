@@ -193,6 +193,20 @@ Interval profile_interval(const FitResult& fitted, std::size_t slot, double leve
   return interval;
 }
 
+double profile_level(const FitResult& fitted, std::size_t slot, double value) {
+  if (!(fitted.noise_scale > 0.0)) return std::nan("");
+  Profile profile(fitted, slot);
+  std::vector<double> others = fitted.theta;
+  const auto rise = profile.rise(value, others);
+  if (!rise) return std::nan("");
+  const double error = free_standard_error(fitted, slot);
+  const ParameterSlot& parameter = fitted.model.slots[slot];
+  const double room = std::min(value - parameter.lower, parameter.upper - value);
+  const int dof = fitted.data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
+  return level_of_rise(std::max(*rise, 0.0) / (fitted.noise_scale * fitted.noise_scale), dof,
+                       error > 0.0 ? room / error : INFINITY);
+}
+
 std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slot, double level,
                                         const Interval& interval) {
   if (!interval.available() || !(fitted.noise_scale > 0.0)) return {};

@@ -20,6 +20,10 @@ namespace recoil {
 /// `flat` for both, `bounded` for none. @pre the slot is free
 Interval profile_interval(const FitResult& fitted, std::size_t slot, double level);
 
+/// The level at which the profile interval just reaches `value`; NaN when the refit there fails.
+/// @pre the slot is free
+double profile_level(const FitResult& fitted, std::size_t slot, double value);
+
 /// The profile of one slot from below `interval` to above it, or to the parameter's bounds: 29
 /// points where there is room, ascending, the estimate among them. A side on which a refit fails
 /// ends there; empty without an interval. @pre the slot is free

@@ -5,6 +5,7 @@
 
 #include "core/parallel.hpp"
 #include "uncertainty/bootstrap.hpp"
+#include "uncertainty/calibrated_level.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
@@ -243,12 +244,31 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
                              options.seed, options.threads});
   result.identifiability =
       judge_identifiability(fitted, result.intervals, result.capture, alternatives);
+  if (options.calibration > 0) {
+    const CalibratedLevels levels =
+        calibrate_levels(alternatives, result.capture,
+                         {options.calibration, options.level, options.seed, options.threads});
+    constexpr double most = 0.9999;
+    for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+      const double level = levels.parameters[j];
+      result.calibrated.push_back(std::isfinite(level)
+                                      ? profile_interval(fitted, j, std::min(level, most))
+                                      : no_interval(NoInterval::refits_failed));
+    }
+    for (std::size_t k = 0; k < result.capture.size(); ++k) {
+      const double level = levels.capture[k];
+      result.calibrated_capture.push_back(
+          std::isfinite(level)
+              ? capture_interval(alternatives, result.capture[k], std::min(level, most))
+              : no_interval(NoInterval::refits_failed));
+    }
+  }
   if (options.posterior) {
-    PosteriorOptions sampling;
+    PosteriorOptions sampling = options.sampling;
     sampling.level = options.level;
     sampling.seed = options.seed;
     sampling.threads = options.threads;
-    result.posterior = sample_posterior(fitted, result.capture, sampling);
+    result.posterior = sample_posterior(alternatives, result.capture, sampling);
   }
   if (options.budget) {
     result.budgets = parameter_budgets(fitted);

@@ -7,6 +7,7 @@
 
 #include "core/shard.hpp"
 #include "estimate/scheme.hpp"
+#include "uncertainty/posterior_options.hpp"
 
 namespace recoil {
 
@@ -21,11 +22,13 @@ struct UncertaintyOptions {
   std::uint64_t seed = 20260101;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
   bool profile = true;
-  bool curves = true;      ///< restitution curves with bands, and those of the profiles
-  bool capture = true;     ///< intervals of the capture velocities
-  bool posterior = false;  ///< sample it
-  bool budget = true;      ///< what the errors come from, and what they were with exact materials
-  bool two_point = true;   ///< compare with the paper's calibration; without it the list is empty
+  bool curves = true;         ///< restitution curves with bands, and those of the profiles
+  bool capture = true;        ///< intervals of the capture velocities
+  bool posterior = false;     ///< sample it
+  PosteriorOptions sampling;  ///< how; level, seed and threads are those below and above
+  int calibration = 0;
+  bool budget = true;     ///< what the errors come from, and what they were with exact materials
+  bool two_point = true;  ///< compare with the paper's calibration; without it the list is empty
   /// Simulated data sets on which every pair of points is tried
   /// (`study_two_point_pairs`), at most as many as replicates; none without `two_point`.
   int pair_simulations = 199;

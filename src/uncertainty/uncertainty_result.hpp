@@ -32,6 +32,8 @@ struct UncertaintyResult {
   std::vector<TwoPointComparison> two_point;  ///< one per dataset, unless it was not asked for
   std::vector<PairStudy> pairs;  ///< one per dataset with a pair of points, unless not asked for
   Identifiability identifiability;
+  std::vector<Interval> calibrated;  ///< [slots]; prototype
+  std::vector<Interval> calibrated_capture;
   std::optional<PosteriorResult> posterior;   ///< where it was asked for
   std::vector<ErrorBudget> budgets;           ///< [slots]; empty unless asked for
   std::vector<ErrorBudget> capture_budgets;   ///< in the order of `capture`

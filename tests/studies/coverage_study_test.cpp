@@ -20,24 +20,38 @@ ParameterCoverage row(const std::string& design, const std::string& parameter, i
   made.usable = 400;
   made.identifiable = identifiable;
   made.intervals = {{"recommended", 400, contained, identifiable, contained_identifiable, {}},
-                    {"wald", {}, {}, {}, {}, 0.875}};
+                    {"wald", {}, {}, {}, {}, 0.875, 0.3}};
   return made;
 }
 
-TEST(CoverageVerdict, AsksAllDataSetsAndThoseThatAreIdentifiable) {
+TEST(CoverageVerdict, AsksAllDataSets) {
   EXPECT_EQ(verdict_of(row("d", "C_H", 400, 380, 380)), CoverageVerdict::nominal);
   EXPECT_EQ(verdict_of(row("d", "C_H", 400, 371, 371)), CoverageVerdict::too_narrow);
   EXPECT_EQ(verdict_of(row("d", "C_H", 400, 372, 372)), CoverageVerdict::nominal) << "93 %";
   EXPECT_EQ(verdict_of(row("d", "C_H", 400, 388, 388)), CoverageVerdict::nominal) << "97 %";
   EXPECT_EQ(verdict_of(row("d", "C_H", 400, 389, 389)), CoverageVerdict::too_wide);
-  EXPECT_EQ(verdict_of(row("d", "C_H", 200, 380, 185)), CoverageVerdict::too_narrow)
-      << "where it is called identifiable";
+  EXPECT_EQ(verdict_of(row("d", "C_H", 200, 380, 185)), CoverageVerdict::nominal)
+      << "not only those with a small estimate of the error";
+}
+
+TEST(CoverageVerdict, IsMisleadingWhereALargeErrorIsCalledIdentifiable) {
+  ParameterCoverage edge = row("d", "C_A", 20, 380, 14);
+  EXPECT_FALSE(misleads(edge)) << "nobody knows its error";
+  edge.actual_error = 0.11;
+  EXPECT_FALSE(misleads(edge)) << "in 5 % of the data sets";
+  edge.identifiable = 21;
+  EXPECT_TRUE(misleads(edge));
+  edge.actual_error = 0.09;
+  EXPECT_FALSE(misleads(edge));
+  edge.actual_error = 0.11;
+  edge.parameter = "V*(4.9 um)";
+  EXPECT_FALSE(misleads(edge));
 }
 
 TEST(CoverageVerdict, IsAWarningWhereNineOfTenWereWarned) {
   EXPECT_EQ(verdict_of(row("d", "C_H", 40, 300, 10)), CoverageVerdict::warned);
   EXPECT_EQ(verdict_of(row("d", "C_H", 40, 380, 10)), CoverageVerdict::nominal_warned);
-  EXPECT_EQ(verdict_of(row("d", "C_H", 41, 380, 10)), CoverageVerdict::too_narrow);
+  EXPECT_EQ(verdict_of(row("d", "C_H", 41, 300, 10)), CoverageVerdict::too_narrow);
   EXPECT_EQ(verdict_of(row("d", "C_H", 0, 300, 0)), CoverageVerdict::warned);
 }
 
@@ -94,6 +108,7 @@ TEST_F(Files, AStudyComesBackFromItsJson) {
   study.sources = {{"dahneke", Provenance::reconstruction}};
   study.rows = {row("dahneke", "C_H", 390, 381, 372)};
   study.rows.front().relative_width = 0.25;
+  study.rows.front().actual_error = 0.06;
   write_whole_file(file_, coverage_study_json(study));
   const CoverageStudy back = read_coverage_study(file_);
   EXPECT_EQ(coverage_study_json(back), coverage_study_json(study));
@@ -102,6 +117,8 @@ TEST_F(Files, AStudyComesBackFromItsJson) {
   EXPECT_FALSE(back.designs.front().refits_failed.has_value());
   EXPECT_DOUBLE_EQ(back.rows.front().recommended().share().value(), 381.0 / 400.0);
   EXPECT_DOUBLE_EQ(back.rows.front().find("wald")->share().value(), 0.875);
+  EXPECT_DOUBLE_EQ(back.rows.front().find("wald")->relative_width.value(), 0.3);
+  EXPECT_DOUBLE_EQ(back.rows.front().actual_error.value(), 0.06);
   EXPECT_FALSE(back.rows.front().find("wald")->share_identifiable().has_value());
 }
 

@@ -65,7 +65,7 @@ TEST(Posterior, AgreesWithSumsOnAGrid) {
     if (!stated) noise.variance = VarianceFunction::constant;
     const FitResult fitted = fit(make_model(synthetic::spec(), {used}), gather({used}, noise));
     ASSERT_TRUE(fitted.usable);
-    const PosteriorResult found = sample_posterior(fitted, {}, {});
+    const PosteriorResult found = sample_posterior(noise_alternatives(fitted), {}, {});
     ASSERT_TRUE(found.available());
     const GridAnswer grid = damping_on_a_grid(data, stated, fitted.theta[0], fitted.std_error[0],
                                               fitted.theta[1], fitted.std_error[1]);
@@ -86,7 +86,7 @@ TEST(Posterior, ConstantsOfWhichThePointsSayNothingKeepTheirPrior) {
   data.system.errors = {{Body::particle, Constant::density, 135.0}};
   const FitResult fitted = fit(make_model(synthetic::spec(true), {data}), gather({data}));
   ASSERT_TRUE(fitted.usable);
-  const PosteriorResult found = sample_posterior(fitted, {}, {});
+  const PosteriorResult found = sample_posterior(noise_alternatives(fitted), {}, {});
   ASSERT_TRUE(found.available());
   const double sd = std::sqrt(std::log1p(0.01));
   const PosteriorMarginal& density = found.parameters[fitted.model.first_constant()];
@@ -113,11 +113,11 @@ TEST(Posterior, SameDigitsAtAnyThreadsAndOthersForAnotherSeed) {
   three.threads = 3;
   PosteriorOptions other;
   other.seed = 4;
-  const PosteriorResult a = sample_posterior(c.fitted, {}, one);
-  const PosteriorResult b = sample_posterior(c.fitted, {}, three);
+  const PosteriorResult a = sample_posterior(noise_alternatives(c.fitted), {}, one);
+  const PosteriorResult b = sample_posterior(noise_alternatives(c.fitted), {}, three);
   EXPECT_EQ(a.draws, b.draws);
   EXPECT_EQ(a.parameters[1].interval.lower, b.parameters[1].interval.lower);
-  EXPECT_NE(a.draws, sample_posterior(c.fitted, {}, other).draws);
+  EXPECT_NE(a.draws, sample_posterior(noise_alternatives(c.fitted), {}, other).draws);
 }
 
 TEST(Posterior, RefusesWhatHasNotSettled) {
@@ -125,7 +125,7 @@ TEST(Posterior, RefusesWhatHasNotSettled) {
   PosteriorOptions options;
   options.fewest_steps = 20;
   options.most_steps = 20;
-  const PosteriorResult found = sample_posterior(c.fitted, {}, options);
+  const PosteriorResult found = sample_posterior(noise_alternatives(c.fitted), {}, options);
   ASSERT_FALSE(found.available());
   EXPECT_EQ(*found.missing, NoPosterior::not_settled);
   EXPECT_FALSE(found.parameters[0].interval.available());
