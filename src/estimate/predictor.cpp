@@ -57,6 +57,9 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PointConditions& p = points_[i];
     ImpactConditions unit = conditions_at(model, initial, p.dataset, p.diameter, p.velocity);
+    // Of the stated materials, whatever the model starts with: theta scales these.
+    unit.density = model.contacts[p.dataset].particle_density;
+    unit.stiffness = model.contacts[p.dataset].stiffness;
     unit.adhesion_force =
         adhesion_force_at(1.0, model.contacts[p.dataset].reference_diameter, p.diameter);
     const ImpactGroups groups = impact_groups(unit);

@@ -194,6 +194,23 @@ TEST(Materials, TakenAsExactGiveTheDigitsOfExactOnes) {
   EXPECT_EQ(a.chi2, b.chi2);
 }
 
+// A model may start where another fit ended; what it says at theta does not depend on that.
+TEST(Materials, AreThoseOfThetaWhereverTheModelStarts) {
+  const Dataset data = uncertain_dataset();
+  const ImpactModel stated = make_model(synthetic::spec(), {data});
+  std::vector<double> theta = stated.initial();
+  theta[slot_of(stated, "particle.youngs_modulus")] *= 1.4;
+  theta[slot_of(stated, "particle.density")] *= 0.9;
+  ImpactModel moved = stated;
+  for (std::size_t j = moved.first_constant(); j < theta.size(); ++j) {
+    moved.slots[j].initial = theta[j];
+  }
+  const auto square = [&](const ImpactModel& model) {
+    return predict(model, theta, 0, 4.9e-6, 3.0, false).restitution_squared;
+  };
+  EXPECT_DOUBLE_EQ(square(moved), square(stated));
+}
+
 // Gilman's estimate has an error where it decides f0, and enters nowhere else.
 TEST(Materials, AnEstimatedSurfaceEnergyCarriesItsError) {
   const auto estimates = [](const FitSpec& spec, const Dataset& data) {
