@@ -11,6 +11,7 @@
 #include "core/random.hpp"
 #include "coverage/simulated_impacts.hpp"
 #include "estimate/shared_settings.hpp"
+#include "reconstruction/plan.hpp"
 #include "reconstruction/reconstruction.hpp"
 
 namespace recoil {
@@ -124,7 +125,10 @@ CoverageTruth from_recipes(const FitSpec& spec, const std::vector<Dataset>& data
     std::vector<Dataset> made;
     for (std::size_t d = 0; d < datasets.size(); ++d) {
       Recipe recipe = (*shared)[d].recipe;
-      if (!drawn.empty()) recipe.truth = drawn[d];
+      if (!drawn.empty()) {
+        recipe.truth = drawn[d];
+        recipe.plan = make_plan(recipe);
+      }
       made.push_back(regenerate(datasets[d], recipe, seed + 1 + index));
     }
     return made;
@@ -143,6 +147,7 @@ struct DesignPoint {
   double sd = 0.0;                         ///< that the point states or the fit found [1]
   double own_sd = 0.0;                     ///< of that, what the differing impacts do not make [1]
   std::shared_ptr<const TrueCurve> curve;  ///< where impacts differ and captures were counted
+  std::shared_ptr<const TrueMixture> mixture;  ///< where the point averages over sizes
 };
 
 /// Impacts that differ by the capture velocity: V / V* is what counts.
@@ -151,20 +156,17 @@ double differing_velocity(double velocity, double spread, RandomStream& random) 
 }
 
 /// Variance of the mean that differing impacts make, on average over many such points.
-double mean_variance(const TrueCurve& curve, const Observation& point, double spread,
-                     RandomStream& random) {
+/// @param restitution of one impact
+double mean_variance(int events, const std::function<double()>& restitution) {
   constexpr int points = 400;
   double sum = 0.0;
-  for (int k = 0; k < points; ++k) {
-    sum += count_impacts(curve, point.events, [&] {
-             return differing_velocity(point.velocity, spread, random);
-           }).variance_of_mean;
-  }
+  for (int k = 0; k < points; ++k) sum += count_impacts(events, restitution).variance_of_mean;
   return sum / points;
 }
 
-std::vector<DesignPoint> design_points(const FitResult& fitted, const std::vector<Truth>& truths,
-                                       RandomStream& random) {
+std::vector<DesignPoint> design_points(const FitResult& fitted,
+                                       const std::vector<Dataset>& datasets,
+                                       const std::vector<Truth>& truths, RandomStream& random) {
   const double spread = fitted.data.noise.event_spread;
   const double reach = std::exp(6.0 * spread);
   std::map<std::pair<std::size_t, double>, double> fastest;
@@ -177,8 +179,16 @@ std::vector<DesignPoint> design_points(const FitResult& fitted, const std::vecto
   for (const Observation& point : fitted.data.points) {
     const Truth& truth = truths[point.dataset];
     DesignPoint made{true_restitution(truth, point.diameter, point.velocity), point.weights.sd,
-                     point.weights.sd, nullptr};
-    if (spread > 0.0 && point.counted) {
+                     point.weights.sd, nullptr, nullptr};
+    const auto without = [&](double variance) {
+      return std::sqrt(std::max(0.0, point.weights.sd * point.weights.sd - variance));
+    };
+    if (averages_over_sizes(fitted.model, point.dataset)) {
+      made.mixture = std::make_shared<const TrueMixture>(
+          truth, *datasets[point.dataset].mixed_sizes, point.diameter, point.velocity);
+      made.own_sd =
+          without(mean_variance(point.events, [&] { return made.mixture->draw(random); }));
+    } else if (spread > 0.0 && point.counted) {
       auto& curve = curves[{point.dataset, point.diameter}];
       if (!curve) {
         curve = std::make_shared<const TrueCurve>(truth, point.diameter,
@@ -186,8 +196,9 @@ std::vector<DesignPoint> design_points(const FitResult& fitted, const std::vecto
                                                   fastest[{point.dataset, point.diameter}]);
       }
       made.curve = curve;
-      made.own_sd = std::sqrt(std::max(
-          0.0, point.weights.sd * point.weights.sd - mean_variance(*curve, point, spread, random)));
+      made.own_sd = without(mean_variance(point.events, [&] {
+        return (*curve)(differing_velocity(point.velocity, spread, random));
+      }));
     }
     design.push_back(std::move(made));
   }
@@ -199,21 +210,24 @@ std::vector<DesignPoint> design_points(const FitResult& fitted, const std::vecto
 void simulate_point(const DesignPoint& design, double spread, bool other_truth, bool sd_stated,
                     RandomStream& random, ImpactPoint& point) {
   const double noise = random.normal();
-  if (!design.curve && other_truth) {
+  const bool differing = design.curve || design.mixture;
+  if (!differing && other_truth) {
     const bool back = design.restitution > 0.0;
     point.captured = back ? 0 : point.events;
     point.restitution = back ? std::max(0.0, design.restitution + design.sd * noise) : 0.0;
     if (back && sd_stated) point.restitution_sd = design.sd;
     return;
   }
-  if (!design.curve) {
+  if (!differing) {
     if (!point.all_captured()) {
       point.restitution = std::max(0.0, design.restitution + design.sd * noise);
     }
     return;
   }
-  const CountedImpacts found = count_impacts(*design.curve, point.events, [&] {
-    return differing_velocity(point.incident_velocity, spread, random);
+  const CountedImpacts found = count_impacts(point.events, [&] {
+    return design.mixture
+               ? design.mixture->draw(random)
+               : (*design.curve)(differing_velocity(point.incident_velocity, spread, random));
   });
   const bool stated = point.restitution_sd.has_value();
   point.captured = found.captured;
@@ -235,15 +249,15 @@ CoverageTruth from_fit(const FitSpec& spec, const std::vector<Dataset>& datasets
   add_capture_velocities(truth, datasets, truths);
   RandomStream random(seed, RandomPurpose::coverage, ~std::uint64_t{0});
   const double spread = fitted.data.noise.event_spread;
-  const auto known =
-      std::make_shared<const std::vector<DesignPoint>>(design_points(fitted, truths, random));
+  const auto known = std::make_shared<const std::vector<DesignPoint>>(
+      design_points(fitted, datasets, truths, random));
   truth.simulate = [datasets, seed, spread, known, fit = fitted](std::uint64_t index) {
     std::vector<DesignPoint> design = *known;
     const bool other_truth = !fit.model.constants.empty();
     if (other_truth) {
       const auto theta = with_drawn_constants(fit.model, fit.theta, seed, index);
       RandomStream own(seed, RandomPurpose::coverage, ~index);
-      design = design_points(fit, truths_at(fit.model, theta), own);
+      design = design_points(fit, datasets, truths_at(fit.model, theta), own);
     }
     auto next = design.begin();
     RandomStream noise(seed, RandomPurpose::coverage, index);

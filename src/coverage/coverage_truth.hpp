@@ -13,7 +13,8 @@ namespace recoil {
 /// independent simulator of the reconstructions, with the noise that the points state and an error
 /// for every setting, where settings share one. Where
 /// captures were counted, every impact is simulated, at a velocity that differs from the stated one
-/// as much as the estimated spread says (log-normal), and counted again.
+/// as much as the estimated spread says (log-normal), and counted again. Where points average over
+/// sizes, every impact is that of a sphere of its own size.
 /// @throws ComputationError when that fit has no usable answer.
 /// @throws InputError when the fit has mechanisms, of which the simulator knows nothing.
 CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& datasets,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/units.hpp"
+
 namespace recoil {
 
 TrueCurve::TrueCurve(const Truth& truth, double diameter, double capture, double fastest)
@@ -29,13 +31,36 @@ double TrueCurve::operator()(double v) const {
   return std::sqrt(std::max(0.0, gsl_spline_eval(spline_.get(), v * v, nullptr))) / v;
 }
 
+TrueMixture::TrueMixture(const Truth& truth, const MeasuredSizes& sizes, double mean,
+                         double velocity) {
+  constexpr int parts = 5;  // of a bin
+  const double slowest = std::sqrt(2.0 * standard_gravity * sizes.probe_height.value_or(0.0));
+  const double scale = mean / sizes.mean_diameter();
+  double below = 0.0;
+  for (const SizeBin& bin : spread_within_bins(sizes.bins, parts)) {
+    below += bin.weight / sizes.total();
+    below_.push_back(below);
+    const double e = true_restitution(truth, scale * bin.diameter, velocity);
+    restitution_.push_back(e * velocity > slowest ? e : 0.0);
+  }
+}
+
+double TrueMixture::draw(RandomStream& random) const {
+  const auto at = std::lower_bound(below_.begin(), below_.end() - 1, random.uniform());
+  return restitution_[static_cast<std::size_t>(at - below_.begin())];
+}
+
 CountedImpacts count_impacts(const TrueCurve& curve, int events,
                              const std::function<double()>& velocity) {
+  return count_impacts(events, [&] { return curve(velocity()); });
+}
+
+CountedImpacts count_impacts(int events, const std::function<double()>& restitution) {
   CountedImpacts found;
   double sum = 0.0;
   double squares = 0.0;
   for (int k = 0; k < events; ++k) {
-    const double single = curve(velocity());
+    const double single = restitution();
     if (single == 0.0) ++found.captured;
     sum += single;
     squares += single * single;

@@ -4,7 +4,10 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
+#include "core/random.hpp"
+#include "data/measured_sizes.hpp"
 #include "reconstruction/truth.hpp"
 
 namespace recoil {
@@ -26,12 +29,30 @@ class TrueCurve {
   std::shared_ptr<const gsl_spline> spline_;
 };
 
+/// e of the truth for spheres of mixed sizes at one velocity.
+class TrueMixture {
+ public:
+  /// @param mean diameter of the spheres of this point [m], to which `sizes` are scaled
+  /// @param velocity of all of them [m/s]
+  TrueMixture(const Truth& truth, const MeasuredSizes& sizes, double mean, double velocity);
+
+  /// e of one sphere; 0 when it is captured, or too slow to climb back to the measuring plane.
+  double draw(RandomStream& random) const;
+
+ private:
+  std::vector<double> below_;  // part of the spheres up to and with this one
+  std::vector<double> restitution_;
+};
+
 /// What one point keeps of impacts that differ from one another.
 struct CountedImpacts {
   int captured = 0;
   double restitution = 0.0;       ///< mean e of those that rebounded [1]
   double variance_of_mean = 0.0;  ///< of that mean, by the scatter of the impacts [1]
 };
+
+/// `events` impacts, each with an e of its own; 0 when captured.
+CountedImpacts count_impacts(int events, const std::function<double()>& restitution);
 
 /// `events` impacts, each at a velocity [m/s] of its own.
 CountedImpacts count_impacts(const TrueCurve& curve, int events,

@@ -270,6 +270,10 @@ Package read_package(const std::string& text, const std::string& file,
                    "add {\"provenance\": ..., \"particle\": {...}, \"surface\": {...}}");
   package.system = read_system(recoil);
   package.provenance = read_provenance(recoil);
+  if (const auto sizes = recoil.find("mixed_sizes")) {
+    package.mixed_sizes = read_path(*sizes);
+    package.mixed_sizes_where = sizes->where();
+  }
   read_resource(root, package);
   return package;
 }

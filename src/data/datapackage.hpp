@@ -84,13 +84,16 @@ struct Column {
 ///
 /// The system stands under the key `recoil`: `provenance`, `particle`, `surface`, and directly
 /// beside them the optional overrides `stiffness_K` [Pa], `adhesion_energy` [J/m2],
-/// `adhesion_force_f0` [N/m] and `reference_diameter` [m] (which the force needs). Keys that are
+/// `adhesion_force_f0` [N/m] and `reference_diameter` [m] (which the force needs), and
+/// `mixed_sizes`, the path of a size distribution over which every point averages. Keys that are
 /// not known are refused there and allowed elsewhere, as Frictionless has it.
 struct Package {
   std::string id;
   std::string title;
   Provenance provenance = Provenance::measured;
   ImpactSystem system;
+  std::string mixed_sizes;     ///< path of the sizes over which every point averages; else empty
+  Location mixed_sizes_where;  ///< where it stands
   std::vector<std::string> sources;
   std::string points_path;                  ///< relative, inside the folder
   Location points_where;                    ///< where the path stands

@@ -39,7 +39,7 @@ Json stated_system(const std::filesystem::path& folder) {
                "name the folder of a dataset with the same materials")
       .members();
   Json system = Json::parse(text)["recoil"];
-  for (const char* own : {"provenance", "conditions", "method"}) system.erase(own);
+  for (const char* own : {"provenance", "conditions", "method", "mixed_sizes"}) system.erase(own);
   return system;
 }
 

@@ -18,8 +18,8 @@ Json package_field(const std::string& name, const std::string& type, const std::
 Json csv_resource(const std::string& name, const std::string& path, const Json& fields);
 
 /// The system that the dataset in `folder` states under `recoil`, for another one with the same
-/// materials: its provenance and its conditions are its own. @throws InputError when it is no data
-/// package with that key.
+/// materials: its provenance, its conditions and its sizes are its own. @throws InputError when it
+/// is no data package with that key.
 Json stated_system(const std::filesystem::path& folder);
 
 /// The text of datapackage.json.

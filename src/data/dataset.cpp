@@ -22,6 +22,19 @@ Dataset assemble(const Package& package, const std::string& package_text,
   return dataset;
 }
 
+/// What `package` says every point averages over.
+void read_mixed_sizes(const Package& package, const std::filesystem::path& folder,
+                      Dataset& dataset) {
+  const std::filesystem::path file = folder / package.mixed_sizes;
+  std::error_code failed;
+  if (!std::filesystem::exists(file, failed)) {
+    throw InputError(package.mixed_sizes_where, "there is no file '" + package.mixed_sizes + "'",
+                     "every point averages over its sizes", "correct the path or add the file");
+  }
+  dataset.mixed_sizes = load_sizes(file);
+  dataset.sha256 = sha256_hex(dataset.sha256 + dataset.mixed_sizes->sha256);
+}
+
 void require_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   const auto status = std::filesystem::status(folder, failed);
@@ -73,7 +86,9 @@ Dataset load_dataset(const std::filesystem::path& folder) {
                      "correct the path or add the file");
   }
   const std::string csv_text = read_text_file(points_file);
-  return assemble(package, package_text, csv_text, folder);
+  Dataset dataset = assemble(package, package_text, csv_text, folder);
+  if (!package.mixed_sizes.empty()) read_mixed_sizes(package, folder, dataset);
+  return dataset;
 }
 
 }  // namespace recoil

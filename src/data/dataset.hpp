@@ -9,6 +9,7 @@
 
 #include "core/names.hpp"
 #include "data/material.hpp"
+#include "data/measured_sizes.hpp"
 
 namespace recoil {
 
@@ -71,9 +72,12 @@ struct Dataset {
   std::vector<Conditions> series_conditions;  ///< that the points of each series state themselves
   std::vector<ImpactPoint> points;            ///< in file order
   std::vector<DataColumn> columns;            ///< as the schema lists them
-  std::vector<std::string> sources;           ///< one line each: title and address
-  std::vector<DatasetWarning> warnings;       ///< by remark, those that there are
-  std::string sha256;  ///< of datapackage.json and the points, as hexadecimal
+  /// Of the spheres over which every point averages, where the dataset says that its points do: a
+  /// point's diameter is then the mean of them.
+  std::optional<MeasuredSizes> mixed_sizes;
+  std::vector<std::string> sources;      ///< one line each: title and address
+  std::vector<DatasetWarning> warnings;  ///< by remark, those that there are
+  std::string sha256;  ///< of datapackage.json, the points and mixed_sizes, as hexadecimal
   std::filesystem::path folder;
 };
 
@@ -89,7 +93,8 @@ std::vector<double> distinct_diameters(const Dataset& dataset);
 Dataset load_dataset(const std::filesystem::path& folder);
 
 /// The same from texts instead of files: `datapackage_text` as it would stand in
-/// `folder/datapackage.json`, `csv_text` as in the resource that it names. No file is touched.
+/// `folder/datapackage.json`, `csv_text` as in the resource that it names. No file is touched, and
+/// mixed_sizes are left out.
 /// @throws InputError as `load_dataset` does.
 Dataset parse_dataset(const std::string& datapackage_text, const std::string& csv_text,
                       const std::filesystem::path& folder);

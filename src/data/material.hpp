@@ -73,6 +73,8 @@ struct ImpactSystem {
   Method method = Method::unknown;           ///< how velocities were measured
   std::vector<ConstantError> errors;         ///< of the constants that state one; others are exact
 
+  /// What is stated of a constant, in its own unit; of gilman_factor 1.
+  std::optional<double> value_of(Body body, Constant constant) const;
   /// The standard deviation that is stated of a constant, in its own unit; 0: exact.
   double error_of(Body body, Constant constant) const;
 };

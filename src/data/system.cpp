@@ -184,7 +184,8 @@ Provenance read_provenance(const JsonNode& recoil) {
 
 ImpactSystem read_system(const JsonNode& recoil) {
   recoil.allow_only({"provenance", "particle", "surface", "stiffness_K", "adhesion_energy",
-                     "adhesion_force_f0", "reference_diameter", "conditions", "method"});
+                     "adhesion_force_f0", "reference_diameter", "conditions", "method",
+                     "mixed_sizes"});
   ImpactSystem system;
   system.particle = read_material(recoil, Body::particle, system);
   system.surface = read_material(recoil, Body::surface, system);

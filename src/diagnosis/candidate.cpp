@@ -162,8 +162,11 @@ std::vector<const Mechanism*> mechanisms_that_may_act(const FitSpec& spec,
     const auto& own = spec.mechanisms;
     if (!mechanism.works_with(spec.adhesion)) continue;
     if (std::find(own.begin(), own.end(), mechanism.info.id) != own.end()) continue;
-    if (std::none_of(model.surroundings.begin(), model.surroundings.end(),
-                     [&](const Surroundings& at) { return mechanism.acts_at(at); })) {
+    // Nothing is left to say of sizes that are stated.
+    if (std::none_of(
+            model.surroundings.begin(), model.surroundings.end(), [&](const Surroundings& at) {
+              return mechanism.acts_at(at) && !(mechanism.info.mixes_sizes && at.sizes.mixed());
+            })) {
       continue;
     }
     possible.push_back(&mechanism);

@@ -175,20 +175,22 @@ void compare_starts(FitResult& result, std::size_t best_start) {
   }
 }
 
-/// Where a mechanism of the model says how the impacts of a point differ, its survivors are what
-/// the mean e is of: their spread must not be estimated a second time from the counts.
-void leave_counts_to_mechanism(const ImpactModel& model, FitResult& result) {
+/// Where a mechanism of the model, or the sizes that a dataset states, say how the impacts of a
+/// point differ, its survivors are what the mean e is of: their spread must not be estimated a
+/// second time from the counts.
+void leave_out_explained_counts(const ImpactModel& model, FitResult& result) {
   const auto found = std::find_if(model.chain.begin(), model.chain.end(),
                                   [](const Mechanism* mechanism) { return mechanism->spreads(); });
-  if (found == model.chain.end()) return;
+  const Mechanism* const by = found == model.chain.end() ? nullptr : *found;
   int counts = 0;
   for (Observation& point : result.data.points) {
     if (point.censored || !point.counted) continue;
+    if (by == nullptr && !averages_over_sizes(model, point.dataset)) continue;
     point.events -= std::exchange(point.captured, 0);
     point.counted = false;
     ++counts;
   }
-  if (counts > 0) result.unused_counts = {*found, counts};
+  if (counts > 0) result.unused_counts = {by, counts};
 }
 
 /// `fit` on the threads of the arena that asks.
@@ -198,7 +200,7 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   result.model = model;
   result.data = std::move(observed);
   result.data.constants_weight = 1.0;
-  leave_counts_to_mechanism(model, result);
+  leave_out_explained_counts(model, result);
   const std::vector<double> first = options.start.empty() ? model.initial() : options.start;
   const int free_count = model.free_count();
   result.dof = static_cast<int>(result.data.points.size()) - free_count;

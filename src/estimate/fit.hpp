@@ -45,7 +45,7 @@ enum class NoiseVerdict {
 /// Counts of captures that a fit does not use, as a mechanism says how the impacts of a point
 /// differ.
 struct UnusedCounts {
-  const Mechanism* mechanism = nullptr;
+  const Mechanism* mechanism = nullptr;  ///< null: the sizes that the datasets state
   int points = 0;
 };
 

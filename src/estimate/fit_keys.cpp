@@ -34,6 +34,10 @@ std::vector<FitKey> all_keys() {
        "both "
        "phases"},
       {"model", "mechanisms", "[]", "ids of the mechanisms that are added to the base model"},
+      {"model", "mixed_sizes", truth_value(fit.mixed_sizes),
+       "where a dataset says that its points average over a distribution of sizes, average over "
+       "it; "
+       "false takes every sphere of a point at the point's diameter"},
 
       {"parameter", "initial", "", "where the fit starts; the value of a fixed parameter"},
       {"parameter", "bounds", "", "[lower, upper]"},

@@ -215,6 +215,9 @@ class FitReader : private TomlReader {
       }
       fit_.spec.phase = *phase;
     }
+    if (const toml::node* node = model.get("mixed_sizes")) {
+      fit_.spec.mixed_sizes = boolean(*node, "mixed_sizes");
+    }
     const toml::node* const mechanisms = model.get("mechanisms");
     if (mechanisms == nullptr) return;
     if (!mechanisms->is_array()) wrong_type(*mechanisms, "mechanisms", "a list", "mechanisms = []");

@@ -52,6 +52,8 @@ struct FitSpec {
   double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
   std::vector<std::string> mechanisms;  ///< ids from the catalogue of mechanisms
+  bool mixed_sizes = true;  ///< points average over the sizes that their dataset states; false: all
+                            ///< spheres of a point have its diameter
   std::vector<ParameterSpec>
       parameters;  ///< all of `parameters_with(mechanisms, adhesion)`, in that order
   NoiseSpec noise;

@@ -165,6 +165,9 @@ void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
   std::vector<double> stated;
   for (const UncertainConstant& constant : all) stated.push_back(constant.stated);
   std::vector<bool> acts(all.size(), false);
+  const bool uses_energy =
+      std::any_of(model.chain.begin(), model.chain.end(),
+                  [](const Mechanism* mechanism) { return mechanism->info.needs_adhesion; });
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     const MaterialLaw law(datasets[d].system, model.contacts[d].reference_diameter, all, d);
     const ParameterSlot& adhesion = model.slots[model.slot_adhesion[d]];
@@ -173,8 +176,8 @@ void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
       const double by_force = !follows                              ? 0.0
                               : model.adhesion == AdhesionLaw::ring ? slope.adhesion_force
                                                                     : slope.adhesion_energy;
-      const bool in_chain =
-          !model.chain.empty() && (slope.adhesion_energy != 0.0 || slope.wave_mobility != 0.0);
+      const bool in_chain = (uses_energy && slope.adhesion_energy != 0.0) ||
+                            (!model.chain.empty() && slope.wave_mobility != 0.0);
       if (slope.density != 0.0 || slope.stiffness != 0.0 || by_force != 0.0 || in_chain) {
         acts[slope.index] = true;
       }
@@ -188,6 +191,21 @@ void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
 /// Are the materials of the dataset without error? (Those who build a model by hand state none.)
 bool is_exact(const ImpactModel& model, std::size_t dataset) {
   return model.constants.empty() || model.materials[dataset].exact();
+}
+
+/// Does `dataset` state its adhesion, without an error? Then no constant moves it.
+bool states_exact_adhesion(const ImpactModel& model, std::size_t dataset) {
+  const ContactProperties& contact = model.contacts[dataset];
+  const bool ring = model.adhesion == AdhesionLaw::ring;
+  const bool stated = ring ? contact.adhesion_force != contact.adhesion_force_derived
+                           : contact.adhesion_energy != contact.adhesion_energy_derived;
+  const Constant own = ring ? Constant::adhesion_force_f0 : Constant::adhesion_energy;
+  return stated && std::none_of(model.constants.begin(), model.constants.end(),
+                                [&](const UncertainConstant& constant) {
+                                  const auto& its = constant.datasets;
+                                  return constant.constant == own &&
+                                         std::find(its.begin(), its.end(), dataset) != its.end();
+                                });
 }
 
 long simulate_by_reference(std::span<const ImpactGroups> groups, const ImpactOptions& options,
@@ -251,6 +269,9 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     model.surroundings.push_back(surroundings_of(dataset.system, model.contacts.back()));
     model.surroundings.back().adhesion = spec.adhesion;
     model.surroundings.back().separation = spec.separation;
+    if (spec.mixed_sizes && dataset.mixed_sizes) {
+      model.surroundings.back().sizes = mixed_sizes_of(*dataset.mixed_sizes);
+    }
   }
   model.chain = chain_of(spec.mechanisms);
   for (const Parameter* parameter : parameters_with(spec.mechanisms, spec.adhesion)) {
@@ -311,9 +332,19 @@ bool without_adhesion(const ImpactModel& model, std::size_t dataset) {
          !model.slots[model.slot_adhesion[dataset]].free;
 }
 
+bool averages_over_sizes(const ImpactModel& model, std::size_t dataset) {
+  return dataset < model.surroundings.size() && model.surroundings[dataset].sizes.mixed();
+}
+
+bool averages_over_sizes(const ImpactModel& model) {
+  return std::any_of(model.surroundings.begin(), model.surroundings.end(),
+                     [](const Surroundings& at) { return at.sizes.mixed(); });
+}
+
 bool follows_materials(const ImpactModel& model, std::size_t dataset) {
   const ParameterSlot& slot = model.slots[model.slot_adhesion[dataset]];
-  return !is_exact(model, dataset) && slot.derived && !slot.free && slot.initial > 0.0;
+  return !is_exact(model, dataset) && slot.derived && !slot.free && slot.initial > 0.0 &&
+         !states_exact_adhesion(model, dataset);
 }
 
 double adhesion_value_under(const ImpactModel& model, std::span<const double> theta,

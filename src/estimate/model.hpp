@@ -92,6 +92,10 @@ double adhesion_force_under(const ImpactModel& model, std::span<const double> th
 /// one. A capture velocity is then nothing but the smallest f0 that the solver takes.
 bool without_adhesion(const ImpactModel& model, std::size_t dataset);
 
+/// Do the points of a dataset average over sizes that it states?
+bool averages_over_sizes(const ImpactModel& model, std::size_t dataset);
+bool averages_over_sizes(const ImpactModel& model);  ///< those of any dataset
+
 /// Does the adhesion of `dataset` follow the constants of its materials?
 bool follows_materials(const ImpactModel& model, std::size_t dataset);
 

@@ -8,6 +8,7 @@
 
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
+#include "mechanism/catalogue.hpp"
 
 namespace recoil {
 namespace {
@@ -15,6 +16,28 @@ namespace {
 constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
 constexpr std::size_t place_of_force = 2;  // of f0 among the values of a point
 constexpr std::size_t points_of_block = 512;
+
+/// A mechanism that acts, and which of the parameters of the model's chain are its own.
+struct Acting {
+  const Mechanism* mechanism;
+  std::size_t first;
+};
+
+/// The sizes over which the points of a dataset average act like the mechanism for sizes that a fit
+/// estimates, with nothing to estimate: where none of the chain does it already.
+void add_stated_sizes(const ImpactModel& model, std::vector<Acting>& acting) {
+  if (!averages_over_sizes(model)) return;
+  const std::vector<Mechanism>& catalogue = mechanism_catalogue();
+  const auto sizes =
+      std::find_if(catalogue.begin(), catalogue.end(),
+                   [](const Mechanism& mechanism) { return mechanism.info.mixes_sizes; });
+  const auto is_sizes = [&](const Acting& one) { return one.mechanism == &*sizes; };
+  if (std::any_of(acting.begin(), acting.end(), is_sizes)) return;
+  const auto later = [&](const Acting& one) {
+    return one.mechanism->info.place > sizes->info.place;
+  };
+  acting.insert(std::find_if(acting.begin(), acting.end(), later), {&*sizes, no_slot});
+}
 
 }  // namespace
 
@@ -39,6 +62,9 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     for (std::size_t i = first; i < first + count; ++i) {
       const PointConditions& p = points_[i];
       ImpactConditions unit = conditions_at(model, initial, p.dataset, p.diameter, p.velocity);
+      // Of the stated materials, whatever the model starts with: theta scales these.
+      unit.density = model.contacts[p.dataset].particle_density;
+      unit.stiffness = model.contacts[p.dataset].stiffness;
       unit.adhesion_force =
           adhesion_force_at(1.0, model.contacts[p.dataset].reference_diameter, p.diameter);
       const ImpactGroups groups = impact_groups(unit);
@@ -47,23 +73,18 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
     }
   });
 
-  std::vector<const Mechanism*> chain;
-  std::vector<std::size_t> own;  // which parameters of the model's chain
-  std::vector<const Parameter*> own_parameters;
+  std::vector<Acting> acting;
   std::size_t parameter = 0;
   for (const Mechanism* mechanism : model.chain) {
     const bool acts =
         effects == Effects::as_measured || mechanism->info.kind != MechanismKind::measurement;
-    if (acts) chain.push_back(mechanism);
-    for (const Parameter& p : mechanism->info.parameters) {
-      if (acts) {
-        own.push_back(parameter);
-        own_parameters.push_back(&p);
-      }
-      ++parameter;
-    }
+    if (acts) acting.push_back({mechanism, parameter});
+    parameter += mechanism->info.parameters.size();
   }
-  if (chain.empty()) return;
+  if (effects == Effects::as_measured) add_stated_sizes(model, acting);
+  if (acting.empty()) return;
+  std::vector<const Mechanism*> chain;
+  for (const Acting& one : acting) chain.push_back(one.mechanism);
   std::vector<ExtendedPoint> extended;
   for (const PointConditions& p : points_) {
     extended.push_back({&surroundings_[p.dataset], p.diameter, p.velocity});
@@ -71,9 +92,13 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       slots_.push_back((*base)[p.dataset]);
       nulls_.push_back(0.0);
     }
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      slots_.push_back(own_slot(model, own[k], *own_parameters[k], p).value_or(no_slot));
-      nulls_.push_back(own_parameters[k]->null_value);
+    for (const Acting& one : acting) {
+      std::size_t k = one.first;
+      for (const Parameter& own : one.mechanism->info.parameters) {
+        const bool stated = one.first == no_slot;
+        slots_.push_back(stated ? no_slot : own_slot(model, k++, own, p).value_or(no_slot));
+        nulls_.push_back(stated ? model.surroundings[p.dataset].sizes.spread : own.null_value);
+      }
     }
   }
   extended_.emplace(std::move(chain), std::move(extended), !model.constants.empty());

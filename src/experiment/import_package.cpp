@@ -262,6 +262,7 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
   block["provenance"] = to_string(provenance_for(request, existing));
   Json stated = existing ? existing->json["recoil"] : Json::object();
   if (!request.like.empty()) stated = stated_system(request.like);
+  stated.erase("mixed_sizes");  // of the points that were there
   if (!request.particle.empty()) stated["particle"] = material(request.particle, "--particle");
   if (!request.surface.empty()) stated["surface"] = material(request.surface, "--surface");
   for (const char* body : {"particle", "surface"}) {
@@ -296,8 +297,9 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
 SphereInAir sphere_in_air(const Json& system) {
   SphereInAir sphere;
   const auto number = [](const Json& object, const char* key, double otherwise) {
-    const auto found = object.is_object() ? object.find(key) : object.end();
-    return found != object.end() && found->is_number() ? found->get<double>() : otherwise;
+    const Json stated = object.is_object() ? object.value(key, Json()) : Json();
+    const Json value = stated.is_object() ? stated.value("value", Json()) : stated;
+    return value.is_number() ? value.get<double>() : otherwise;
   };
   const Json conditions = system.value("conditions", Json::object());
   sphere.air.pressure = number(conditions, "ambient_pressure", 0.0);

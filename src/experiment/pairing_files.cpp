@@ -83,6 +83,7 @@ std::string package_json(const Json& system, const std::string& id, Provenance p
                          double sizes_height) {
   Json recoil = {{"provenance", to_string(provenance)}};
   recoil.update(system);
+  if (sizes_height > 0.0) recoil["mixed_sizes"] = "sizes.csv";
   const auto fields = Json::array({
       package_field("series", "string", "", "the run, and the size class where there are several"),
       package_field("diameter", "number", "um", "mean over the impacts"),

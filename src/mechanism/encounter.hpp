@@ -8,6 +8,7 @@
 #include "impact/deepest_contact.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/dual.hpp"
+#include "mechanism/mixed_sizes.hpp"
 
 namespace recoil {
 
@@ -24,6 +25,7 @@ struct Surroundings {
   Method method = Method::unknown;  ///< how velocities were measured
   AdhesionLaw adhesion = AdhesionLaw::ring;
   double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]
+  MixedSizes sizes;                            ///< over which every point averages, if any
 };
 
 /// @param contact derived from `system`

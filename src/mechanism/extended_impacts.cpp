@@ -12,6 +12,9 @@ namespace {
 /// while the number of steps grows with kappa^2 until the solver gives up.
 constexpr double overdamped = 12.0;
 
+/// Of spheres that differ by something else.
+const MixedSizes no_sizes;
+
 /// The groups of the base impact, carrying derivatives.
 template <class T>
 struct Groups {
@@ -112,7 +115,10 @@ ExtendedImpacts::ExtendedImpacts(std::vector<const Mechanism*> chain,
     : chain_(std::move(chain)), points_(std::move(points)), materials_(materials) {
   for (const Mechanism* mechanism : chain_) {
     own_count_ += mechanism->info.parameters.size();
-    if (mechanism->spreads()) nodes_ *= spread_nodes;
+    if (mechanism->spreads()) {
+      nodes_ *= spread_nodes;
+      spreads_.push_back(mechanism);
+    }
     dashpot_ = dashpot_ || mechanism->dashpot;
   }
   groups_.resize(points_.size() * nodes_);
@@ -201,10 +207,17 @@ long ExtendedImpacts::evaluate_with(Workspace<T>& work, std::span<const double> 
       work.squares[node] = e.square / (e.measured_velocity * e.measured_velocity);
     }
     if (answer.outcome != ImpactOutcome::rebound) continue;
+    const double slowest = points_[i].at->sizes.slowest_seen;
+    const T& velocity = work.encounters[i * nodes_].measured_velocity;
+    const T seen = T(slowest * slowest) / (velocity * velocity);
+    // The last spread of the chain is innermost.
+    std::size_t spread = spreads_.size();
     for (std::size_t left = nodes_; left > 1; left /= spread_nodes) {
+      const MixedSizes& sizes =
+          spreads_[--spread]->info.mixes_sizes ? points_[i].at->sizes : no_sizes;
       for (std::size_t k = 0; k < left / spread_nodes; ++k) {
         const std::span<const T> siblings(&work.squares[k * spread_nodes], spread_nodes);
-        work.squares[k] = survivors_square<T>(siblings);
+        work.squares[k] = survivors_square<T>(siblings, seen, sizes);
       }
     }
     Observed<T> observed{work.squares.front(), work.encounters[i * nodes_].measured_velocity};

@@ -76,6 +76,7 @@ class ExtendedImpacts {
   void keep_slopes(std::size_t i, const T& square);
 
   std::vector<const Mechanism*> chain_;
+  std::vector<const Mechanism*> spreads_;  // those of the chain that make spheres of a point differ
   std::vector<ExtendedPoint> points_;
   std::size_t own_count_ = 0;
   bool materials_ = false;

@@ -1,14 +1,27 @@
+#include <algorithm>
+#include <cassert>
+
 #include "mechanism/mechanism.hpp"
+#include "mechanism/survivors_mean.hpp"
 
 namespace recoil {
 namespace {
 
-/// ln of a lognormal diameter is normal about ln of its median, and its mean is exp(s^2 / 2) times
-/// that median: the stated diameter is the mean.
+/// ln(d / mean) of the sphere at z for a standard deviation s: of the sizes that the dataset
+/// states; else lognormal, whose mean is exp(s^2 / 2) times its median.
+template <class T>
+T logarithm_at(const MixedSizes& sizes, const T& s, double z) {
+  if (!sizes.mixed()) return s * z - 0.5 * s * s;
+  const auto& nodes = spread_positions();
+  const auto node = std::find(nodes.begin(), nodes.end(), z);
+  assert(node != nodes.end());
+  return s * sizes.shape[static_cast<std::size_t>(node - nodes.begin())];
+}
+
 struct Polydispersity {
   template <class T>
   static void vary(Encounter<T>& e, std::span<const T> own, double z) {
-    const T shift = own[0] * z - 0.5 * own[0] * own[0];
+    const T shift = logarithm_at(e.at->sizes, own[0], z);
     const T factor = exponential(shift);
     e.diameter *= factor;
     e.contact_radius *= factor;

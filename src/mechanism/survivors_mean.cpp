@@ -60,11 +60,11 @@ const Quadrature& quadrature() {
 }
 
 template <class T>
-T combine(const Basis& basis, std::span<const T> x) {
+T combine(const Weights& of_node, std::span<const T> x) {
   // Relative to the typical sphere: exact when all are alike.
   const T& middle = x[spread_nodes / 2];
   T sum = middle;
-  for (std::size_t k = 0; k < spread_nodes; ++k) sum += basis.value[k] * (x[k] - middle);
+  for (std::size_t k = 0; k < spread_nodes; ++k) sum += of_node[k] * (x[k] - middle);
   return sum;
 }
 
@@ -78,9 +78,9 @@ double slope_at(const Basis& basis, std::span<const T> x) {
   return sum;
 }
 
-/// Where the interpolated e^2 passes through zero, between nodes of opposite sign.
+/// Where the interpolated e^2 passes through `seen`, which lies between its ends.
 template <class T>
-T crossing(std::span<const T> x) {
+T crossing(std::span<const T> x, const T& seen) {
   double inside =
       value_of(x.front()) > value_of(x.back()) ? -spread_reach : spread_reach;  // comes back
   double outside = -inside;
@@ -90,24 +90,87 @@ T crossing(std::span<const T> x) {
     const Basis basis = basis_at(middle);
     double at = 0.0;
     for (std::size_t k = 0; k < spread_nodes; ++k) at += basis.value[k] * value_of(x[k]);
-    (at > 0.0 ? inside : outside) = middle;
+    (at > value_of(seen) ? inside : outside) = middle;
   }
   const Basis basis = basis_at(inside);
-  const T there = combine(basis, x);
+  const T there = combine(basis.value, x) - seen;
   T z = inside;
   add_slopes(z, -1.0 / slope_at(basis, x), there);
   return z;
 }
 
-/// e^2 where even the last sphere is captured. With D = its distance to the other end, the slope is
-/// 4/9 at first (the mean of sqrt(t) over a short interval is 2/3 of its largest value) and 1 far
-/// below, or when all are alike.
+/// e^2 where even the last sphere is captured, or not seen. With D = its distance to the other end,
+/// the slope is at first 4/9 (the mean of sqrt(t) over a short interval is 2/3 of its largest
+/// value), or 1/2 where it begins above zero (the square root hardly bends over a short interval),
+/// and 1 far below, or when all are alike.
 template <class T>
-T beyond_the_last(const T& last, const T& other) {
-  const T depth = -1.0 * last;
+T beyond_the_last(const T& last, const T& other, const T& seen) {
+  const T depth = seen - last;
   const T width = last - other;
   if (value_of(depth) + value_of(width) == 0.0) return last;
-  return last * ((4.0 / 9.0 * width + depth) / (width + depth));
+  const double at_first = value_of(seen) > 0.0 ? 0.5 : 4.0 / 9.0;
+  return seen - depth * ((at_first * width + depth) / (width + depth));
+}
+
+/// The mean e of what is seen, as it is added up.
+template <class T>
+class SeenMean {
+ public:
+  void add(const T& weight, const T& square) {
+    if (!(value_of(square) > 0.0)) return;  // within rounding of the edge
+    total_ += weight * sqrt(square);
+    weights_ += weight;
+  }
+  /// @param single what it is where hardly anything is seen
+  T square(const T& single) const {
+    if (!(value_of(weights_) > 0.0)) return single;
+    const T mean = total_ / weights_;
+    return mean * mean;
+  }
+
+ private:
+  T total_ = 0.0;
+  T weights_ = 0.0;
+};
+
+/// e^2 at z, which moves with the edge.
+template <class T>
+T moving_square(std::span<const T> x, const T& z) {
+  const Basis basis = basis_at(value_of(z));
+  T square = combine(basis.value, x);
+  add_slopes(square, slope_at(basis, x), z);
+  return square;
+}
+
+/// Spheres whose z is normal, from the last one that is seen to the end where all are.
+template <class T>
+void add_normal(std::span<const T> x, const T& edge, double from, bool whole, SeenMean<T>& mean) {
+  // Points crowd at the edge, where sqrt(e^2) is steep.
+  const Quadrature& rule = quadrature();
+  for (std::size_t i = 0; i < quadrature_points; ++i) {
+    const double s = rule.at[i];
+    const T z = edge + (from - edge) * (s * s);
+    const Basis& fixed = from < 0.0 ? rule.whole_from_high[i] : rule.whole_from_low[i];
+    mean.add(rule.weight[i] * s * normal_density(z),
+             whole ? combine(fixed.value, x) : moving_square(x, z));
+  }
+}
+
+/// The spheres of a piece of the sizes between the last one that is seen and `end`.
+template <class T>
+void add_seen_part(std::span<const T> x, const T& edge, double end, const SizePiece& piece,
+                   double rate, SeenMean<T>& mean) {
+  // Diameters are spread evenly: the density of z is that of exp(rate z).
+  const double density =
+      piece.weight * rate / (std::exp(rate * piece.to) - std::exp(rate * piece.from));
+  const T width = value_of(edge) < end ? end - edge : edge - end;
+  const Quadrature& rule = quadrature();
+  for (std::size_t i = 0; i < quadrature_points; ++i) {
+    const double s = rule.at[i];
+    const T z = edge + (end - edge) * (s * s);
+    mean.add(2.0 * s * rule.weight[i] * density * width * exponential(rate * z),
+             moving_square(x, z));
+  }
 }
 
 }  // namespace
@@ -125,42 +188,46 @@ const std::array<double, spread_nodes>& spread_positions() {
   return positions;
 }
 
+std::array<double, spread_nodes> interpolation_weights(double z) { return basis_at(z).value; }
+
 template <class T>
-T survivors_square(std::span<const T> x) {
+T survivors_square(std::span<const T> x, const T& seen, const MixedSizes& sizes) {
   assert(x.size() == spread_nodes);
   const double low = value_of(x.front());
   const double high = value_of(x.back());
   const bool low_best = low >= high;  // small z comes back most easily
   const T& best = low_best ? x.front() : x.back();
   const T& worst = low_best ? x.back() : x.front();
-  if (!(value_of(best) > 0.0)) return beyond_the_last(best, worst);
-  const bool whole = value_of(worst) > 0.0;
+  if (!(value_of(best) > value_of(seen))) return beyond_the_last(best, worst, seen);
+  const bool whole = value_of(worst) > value_of(seen);
   const double from = low_best ? -spread_reach : spread_reach;
-  const T edge = whole ? T(-from) : crossing(x);
-  // z = edge + (from - edge) (1 - s^2 ...): points crowd at the edge, where sqrt(e^2) is steep.
-  const Quadrature& rule = quadrature();
-  T total = 0.0;
-  T weights = 0.0;
-  for (std::size_t i = 0; i < quadrature_points; ++i) {
-    const double s = rule.at[i];
-    const T z = edge + (from - edge) * (s * s);
-    const Basis moved = whole ? Basis{} : basis_at(value_of(z));
-    const Basis& basis =
-        !whole ? moved : (low_best ? rule.whole_from_high[i] : rule.whole_from_low[i]);
-    T square = combine(basis, x);
-    if (!whole) add_slopes(square, slope_at(basis, x), z);
-    if (!(value_of(square) > 0.0)) continue;  // within rounding of the edge
-    const T weight = rule.weight[i] * s * normal_density(z);
-    total += weight * sqrt(square);
-    weights += weight;
+  const T edge = whole ? T(-from) : crossing(x, seen);
+  SeenMean<T> mean;
+  if (!sizes.mixed()) {
+    add_normal(x, edge, from, whole, mean);
+    return mean.square(best);
   }
-  const T mean = total / weights;
-  return mean * mean;
+  for (const SizePiece& piece : *sizes.pieces) {
+    const double at = value_of(edge);
+    const bool outside = !whole && (low_best ? piece.from >= at : piece.to <= at);
+    if (outside) continue;
+    if (whole || (low_best ? piece.to <= at : piece.from >= at)) {
+      for (const SizePiece::Sphere& sphere : piece.spheres) {
+        mean.add(T(sphere.weight), combine(sphere.of_node, x));
+      }
+    } else {
+      add_seen_part(x, edge, low_best ? piece.from : piece.to, piece, sizes.rate, mean);
+    }
+  }
+  return mean.square(best);
 }
 
-template double survivors_square(std::span<const double>);
-template FewDirections survivors_square(std::span<const FewDirections>);
-template SomeDirections survivors_square(std::span<const SomeDirections>);
-template ManyDirections survivors_square(std::span<const ManyDirections>);
+template double survivors_square(std::span<const double>, const double&, const MixedSizes&);
+template FewDirections survivors_square(std::span<const FewDirections>, const FewDirections&,
+                                        const MixedSizes&);
+template SomeDirections survivors_square(std::span<const SomeDirections>, const SomeDirections&,
+                                         const MixedSizes&);
+template ManyDirections survivors_square(std::span<const ManyDirections>, const ManyDirections&,
+                                         const MixedSizes&);
 
 }  // namespace recoil

@@ -9,23 +9,29 @@
 namespace recoil {
 
 /// Where the spheres of a point are sampled, in standard deviations: the Chebyshev-Lobatto points
-/// of [-2.5, 2.5], which is where the distribution is cut off. Among some tens of impacts none lies
-/// further out; beyond, the picture "normal" is not known to hold.
-inline constexpr std::size_t spread_nodes = 9;
-inline constexpr double spread_reach = 2.5;
+/// of [-spread_reach, spread_reach], where the distribution is cut off. Among some tens of impacts
+/// none lies further out; beyond, the picture "normal" is not known to hold.
 const std::array<double, spread_nodes>& spread_positions();
+
+/// What each node counts in the polynomial through all of them, at z.
+std::array<double, spread_nodes> interpolation_weights(double z);
 
 /// The e^2 that a point shows when its spheres differ: the square of the mean e of those that come
 /// back. `squares[k]` is e^2, continued below zero, of the sphere at spread_positions()[k]; between
 /// them it is interpolated by a polynomial. When even the last sphere is captured the value goes on
 /// below zero along its e^2, with a slope that is continuous; spheres that are all alike give back
 /// their own e^2.
+/// @param seen the e^2 below which a rebound is not seen: it is left out of the mean like a capture
+/// @param sizes that the spheres have, where they are stated; otherwise z is normal
 template <class T>
-T survivors_square(std::span<const T> squares);
+T survivors_square(std::span<const T> squares, const T& seen, const MixedSizes& sizes = {});
 
-extern template double survivors_square(std::span<const double>);
-extern template FewDirections survivors_square(std::span<const FewDirections>);
-extern template SomeDirections survivors_square(std::span<const SomeDirections>);
-extern template ManyDirections survivors_square(std::span<const ManyDirections>);
+extern template double survivors_square(std::span<const double>, const double&, const MixedSizes&);
+extern template FewDirections survivors_square(std::span<const FewDirections>, const FewDirections&,
+                                               const MixedSizes&);
+extern template SomeDirections survivors_square(std::span<const SomeDirections>,
+                                                const SomeDirections&, const MixedSizes&);
+extern template ManyDirections survivors_square(std::span<const ManyDirections>,
+                                                const ManyDirections&, const MixedSizes&);
 
 }  // namespace recoil

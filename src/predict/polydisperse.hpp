@@ -6,8 +6,8 @@
 
 #include "core/names.hpp"
 #include "data/dataset.hpp"
+#include "data/measured_sizes.hpp"
 #include "estimate/fit.hpp"
-#include "predict/measured_sizes.hpp"
 #include "uncertainty/bootstrap_result.hpp"
 
 namespace recoil {

@@ -89,7 +89,9 @@ Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t 
     fresh.points[i].restitution = points[i].restitution;
     fresh.points[i].restitution_sd = points[i].restitution_sd;
     fresh.points[i].events = points[i].events;
-    fresh.points[i].captured = 0;
+    const bool back = points[i].restitution > 0.0;
+    fresh.points[i].captured = back ? 0 : points[i].events;
+    if (!back) fresh.points[i].restitution_sd.reset();
   }
   fresh.sha256 = sha256_hex(original.sha256 + to_csv(recipe, points));
   return fresh;

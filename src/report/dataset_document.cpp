@@ -130,7 +130,9 @@ Table dataset_table(const Dataset& dataset) {
   entry("particle", material_words(dataset.system.particle));
   entry("surface", material_words(dataset.system.surface));
   entry("stated", override_words(dataset.system));
+  entry("known to", stated_errors_words(dataset.system));
   entry("conditions", condition_words(dataset.system));
+  if (dataset.mixed_sizes) entry("sizes", mixed_sizes_words(*dataset.mixed_sizes));
   entry("columns", column_words(dataset));
   entry("points", say("{} in {} series", dataset.points.size(), dataset.series.size()));
   entry("sha256", dataset.sha256);

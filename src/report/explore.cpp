@@ -68,7 +68,7 @@ std::string explored_panel(const Analysis& analysis, const Panel& panel,
   const FitResult& fit = analysis.fitted;
   const ImpactModel& model = fit.model;
   const plot::Plot& shown = picture.plots.front();
-  if (!model.chain.empty() || !shown.frame) return "";
+  if (!model.chain.empty() || averages_over_sizes(model) || !shown.frame) return "";
   const ImpactConditions at = conditions_at(model, fit.theta, panel.dataset, panel.diameter, 1.0);
   const ParameterSlot& adhesion = model.slots[model.slot_adhesion[panel.dataset]];
   Json out;

@@ -38,6 +38,10 @@ plot::Picture restitution_overview(const Analysis& analysis, const std::string& 
     named[panel.dataset] = true;
     if (panel.curve != nullptr) {
       const CurveColumns curve = curve_columns(*panel.curve);
+      if (!by_dataset && !curve.lower.empty()) {
+        shown.layers.push_back(plot::Band{
+            curve.velocity, curve.lower, curve.upper, {std::string(marker.colour), 0.3}});
+      }
       shown.layers.push_back(plot::Line{curve.velocity, curve.restitution, {marker.colour, 1.6}});
     }
     const PointColumns columns = point_columns(analysis, panel.points);

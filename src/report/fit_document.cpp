@@ -157,14 +157,18 @@ Sentence equation_words(AdhesionLaw law) {
 
 Section model_section(const Analysis& a) {
   Section section{"model", "Model"};
-  section.blocks = {
-      Paragraph{equation_words(a.fitted.model.adhesion)},
-      items(
-          {{"adhesion damping",
-            say("phase \"{}\", always dissipative", to_string(a.fitted.model.phase))},
-           {"mechanisms", a.spec.mechanisms.empty()
-                              ? Sentence("none")
-                              : Sentence(fmt::format("{}", fmt::join(a.spec.mechanisms, ", ")))}})};
+  std::vector<std::pair<Sentence, Cell>> entries = {
+      {"adhesion damping",
+       say("phase \"{}\", always dissipative", to_string(a.fitted.model.phase))},
+      {"mechanisms", a.spec.mechanisms.empty()
+                         ? Sentence("none")
+                         : Sentence(fmt::format("{}", fmt::join(a.spec.mechanisms, ", ")))}};
+  for (std::size_t d = 0; d < a.datasets.size(); ++d) {
+    if (!averages_over_sizes(a.fitted.model, d)) continue;
+    const std::string of = a.datasets.size() > 1 ? a.datasets[d].id + ": " : "";
+    entries.emplace_back("sizes", Sentence(of + mixed_sizes_words(*a.datasets[d].mixed_sizes)));
+  }
+  section.blocks = {Paragraph{equation_words(a.fitted.model.adhesion)}, items(entries)};
   for (std::size_t k = 0; k < a.datasets.size() && k < a.fitted.model.contacts.size(); ++k) {
     section.blocks.emplace_back(contact_table(a, k));
   }

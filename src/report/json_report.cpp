@@ -77,6 +77,7 @@ Json options_json(const Analysis& a) {
   return {{"adhesion", to_string(a.fitted.model.adhesion)},
           {"adhesion_damping_phase", to_string(a.fitted.model.phase)},
           {"mechanisms", a.spec.mechanisms},
+          {"mixed_sizes", averages_over_sizes(a.fitted.model)},
           {"replicates", options.replicates_auto ? Json("auto") : Json(options.replicates)},
           {"scheme", to_string(options.scheme)},
           {"level", number_or_null(options.level)},

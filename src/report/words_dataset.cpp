@@ -4,8 +4,35 @@
 #include <fmt/ranges.h>
 
 #include "core/units.hpp"
+#include "mechanism/mixed_sizes.hpp"
 
 namespace recoil {
+
+namespace {
+
+std::string_view words_of_constant(Constant constant) {
+  switch (constant) {
+    case Constant::density:
+      return "density";
+    case Constant::youngs_modulus:
+      return "Young's modulus";
+    case Constant::poisson_ratio:
+      return "Poisson's ratio";
+    case Constant::surface_energy:
+      return "surface energy";
+    case Constant::gilman_factor:
+      return "surface energy by Gilman's estimate";
+    case Constant::stiffness_K:
+      return "K";
+    case Constant::adhesion_energy:
+      return "adhesion energy";
+    case Constant::adhesion_force_f0:
+      return "f0";
+  }
+  return "";
+}
+
+}  // namespace
 
 std::string provenance_sentence(Provenance provenance) {
   switch (provenance) {
@@ -46,6 +73,39 @@ std::string warning_sentence(const DatasetWarning& warning) {
                  "kept; a point that was copied by accident would count twice");
   }
   return "";
+}
+
+std::string mixed_sizes_words(const MeasuredSizes& sizes) {
+  const MixedSizes mixed = mixed_sizes_of(sizes);
+  std::string words = fmt::format(
+      "every point averages over {:.4g} to {:.4g} um (mean {:.4g} um, standard deviation of ln d "
+      "{:.3g}{})",
+      sizes.smallest / units::um, sizes.largest / units::um, sizes.mean_diameter() / units::um,
+      mixed.spread,
+      sizes.provenance == name_of(Provenance::reconstruction) ? ", a reconstruction" : "");
+  if (mixed.slowest_seen > 0.0) {
+    words += fmt::format("; rebounds below {:.3g} m/s are not seen", mixed.slowest_seen);
+  }
+  return words;
+}
+
+std::string stated_errors_words(const ImpactSystem& system) {
+  std::string words;
+  for (const Body body : values_of<Body>()) {
+    std::vector<std::string> of_body;
+    for (const ConstantError& error : system.errors) {
+      if (error.body != body) continue;
+      const std::string_view name = words_of_constant(error.constant);
+      const double value = system.value_of(error.body, error.constant).value_or(1.0);
+      of_body.push_back(is_positive(error.constant)
+                            ? fmt::format("{} {:.3g} %", name, 100.0 * error.sd / value)
+                            : fmt::format("{} {:.3g}", name, error.sd));
+    }
+    if (of_body.empty()) continue;
+    words +=
+        fmt::format("{}{}: {}", words.empty() ? "" : "; ", name_of(body), fmt::join(of_body, ", "));
+  }
+  return words;
 }
 
 std::string left_out_sentence(const std::vector<LeftOverride>& left_out) {

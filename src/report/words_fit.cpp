@@ -97,9 +97,12 @@ std::vector<std::string> fit_warnings(const FitResult& fitted) {
   add_about_idle_mechanisms(fitted.model, warnings);
   if (fitted.unused_counts) {
     warnings.push_back(
-        fmt::format("{} says how the impacts of a point differ: the counts of captured spheres at "
-                    "{} points with rebounds are not used in addition",
-                    fitted.unused_counts->mechanism->info.id, fitted.unused_counts->points));
+        fmt::format("{} how the impacts of a point differ: the counts of captured spheres at {} "
+                    "points with rebounds are not used in addition",
+                    fitted.unused_counts->mechanism == nullptr
+                        ? std::string("the stated sizes say")
+                        : fmt::format("{} says", fitted.unused_counts->mechanism->info.id),
+                    fitted.unused_counts->points));
   }
   if (!fitted.usable) return warnings;
   if (!fitted.weights_at_rest) {

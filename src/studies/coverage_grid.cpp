@@ -118,6 +118,7 @@ std::vector<GridDesign> designs_named(const std::vector<std::string>& words) {
 
 FitSpec grid_spec(const FitSpec& spec, const GridDesign& design) {
   FitSpec own = spec;
+  own.uncertainty.materials = false;  // one truth for all data sets
   for (ParameterSpec& parameter : own.parameters) {
     if (parameter.parameter->role != ParameterRole::adhesion_force) continue;
     parameter.free = design.adhesion_free;
@@ -131,7 +132,9 @@ FitSpec grid_spec(const FitSpec& spec, const GridDesign& design) {
 
 CoverageTruth grid_truth(const FitSpec& spec, const Dataset& base, const GridDesign& design,
                          std::uint64_t seed) {
-  const EstimatedTruth found = truth_at_estimate(spec, {base}, gather({base}, spec));
+  FitSpec exact = spec;
+  exact.uncertainty.materials = false;
+  const EstimatedTruth found = truth_at_estimate(exact, {base}, gather({base}, exact));
   const Truth& truth = found.truths.front();
   CoverageTruth study;
   study.origin = TruthOrigin::estimate;

@@ -177,11 +177,12 @@ void write_peer_case(const std::filesystem::path& folder) {
 }
 
 Case load_case(const std::filesystem::path& fit_file) {
-  const FitSpec spec = load_fit(fit_file);
+  FitSpec spec = load_fit(fit_file);
   Case loaded;
   for (const std::filesystem::path& folder : spec.datasets) {
     loaded.datasets.push_back(load_dataset(folder));
   }
+  spec.uncertainty.materials = false;  // as its peers do
   loaded.model = make_model(spec, loaded.datasets);
   loaded.data = gather(loaded.datasets);
   return loaded;

@@ -33,7 +33,9 @@ TEST(Candidate, CarriesFreeParametersOverAndLeavesFixedOnesAlone) {
   const Candidate crack = make_candidate(synthetic::spec(), data, {"crack_rate"});
   const std::vector<double> theta =
       carried_over(base.model, std::vector<double>{0.007, 0.02, 5.0}, crack.model);
-  ASSERT_EQ(theta.size(), 5U);
+  // Last the errors of the two estimated surface energies, whose W_A crack_factor multiplies.
+  ASSERT_EQ(theta.size(), 7U);
+  ASSERT_EQ(crack.model.first_constant(), 5U);
   EXPECT_EQ(theta[0], 0.007);
   EXPECT_EQ(theta[1], 0.02);
   EXPECT_EQ(theta[2], 8.9);  // f0 is fixed in both

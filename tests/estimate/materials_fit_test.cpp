@@ -194,6 +194,57 @@ TEST(Materials, TakenAsExactGiveTheDigitsOfExactOnes) {
   EXPECT_EQ(a.chi2, b.chi2);
 }
 
+// A model may start where another fit ended; what it says at theta does not depend on that.
+TEST(Materials, AreThoseOfThetaWhereverTheModelStarts) {
+  const Dataset data = uncertain_dataset();
+  const ImpactModel stated = make_model(synthetic::spec(), {data});
+  std::vector<double> theta = stated.initial();
+  theta[slot_of(stated, "particle.youngs_modulus")] *= 1.4;
+  theta[slot_of(stated, "particle.density")] *= 0.9;
+  ImpactModel moved = stated;
+  for (std::size_t j = moved.first_constant(); j < theta.size(); ++j) {
+    moved.slots[j].initial = theta[j];
+  }
+  const auto square = [&](const ImpactModel& model) {
+    return predict(model, theta, 0, 4.9e-6, 3.0, false).restitution_squared;
+  };
+  EXPECT_DOUBLE_EQ(square(moved), square(stated));
+}
+
+// Gilman's estimate has an error where it decides f0, and enters nowhere else.
+TEST(Materials, AnEstimatedSurfaceEnergyCarriesItsError) {
+  const auto estimates = [](const FitSpec& spec, const Dataset& data) {
+    const ImpactModel model = make_model(spec, {data});
+    return std::count_if(model.constants.begin(), model.constants.end(),
+                         [](const UncertainConstant& constant) {
+                           return constant.constant == Constant::gilman_factor;
+                         });
+  };
+  Dataset data = synthetic::dataset({});
+  EXPECT_EQ(estimates(synthetic::spec(), data), 0);  // f0 is stated
+  data.system.adhesion_force_f0.reset();
+  EXPECT_EQ(estimates(synthetic::spec(), data), 2);
+  EXPECT_EQ(estimates(synthetic::spec(true), data), 0);  // f0 is fitted
+  FitSpec exact = synthetic::spec();
+  exact.uncertainty.materials = false;
+  EXPECT_EQ(estimates(exact, data), 0);
+  data.system.particle.surface_energy = 0.02;
+  EXPECT_EQ(estimates(synthetic::spec(), data), 1);
+  data.system.adhesion_energy = 0.3;
+  EXPECT_EQ(estimates(synthetic::spec(), data), 0);
+}
+
+TEST(Materials, DoNotMoveAStatedForce) {
+  Dataset data = uncertain_dataset();
+  EXPECT_TRUE(follows_materials(make_model(synthetic::spec(), {data}), 0));
+  data.system.adhesion_force_f0 = 8.9;
+  const ImpactModel model = make_model(synthetic::spec(), {data});
+  EXPECT_FALSE(follows_materials(model, 0));
+  std::vector<double> theta = model.initial();
+  theta[slot_of(model, "particle.youngs_modulus")] *= 1.3;
+  EXPECT_DOUBLE_EQ(adhesion_force_under(model, theta, 0), 8.9);
+}
+
 TEST(Materials, AreSharedByDatasetsWithTheSameBody) {
   Dataset one = uncertain_dataset();
   Dataset two = one;

@@ -219,16 +219,12 @@ TEST(MechanismSpec, ParametersMayBelongToEachDataset) {
       datasets);
   std::vector<std::string> labels;
   for (const ParameterSlot& slot : model.slots) labels.push_back(slot.label());
-  const std::vector<std::string> expected = {"C_H",
-                                             "C_A",
-                                             "f0[synthetic]",
-                                             "f0[other]",
-                                             "jkr_factor[synthetic]",
-                                             "jkr_factor[other]",
-                                             "series_offset[synthetic/0]",
-                                             "series_offset[synthetic/1]",
-                                             "series_offset[other/0]",
-                                             "series_offset[other/1]"};
+  const std::vector<std::string> expected = {
+      "C_H", "C_A", "f0[synthetic]", "f0[other]", "jkr_factor[synthetic]", "jkr_factor[other]",
+      "series_offset[synthetic/0]", "series_offset[synthetic/1]", "series_offset[other/0]",
+      "series_offset[other/1]",
+      // of the W_A that jkr_factor multiplies
+      "particle.gilman_factor", "surface.gilman_factor"};
   EXPECT_EQ(labels, expected);
 }
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/files.hpp"
-#include "predict/measured_sizes.hpp"
+#include "data/measured_sizes.hpp"
 #include "studies/synthetic/event_stream.hpp"
 #include "support/workplace.hpp"
 

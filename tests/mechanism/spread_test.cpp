@@ -86,6 +86,7 @@ TEST(Polydispersity, KeepsTheMeanDiameterThatTheDataState) {
       const double weight =
           std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi) * 16.0 / count;
       Encounter<double> e;
+      e.at = &kSoft;
       e.diameter = 1.0;
       e.contact_radius = 0.5;
       e.adhesion_force = 1.0;
@@ -99,6 +100,57 @@ TEST(Polydispersity, KeepsTheMeanDiameterThatTheDataState) {
     EXPECT_NEAR(mean, 1.0, 1e-12);
     EXPECT_NEAR(square - logarithm * logarithm, spread * spread, 1e-12);
   }
+}
+
+/// A histogram of uneven bins with a gap, which no lognormal is: 2.5 to 9.5 um.
+MeasuredSizes uneven_sizes() {
+  MeasuredSizes sizes;
+  sizes.bins = {
+      {3.5e-6, 0.15, 2e-6}, {5.25e-6, 0.5, 1.5e-6}, {6.5e-6, 0.2, 1e-6}, {8.5e-6, 0.15, 2e-6}};
+  return sizes;
+}
+
+// The sizes act through nine spheres; here every bin is cut into four hundred.
+TEST(MixedSizes, AreTheMeanOverTheStatedHistogram) {
+  MeasuredSizes sizes = uneven_sizes();
+  double total = 0.0;
+  double mean = 0.0;
+  for (const SizeBin& bin : sizes.bins) {
+    total += bin.weight;
+    mean += bin.weight * bin.diameter;
+  }
+  mean /= total;
+  for (const double height : {0.0, 2e-3}) {  // of the plane: 0 and 0.198 m/s
+    sizes.probe_height = height;
+    Surroundings at = kSoft;
+    at.sizes = mixed_sizes_of(sizes);
+    const double slowest = std::sqrt(2.0 * 9.80665 * height);
+    for (const double V : {0.7, 0.9, 1.1, 1.5, 2.5, 10.0}) {
+      double sum = 0.0;
+      double seen = 0.0;
+      for (const SizeBin& bin : sizes.bins) {
+        constexpr int parts = 400;
+        for (int i = 0; i < parts; ++i) {
+          // The point's diameter is the mean of its spheres, here kDiameter.
+          const double d =
+              (bin.diameter + ((i + 0.5) / parts - 0.5) * bin.width) * kDiameter / mean;
+          const double x = base_square(kBase.f0 * std::cbrt(d / kDiameter), d, V);
+          if (!(x > 0.0) || !(std::sqrt(x) * V > slowest)) continue;
+          sum += bin.weight * std::sqrt(x);
+          seen += bin.weight;
+        }
+      }
+      ASSERT_GT(seen, 0.0) << V;
+      const double found = square(at, {"polydispersity"}, {at.sizes.spread}, kDiameter, V, kBase);
+      EXPECT_NEAR(std::sqrt(std::max(found, 0.0)), sum / seen, 3e-3) << V << " " << height;
+    }
+  }
+}
+
+TEST(MixedSizes, OfOneSizeAreNone) {
+  MeasuredSizes one;
+  one.bins = {{4.9e-6, 1.0, 0.0}};
+  EXPECT_FALSE(mixed_sizes_of(one).mixed());
 }
 
 TEST(SurvivorsMean, OfAStraightLine) {
@@ -124,7 +176,7 @@ TEST(SurvivorsMean, OfAStraightLine) {
   for (const double c : {-2.0, -0.5, 0.3, 2.0, 2.49, 4.0, 30.0}) {
     std::vector<double> x;
     for (const double z : spread_positions()) x.push_back(c - z);
-    EXPECT_NEAR(std::sqrt(survivors_square<double>(x)), mean(c), 2e-6 * mean(c)) << c;
+    EXPECT_NEAR(std::sqrt(survivors_square<double>(x, 0.0)), mean(c), 2e-6 * mean(c)) << c;
   }
 }
 
@@ -132,12 +184,27 @@ TEST(SurvivorsMean, PassesSmoothlyThroughTheCaptureOfTheLast) {
   const auto at = [](double c) {
     std::vector<double> x;
     for (const double z : spread_positions()) x.push_back(c - 0.1 * z);
-    return survivors_square<double>(x);
+    return survivors_square<double>(x, 0.0);
   };
   const double h = 1e-6;
   EXPECT_NEAR(at(-0.25 + h), -at(-0.25 - h), 1e-3 * h);
   EXPECT_LT(at(-0.25 - 1e-3), 0.0);
   EXPECT_NEAR((at(-0.25 + h) - at(-0.25)) / h, 4.0 / 9.0, 1e-3);
+}
+
+// What is too slow to be seen is left out like a capture, and the mean begins where it does.
+TEST(SurvivorsMean, LeavesOutWhatIsNotSeen) {
+  const auto at = [](double c, double seen) {
+    std::vector<double> x;
+    for (const double z : spread_positions()) x.push_back(c - 0.1 * z);
+    return survivors_square<double>(x, seen);
+  };
+  EXPECT_GT(at(0.2, 0.1), at(0.2, 0.0));
+  const double h = 1e-6;
+  EXPECT_NEAR(at(-0.15 + h, 0.1), 0.1, h);  // the last sphere, e^2 = 0.1
+  EXPECT_NEAR(at(-0.15 - h, 0.1), 0.1, h);
+  EXPECT_NEAR((at(-0.15 + h, 0.1) - at(-0.15, 0.1)) / h, 0.5, 2e-3);
+  EXPECT_NEAR((at(-0.15, 0.1) - at(-0.15 - h, 0.1)) / h, 0.5, 2e-3);
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ TEST(DatasetDocument, SaysWhatWasReadWithUnits) {
   EXPECT_THAT(value_of(table, "columns"), HasSubstr("restitution_sd [%]"));
   EXPECT_EQ(value_of(table, "points"), "4 in 2 series");
   EXPECT_EQ(value_of(table, "stated"), "");
+  EXPECT_EQ(value_of(table, "known to"), "");
+  EXPECT_EQ(value_of(table, "sizes"), "");
   EXPECT_THAT(titles(dataset), testing::ElementsAre("Dataset", "Series", "Sources"));
 }
 
@@ -88,6 +90,23 @@ TEST(Provenance, EachHasItsOneSentence) {
 TEST(Provenance, AReconstructionSaysThatNothingWasMeasured) {
   EXPECT_THAT(provenance_sentence(Provenance::reconstruction),
               HasSubstr("not one of them was measured"));
+}
+
+TEST(DatasetDocument, SaysHowWellConstantsAreKnownAndWhichSizesAreMixed) {
+  Dataset dataset = dataset_of(example::package);
+  dataset.system.errors = {{Body::particle, Constant::youngs_modulus, 0.256e9},
+                           {Body::surface, Constant::poisson_ratio, 0.02}};
+  dataset.mixed_sizes.emplace();
+  dataset.mixed_sizes->bins = {{1.5e-6, 1.0, 1e-6}, {2.5e-6, 1.0, 1e-6}};
+  dataset.mixed_sizes->smallest = 1e-6;
+  dataset.mixed_sizes->largest = 3e-6;
+  dataset.mixed_sizes->probe_height = 1e-3;
+  const Table table = dataset_table(dataset);
+  EXPECT_EQ(value_of(table, "known to"),
+            "particle: Young's modulus 10 %; surface: Poisson's ratio 0.02");
+  EXPECT_THAT(value_of(table, "sizes"),
+              HasSubstr("every point averages over 1 to 3 um (mean 2 um"));
+  EXPECT_THAT(value_of(table, "sizes"), HasSubstr("rebounds below 0.14 m/s are not seen"));
 }
 
 }  // namespace

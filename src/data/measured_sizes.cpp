@@ -1,4 +1,4 @@
-#include "predict/measured_sizes.hpp"
+#include "data/measured_sizes.hpp"
 
 #include <fmt/format.h>
 
@@ -31,14 +31,14 @@ struct SizesResource {
   std::optional<double> probe_height;
 };
 
-std::string text_of(const JsonNode& node, const char* key) {
+std::string text_under(const JsonNode& node, const char* key) {
   const auto found = node.find(key);
   return found ? printable(found->string()) : std::string();
 }
 
-void read_resource(const JsonNode& resource, SizesResource& out) {
-  out.provenance = text_of(resource, "provenance");
-  out.description = text_of(resource, "description");
+void read_sizes_resource(const JsonNode& resource, SizesResource& out) {
+  out.provenance = text_under(resource, "provenance");
+  out.description = text_under(resource, "description");
   if (const auto height = resource.find("probe_height")) {
     out.probe_height = height->number();
     if (!(*out.probe_height >= 0.0 && *out.probe_height <= 1.0)) {
@@ -61,7 +61,7 @@ SizesResource resource_beside(const std::filesystem::path& file) {
   require_text(text, package.string());
   const JsonDocument document(text, package.string());
   if (const auto resource = find_resource(document.root(), file.filename().string())) {
-    read_resource(*resource, out);
+    read_sizes_resource(*resource, out);
   }
   return out;
 }

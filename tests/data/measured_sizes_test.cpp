@@ -1,5 +1,5 @@
 // Size distributions: reading them, and the two that ship with datasets.
-#include "predict/measured_sizes.hpp"
+#include "data/measured_sizes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
