@@ -13,17 +13,27 @@
 
 namespace recoil {
 
+/// `threads` of them, also where that is more than there are cores, which is somebody's choice: TBB
+/// would warn on stderr and run fewer.
+class AllowedThreads {
+ public:
+  explicit AllowedThreads(int threads) {
+    if (threads > tbb::this_task_arena::max_concurrency()) {
+      allowance_.emplace(tbb::global_control::max_allowed_parallelism,
+                         static_cast<std::size_t>(threads));
+    }
+  }
+
+ private:
+  std::optional<tbb::global_control> allowance_;
+};
+
 /// Calls body(i) for i in [0, count) on `threads` threads (0: all cores). Each call writes only its
 /// own slot, so no result depends on the number of threads.
 /// @throws CalledOff between two calls
 template <class Body>
 void parallel_over(std::size_t count, int threads, const Body& body) {
-  // More threads than cores are somebody's choice; TBB would warn on stderr and run fewer.
-  std::optional<tbb::global_control> allowance;
-  if (threads > tbb::this_task_arena::max_concurrency()) {
-    allowance.emplace(tbb::global_control::max_allowed_parallelism,
-                      static_cast<std::size_t>(threads));
-  }
+  const AllowedThreads allowed(threads);
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1),
@@ -58,6 +68,7 @@ void over_blocks(std::size_t count, std::size_t size, const Body& body) {
 template <class Work>
 auto on_threads(int threads, const Work& work) {
   if (threads <= 0) return work();
+  const AllowedThreads allowed(threads);
   tbb::task_arena arena(threads);
   return arena.execute(work);
 }

@@ -53,8 +53,8 @@ double boettcher_restitution(const Sphere& s, double plate_mobility, double velo
   return std::exp(-1.719 * s.mass * plate_mobility * contact_rate(s, velocity));
 }
 
-double speed_lost_in_film(double viscosity, const Sphere& s, double gap, double path) {
-  return 6.0 * pi * viscosity * s.radius * s.radius / s.mass * std::log(gap / path);
+double speed_lost_in_film(double mu, const Sphere& s, double gap, double path) {
+  return 6.0 * pi * mu * s.radius * s.radius / s.mass * std::log(gap / path);
 }
 
 }  // namespace hidden

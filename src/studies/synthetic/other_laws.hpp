@@ -36,6 +36,6 @@ double boettcher_restitution(const Sphere& sphere, double plate_mobility, double
 /// Speed that the film between sphere and wall takes, to leading order with the mean free path as
 /// the gap at which the continuum ends (Barnocky & Davis 1988, Phys. Fluids 31, 1324-1329):
 ///   6 pi mu R^2 / m ln(gap / path) [m/s].
-double speed_lost_in_film(double viscosity, const Sphere& sphere, double gap, double path);
+double speed_lost_in_film(double mu, const Sphere& sphere, double gap, double path);
 
 }  // namespace hidden
