@@ -206,6 +206,9 @@ TEST_F(SavedPictures, ResidualsAreThoseOfTheFit) {
     expected.push_back(one["weighted_residual"].get<double>());
     chi2 += expected.back() * expected.back();
   }
+  for (const auto& [label, constant] : fit["constants"].items()) {
+    chi2 += std::pow(constant["moved_sd"].get<double>(), 2);
+  }
   EXPECT_NEAR(chi2, fit["goodness"]["chi2"].get<double>(), 1e-6 * chi2);
   std::sort(shown.begin(), shown.end());
   std::sort(expected.begin(), expected.end());
