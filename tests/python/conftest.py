@@ -53,7 +53,8 @@ def furnish(folder):
     write_dataset(folder / "uncertain", POINTS, uncertain)
     for name in ("mine", "misfit", "uncertain"):
         (folder / f"{name}.toml").write_text(
-            f'dataset = "{name}"\n[uncertainty]\nreplicates = 39\n')
+            f'dataset = "{name}"\n[uncertainty]\nreplicates = 39\n'
+            + ("materials = false\n" if name == "misfit" else ""))  # else they take it up
     return folder
 
 

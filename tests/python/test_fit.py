@@ -66,7 +66,8 @@ def test_lmfits_names(here):
     assert not result.params["f0"].vary
     assert result.best_values["C_A"] == result.parameters.C_A.value
     assert result.nvarys == 2 and result.ndata == 12 and result.nfree == 8 and result.success
-    assert result.chisqr == pytest.approx(np.sum(result.residual**2), rel=1e-9)
+    moved = sum(constant["moved_sd"]**2 for constant in result.constants.values())
+    assert result.chisqr == pytest.approx(np.sum(result.residual**2) + moved, rel=1e-9)
     assert result.redchi == pytest.approx(result.chisqr / 8)
     assert np.sqrt(np.diag(result.covar)) == pytest.approx([result.params[n].stderr
                                                             for n in result.var_names])

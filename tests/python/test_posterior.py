@@ -170,7 +170,8 @@ def quantile_error(draws, p, effective):
                                          ("dahneke1975-quartz", "estimated")])
 def test_posterior_is_that_of_emcee(place, command, name, noise):
     text = (SOURCE / "fits" / f"{name}.toml").read_text().replace("../datasets", "datasets")
-    text += "posterior = true\n"
+    text += "posterior = true\nmaterials = false\n"
+    text = text.replace("[model]\n", "[model]\nmixed_sizes = false\n")
     if noise == "estimated":
         text += '[noise]\nvariance = "constant"\n'
     (place / "fit.toml").write_text(text)
