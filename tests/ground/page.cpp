@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 
 #include "support/command.hpp"
@@ -17,6 +18,16 @@ std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// The cells of one line of a table, trimmed.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::size_t begin = 1;
+  for (std::size_t end; (end = line.find('|', begin)) != std::string::npos; begin = end + 1) {
+    cells.push_back(trimmed(line.substr(begin, end - begin)));
+  }
+  return cells;
 }
 
 std::string file_named_in(const std::string& paragraph) {
@@ -75,6 +86,18 @@ std::vector<Block> blocks_of(const fs::path& markdown) {
   return blocks;
 }
 
+std::size_t column_of(const fs::path& markdown, const std::string& header,
+                      const std::string& title) {
+  for (const std::string& line : tree::lines_of(tree::text_of(markdown))) {
+    if (line.rfind(header, 0) != 0) continue;
+    const std::vector<std::string> titles = cells_of(line);
+    const auto found = std::find(titles.begin(), titles.end(), title);
+    if (found != titles.end()) return static_cast<std::size_t>(found - titles.begin());
+  }
+  ADD_FAILURE() << markdown << " has no table " << header << " with a column " << title;
+  return 0;
+}
+
 std::vector<std::vector<std::string>> table_of(const fs::path& markdown,
                                                const std::string& header) {
   std::vector<std::vector<std::string>> rows;
@@ -82,12 +105,7 @@ std::vector<std::vector<std::string>> table_of(const fs::path& markdown,
   for (const std::string& line : tree::lines_of(tree::text_of(markdown))) {
     if (line.rfind("|", 0) != 0) inside = false;
     if (inside && line.rfind("|--", 0) != 0) {
-      std::vector<std::string> cells;
-      std::size_t begin = 1;
-      for (std::size_t end; (end = line.find('|', begin)) != std::string::npos; begin = end + 1) {
-        cells.push_back(trimmed(line.substr(begin, end - begin)));
-      }
-      rows.push_back(cells);
+      rows.push_back(cells_of(line));
     }
     if (line.rfind(header, 0) == 0) inside = true;
   }

@@ -25,6 +25,10 @@ std::vector<Block> blocks_of(const std::filesystem::path& markdown);
 std::vector<std::vector<std::string>> table_of(const std::filesystem::path& markdown,
                                                const std::string& header);
 
+/// Which column of the first such table has this title.
+std::size_t column_of(const std::filesystem::path& markdown, const std::string& header,
+                      const std::string& title);
+
 /// A folder of its own with build/release/recoil and build/release/python, datasets and fits,
 /// removed at the end.
 class Sandbox {
