@@ -16,7 +16,8 @@ shift 2
 [ $# -gt 0 ] || set -- dataset events fit import
 slice=200000 # a run that is stopped loses the count of no more
 # Four times as many in the same time: short inputs, files in memory, no stacks of allocations (a finding is looked at
-# with fuzz.sh, which has them), every input as likely as the others.
+# with fuzz.sh, which has them), every input as likely as the others, and two minutes for each on a machine that does
+# much else (a slow one is found by the tests).
 [ -w /dev/shm ] && export TMPDIR=/dev/shm
 export ASAN_OPTIONS=malloc_context_size=0:quarantine_size_mb=16${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 mkdir -p "$folder/executions" || exit 1
@@ -26,7 +27,7 @@ for name in "$@"; do
   while done=$(cat "$count" 2>/dev/null || echo 0) && [ "$done" -lt "$wanted" ]; do
     rest=$((wanted - done))
     "$here/fuzz.sh" "$folder/fuzz_$name" "$name" "$folder/found/$name" -runs=$((rest < slice ? rest : slice)) \
-      -max_len=1024 -entropic=0 -print_final_stats=1 >"$log" 2>&1 </dev/null || {
+      -max_len=1024 -entropic=0 -timeout=120 -print_final_stats=1 >"$log" 2>&1 </dev/null || {
       echo "fuzz_$name: a finding, or stopped, after $done executions; the end of $log:"
       tail -n 40 "$log"
       exit 1
