@@ -89,12 +89,16 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
   }
 }
 
+/// (e - e_model)^2 of a point; a capture counts with e = 0.
+double squared_miss(const Observation& point, double predicted_squared) {
+  const double measured = point.censored ? 0.0 : point.restitution;
+  return std::pow(measured - expected_restitution(point, predicted_squared), 2);
+}
+
 double root_mean_square(const FitResult& result) {
   double sum = 0.0;
   for (std::size_t i = 0; i < result.data.points.size(); ++i) {
-    const Observation& point = result.data.points[i];
-    const double measured = point.censored ? 0.0 : point.restitution;
-    sum += std::pow(measured - expected_restitution(point, result.prediction_squared[i]), 2);
+    sum += squared_miss(result.data.points[i], result.prediction_squared[i]);
   }
   return std::sqrt(sum / std::max(1.0, static_cast<double>(result.data.points.size())));
 }
@@ -302,9 +306,7 @@ double root_mean_square(const ImpactModel& model, std::span<const double> theta,
   const std::vector<Prediction> predictions = predict(model, theta, std::move(conditions), false);
   double sum = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Observation& point = data.points[points[k]];
-    const double measured = point.censored ? 0.0 : point.restitution;
-    sum += std::pow(measured - expected_restitution(point, predictions[k].restitution_squared), 2);
+    sum += squared_miss(data.points[points[k]], predictions[k].restitution_squared);
   }
   return std::sqrt(sum / static_cast<double>(points.size()));
 }

@@ -44,7 +44,7 @@ struct SeriesSummary {
 
 std::vector<SeriesSummary> summarise(const Dataset& dataset) {
   std::vector<SeriesSummary> summaries(dataset.series.size());
-  const SizeUnit unit = size_unit(std::vector<Dataset>{dataset});
+  const SizeUnit unit = size_unit(std::span(&dataset, 1));
   for (const ImpactPoint& point : dataset.points) {
     SeriesSummary& series = summaries[point.series];
     ++series.points;
@@ -141,7 +141,7 @@ Table dataset_table(const Dataset& dataset) {
 
 Table series_table(const Dataset& dataset) {
   Table table;
-  table.columns = {{"series"},        {"diameter", size_unit(std::vector<Dataset>{dataset}).name},
+  table.columns = {{"series"},        {"diameter", size_unit(std::span(&dataset, 1)).name},
                    {"points"},        {say("{V}"), "m/s"},
                    {say("{e}"), "1"}, {"impacts"},
                    {"captured"}};

@@ -89,22 +89,20 @@ Table structure_table(const Diagnosis& d) {
 }
 
 Table misfit_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
   Table table;
   table.caption =
       say("Mean of {e} - {e}_model, also as energy of the rebound and in standard errors: positive "
           "where the model is too low");
-  table.columns = {{"dataset"},         {say("{d}"), size_unit(d.datasets).name},
-                   {say("{V}"), "m/s"}, {"points"},
-                   {say("in {e}")},     {"energy", "J"},
-                   {"standard errors"}};
+  table.columns = {{"dataset"},     {say("{d}"), sizes.name}, {say("{V}"), "m/s"}, {"points"},
+                   {say("in {e}")}, {"energy", "J"},          {"standard errors"}};
   for (const MisfitCell& cell : d.where) {
-    table.rows.push_back({Sentence(d.datasets[cell.dataset].id),
-                          Sentence(size_text(cell.diameter, size_unit(d.datasets))),
-                          say("{:.3g} to {:.3g}", cell.slowest, cell.fastest),
-                          Number{static_cast<double>(cell.points), fixed(0)},
-                          Number{cell.restitution, signed_fixed(3)},
-                          Number{cell.energy, scientific(2)},
-                          Number{cell.standardised, signed_fixed(1)}});
+    table.rows.push_back(
+        {Sentence(d.datasets[cell.dataset].id), Sentence(size_text(cell.diameter, sizes)),
+         say("{:.3g} to {:.3g}", cell.slowest, cell.fastest),
+         Number{static_cast<double>(cell.points), fixed(0)},
+         Number{cell.restitution, signed_fixed(3)}, Number{cell.energy, scientific(2)},
+         Number{cell.standardised, signed_fixed(1)}});
   }
   return table;
 }
@@ -189,30 +187,30 @@ Table both_models_table(const Diagnosis& d) {
 }
 
 Table capture_change_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
   Table table;
   table.caption = "Predicted capture velocity";
-  table.columns = {
-      {"dataset"}, {say("{d}"), size_unit(d.datasets).name}, {"base", "m/s"}, {"extended", "m/s"}};
+  table.columns = {{"dataset"}, {say("{d}"), sizes.name}, {"base", "m/s"}, {"extended", "m/s"}};
   const auto cell = [](const std::optional<double>& value) {
     return value ? Cell(Number{*value, significant(4)}) : Cell("none");
   };
   for (const CaptureChange& change : d.capture) {
     table.rows.push_back({Sentence(d.datasets[change.dataset].id),
-                          Sentence(size_text(change.diameter, size_unit(d.datasets))),
-                          cell(change.base), cell(change.extended)});
+                          Sentence(size_text(change.diameter, sizes)), cell(change.base),
+                          cell(change.extended)});
   }
   return table;
 }
 
 Table next_measurement_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
   Table table;
   table.caption = "Where the fewest impacts would tell the rivals apart";
-  table.columns = {
-      {"tells"},           {"from", "", true},         {say("{d}"), size_unit(d.datasets).name},
-      {say("{V}"), "m/s"}, {say("difference in {e}")}, {"impacts"}};
+  table.columns = {{"tells"},           {"from", "", true},         {say("{d}"), sizes.name},
+                   {say("{V}"), "m/s"}, {say("difference in {e}")}, {"impacts"}};
   for (const NextMeasurement& next : d.next) {
     table.rows.push_back({Sentence(words_of(next.one)), Sentence(words_of(next.other)),
-                          Sentence(size_text(next.diameter, size_unit(d.datasets))),
+                          Sentence(size_text(next.diameter, sizes)),
                           Number{next.velocity, significant(3)},
                           Number{next.difference, signed_fixed(3)},
                           next.events ? Cell(Number{static_cast<double>(*next.events), fixed(0)})
@@ -222,21 +220,21 @@ Table next_measurement_table(const Diagnosis& d) {
 }
 
 Table next_experiment_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
   Table table;
   if (d.experiments.empty()) return table;
   table.compact = true;
   table.caption =
       "What to do next, the least effort first: so many impacts are expected to give the right one "
       "of two causes odds of 99 to 1, as far as the parameters and the laws of both are known";
-  table.columns = {
-      {"do", "", true},          {"impacts"},         {say("{d}"), size_unit(d.datasets).name},
-      {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
-      {say("difference in {e}")}};
+  table.columns = {{"do", "", true},          {"impacts"},         {say("{d}"), sizes.name},
+                   {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
+                   {say("difference in {e}")}};
   for (const NextExperiment& next : d.experiments) {
     table.rows.push_back({Sentence(next.kind == ExperimentKind::condition ? std::string(next.doing)
                                                                           : "more impacts"),
                           Number{static_cast<double>(next.events), fixed(0)},
-                          Sentence(size_text(next.diameter, size_unit(d.datasets))),
+                          Sentence(size_text(next.diameter, sizes)),
                           Number{next.velocity, significant(3)}, Sentence(next.one),
                           Sentence(next.other), Number{next.difference, signed_fixed(3)}});
   }
@@ -244,6 +242,7 @@ Table next_experiment_table(const Diagnosis& d) {
 }
 
 Table expected_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
   Table table;
   if (d.expected.empty()) return table;
   table.caption =
@@ -253,15 +252,15 @@ Table expected_table(const Diagnosis& d) {
                    {"dataset", "", true},
                    {"condition", "", true},
                    {"value"},
-                   {say("{d}"), size_unit(d.datasets).name},
+                   {say("{d}"), sizes.name},
                    {say("{V}"), "m/s"},
                    {say("change of {e}")}};
   for (const ExpectedEffect& effect : d.expected) {
     table.rows.push_back(
         {Sentence(effect.id), Sentence(d.datasets[effect.dataset].id),
          Sentence(condition_words(effect.condition)), Number{effect.stated, significant(4)},
-         Sentence(size_text(effect.diameter, size_unit(d.datasets))),
-         Number{effect.velocity, significant(3)}, Number{effect.change, significant(2)}});
+         Sentence(size_text(effect.diameter, sizes)), Number{effect.velocity, significant(3)},
+         Number{effect.change, significant(2)}});
   }
   return table;
 }

@@ -241,15 +241,16 @@ Table correlations_table(const Analysis& a) {
 }
 
 Table capture_table(const Analysis& a) {
+  const SizeUnit unit = size_unit(a.datasets);
   Table table;
   table.columns = {{"dataset"},
-                   {say("{d}"), size_unit(a.datasets).name},
+                   {say("{d}"), unit.name},
                    {say("{V*}"), "m/s"},
                    {level_of(a) + " interval"},
                    {"remark", "", true}};
   for (const CaptureEstimate& capture : a.uncertainty.capture) {
     const Cell id = Sentence(a.datasets[capture.dataset].id);
-    const Cell diameter = Sentence(size_text(capture.diameter, size_unit(a.datasets)));
+    const Cell diameter = Sentence(size_text(capture.diameter, unit));
     if (without_adhesion(a, capture.dataset)) {
       table.rows.push_back({id, diameter, no_capture_words});
       continue;
@@ -420,18 +421,18 @@ Table points_table(const Analysis& a) {
   const FitResult& f = a.fitted;
   const bool joint = a.datasets.size() > 1;
   const double scale = residual_unit(a);
+  const SizeUnit unit = size_unit(a.datasets);
   Table table;
   table.compact = true;
   if (joint) table.columns = {{"dataset"}};
-  for (const TableColumn& column :
-       std::vector<TableColumn>{{"series"},
-                                {say("{d}"), size_unit(a.datasets).name},
-                                {say("{V}"), "m/s"},
-                                {say("{e}")},
-                                {"sd"},
-                                {"fit"},
-                                {"residual", "sd"},
-                                {"leverage"}}) {
+  for (const TableColumn& column : std::vector<TableColumn>{{"series"},
+                                                            {say("{d}"), unit.name},
+                                                            {say("{V}"), "m/s"},
+                                                            {say("{e}")},
+                                                            {"sd"},
+                                                            {"fit"},
+                                                            {"residual", "sd"},
+                                                            {"leverage"}}) {
     table.columns.push_back(column);
   }
   const std::size_t count = std::min(f.data.points.size(), most_residuals);
@@ -442,7 +443,7 @@ Table points_table(const Analysis& a) {
     if (joint) row.emplace_back(Sentence(dataset.id));
     row.emplace_back(
         Sentence(point.series < dataset.series.size() ? dataset.series[point.series] : ""));
-    row.emplace_back(Sentence(size_text(point.diameter, size_unit(a.datasets))));
+    row.emplace_back(Sentence(size_text(point.diameter, unit)));
     row.emplace_back(Number{point.velocity});
     row.push_back(point.censored ? Cell("captured") : Cell(Number{point.restitution, fixed(4)}));
     row.push_back(f.data.sd_stated ? Cell(Number{point.weights.sd, significant(2)}) : Cell());

@@ -50,7 +50,7 @@ SizeUnit size_unit(std::span<const double> diameters) {
   return balls ? SizeUnit{1e-3, "mm", "mm"} : SizeUnit{units::um, "um", "µm"};
 }
 
-SizeUnit size_unit(const std::vector<Dataset>& datasets) {
+SizeUnit size_unit(std::span<const Dataset> datasets) {
   std::vector<double> diameters;
   for (const Dataset& dataset : datasets) {
     for (const ImpactPoint& point : dataset.points) diameters.push_back(point.diameter);

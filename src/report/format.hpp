@@ -33,7 +33,7 @@ struct SizeUnit {
 };
 SizeUnit size_unit(std::span<const double> diameters);
 /// That of all points.
-SizeUnit size_unit(const std::vector<Dataset>& datasets);
+SizeUnit size_unit(std::span<const Dataset> datasets);
 /// A diameter [m] in that unit, without it: "4.90".
 std::string size_text(double diameter, const SizeUnit& unit);
 

@@ -106,9 +106,7 @@ std::optional<Sentence> verdict_words(const std::vector<ParameterCoverage>& rows
   int misled = 0;
   double most = 0.0;
   for (const ParameterCoverage& row : rows) {
-    if (!(row.actual_error.value_or(0.0) > widest_error) || row.parameter.starts_with("V*")) {
-      continue;
-    }
+    if (!scatters_too_much(row)) continue;
     ++judged;
     misled += misleads(row) ? 1 : 0;
     most = std::max(most, row.share_identifiable());
@@ -116,8 +114,8 @@ std::optional<Sentence> verdict_words(const std::vector<ParameterCoverage>& rows
   if (judged == 0) return std::nullopt;
   return say(
       "The verdict has a coverage of its own: of {} parameters whose estimates scatter by more "
-      "than "
-      "a tenth of their scale (actual error), {} were called identifiable in more than {:.0f} % of "
+      "than a tenth of their scale (actual error), {} were called identifiable in more than {:.0f} "
+      "% of "
       "the data sets, in {:.1f} % at most.",
       judged, misled, 100.0 * most_misled, 100.0 * most);
 }

@@ -224,9 +224,12 @@ CoverageVerdict verdict_of(const ParameterCoverage& row) {
   return share < least_nominal ? CoverageVerdict::too_narrow : CoverageVerdict::too_wide;
 }
 
+bool scatters_too_much(const ParameterCoverage& row) {
+  return !row.parameter.starts_with("V*") && row.actual_error.value_or(0.0) > widest_error;
+}
+
 bool misleads(const ParameterCoverage& row) {
-  return !row.parameter.starts_with("V*") && row.actual_error.value_or(0.0) > widest_error &&
-         row.share_identifiable() > most_misled;
+  return scatters_too_much(row) && row.share_identifiable() > most_misled;
 }
 
 std::string coverage_study_json(const CoverageStudy& study) {

@@ -66,9 +66,11 @@ inline constexpr double least_warned = 0.90;  ///< share of the data sets
 
 CoverageVerdict verdict_of(const ParameterCoverage& row);
 
-/// Is a parameter called identifiable in more than `most_misled` of the data sets, though its
-/// estimates scatter by more than such a parameter may (`widest_error`)? Not asked of a capture
-/// velocity, which has no such verdict.
+/// Do the estimates of a parameter scatter by more than those of an identifiable one may
+/// (`widest_error`)? Not asked of a capture velocity, which has no such verdict.
+bool scatters_too_much(const ParameterCoverage& row);
+
+/// Is such a parameter called identifiable in more than `most_misled` of the data sets?
 bool misleads(const ParameterCoverage& row);
 inline constexpr double most_misled = 0.05;
 

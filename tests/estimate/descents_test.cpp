@@ -109,20 +109,7 @@ TEST(Nearby, AMinimumAtABoundIsFoundThere) {
 }
 
 TEST(Boxed, TwoBoundsActAtOnce) {
-  // Minimise (a - 3)^2 + (b + 2)^2 + (a + b + c)^2 with a <= 1, b >= 0: a = 1, b = 0, c = -1.
-  LeastSquaresProblem problem = unbounded(3, 3);
-  problem.upper[0] = 1.0;
-  problem.lower[1] = 0.0;
-  problem.evaluate = [](std::span<const double> t, std::span<double> r, std::span<double> j) {
-    r[0] = t[0] - 3.0;
-    r[1] = t[1] + 2.0;
-    r[2] = t[0] + t[1] + t[2];
-    if (!j.empty()) {
-      std::fill(j.begin(), j.end(), 0.0);
-      j[0] = j[4] = j[6] = j[7] = j[8] = 1.0;
-    }
-    return true;
-  };
+  const LeastSquaresProblem problem = two_bounds_at_once();
   for (const std::array<double, 3> start :
        {std::array{0.0, 5.0, 7.0}, std::array{1.0, 0.0, 7.0}, std::array{1.0, 9.0, -7.0}}) {
     const LeastSquaresResult result = minimise(problem, start, boxed());

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "studies/synthetic/observed_mean.hpp"
@@ -48,14 +47,6 @@ double reading_of(const Case& made, const Point& p, recoil::RandomStream& random
     if (scatter == 0.0) break;
   }
   return reading * (set / p.velocity);  // e as the quotient of the velocities that are read
-}
-
-Sphere sphere_of(const Design& design, const Row& row) {
-  Sphere sphere;
-  sphere.mass = design.base.density * std::numbers::pi / 6.0 * std::pow(row.diameter, 3);
-  sphere.radius = 0.5 * row.diameter;
-  sphere.stiffness = design.base.stiffness();
-  return sphere;
 }
 
 /// A misreading of 6 to 15 standard deviations, or none.
@@ -125,7 +116,8 @@ Case make_case(const CaseOrder& order) {
     if (order.other_law) {
       for (const Row& row : made.design.rows) {
         largest = std::min(
-            largest, largest_by_other_law(effect.id, sphere_of(made.design, row), row.highest));
+            largest, largest_by_other_law(effect.id, sphere_of(made.design.base, row.diameter),
+                                          row.highest));
       }
     }
     const Strength found = find_strength(made.design, alone, largest, order.signal_to_noise);

@@ -137,10 +137,7 @@ double by_other_laws(const Sphere& sphere, ContactExtras& extras, double speed) 
 double exact_square(const Base& base, const Effects& effects, double velocity, double diameter,
                     double size_factor, double adhesion_factor) {
   const double d = diameter * (1.0 + effects.diameter_error) * size_factor;
-  Sphere sphere;
-  sphere.mass = base.density * pi / 6.0 * d * d * d;
-  sphere.radius = 0.5 * d;
-  sphere.stiffness = base.stiffness();
+  Sphere sphere = sphere_of(base, d);
   sphere.adhesion_force =
       base.adhesion_force * std::cbrt(d / base.reference_diameter) * adhesion_factor;
   sphere.C_H = base.C_H;

@@ -69,6 +69,14 @@ double half_space(const Base& base) {
 
 }  // namespace
 
+Sphere sphere_of(const Base& base, double diameter) {
+  Sphere sphere;
+  sphere.mass = base.density * pi / 6.0 * diameter * diameter * diameter;
+  sphere.radius = 0.5 * diameter;
+  sphere.stiffness = base.stiffness();
+  return sphere;
+}
+
 double Base::stiffness() const {
   if (stated_stiffness > 0.0) return stated_stiffness;
   return 4.0 / 3.0 /

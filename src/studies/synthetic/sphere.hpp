@@ -44,6 +44,9 @@ struct Sphere {
   double C_A = 0.0;
 };
 
+/// A sphere of this diameter [m], hard and dry: without adhesion and damping.
+Sphere sphere_of(const Base& base, double diameter);
+
 struct ContactResult {
   bool rebounded = false;
   double square = 0.0;   ///< v^2 on leaving; below zero: -2/m of the energy that is missing [m2/s2]
