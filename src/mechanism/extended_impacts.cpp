@@ -143,6 +143,7 @@ long ExtendedImpacts::evaluate(std::span<const double> values, ImpactOptions opt
   slopes_.resize(points_.size() * directions());
   if (directions() <= FewDirections().slope.size()) return with(few_);
   if (directions() <= SomeDirections().slope.size()) return with(some_);
+  if (directions() <= SeveralDirections().slope.size()) return with(several_);
   assert(directions() <= ManyDirections().slope.size());
   return with(many_);
 }

@@ -89,6 +89,7 @@ class ExtendedImpacts {
   std::unique_ptr<Workspace<double>> plain_;
   std::unique_ptr<Workspace<FewDirections>> few_;
   std::unique_ptr<Workspace<SomeDirections>> some_;
+  std::unique_ptr<Workspace<SeveralDirections>> several_;
   std::unique_ptr<Workspace<ManyDirections>> many_;
 };
 

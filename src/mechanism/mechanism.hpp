@@ -91,14 +91,16 @@ struct MechanismLaw {
 inline constexpr std::size_t base_directions = 5;
 /// And where the materials are uncertain, last of all: density, K, W_A and mobility.
 inline constexpr std::size_t material_directions = 4;
-using FewDirections = Dual<8>;    ///< up to three parameters
-using SomeDirections = Dual<12>;  ///< up to seven: two or three mechanisms
-using ManyDirections = Dual<48>;  ///< more than the whole catalogue has
+// How many parameters of mechanisms fit in, without and beside uncertain materials:
+using FewDirections = Dual<8>;       ///< three; none
+using SomeDirections = Dual<12>;     ///< seven; three: one mechanism
+using SeveralDirections = Dual<16>;  ///< eleven; seven: two or three mechanisms
+using ManyDirections = Dual<48>;     ///< more than the whole catalogue has
 
 struct Mechanism {
   MechanismInfo info;
   std::tuple<MechanismLaw<double>, MechanismLaw<FewDirections>, MechanismLaw<SomeDirections>,
-             MechanismLaw<ManyDirections>>
+             MechanismLaw<SeveralDirections>, MechanismLaw<ManyDirections>>
       laws;
   bool dashpot = false;  ///< sets Encounter::relaxation
 
@@ -161,6 +163,7 @@ Mechanism make_mechanism(MechanismInfo info) {
   m.laws = {mechanism_detail::law_for<Law, double>(),
             mechanism_detail::law_for<Law, FewDirections>(),
             mechanism_detail::law_for<Law, SomeDirections>(),
+            mechanism_detail::law_for<Law, SeveralDirections>(),
             mechanism_detail::law_for<Law, ManyDirections>()};
   if constexpr (requires { Law::dashpot; }) m.dashpot = Law::dashpot;
   return m;

@@ -227,6 +227,8 @@ template FewDirections survivors_square(std::span<const FewDirections>, const Fe
                                         const MixedSizes&);
 template SomeDirections survivors_square(std::span<const SomeDirections>, const SomeDirections&,
                                          const MixedSizes&);
+template SeveralDirections survivors_square(std::span<const SeveralDirections>,
+                                            const SeveralDirections&, const MixedSizes&);
 template ManyDirections survivors_square(std::span<const ManyDirections>, const ManyDirections&,
                                          const MixedSizes&);
 

@@ -31,6 +31,8 @@ extern template FewDirections survivors_square(std::span<const FewDirections>, c
                                                const MixedSizes&);
 extern template SomeDirections survivors_square(std::span<const SomeDirections>,
                                                 const SomeDirections&, const MixedSizes&);
+extern template SeveralDirections survivors_square(std::span<const SeveralDirections>,
+                                                   const SeveralDirections&, const MixedSizes&);
 extern template ManyDirections survivors_square(std::span<const ManyDirections>,
                                                 const ManyDirections&, const MixedSizes&);
 

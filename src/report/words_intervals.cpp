@@ -137,6 +137,11 @@ std::string note_words(const Interval& interval, const std::string& what) {
       return undecided_words(what, value);
     case Caution::wide_spread:
       return wide_spread_words(what, value);
+    case Caution::mixed_sizes:
+      return fmt::format(
+          "take the interval of {} as too narrow: every point averages over spheres of many sizes, "
+          "and of such intervals {:.0f} % contained the truth in a simulation where 95 % should",
+          what, 100.0 * value);
   }
   return "";
 }

@@ -37,6 +37,9 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
   const FitResult& fitted = alternatives.front().fitted;
   const double spread = fitted.data.noise.event_spread;
   if (spread > widest_spread) interval.note = {Caution::wide_spread, spread};
+  if (averages_over_sizes(fitted.model, dataset)) {
+    interval.note = {Caution::mixed_sizes, mixed_capture_coverage};
+  }
   const double error = logarithmic_error(capture, fitted.covariance);
   if (!capture.found || !(capture.value > 0.0) || !(error > 0.0)) {
     interval.missing = !capture.found           ? NoInterval::never_rebounds

@@ -163,6 +163,19 @@ TEST(Identifiability, DoesNotTrustSurvivorsOfImpactsThatDifferMuch) {
   }
 }
 
+TEST(CaptureEstimates, SayWherePointsMixSizes) {
+  Case c = noisy_case();
+  const auto caution_of = [&](bool mixed) {
+    c.fitted.model.surroundings.resize(1);
+    c.fitted.model.surroundings[0].sizes.spread = mixed ? 0.35 : 0.0;
+    const auto estimates = capture_estimates(noise_alternatives(c.fitted), 0.95, c.datasets);
+    const auto note = estimates.front()[CaptureIntervalKind::delta].note;
+    return note && note->caution == Caution::mixed_sizes;
+  };
+  EXPECT_TRUE(caution_of(true));
+  EXPECT_FALSE(caution_of(false));
+}
+
 TEST(Profile, RisesByTheQuantileAtItsEnds) {
   const Case c = noisy_case();
   for (std::size_t slot = 0; slot < 2; ++slot) {
