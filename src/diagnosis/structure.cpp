@@ -1,5 +1,6 @@
 #include "diagnosis/structure.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,7 +18,11 @@ constexpr double negligible = 1e-6;      // part of a function that the model do
 constexpr double same_diameter = 0.005;  // relative
 
 double dot(std::span<const double> a, std::span<const double> b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  const auto vector = [](std::span<const double> values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                             static_cast<Eigen::Index>(values.size()));
+  };
+  return vector(a).dot(vector(b));
 }
 
 /// P_0 .. P_degree at u in [-1, 1] (Bonnet's recursion).

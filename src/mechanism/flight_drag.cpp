@@ -34,8 +34,13 @@ class Flight {
   T drag(const T& speed) const {
     constexpr double still = 1e-9;  // keeps slopes finite where there is no gas
     const T re = reynolds_ * speed + still;
-    const T inertia = (0.47 / 24.0) * re * (1.0 - exponential(-0.04 * power(re, 0.38)));
-    return stokes_ * (power(1.0 + 0.27 * re, 0.43) + inertia);
+    const double at = value_of(re);
+    const double viscous = std::pow(1.0 + 0.27 * at, 0.43);
+    const double viscous_slope = 0.43 * 0.27 * viscous / (1.0 + 0.27 * at);
+    const double x = 0.04 * std::pow(at, 0.38);
+    const double inertia = (0.47 / 24.0) * at * -std::expm1(-x);
+    const double inertia_slope = (0.47 / 24.0) * (0.38 * x * std::exp(-x) - std::expm1(-x));
+    return stokes_ * compose(re, viscous + inertia, viscous_slope + inertia_slope);
   }
 
  private:
