@@ -17,6 +17,7 @@ struct CoverageRun {
   int datasets = 100;
   int replicates = 39;
   std::vector<std::string> designs;
+  bool exact_materials = false;
   bool posterior = false;
   int calibration = 0;
   StudyRun run;
@@ -67,6 +68,7 @@ void study_designs(const CoverageRun& options) {
   std::vector<std::vector<Dataset>> datasets;
   for (const std::string& file : options.fit_files) {
     specs.push_back(load_fit(file));
+    if (options.exact_materials) specs.back().uncertainty.materials = false;
     datasets.push_back(load_datasets(specs.back()));
   }
   CoverageStudy study;
@@ -123,6 +125,8 @@ void add_coverage_designs(CLI::App& program, const std::string& words) {
       add_command(program, "coverage-designs",
                   "the same for the designs of several fits, as one table", options);
   command->add_option("FIT", options->fit_files, "fit files")->required();
+  command->add_flag("--exact-materials", options->exact_materials,
+                    "take the constants of the materials as exact, as materials = false does");
   command->callback([options] { study_designs(*options); });
 }
 

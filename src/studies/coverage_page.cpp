@@ -120,11 +120,21 @@ std::optional<Sentence> verdict_words(const std::vector<ParameterCoverage>& rows
       judged, misled, 100.0 * most_misled, 100.0 * most);
 }
 
+/// What a heading adds where constants are uncertain elsewhere.
+Sentence with_materials(const CoverageStudy& study) {
+  return study.exact_materials ? Sentence(", constants of the materials taken as exact")
+                               : Sentence();
+}
+
 Sentence study_words(const CoverageStudy& study) {
   Sentence words = say(
       "{} simulated data sets per design, {} bootstrap replicates each, seed {}, "
       "level {:.0f} %.",
       study.datasets, study.replicates, static_cast<long long>(study.seed), 100.0 * study.level);
+  words += Sentence(study.exact_materials
+                        ? " The constants of the materials are exact."
+                        : " The constants of the materials are drawn anew for every data set from "
+                          "what is stated of their errors, and the fits know these errors.");
   if (!study.grid_of.empty()) {
     words +=
         say(" The estimate for {} as truth, simulated independently of the fitter. One "
@@ -275,7 +285,7 @@ const ParameterCoverage& worst_of(const std::vector<const ParameterCoverage*>& r
 Document coverage_page(const CoverageStudy& study, const std::string& picture) {
   Document page;
   page.heading = study.grid_of.empty()
-                     ? Sentence("Coverage for the designs of the fits")
+                     ? Sentence("Coverage for the designs of the fits") + with_materials(study)
                      : Sentence("Coverage by kind of data: ") + code(study.grid_of);
   page.foreword.emplace_back(Paragraph{study_words(study)});
   page.foreword.emplace_back(
@@ -315,7 +325,8 @@ Document coverage_summary(const std::vector<CoverageStudy>& studies, const std::
       grids.push_back(&study);
       continue;
     }
-    Section section{"designs", "The shipped designs"};
+    Section section{study.exact_materials ? "designs-exact" : "designs",
+                    Sentence("The shipped designs") + with_materials(study)};
     section.blocks = {Paragraph{say("{} data sets each (", study.datasets) +
                                 link("how they were made", study.stamp.study + ".md") +
                                 say("); {}.", tally_words(tally_of(study.rows)))},

@@ -143,9 +143,10 @@ CoverageResult kept_or_measured(const std::filesystem::path& folder, const std::
 }
 
 std::string key_of(const FitSpec& spec, const CoverageOptions& options) {
-  return fmt::format("{} {} {} {} {} {} {}", spec.sha256, options.datasets,
+  return fmt::format("{} {} {} {} {} {} {} {}", spec.sha256, options.datasets,
                      options.uncertainty.replicates, options.uncertainty.seed,
-                     options.uncertainty.level, options.uncertainty.posterior, options.calibration);
+                     options.uncertainty.level, options.uncertainty.posterior, options.calibration,
+                     spec.uncertainty.materials);
 }
 
 void set_options(CoverageStudy& study, const CoverageOptions& options) {
@@ -235,6 +236,7 @@ bool misleads(const ParameterCoverage& row) {
 std::string coverage_study_json(const CoverageStudy& study) {
   Json json = json_of(study.stamp);
   if (!study.grid_of.empty()) json["grid_of"] = study.grid_of;
+  json["exact_materials"] = study.exact_materials;
   json["datasets"] = study.datasets;
   json["replicates"] = study.replicates;
   json["seed"] = study.seed;
@@ -261,6 +263,8 @@ CoverageStudy read_coverage_study(const std::filesystem::path& file) {
     CoverageStudy study;
     study.stamp = stamp_of(json);
     study.grid_of = json.value("grid_of", std::string());
+    // Before it was said, all constants were exact.
+    study.exact_materials = json.value("exact_materials", true);
     study.datasets = json.at("datasets");
     study.replicates = json.at("replicates");
     study.seed = json.at("seed");
@@ -289,6 +293,7 @@ CoverageStudy measure_grid(const FitSpec& spec, const Dataset& base,
   CoverageStudy study;
   set_options(study, options);
   study.grid_of = spec.id;
+  study.exact_materials = true;  // see `grid_spec`
   add_source(study, base);
   for (const GridDesign& design : designs) {
     const std::string key =
@@ -305,6 +310,7 @@ CoverageStudy measure_grid(const FitSpec& spec, const Dataset& base,
 void add_design(CoverageStudy& study, const FitSpec& spec, const std::vector<Dataset>& datasets,
                 const CoverageOptions& options, const std::filesystem::path& kept) {
   set_options(study, options);
+  study.exact_materials = !spec.uncertainty.materials;
   std::string key = key_of(spec, options);
   for (const Dataset& dataset : datasets) {
     key += " " + dataset.sha256;

@@ -88,7 +88,10 @@ struct CoverageStudy {
   };
   StudyStamp stamp;
   std::string grid_of;  ///< the fit whose system a grid has; empty: the designs are those of fits
-  int datasets = 0;     ///< per design
+  /// Are the constants of the materials those that are stated, for the truth and for the fits?
+  /// Otherwise every data set has its own, drawn from their errors, and the fits know the errors.
+  bool exact_materials = false;
+  int datasets = 0;  ///< per design
   int replicates = 0;
   std::uint64_t seed = 0;
   double level = 0.0;

@@ -24,6 +24,15 @@ Study grid_study(const std::string& name, const std::string& designs, int datase
           "reports/coverage-grid-" + name + ".json"};
 }
 
+Study designs_study(const std::string& name, const std::string& options) {
+  return {name,
+          "coverage-designs fits/wall1990-molybdenum.toml fits/wall1990-silicon.toml "
+          "fits/wall1990-mica.toml fits/dahneke1975-quartz.toml fits/li1999-sst65-silicon.toml "
+          "fits/li1999-sst125-silicon.toml --datasets 1000 --replicates 99" +
+              options,
+          "reports/" + name + ".json"};
+}
+
 Study corrections_study(const std::string& dataset) {
   return {"corrections-" + dataset, fmt::format("corrections fits/{}.toml", dataset),
           fmt::format("datasets/{}/{}", dataset, correction_studies_name)};
@@ -46,11 +55,8 @@ void add_files(std::vector<fs::path>& files, const fs::path& folder, const Chose
 
 const std::vector<Study>& all_studies() {
   static const std::vector<Study> studies = {
-      {"coverage-designs",
-       "coverage-designs fits/wall1990-molybdenum.toml fits/wall1990-silicon.toml "
-       "fits/wall1990-mica.toml fits/dahneke1975-quartz.toml fits/li1999-sst65-silicon.toml "
-       "fits/li1999-sst125-silicon.toml --datasets 1000 --replicates 99",
-       "reports/coverage-designs.json"},
+      designs_study("coverage-designs", ""),
+      designs_study("coverage-designs-exact", " --exact-materials"),
       grid_study("n10-stated", "n10,stated", 1000),
       grid_study("n20-stated", "n20,stated", 1000),
       grid_study("n60-stated", "n60,stated", 1000),

@@ -109,12 +109,14 @@ TEST_F(Files, AStudyComesBackFromItsJson) {
   study.rows = {row("dahneke", "C_H", 390, 381, 372)};
   study.rows.front().relative_width = 0.25;
   study.rows.front().actual_error = 0.06;
+  study.exact_materials = false;
   write_whole_file(file_, coverage_study_json(study));
   const CoverageStudy back = read_coverage_study(file_);
   EXPECT_EQ(coverage_study_json(back), coverage_study_json(study));
   EXPECT_EQ(back.designs.front().truth, TruthOrigin::recipe);
   EXPECT_EQ(back.designs.front().fits_failed, 1);
   EXPECT_FALSE(back.designs.front().refits_failed.has_value());
+  EXPECT_FALSE(back.exact_materials);
   EXPECT_DOUBLE_EQ(back.rows.front().recommended().share().value(), 381.0 / 400.0);
   EXPECT_DOUBLE_EQ(back.rows.front().find("wald")->share().value(), 0.875);
   EXPECT_DOUBLE_EQ(back.rows.front().find("wald")->relative_width.value(), 0.3);
