@@ -27,7 +27,7 @@ Base fluorescein() {
   return base;
 }
 
-Sphere sphere_of(const Base& base, double diameter) {
+Sphere sticky_sphere(const Base& base, double diameter) {
   Sphere s;
   s.mass = base.density * pi / 6.0 * std::pow(diameter, 3);
   s.radius = 0.5 * diameter;
@@ -39,7 +39,7 @@ Sphere sphere_of(const Base& base, double diameter) {
 }
 
 double restitution(const Base& base, const ContactExtras& extras, double velocity) {
-  return std::sqrt(contact(sphere_of(base, 4.9e-6), extras, base, velocity).square) / velocity;
+  return std::sqrt(contact(sticky_sphere(base, 4.9e-6), extras, base, velocity).square) / velocity;
 }
 
 TEST(HiddenSphere, StiffnessIsThatOfTable1) {
@@ -66,7 +66,7 @@ TEST(HiddenSphere, WithoutDampingNothingIsLost) {
 TEST(HiddenSphere, CaptureFollowsTheLawOfWeakDamping) {
   Base base = fluorescein();
   base.adhesion_force = 8.9;
-  const Sphere s = sphere_of(base, 4.9e-6);
+  const Sphere s = sticky_sphere(base, 4.9e-6);
   const double a = std::sqrt(s.radius) * s.stiffness / s.mass;
   const double b = 2.0 * pi * std::sqrt(s.radius) * s.adhesion_force / s.mass;
   const double unit = std::pow(b, 1.25) * std::pow(a, -0.75);
@@ -74,7 +74,7 @@ TEST(HiddenSphere, CaptureFollowsTheLawOfWeakDamping) {
   base.C_H = 0.5e-3 / unit;
   const double expected = std::sqrt(2.0 * 0.827350 * 2e-3) * unit;
   const auto back = [&](double v) {
-    return contact(sphere_of(base, 4.9e-6), {}, base, v).rebounded;
+    return contact(sticky_sphere(base, 4.9e-6), {}, base, v).rebounded;
   };
   EXPECT_FALSE(back(0.99 * expected));
   EXPECT_TRUE(back(1.01 * expected));
@@ -84,7 +84,7 @@ TEST(HiddenSphere, CaptureFollowsTheLawOfWeakDamping) {
 // V.
 TEST(HiddenSphere, YieldingIsThatOfThorntonAndNing) {
   const Base base = fluorescein();
-  const Sphere s = sphere_of(base, 4.9e-6);
+  const Sphere s = sticky_sphere(base, 4.9e-6);
   const double p = 1e8;
   const double E = 0.75 * s.stiffness;
   const double yield =
@@ -122,7 +122,7 @@ TEST(HiddenSphere, AdhesionHelpsToYield) {
     EXPECT_GT(kept(k.d, k.density, k.E, k.W, k.p, 1.001 * k.capture), 0.0) << k.p;
   }
   // Hardly any adhesion is none.
-  const Sphere s = sphere_of(fluorescein(), 4.9e-6);
+  const Sphere s = sticky_sphere(fluorescein(), 4.9e-6);
   EXPECT_NEAR(plastic_contact(s.mass, s.radius, s.stiffness, 1e8, 10.0, 1e-9).square /
                   plastic_contact(s.mass, s.radius, s.stiffness, 1e8, 10.0, 0.0).square,
               1.0, 1e-4);
@@ -132,7 +132,7 @@ TEST(HiddenSphere, AdhesionHelpsToYield) {
 // they still do to some per cent.
 TEST(HiddenSphere, OtherLawsAgreeWhereTheyAreWeak) {
   const Base base = fluorescein();
-  const Sphere s = sphere_of(base, 4.9e-6);
+  const Sphere s = sticky_sphere(base, 4.9e-6);
   const double v = 10.0;
   const auto lost = [&](const ContactExtras& extras) {
     return 1.0 - std::sqrt(contact(s, extras, base, v).square) / v;
@@ -156,7 +156,7 @@ TEST(HiddenSphere, OtherLawsAgreeWhereTheyAreWeak) {
 // grows below the surface first.
 TEST(HiddenSphere, JacksonsYieldingIsContinuous) {
   const Base base = fluorescein();
-  const Sphere s = sphere_of(base, 4.9e-6);
+  const Sphere s = sticky_sphere(base, 4.9e-6);
   const double p = 1e8;
   const double yield = pi * pi / std::sqrt(40.0) *
                        std::sqrt(std::pow(p, 5) / (std::pow(0.75 * s.stiffness, 4) * 1350.0));
@@ -188,7 +188,7 @@ TEST(HiddenSphere, JkrLosesTheWorkOfThorntonAndNing) {
 // Without adhesion and other damping the loss is dW times the largest contact area of Hertz.
 TEST(HiddenSphere, AreaHysteresisTakesItsEnergyPerArea) {
   const Base base = fluorescein();
-  const Sphere s = sphere_of(base, 4.9e-6);
+  const Sphere s = sticky_sphere(base, 4.9e-6);
   const double v = 5.0;
   const double depth = std::pow(1.25 * s.mass * v * v / (std::sqrt(s.radius) * s.stiffness), 0.4);
   ContactExtras extras;
@@ -200,7 +200,7 @@ TEST(HiddenSphere, AreaHysteresisTakesItsEnergyPerArea) {
 // Weak: pi R n_m w (2/5) B((2-k)/5, 1+k/2) v_m^k, v_m = V sqrt(R / n_m) / 2.
 TEST(HiddenSphere, TheCrackLosesWhatItsSpeedCosts) {
   const Base base = fluorescein();
-  const Sphere s = sphere_of(base, 4.9e-6);
+  const Sphere s = sticky_sphere(base, 4.9e-6);
   const double v = 10.0;
   const double depth = std::pow(1.25 * s.mass * v * v / (std::sqrt(s.radius) * s.stiffness), 0.4);
   ContactExtras extras;
@@ -216,7 +216,7 @@ TEST(HiddenSphere, TheCrackLosesWhatItsSpeedCosts) {
 // 1 - e = 1.15345 b - 0.7983 b^2, b = (3/2) A k^(2/5) V^(1/5), k = K sqrt(R) / m.
 TEST(HiddenSphere, BulkLossIsThatOfKuwabaraAndKono) {
   const Base base = fluorescein();
-  const Sphere s = sphere_of(base, 4.9e-6);
+  const Sphere s = sticky_sphere(base, 4.9e-6);
   ContactExtras extras;
   extras.bulk_relaxation = 1e-10;
   for (double v : {1.0, 50.0}) {
@@ -229,7 +229,7 @@ TEST(HiddenSphere, BulkLossIsThatOfKuwabaraAndKono) {
 // A target that gives way at the rate F / Z is to first order a dashpot of the relaxation m / Z.
 TEST(HiddenSphere, AThinPlateIsADashpotOfTheMass) {
   const Base base = fluorescein();
-  const Sphere s = sphere_of(base, 4.9e-6);
+  const Sphere s = sticky_sphere(base, 4.9e-6);
   ContactExtras plate;
   plate.plate_mobility = 200.0;
   ContactExtras bulk;
@@ -243,7 +243,7 @@ TEST(HiddenSphere, AThinPlateIsADashpotOfTheMass) {
 // Integral of F'^2 over a Hertzian impact: (9/4) (K sqrt(R))^2 B / ... by the beta function.
 TEST(HiddenSphere, WavesCarryAwayTheSquareOfTheRate) {
   const Base base = fluorescein();
-  const Sphere s = sphere_of(base, 4.9e-6);
+  const Sphere s = sticky_sphere(base, 4.9e-6);
   const double v = 20.0;
   ContactExtras extras;
   extras.wave_radiation = 1.0;
