@@ -11,10 +11,10 @@
 namespace recoil {
 namespace {
 
-constexpr double least_restitution = 0.3;  // nearer to capture a straight line is a poor guess
-constexpr int velocities = 6;              // of each size
-constexpr double least_range = 3.0;        // the fastest over the slowest of them
-constexpr int looked_at = 24;              // velocities, to find the slowest
+constexpr double least_expected = 0.3;  // nearer to capture a straight line is a poor guess
+constexpr int velocities_of_size = 6;   // of each size
+constexpr double least_range = 3.0;     // the fastest over the slowest of them
+constexpr int looked_at = 24;           // velocities, to find the slowest
 
 /// The dataset with the most points.
 std::size_t fullest(const SearchBase& base) {
@@ -118,11 +118,11 @@ class Target {
     for (const RivalElsewhere& model : models) {
       const std::vector<double> e = model.restitution(looked);
       for (std::size_t i = first; i < e.size(); ++i) {
-        if (!(e[i] >= least_restitution)) first = i + 1;
+        if (!(e[i] >= least_expected)) first = i + 1;
       }
     }
     if (first == looked.size() || high < least_range * looked[first].velocity) return;
-    for (const PointConditions& at : spaced(looked[first].velocity, velocities)) {
+    for (const PointConditions& at : spaced(looked[first].velocity, velocities_of_size)) {
       possible_.at.push_back(at);
       possible_.sd.push_back(scatter_of_one_event(base_.fitted, like_, at.velocity));
     }

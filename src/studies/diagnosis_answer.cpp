@@ -144,6 +144,7 @@ Json json_of(const Answered& a) {
           {"other_law", a.order.other_law},
           {"circumstances", recoil::to_string(a.order.circumstances)},
           {"most_rounds", a.order.rounds},
+          {"readout", recoil::to_string(a.order.readout)},
           {"rounds", a.rounds},
           {"events", a.events},
           {"taken", taken},
@@ -179,7 +180,8 @@ Answered answered_of(const Json& json) {
              recoil::value_named<Circumstances>(json.value("circumstances", "unstated"))
                  .value_or(Circumstances::unstated),
              json.value("other_law", false),
-             json.value("most_rounds", 0)};
+             json.value("most_rounds", 0),
+             recoil::value_named<Readout>(json.value("readout", "exact")).value_or(Readout::exact)};
   a.rounds = json.value("rounds", 0);
   a.events = json.value("events", 0LL);
   for (const Json& f : json.value("taken", Json::array())) {

@@ -80,6 +80,12 @@ Sentence bar_words(Bar bar) {
       return "the same: wrong cause named";
     case Bar::settings_named:
       return "heights set wrong: a cause named";
+    case Bar::rounded_named:
+      return "drops read to a finite step, nothing hidden: a cause named";
+    case Bar::rounded_listed:
+      return "the same with an effect: among named and rivals";
+    case Bar::rounded_wrong:
+      return "the same: wrong cause named";
     case Bar::odd_named:
       return "a few points misread: a cause named";
     case Bar::odd_found:
@@ -381,6 +387,14 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
                               "every second data set a column names the heights.",
                               code("drops"))}},
                {Arm::dropped, Arm::settings});
+  arms_section("Drops that are read to a finite step",
+               {Paragraph{say("Spheres of 3 to 12 mm ({}) and of 12 to 40 mm ({}). Heights of "
+                              "rebounds read to 1 or 5 mm, or times of flight to 1 ms or to frames "
+                              "of a video (240 in a second). The standard deviations of two data "
+                              "sets in four know of the rounding, and in two a column names the "
+                              "settings.",
+                              code("drops"), code("balls"))}},
+               {Arm::rounded});
   arms_section("A few points are misread",
                {Paragraph{"Six points in a hundred, by 6 to 15 standard deviations."}}, {Arm::odd});
   arms_section("One diameter", {}, {Arm::single});

@@ -45,11 +45,30 @@ class Plan {
   std::uint64_t seed_;
 };
 
+/// Nothing hidden, or what such readings may have beside it: of heights air and an origin, of times
+/// what the contact loses.
+void add_rounded(Plan& plan, int count) {
+  for (const Readout readout : recoil::values_of<Readout>()) {
+    if (readout == Readout::exact) continue;
+    const CaseOrder order{.readout = readout};
+    for (const char* design : {"drops", "balls"}) plan.add(design, {}, 0.0, count, order);
+    if (reads_times(readout)) {
+      plan.add("drops", {"plastic_yield"}, 20.0, count, order);
+      continue;
+    }
+    plan.add("drops", {"flight_drag"}, 20.0, count, order);
+    for (const char* design : {"drops", "balls"}) {
+      plan.add(design, {"height_origin"}, 20.0, count, order);
+    }
+  }
+}
+
 }  // namespace
 
 Arm arm_of(const CaseOrder& order) {
   if (!order.effects.empty() && order.effects.front() == "settings") return Arm::settings;
   if (!order.effects.empty() && order.effects.front() == "odd_points") return Arm::odd;
+  if (order.readout != Readout::exact) return Arm::rounded;
   if (!has_several_diameters(order.design)) return Arm::single;
   if (order.effects.empty()) return order.base_bend > 0.0 ? Arm::base_bent : Arm::correct;
   if (order.beyond > 0.0) return Arm::impossible;
@@ -129,6 +148,7 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
     for (const double strength : {10.0, 20.0}) plan.add("drops", {effect}, strength, size.dropped);
   }
   plan.add("drops", {}, 0.0, 6 * size.dropped);
+  add_rounded(plan, size.rounded);
   // Nothing hidden: half as in Wall's design, the rest shared.
   plan.add("wall", {}, 0.0, (size.correct + 1) / 2);
   plan.add("li", {}, 0.0, size.correct / 4);

@@ -27,6 +27,7 @@ struct StudySize {
                        ///< what the answer advises
   int dropped = 2;     ///< of each effect that drops by hand may have and visible strength, of each
                        ///< error of a setting; and six times as many with nothing hidden
+  int rounded = 4;     ///< of each step of reading, design of drops and effect
   int odd = 6;         ///< of each design, with a few points misread
   std::uint64_t seed = 20260101;
 };
@@ -55,6 +56,7 @@ enum class Arm {
   loop,        ///< an effect that is asked for again after doing what the answer advises
   dropped,     ///< an effect in drops of spheres of millimetres
   settings,    ///< heights that were set wrong, each by itself
+  rounded,     ///< drops of which heights or times of flight are read to a finite step
   odd          ///< a few points are misread
 };
 Arm arm_of(const CaseOrder& order);
@@ -67,8 +69,8 @@ std::vector<CaseOrder> plan_study(const StudySize& size);
 
 template <>
 struct recoil::NamesOf<hidden::Arm> {
-  static constexpr std::array<std::string_view, 17> names = {
+  static constexpr std::array<std::string_view, 18> names = {
       "effect", "correct",   "pair",      "outside",   "single",     "careless",
       "bent",   "bent_more", "other_law", "base_bent", "impossible", "stated",
-      "varied", "loop",      "dropped",   "settings",  "odd"};
+      "varied", "loop",      "dropped",   "settings",  "rounded",    "odd"};
 };

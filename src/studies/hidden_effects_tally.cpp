@@ -79,6 +79,10 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
   const Answers odd = those(all, in(Arm::odd));
   const Answers dropped = those(
       all, [](const Answered& a) { return seen(Arm::dropped)(a) && !a.order.effects.empty(); });
+  const Answers unhidden =
+      those(all, [](const Answered& a) { return in(Arm::rounded)(a) && a.order.effects.empty(); });
+  const Answers beside_rounding = those(
+      all, [](const Answered& a) { return seen(Arm::rounded)(a) && !a.order.effects.empty(); });
   const Test names_a_cause = [](const Answered& a) { return a.verdict == "cause_named"; };
   const Test wrong = [](const Answered& a) {
     return mark_of(a) == Mark::wrong || (mark_of(a) == Mark::outside && !a.shared_cause.empty());
@@ -110,6 +114,9 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
           {Bar::dropped_listed, count(dropped, marked({Mark::named, Mark::inside}))},
           {Bar::dropped_wrong, count(dropped, wrong)},
           {Bar::settings_named, count(those(all, in(Arm::settings)), names_a_cause)},
+          {Bar::rounded_named, count(unhidden, names_a_cause)},
+          {Bar::rounded_listed, count(beside_rounding, marked({Mark::named, Mark::inside}))},
+          {Bar::rounded_wrong, count(beside_rounding, wrong)},
           {Bar::odd_named, count(odd, names_a_cause)},
           {Bar::odd_found, points_of(odd, &Answered::odd_found, &Answered::odd)},
           {Bar::odd_accused, points_of(odd, &Answered::accused, &Answered::right)}};
@@ -188,7 +195,8 @@ std::vector<AlarmRow> alarms_of(const std::vector<Answered>& all) {
   std::vector<AlarmRow> rows;
   for (const std::string_view design : design_ids()) {
     const Answers of = those(all, [&](const Answered& a) {
-      return a.order.design == design && a.order.effects.empty();
+      return a.order.design == design && a.order.effects.empty() &&
+             a.order.readout == Readout::exact;
     });
     rows.push_back({std::string(design),
                     count(of, [](const Answered& a) { return mark_of(a) != Mark::nothing; }),
@@ -381,6 +389,8 @@ Wanted wanted_of(Bar bar) {
     case Bar::unstated_named:
     case Bar::impossible_named:
     case Bar::settings_named:
+    case Bar::rounded_named:
+    case Bar::rounded_wrong:
     case Bar::odd_named:
       return {0.03, false};
     case Bar::false_alarm:

@@ -126,7 +126,7 @@ std::string package_text(const Table& table, const std::string& name) {
   if (b.stated_stiffness > 0.0) own["stiffness_K"] = b.stated_stiffness;
   for (const StatedCondition& c : table.conditions) own["conditions"][c.name] = c.value;
   if (d.dropped) {
-    own["method"] = "drop_heights";
+    own["method"] = reads_times(d.readout) ? "bounce_intervals" : "drop_heights";
     own["adhesion_energy"] = 0;
   } else {
     own["adhesion_force_f0"] = b.adhesion_force;

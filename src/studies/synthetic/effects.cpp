@@ -15,7 +15,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double gravity = 9.81;            // [m/s2]
 constexpr double permittivity = 8.854e-12;  // of vacuum [F/m]
 constexpr double surface_tension = 0.0728;  // of water at 20 C [N/m]
 constexpr double viscosity = 1.81e-5;       // of air at 20 C [Pa s]
@@ -122,15 +121,22 @@ double after_gas(const Effects& effects, const Sphere& sphere, double speed, boo
   return speed - speed_lost_in_film(viscosity, sphere, effects.gas_distance, path);
 }
 
-/// Takes from the contact what a second published law says of it, and returns what is left of the
-/// speed.
-double by_other_laws(const Sphere& sphere, ContactExtras& extras, double speed) {
+/// Takes from the contact what a second published law says of it, and returns v^2 that is lost by
+/// it [m2/s2]. These laws are of dry spheres. As in Dahneke's (1975) balance of energies, adhesion
+/// has the contact struck at a higher speed and takes back what it gave: a share 1 - e^2 is lost of
+/// v^2 and of the depth of the well.
+double lost_by_other_laws(const Sphere& sphere, ContactExtras& extras, double speed) {
+  const double struck = std::sqrt(speed * speed + well_depth(sphere));
   double e = 1.0;
-  if (extras.yield_pressure > 0.0) e *= jackson_restitution(sphere, extras.yield_pressure, speed);
-  if (extras.bulk_relaxation > 0.0) e *= ramirez_restitution(sphere, extras.bulk_relaxation, speed);
-  if (extras.plate_mobility > 0.0) e *= boettcher_restitution(sphere, extras.plate_mobility, speed);
+  if (extras.yield_pressure > 0.0) e *= jackson_restitution(sphere, extras.yield_pressure, struck);
+  if (extras.bulk_relaxation > 0.0) {
+    e *= ramirez_restitution(sphere, extras.bulk_relaxation, struck);
+  }
+  if (extras.plate_mobility > 0.0) {
+    e *= boettcher_restitution(sphere, extras.plate_mobility, struck);
+  }
   extras.yield_pressure = extras.bulk_relaxation = extras.plate_mobility = 0.0;
-  return speed * e;
+  return (1.0 - e * e) * struck * struck;
 }
 
 /// By exact laws, or other ones.
@@ -168,8 +174,7 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   // contact
   v = std::sqrt(square);
   ContactExtras extras = effects.contact;
-  if (effects.other_laws) v = by_other_laws(sphere, extras, v);
-  if (!(v > 0.0)) return -1e-6 / (velocity * velocity);
+  const double lost = effects.other_laws ? lost_by_other_laws(sphere, extras, v) : 0.0;
   if (extras.yield_pressure > 0.0) {
     const PlasticResult plastic = plastic_contact(sphere.mass, sphere.radius, sphere.stiffness,
                                                   extras.yield_pressure, v, work_at_rest(sphere));
@@ -178,7 +183,7 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
     sphere.radius = plastic.radius;
     v = std::sqrt(plastic.square);
   }
-  square = contact(sphere, extras, base, v).square;
+  square = contact(sphere, extras, base, v).square - lost;
   double work = effects.asperity_energy;
   work += 4.0 * pi * 0.5 * d * surface_tension * effects.bridge_length;
   if (effects.jkr_work > 0.0) {
