@@ -121,12 +121,13 @@ double after_gas(const Effects& effects, const Sphere& sphere, double speed, boo
   return speed - speed_lost_in_film(viscosity, sphere, effects.gas_distance, path);
 }
 
-/// Takes from the contact what a second published law says of it, and returns v^2 that is lost by
-/// it [m2/s2]. These laws are of dry spheres. As in Dahneke's (1975) balance of energies, adhesion
-/// has the contact struck at a higher speed and takes back what it gave: a share 1 - e^2 is lost of
-/// v^2 and of the depth of the well.
-double lost_by_other_laws(const Sphere& sphere, ContactExtras& extras, double speed) {
-  const double struck = std::sqrt(speed * speed + well_depth(sphere));
+/// Takes from the contact what second published laws say of it, and returns v^2 with which the rest
+/// of it begins; below zero: the energy that is missing. These laws are of dry spheres. As in
+/// Dahneke's (1975) balance of energies, adhesion has the contact struck at a higher speed, and
+/// takes back what it gave: e^2 (v^2 + w) - w, w the depth of the well.
+double left_by_other_laws(const Sphere& sphere, ContactExtras& extras, double speed) {
+  const double depth = well_depth(sphere);
+  const double struck = std::sqrt(speed * speed + depth);
   double e = 1.0;
   if (extras.yield_pressure > 0.0) e *= jackson_restitution(sphere, extras.yield_pressure, struck);
   if (extras.bulk_relaxation > 0.0) {
@@ -136,7 +137,7 @@ double lost_by_other_laws(const Sphere& sphere, ContactExtras& extras, double sp
     e *= boettcher_restitution(sphere, extras.plate_mobility, struck);
   }
   extras.yield_pressure = extras.bulk_relaxation = extras.plate_mobility = 0.0;
-  return (1.0 - e * e) * struck * struck;
+  return e * e * struck * struck - depth;
 }
 
 /// By exact laws, or other ones.
@@ -174,7 +175,11 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   // contact
   v = std::sqrt(square);
   ContactExtras extras = effects.contact;
-  const double lost = effects.other_laws ? lost_by_other_laws(sphere, extras, v) : 0.0;
+  if (effects.other_laws) {
+    square = left_by_other_laws(sphere, extras, v);
+    if (!(square > 0.0)) return square / (velocity * velocity);
+    v = std::sqrt(square);
+  }
   if (extras.yield_pressure > 0.0) {
     const PlasticResult plastic = plastic_contact(sphere.mass, sphere.radius, sphere.stiffness,
                                                   extras.yield_pressure, v, work_at_rest(sphere));
@@ -183,7 +188,7 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
     sphere.radius = plastic.radius;
     v = std::sqrt(plastic.square);
   }
-  square = contact(sphere, extras, base, v).square - lost;
+  square = contact(sphere, extras, base, v).square;
   double work = effects.asperity_energy;
   work += 4.0 * pi * 0.5 * d * surface_tension * effects.bridge_length;
   if (effects.jkr_work > 0.0) {
