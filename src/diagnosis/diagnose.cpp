@@ -222,6 +222,21 @@ bool outshone_at_the_edge(const CandidateResult& best, const std::vector<Candida
   });
 }
 
+/// Single causes that come so close to two at once, `found`, that one whose law is wrong by more
+/// than laws are allowed is as likely: rivals, though they leave structure. Those of the two are
+/// none, having been judged beside them.
+void add_close_singles(const std::vector<CandidateResult>& singles, double lead, double chance,
+                       std::vector<const CandidateResult*>& found) {
+  const CandidateResult& best = *found.front();
+  const auto& both = best.candidate.added;
+  for (const CandidateResult& c : singles) {
+    const bool possible = c.near_plausible && c.kind != MechanismKind::description &&
+                          c.set_aside != SetAside::batch_is_size && c.p_value <= chance;
+    const bool other = std::find(both.begin(), both.end(), c.candidate.added.front()) == both.end();
+    if (possible && other && c.delta_aicc <= best.delta_aicc + lead) found.push_back(&c);
+  }
+}
+
 /// The ids of all that cannot be told and fit as well as the best of them.
 std::vector<std::string> resembling(const std::vector<CandidateResult>& candidates, double margin) {
   std::vector<std::string> ids;
@@ -262,6 +277,9 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
     found = explanations(diagnosis.pairs, margin_in_pairs, one_size);
     if (!found.empty() && outshone_at_the_edge(*found.front(), diagnosis.pairs, margin_in_pairs)) {
       found.clear();
+    }
+    if (!found.empty()) {
+      add_close_singles(diagnosis.candidates, margin_in_pairs, options.chance, found);
     }
   }
   if (outshone_by_it()) {

@@ -63,9 +63,11 @@ Sentence bar_words(Bar bar) {
     case Bar::other_listed:
       return "made by another published law: among named and rivals, or its shape recognised";
     case Bar::other_wrong:
-      return "made by another published law: wrong cause named";
+      return "made by another published law, dry ones beside adhesion included: wrong cause named";
     case Bar::other_unexplained:
       return "made by another published law: unexplained";
+    case Bar::other_unseen:
+      return "made by another published law: called adequate";
     case Bar::base_alarm:
       return "nothing hidden, losses of the base model bent by 3 %: alarms";
     case Bar::impossible_named:

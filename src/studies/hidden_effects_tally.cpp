@@ -74,6 +74,7 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
       those(all, [](const Answered& a) { return in(Arm::single)(a) && !a.order.effects.empty(); });
   const Answers bent = those(all, in(Arm::bent));
   const Answers other = those(all, in(Arm::other_law));
+  const Answers any_other = those(all, [](const Answered& a) { return a.order.other_law; });
   const Test named = marked({Mark::named});
   const Answers loop = those(all, in(Arm::loop));
   const Answers odd = those(all, in(Arm::odd));
@@ -106,8 +107,9 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
           {Bar::bent_wrong, count(bent, wrong)},
           {Bar::bent_unexplained, count(bent, marked({Mark::unexplained}))},
           {Bar::other_listed, count(other, marked({Mark::named, Mark::inside, Mark::resembled}))},
-          {Bar::other_wrong, count(other, wrong)},
+          {Bar::other_wrong, count(any_other, wrong)},
           {Bar::other_unexplained, count(other, marked({Mark::unexplained}))},
+          {Bar::other_unseen, count(other, marked({Mark::nothing}))},
           {Bar::base_alarm, count(those(all, in(Arm::base_bent)),
                                   [](const Answered& a) { return mark_of(a) != Mark::nothing; })},
           {Bar::impossible_named, count(those(all, in(Arm::impossible)), names_a_cause)},
@@ -396,6 +398,7 @@ Wanted wanted_of(Bar bar) {
     case Bar::false_alarm:
     case Bar::base_alarm:
     case Bar::unseen:
+    case Bar::other_unseen:
       return {0.05, false};
     case Bar::bent_unexplained:
     case Bar::other_unexplained:

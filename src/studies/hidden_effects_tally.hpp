@@ -48,8 +48,9 @@ enum class Bar {
   bent_wrong,           ///< the same: a wrong cause named
   bent_unexplained,     ///< the same: unexplained
   other_listed,         ///< made by another published law: named, listed, or its shape recognised
-  other_wrong,          ///< the same: a wrong cause named
-  other_unexplained,    ///< the same: unexplained
+  other_wrong,          ///< the same, also by a dry law beside adhesion: a wrong cause named
+  other_unexplained,    ///< by another published law: unexplained
+  other_unseen,         ///< the same: called adequate
   base_alarm,           ///< anything but adequate where the losses are bent by 3 %
   impossible_named,     ///< a cause named for an effect of impossible size
   loop_named,           ///< named, or its cause told, after doing what is advised, three times at
@@ -163,7 +164,7 @@ StudyTally read_tally(const std::filesystem::path& file);
 
 template <>
 struct recoil::NamesOf<hidden::Bar> {
-  static constexpr std::array<std::string_view, 30> names = {"named",
+  static constexpr std::array<std::string_view, 31> names = {"named",
                                                              "separable_named",
                                                              "named_or_law",
                                                              "listed",
@@ -180,6 +181,7 @@ struct recoil::NamesOf<hidden::Bar> {
                                                              "other_listed",
                                                              "other_wrong",
                                                              "other_unexplained",
+                                                             "other_unseen",
                                                              "base_alarm",
                                                              "impossible_named",
                                                              "loop_named",
