@@ -105,6 +105,9 @@ void decide(const std::vector<const CandidateResult*>& found, bool one_size, Dia
   }
   diagnosis.verdict = Verdict::not_separable;
   for (const CandidateResult* c : found) {
+    if (c->candidate.added.size() < found.front()->candidate.added.size()) {
+      diagnosis.alone.push_back(c->candidate.added.front());
+    }
     for (const std::string& id : c->candidate.added) {
       auto& rivals = diagnosis.rivals;
       if (std::find(rivals.begin(), rivals.end(), id) == rivals.end()) rivals.push_back(id);
@@ -195,10 +198,10 @@ bool more_than_chance(const Diagnosis& diagnosis) {
 }
 
 /// Would it explain the misfit, if only its value were possible, or it were not the same as a law
-/// of size that nobody knows?
+/// of size that nobody knows, or as rounding?
 bool cannot_be_told(const CandidateResult& c) {
   return (c.set_aside == SetAside::not_possible && !c.near_plausible) ||
-         c.set_aside == SetAside::batch_is_size;
+         c.set_aside == SetAside::batch_is_size || c.set_aside == SetAside::within_a_step;
 }
 
 /// A limit never promotes a worse cause. What fits best and cannot be true keeps its place: what is

@@ -197,6 +197,13 @@ std::string several_words(const Diagnosis& d) {
     return fmt::format("The cause is {}; which of its laws holds, these data cannot tell: {}.",
                        d.shared_cause, all);
   }
+  if (!d.alone.empty()) {
+    return fmt::format(
+        "Two causes at once leave nothing behind ({}), but one alone comes so close ({}) that it "
+        "is "
+        "as likely, if its law is wrong by more than laws are taken to be. Candidates: {}.",
+        words_of(d.extended->candidate.name()), titles_of(d.alone, "; "), all);
+  }
   if (d.extended->candidate.added.size() > 1) {
     std::vector<std::string> others = d.rivals;
     std::erase_if(others, [&](const std::string& id) {

@@ -66,6 +66,9 @@ std::string because_words(const CandidateResult& c) {
     case SetAside::batch_is_size:
       return "every series has its own diameter and the offsets vary smoothly with it: offsets of "
              "batches cannot be told from an unknown law of size here";
+    case SetAside::within_a_step:
+      return "the readings lie on steps of a height, and rounding to a step passes for an error of "
+             "up to half of it";
     case SetAside::leaves_structure:
       return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
     case SetAside::predicts_no_better:

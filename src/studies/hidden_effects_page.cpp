@@ -85,7 +85,7 @@ Sentence bar_words(Bar bar) {
     case Bar::rounded_named:
       return "drops read to a finite step, nothing hidden: a cause named";
     case Bar::rounded_listed:
-      return "the same with an effect: among named and rivals";
+      return "the same with an effect: among named and rivals, or its shape recognised";
     case Bar::rounded_wrong:
       return "the same: wrong cause named";
     case Bar::odd_named:
@@ -362,6 +362,13 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
                  "order by Ramirez et al. (1999), the thin plate by Boettcher et al. "
                  "(2017), the film of gas to leading order by Barnocky & Davis (1988)."}},
       {Arm::other_law});
+  arms_section(
+      "Laws of dry contacts beside adhesion",
+      {Paragraph{
+          "The same laws of yielding, of the bulk and of the plate, where adhesion holds the "
+          "spheres as well. Dahneke's balance of energies joins the two, which is good far "
+          "above capture only: a test of what is said where no law of the catalogue is near."}},
+      {Arm::other_adhesive});
   arms_section("Effects of impossible size",
                {Paragraph{"At three times the largest strength that nature or a careful "
                           "experimenter still has."}},
