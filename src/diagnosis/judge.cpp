@@ -15,12 +15,20 @@ namespace {
 constexpr std::size_t shown_leads = 8;  // are held out whatever is held against them
 constexpr double lead_within = 30.0;    // of the criterion, of the best
 
+/// Is the parameter an error of a height, a length that only what falls from heights can have?
+bool is_height(const Parameter& parameter) {
+  const Mechanism* const mechanism = parameter.mechanism;
+  return mechanism != nullptr && parameter.unit == "m" &&
+         mechanism->info.kind == MechanismKind::measurement &&
+         mechanism->info.methods == std::vector<Method>{Method::drop_heights};
+}
+
 /// Is it an error of a height which the rounding of the heights may make?
 bool within_a_step(const SearchBase& base, const CandidateResult& c) {
   const std::vector<double> errors = standard_errors(c.refit, base.noise_scale);
   for (std::size_t j = 0; j < c.refit.theta.size(); ++j) {
     const ParameterSlot& slot = c.candidate.model.slots[j];
-    if (!slot.parameter->is_height || !c.candidate.adds(slot)) continue;
+    if (!is_height(*slot.parameter) || !c.candidate.adds(slot)) continue;
     const double least = std::abs(c.refit.theta[j]) - allowed_errors * errors[j];
     const double step = height_step(base.datasets);
     if (step > 0.0 && least <= 0.5 * step) return true;

@@ -193,39 +193,51 @@ RivalElsewhere::RivalElsewhere(const SearchBase& base, const CandidateResult& ri
   const Candidate& here = rival.candidate;
   rival_.candidate =
       make_candidate(with_own_contacts(base.spec), datasets, here.added, here.released);
-  ImpactModel& model = rival_.candidate.model;
-  model.solver = here.model.solver;
-  std::vector<double> theta = model.initial();
-  std::vector<bool> moving(theta.size(), false);
-  const auto take = [&](std::size_t to, std::size_t from) {
-    theta[to] = rival.refit.theta[from];
-    moving[to] = from < rival.refit.moving.size() && rival.refit.moving[from];
+  rival_.candidate.model.solver = here.model.solver;
+  rival_.refit.usable = true;
+  rival_.refit.theta = rival_.candidate.model.initial();
+  rival_.refit.moving.assign(rival_.refit.theta.size(), false);
+  precisions_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rival_.refit.theta.size()));
+  carry_over(rival);
+  guess_the_contact(like);
+}
+
+void RivalElsewhere::carry_over(const CandidateResult& rival) {
+  const ImpactModel& from = rival.candidate.model;
+  const ImpactModel& to = rival_.candidate.model;
+  const auto take = [&](std::size_t slot, std::size_t of_rival) {
+    const auto& moving = rival.refit.moving;
+    rival_.refit.theta[slot] = rival.refit.theta[of_rival];
+    rival_.refit.moving[slot] = of_rival < moving.size() && moving[of_rival];
   };
-  for (std::size_t d = 0; d < base.datasets.size(); ++d) {
-    const std::vector<std::size_t> from = slots_of(here.model, d);
-    const std::vector<std::size_t> to = slots_of(model, d);
-    for (std::size_t k = 0; k < to.size(); ++k) take(to[k], from[k]);
+  for (std::size_t d = 0; d < dataset_; ++d) {
+    const std::vector<std::size_t> old_slots = slots_of(from, d);
+    const std::vector<std::size_t> slots = slots_of(to, d);
+    for (std::size_t k = 0; k < slots.size(); ++k) take(slots[k], old_slots[k]);
   }
-  for (std::size_t k = 0; k < model.constants.size(); ++k) {
-    const std::size_t to = model.first_constant() + k;
-    const auto from = same_constant(here.model, model, k);
-    moving[to] = true;
-    if (from) take(to, *from);
+  for (std::size_t k = 0; k < to.constants.size(); ++k) {
+    const std::size_t slot = to.first_constant() + k;
+    const auto old_slot = same_constant(from, to, k);
+    rival_.refit.moving[slot] = true;
+    if (old_slot) take(slot, *old_slot);
   }
-  precisions_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(theta.size()));
-  const auto guess = [&](std::size_t slot, double value, double sd) {
-    theta[slot] = value;
-    if (!(sd > 0.0)) return;
-    moving[slot] = true;
-    precisions_(static_cast<Eigen::Index>(slot)) = 1.0 / (sd * sd);
-  };
-  const auto guess_damping = [&](const std::vector<std::size_t>& slots) {
-    const double value = theta[slots[like]];
-    const double least = model.slots[slots[dataset_]].parameter->initial;
-    guess(slots[dataset_], value, std::max(value, least));
-  };
-  guess_damping(model.slot_C_H);
-  guess_damping(model.slot_C_A);
+}
+
+void RivalElsewhere::guess(std::size_t slot, double value, double sd) {
+  rival_.refit.theta[slot] = value;
+  if (!(sd > 0.0)) return;
+  rival_.refit.moving[slot] = true;
+  precisions_(static_cast<Eigen::Index>(slot)) = 1.0 / (sd * sd);
+}
+
+void RivalElsewhere::guess_the_contact(std::size_t like) {
+  const ImpactModel& model = rival_.candidate.model;
+  const std::vector<double>& theta = rival_.refit.theta;
+  for (const auto* slots : {&model.slot_C_H, &model.slot_C_A}) {
+    const double value = theta[(*slots)[like]];
+    const std::size_t slot = (*slots)[dataset_];
+    guess(slot, value, std::max(value, model.slots[slot].parameter->initial));
+  }
   for (const auto& own : model.slot_own) {  // those of which the fit has one for each target
     const std::size_t slot = own[dataset_].front();
     const ParameterSlot& its = model.slots[slot];
@@ -236,13 +248,10 @@ RivalElsewhere::RivalElsewhere(const SearchBase& base, const CandidateResult& ri
   const double derived = derived_adhesion(model, like);
   const double factor = derived > 0.0 ? derived_adhesion(model, dataset_) / derived : 0.0;
   const double adhesion = factor * theta[model.slot_adhesion[like]];
-  const double log_sd = model.adhesion == AdhesionLaw::ring ? log_sd_of_other_adhesion
-                                                            : 1.5 * log_sd_of_other_adhesion;
+  const bool ring = model.adhesion == AdhesionLaw::ring;
+  const double log_sd = (ring ? 1.0 : 1.5) * log_sd_of_other_adhesion;  // of f0, or of W
   const bool by_constants = follows_materials(model, dataset_);
   guess(model.slot_adhesion[dataset_], adhesion, by_constants ? 0.0 : log_sd * adhesion);
-  rival_.refit.usable = true;
-  rival_.refit.theta = std::move(theta);
-  rival_.refit.moving = std::move(moving);
 }
 
 std::vector<double> RivalElsewhere::restitution(const std::vector<PointConditions>& at) const {

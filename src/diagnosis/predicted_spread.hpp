@@ -62,6 +62,10 @@ class RivalElsewhere {
   std::size_t dataset() const { return dataset_; }
 
  private:
+  void carry_over(const CandidateResult& rival);
+  void guess(std::size_t slot, double value, double sd);
+  void guess_the_contact(std::size_t like);
+
   const SearchBase& base_;
   std::size_t dataset_;
   CandidateResult rival_;       ///< with the target

@@ -53,7 +53,6 @@ Mechanism height_origin() {
             .upper = 0.1,
             .plausible = {-0.1, 0.1, "the domain of the formula"},
             .starts = {-1e-5, 1e-4, -1e-4, 5e-3, -5e-3},
-            .is_height = true,
             .limit = {.quantity = "error of the height over the diameter",
                       .lower = -1.0,
                       .upper = 1.0,

@@ -80,7 +80,6 @@ struct Parameter {
   bool per_series = false;          ///< one value for every series
   /// The relative scatter of single slow rebounds: starts at what the points state of it.
   bool is_scatter_of_rebounds = false;
-  bool is_height = false;     ///< one that is read: rounding passes for it, up to half a step
   PlausibleLimit limit = {};  ///< beside `plausible`
   std::optional<StatedBy> stated_by = {};
   ParameterRole role = ParameterRole::of_mechanism;
