@@ -15,36 +15,42 @@ constexpr double highest_of_steps = 15.0;
 constexpr double coherent = 0.9;
 constexpr std::size_t fewest_heights = 4;
 
-/// The mean height of the rebounds of every size and velocity [m].
-std::vector<double> mean_heights(const Dataset& dataset) {
-  std::map<std::pair<double, double>, std::pair<double, int>> sums;
+/// How often a step goes into the heights of the rebounds of one size and velocity.
+struct Heights {
+  double sum = 0.0;      ///< of the heights [m]
+  double cosines = 0.0;  ///< of 2 pi h / step
+  int count = 0;
+};
+
+/// The mean cosine of all sizes and velocities whose rebounds are low enough, each counting once; 0
+/// where there are too few.
+double coherence(const Dataset& dataset, double step) {
+  std::map<std::pair<double, double>, Heights> places;
   for (const ImpactPoint& point : dataset.points) {
     if (!(point.restitution > 0.0)) continue;
-    auto& [sum, count] = sums[{point.diameter, point.incident_velocity}];
-    sum += std::pow(point.restitution * point.incident_velocity, 2) / (2.0 * standard_gravity);
-    ++count;
+    Heights& heights = places[{point.diameter, point.incident_velocity}];
+    const double rebound = point.restitution * point.incident_velocity;
+    const double height = rebound * rebound / (2.0 * standard_gravity);
+    heights.sum += height;
+    heights.cosines += std::cos(2.0 * std::numbers::pi * height / step);
+    ++heights.count;
   }
-  std::vector<double> heights;
-  for (const auto& [place, of_place] : sums) {
-    heights.push_back(of_place.first / of_place.second);
+  double sum = 0.0;
+  std::size_t low = 0;
+  for (const auto& [place, heights] : places) {
+    if (heights.sum > highest_of_steps * step * heights.count) continue;
+    sum += heights.cosines / heights.count;
+    ++low;
   }
-  return heights;
+  return low < fewest_heights ? 0.0 : sum / static_cast<double>(low);
 }
 
 }  // namespace
 
 double height_step(const Dataset& dataset) {
   if (dataset.system.method != Method::drop_heights) return 0.0;
-  const std::vector<double> heights = mean_heights(dataset);
   for (const double step : steps_of_rulers) {
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (const double height : heights) {
-      if (height > highest_of_steps * step) continue;
-      sum += std::cos(2.0 * std::numbers::pi * height / step);
-      ++count;
-    }
-    if (count >= fewest_heights && sum > coherent * static_cast<double>(count)) return step;
+    if (coherence(dataset, step) > coherent) return step;
   }
   return 0.0;
 }

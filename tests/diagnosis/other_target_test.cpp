@@ -142,17 +142,14 @@ TEST_F(OnAnotherTarget, TellsCausesThatDependOnTheContactFromOthers) {
   EXPECT_FALSE(next.material.name.empty());
   EXPECT_GE(next.log_odds, std::log(99.0) * (1.0 - 1e-12));
   int events = 0;
-  double smallest = INFINITY, largest = 0.0;
   for (const ExperimentPlace& place : next.places) {
     events += place.events;
     EXPECT_EQ(place.events, next.places.front().events);
     EXPECT_LE(place.velocity, 90.0 * (1.0 + 1e-9));
-    smallest = std::min(smallest, place.diameter);
-    largest = std::max(largest, place.diameter);
+    EXPECT_TRUE(place.diameter == 2.58e-6 || place.diameter == 4.9e-6);
   }
   EXPECT_EQ(events, next.events);
-  EXPECT_DOUBLE_EQ(smallest, 2.58e-6);
-  EXPECT_DOUBLE_EQ(largest, 4.9e-6);
+  EXPECT_EQ(next.places.size() % 6, 0U);
   EXPECT_TRUE(target_experiments(*base_, {&gas}).empty());
 }
 
