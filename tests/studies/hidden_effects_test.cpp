@@ -110,7 +110,7 @@ std::vector<Question> bent_laws() {
 std::vector<Question> other_laws() {
   std::vector<Question> all;
   const std::pair<const char*, const char*> cases[] = {
-      {"drops", "plastic_yield"}, {"li", "plastic_yield"}, {"wall", "gas_film"}};
+      {"drops", "plate_flexure"}, {"li", "plastic_yield"}, {"wall", "gas_film"}};
   for (const auto& [design, effect] : cases) {
     all.push_back({{design, {effect}, 10.0, 0}, {Mark::named, Mark::inside, Mark::resembled}});
     all.back().order.other_law = true;
