@@ -174,7 +174,8 @@ std::vector<Question> drops_read_to_a_step() {
       all.back().order.readout = readout;
     }
   }
-  all.push_back({{"drops", {"flight_drag"}, 20.0, 2}, {Mark::named, Mark::inside}});
+  // With a column that names the heights, whose drops share what rounding makes.
+  all.push_back({{"drops", {"flight_drag"}, 20.0, 3}, {Mark::named, Mark::inside}});
   all.back().order.readout = Readout::millimetre;
   return all;
 }
