@@ -51,6 +51,7 @@ enum class SetAside {
   chance,                 ///< gives the best of all candidates as much, too often
   not_possible,           ///< a parameter is implausible
   batch_is_size,          ///< every series has its own diameter, and offsets run smoothly with it
+  within_a_step,          ///< an error of a height no larger than rounding may make it
   leaves_structure,       ///< behind
   predicts_no_better,     ///< sizes or targets that were held out
   one_would_do,           ///< of the two of a pair
@@ -60,11 +61,10 @@ enum class SetAside {
 };
 template <>
 struct NamesOf<SetAside> {
-  static constexpr std::array<std::string_view, 11> names = {
-      "description",        "gains_too_little", "chance",
-      "not_possible",       "batch_is_size",    "leaves_structure",
-      "predicts_no_better", "one_would_do",     "one_hardly_takes_part",
-      "at_the_edge",        "far_behind"};
+  static constexpr std::array<std::string_view, 12> names = {
+      "description",   "gains_too_little",      "chance",           "not_possible",
+      "batch_is_size", "within_a_step",         "leaves_structure", "predicts_no_better",
+      "one_would_do",  "one_hardly_takes_part", "at_the_edge",      "far_behind"};
 };
 
 /// One mechanism, or several at once, tried as an explanation.

@@ -105,6 +105,9 @@ void decide(const std::vector<const CandidateResult*>& found, bool one_size, Dia
   }
   diagnosis.verdict = Verdict::not_separable;
   for (const CandidateResult* c : found) {
+    if (c->candidate.added.size() < found.front()->candidate.added.size()) {
+      diagnosis.alone.push_back(c->candidate.added.front());
+    }
     for (const std::string& id : c->candidate.added) {
       auto& rivals = diagnosis.rivals;
       if (std::find(rivals.begin(), rivals.end(), id) == rivals.end()) rivals.push_back(id);
@@ -195,10 +198,10 @@ bool more_than_chance(const Diagnosis& diagnosis) {
 }
 
 /// Would it explain the misfit, if only its value were possible, or it were not the same as a law
-/// of size that nobody knows?
+/// of size that nobody knows, or as rounding?
 bool cannot_be_told(const CandidateResult& c) {
   return (c.set_aside == SetAside::not_possible && !c.near_plausible) ||
-         c.set_aside == SetAside::batch_is_size;
+         c.set_aside == SetAside::batch_is_size || c.set_aside == SetAside::within_a_step;
 }
 
 /// A limit never promotes a worse cause. What fits best and cannot be true keeps its place: what is
@@ -220,6 +223,21 @@ bool outshone_at_the_edge(const CandidateResult& best, const std::vector<Candida
   return std::any_of(pairs.begin(), pairs.end(), [&](const CandidateResult& c) {
     return c.set_aside == SetAside::at_the_edge && c.delta_aicc < best.delta_aicc - lead;
   });
+}
+
+/// Single causes that come so close to two at once, `found`, that one whose law is wrong by more
+/// than laws are allowed is as likely: rivals, though they leave structure. Those of the two are
+/// none, having been judged beside them.
+void add_close_singles(const std::vector<CandidateResult>& singles, double lead, double chance,
+                       std::vector<const CandidateResult*>& found) {
+  const CandidateResult& best = *found.front();
+  const auto& both = best.candidate.added;
+  for (const CandidateResult& c : singles) {
+    const bool possible = c.near_plausible && c.kind != MechanismKind::description &&
+                          c.set_aside != SetAside::batch_is_size && c.p_value <= chance;
+    const bool other = std::find(both.begin(), both.end(), c.candidate.added.front()) == both.end();
+    if (possible && other && c.delta_aicc <= best.delta_aicc + lead) found.push_back(&c);
+  }
 }
 
 /// The ids of all that cannot be told and fit as well as the best of them.
@@ -262,6 +280,9 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
     found = explanations(diagnosis.pairs, margin_in_pairs, one_size);
     if (!found.empty() && outshone_at_the_edge(*found.front(), diagnosis.pairs, margin_in_pairs)) {
       found.clear();
+    }
+    if (!found.empty()) {
+      add_close_singles(diagnosis.candidates, margin_in_pairs, options.chance, found);
     }
   }
   if (outshone_by_it()) {

@@ -23,7 +23,9 @@ struct DiagnosisOptions {
   /// for rivals of as many parameters. From a difference of 4 on, a model has "considerably less
   /// support" (Burnham & Anderson 2002, Model Selection and Multimodel Inference, section 2.6).
   double margin = 4.0;
-  double margin_in_pairs = 6.0;  ///< the same for two at once, where more rivals crowd: 0.7 % each
+  /// The same for two at once, where more rivals crowd: 0.7 % each; and of a single cause from two
+  /// others.
+  double margin_in_pairs = 6.0;
   std::uint64_t seed = 20260101;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
   /// What came of pieces of the work (`KeptPiece`), of an earlier run or of other processes: they

@@ -63,8 +63,9 @@ struct Diagnosis {
   /// What fits best and cannot be true, or not be told from an unknown law of size: something of
   /// this shape acts. Nothing is named then.
   std::vector<std::string> resembles;
-  std::vector<std::string> common;          ///< of the rivals, those that every explanation has
-  std::string shared_cause;                 ///< of which all rivals are laws; empty: none
+  std::vector<std::string> alone;   ///< of the rivals of two at once, those that come close alone
+  std::vector<std::string> common;  ///< of the rivals, those that every explanation has
+  std::string shared_cause;         ///< of which all rivals are laws; empty: none
   std::optional<CandidateResult> extended;  ///< the model of `extended.toml`
   std::optional<FitResult> extended_fit;
   std::string extended_failure;  ///< why the extended model has no usable fit of its own

@@ -5,6 +5,8 @@
 
 #include "core/parallel.hpp"
 #include "diagnosis/batches.hpp"
+#include "diagnosis/plausibility.hpp"
+#include "diagnosis/reading_step.hpp"
 #include "mechanism/catalogue.hpp"
 
 namespace recoil {
@@ -12,6 +14,27 @@ namespace {
 
 constexpr std::size_t shown_leads = 8;  // are held out whatever is held against them
 constexpr double lead_within = 30.0;    // of the criterion, of the best
+
+/// Is the parameter an error of a height, a length that only what falls from heights can have?
+bool is_height(const Parameter& parameter) {
+  const Mechanism* const mechanism = parameter.mechanism;
+  return mechanism != nullptr && parameter.unit == "m" &&
+         mechanism->info.kind == MechanismKind::measurement &&
+         mechanism->info.methods == std::vector<Method>{Method::drop_heights};
+}
+
+/// Is it an error of a height which the rounding of the heights may make?
+bool within_a_step(const SearchBase& base, const CandidateResult& c) {
+  const std::vector<double> errors = standard_errors(c.refit, base.noise_scale);
+  for (std::size_t j = 0; j < c.refit.theta.size(); ++j) {
+    const ParameterSlot& slot = c.candidate.model.slots[j];
+    if (!is_height(*slot.parameter) || !c.candidate.adds(slot)) continue;
+    const double least = std::abs(c.refit.theta[j]) - allowed_errors * errors[j];
+    const double step = height_step(base.datasets);
+    if (step > 0.0 && least <= 0.5 * step) return true;
+  }
+  return false;
+}
 
 std::optional<SetAside> reason_against(const SearchBase& base, const CandidateResult& c) {
   if (c.kind == MechanismKind::description) return SetAside::description;
@@ -22,6 +45,7 @@ std::optional<SetAside> reason_against(const SearchBase& base, const CandidateRe
     return SetAside::batch_is_size;
   }
   if (!c.plausible) return SetAside::not_possible;
+  if (within_a_step(base, c)) return SetAside::within_a_step;
   if (c.remaining_p < tolerated_level) return SetAside::leaves_structure;
   return std::nullopt;
 }

@@ -1,19 +1,29 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/names.hpp"
 #include "data/condition.hpp"
+#include "diagnosis/other_target.hpp"
 
 namespace recoil {
 
 enum class ExperimentKind {
-  points,    ///< more impacts, at another velocity and size
-  condition  ///< the same impacts under a changed condition, which takes a cause away
+  points,     ///< more impacts, at another velocity and size
+  condition,  ///< the same impacts under a changed condition, which takes a cause away
+  target      ///< impacts of the same spheres on a block of another material
 };
 template <>
 struct NamesOf<ExperimentKind> {
-  static constexpr std::array<std::string_view, 2> names = {"points", "condition"};
+  static constexpr std::array<std::string_view, 3> names = {"points", "condition", "target"};
+};
+
+/// A place in an experiment of several.
+struct ExperimentPlace {
+  double diameter = 0.0;  ///< [m]
+  double velocity = 0.0;  ///< [m/s]
+  int events = 0;
 };
 
 /// Something to do that would tell one rival from another.
@@ -32,6 +42,10 @@ struct NextExperiment {
   Condition condition = Condition::ambient_pressure;  ///< of kind `condition`
   double value = 0.0;                                 ///< what it is set to, in its unit
   std::string_view doing;                             ///< in a laboratory: "pump the chamber"
+  /// Of kind `target`: on what, and where. `events` are all of them, `diameter`, `velocity` and
+  /// `difference` belong to the place at which the two differ most.
+  TargetMaterial material;
+  std::vector<ExperimentPlace> places;
 };
 
 }  // namespace recoil

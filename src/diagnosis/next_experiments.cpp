@@ -5,15 +5,15 @@
 #include <optional>
 
 #include "diagnosis/measurable.hpp"
+#include "diagnosis/odds.hpp"
 #include "diagnosis/predicted_spread.hpp"
+#include "diagnosis/target_experiments.hpp"
 #include "mechanism/catalogue.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr std::size_t most_compared = 4;
-constexpr double most_impacts = 1e6;
-const double wanted_log_odds = std::log(99.0);
 
 /// Has this dataset impacts from which a condition takes the mechanism away already?
 bool was_taken_away(const Candidate& candidate, const Mechanism& mechanism, std::size_t dataset) {
@@ -54,21 +54,6 @@ double expected_log_odds(double apart, double one, double other, double count) {
   return std::min(divergence(a, b), divergence(b, a));
 }
 
-/// The fewest impacts that give what is wanted; none where a million would not do.
-std::optional<int> fewest_impacts(double apart, double one, double other) {
-  const auto enough = [&](double count) {
-    return expected_log_odds(apart, one, other, count) >= wanted_log_odds;
-  };
-  if (!enough(most_impacts)) return std::nullopt;
-  double few = 0.5;
-  double many = most_impacts;
-  while (many > 1.001 * few && std::ceil(few) < std::ceil(many)) {
-    const double middle = std::sqrt(few * many);
-    (enough(middle) ? many : few) = middle;
-  }
-  return std::max(1, static_cast<int>(std::ceil(many)));
-}
-
 class Search {
  public:
   explicit Search(const SearchBase& base) : base_(base) {
@@ -91,7 +76,10 @@ class Search {
       const double difference = a.restitution[i] - b.restitution[i];
       const double apart = difference / possible_.sd[i];
       if (!std::isfinite(apart + a.variance[i] + b.variance[i])) continue;
-      const auto count = fewest_impacts(apart, a.variance[i], b.variance[i]);
+      const auto odds = [&](double count) {
+        return expected_log_odds(apart, a.variance[i], b.variance[i], count);
+      };
+      const auto count = fewest_impacts(odds, most_impacts);
       if (!count || (fewest && *count >= *fewest)) continue;
       fewest = count;
       experiment.dataset = possible_.at[i].dataset;
@@ -99,7 +87,7 @@ class Search {
       experiment.velocity = possible_.at[i].velocity;
       experiment.difference = difference;
       experiment.events = *count;
-      experiment.log_odds = expected_log_odds(apart, a.variance[i], b.variance[i], *count);
+      experiment.log_odds = odds(*count);
     }
     return fewest.has_value();
   }
@@ -129,8 +117,15 @@ void add_changes(const Search& search, const CandidateResult& one, const Candida
 }
 
 int effort(const NextExperiment& experiment) {
-  return experiment.events +
-         (experiment.kind == ExperimentKind::condition ? effort_of_a_change : 0);
+  switch (experiment.kind) {
+    case ExperimentKind::points:
+      return experiment.events;
+    case ExperimentKind::condition:
+      return experiment.events + effort_of_a_change;
+    case ExperimentKind::target:
+      return experiment.events + effort_of_a_target;
+  }
+  return experiment.events;
 }
 
 }  // namespace
@@ -139,11 +134,13 @@ std::vector<NextExperiment> next_experiments(const SearchBase& base,
                                              const std::vector<const CandidateResult*>& rivals) {
   const Search search(base);
   const std::size_t count = std::min(most_compared, rivals.size());
+  const std::vector<const CandidateResult*> compared(
+      rivals.begin(), rivals.begin() + static_cast<std::ptrdiff_t>(count));
   std::vector<PredictedSpread> predicted;
   for (std::size_t k = 0; k < count && count > 1; ++k) {
     predicted.push_back(search.predicted(*rivals[k]));
   }
-  std::vector<NextExperiment> all;
+  std::vector<NextExperiment> all = target_experiments(base, compared);
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       NextExperiment points;

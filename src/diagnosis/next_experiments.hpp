@@ -10,9 +10,10 @@ namespace recoil {
 
 /// For every two of `rivals` (the best four): the impacts that tell them apart with the fewest
 /// events (over the grid of `next_measurements`), and, where the catalogue knows a condition that
-/// takes a mechanism away which only one of them has, the same under a change of that condition.
-/// The least effort first, an effort being the number of impacts, and of a changed condition
-/// `effort_of_a_change` more.
+/// takes a mechanism away which only one of them has, the same under a change of that condition;
+/// and impacts on another target (`target_experiments`). The least effort first, an effort being
+/// the number of impacts, of a changed condition `effort_of_a_change` and of another target
+/// `effort_of_a_target` more.
 ///
 /// Both predict the mean of n impacts with an error: what the points leave open of their
 /// parameters, and how wrong their laws may be there (`predicted_spread`). The expected log odds of
@@ -23,5 +24,7 @@ std::vector<NextExperiment> next_experiments(const SearchBase& base,
                                              const std::vector<const CandidateResult*>& rivals);
 
 inline constexpr int effort_of_a_change = 100;  ///< impacts
+/// Mounting a target, and learning what damps the spheres on it beside what is asked [impacts].
+inline constexpr int effort_of_a_target = 300;
 
 }  // namespace recoil

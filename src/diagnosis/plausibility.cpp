@@ -9,8 +9,7 @@
 namespace recoil {
 namespace {
 
-constexpr double allowed_errors = 2.0;  // outside of a plausible range
-constexpr double at_null = 1e-9;        // of the range of a parameter
+constexpr double at_null = 1e-9;  // of the range of a parameter
 
 /// Beyond the range by no more than half of it, or a factor of two.
 bool is_near(const ParameterSlot& slot, double value, double lower, double upper) {

@@ -6,6 +6,8 @@
 
 namespace recoil {
 
+inline constexpr double allowed_errors = 2.0;  ///< outside of what is possible [standard errors]
+
 /// The parameters of the mechanisms that `candidate` adds, as `refit` has them, and whether they
 /// are possible: within the plausible range of the catalogue, or no more than two standard errors
 /// outside, and within their limit relative to the reduced modulus, where they have one.

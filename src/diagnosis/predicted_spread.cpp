@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/discrepancy.hpp"
+#include "diagnosis/other_target.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/predictor.hpp"
 
@@ -40,7 +41,54 @@ Observations with_possible(const Observations& data, const PossibleImpacts& poss
 struct Linearised {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd slopes;
+  Eigen::Index parameters = 0;  ///< the first columns
 };
+
+/// What the points tell of the impacts that could be made: by how much they move the residuals, and
+/// a root R of the covariance, R'R, of what is then predicted.
+struct Told {
+  Eigen::VectorXd moved;
+  Eigen::MatrixXd reduced;
+};
+
+/// @param there the slopes of the impacts, in the place that they have in `here.slopes`
+/// @param precisions of the moving parameters, known before any point; empty: nothing is
+std::optional<Told> what_is_told(const Linearised& here, const Eigen::MatrixXd& there,
+                                 std::size_t points, std::size_t impacts,
+                                 const std::vector<double>& precisions) {
+  const auto n = static_cast<Eigen::Index>(points);
+  const auto g = static_cast<Eigen::Index>(impacts);
+  const Eigen::Index rows = here.slopes.rows();
+  const Eigen::Index p = here.parameters;
+  const Eigen::Index errors = here.slopes.cols() - p;
+  // The points, and behind them the constants of the materials with what is stated of them.
+  const auto without_possible = [&](const auto& of_all) {
+    std::decay_t<decltype(of_all)> rest(rows - g, of_all.cols());
+    rest << of_all.topRows(n), of_all.bottomRows(rows - n - g);
+    return rest;
+  };
+  Eigen::MatrixXd known = without_possible(here.slopes);
+  const Eigen::VectorXd residuals = without_possible(here.residuals);
+  Eigen::MatrixXd asked = there.middleRows(n, g);
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(p + errors);
+  if (!precisions.empty()) before.head(p) = Eigen::Map<const Eigen::VectorXd>(precisions.data(), p);
+  // Columns of unit length: the units of the parameters lie twenty decades apart.
+  for (Eigen::Index k = 0; k < p; ++k) {
+    const double length = std::sqrt(known.col(k).squaredNorm() + before(k));
+    if (!(length > 0.0)) return std::nullopt;
+    known.col(k) /= length;
+    asked.col(k) /= length;
+    before(k) /= length * length;
+  }
+  before.head(p).array() += 1e-12;
+  before.tail(errors).array() += 1.0;
+  Eigen::MatrixXd information = known.transpose() * known;
+  information.diagonal() += before;
+  const Eigen::LLT<Eigen::MatrixXd> factor(information);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::VectorXd likeliest = -factor.solve(known.transpose() * residuals);
+  return Told{asked * likeliest, factor.matrixL().solve(asked.transpose())};
+}
 
 /// Empty without an answer.
 std::optional<Linearised> linearised_at(const CandidateResult& rival, const Observations& all,
@@ -63,7 +111,7 @@ std::optional<Linearised> linearised_at(const CandidateResult& rival, const Obse
   Eigen::MatrixXd both = Eigen::MatrixXd::Zero(rows, p + columns->cols());
   for (Eigen::Index k = 0; k < p; ++k) both.col(k) = J.col(moving[static_cast<std::size_t>(k)]);
   both.topRightCorner(columns->rows(), columns->cols()) = *columns;
-  return Linearised{Eigen::Map<Eigen::VectorXd>(residuals.data(), rows), std::move(both)};
+  return Linearised{Eigen::Map<Eigen::VectorXd>(residuals.data(), rows), std::move(both), p};
 }
 
 }  // namespace
@@ -86,41 +134,156 @@ PredictedSpread predicted_spread(const SearchBase& base, const CandidateResult& 
   const auto here = linearised_at(rival, all, theta, laws);
   const auto there = without == nullptr ? here : linearised_at(rival, all, changed, laws);
   if (!here || !there) return found;
-  const auto n = static_cast<Eigen::Index>(data.points.size());
   const auto g = static_cast<Eigen::Index>(possible.at.size());
-  const Eigen::Index rows = here->slopes.rows();
-  const Eigen::Index errors =
-      laws.functions.cols() * static_cast<Eigen::Index>(1 + model.chain.size());
-  const Eigen::Index p = here->slopes.cols() - errors;
-  // The points, and behind them the constants of the materials with what is stated of them.
-  const auto without_possible = [&](const auto& of_all) {
-    std::decay_t<decltype(of_all)> rest(rows - g, of_all.cols());
-    rest << of_all.topRows(n), of_all.bottomRows(rows - n - g);
-    return rest;
-  };
-  Eigen::MatrixXd known = without_possible(here->slopes);
-  const Eigen::VectorXd residuals = without_possible(here->residuals);
-  Eigen::MatrixXd asked = there->slopes.middleRows(n, g);
-  // Columns of unit length: the units of the parameters lie twenty decades apart.
-  for (Eigen::Index k = 0; k < p; ++k) {
-    const double length = known.col(k).norm();
-    if (!(length > 0.0)) return found;
-    known.col(k) /= length;
-    asked.col(k) /= length;
-  }
-  Eigen::MatrixXd information = known.transpose() * known;
-  information.diagonal().tail(errors).array() += 1.0;
-  information.diagonal().head(p).array() += 1e-12;
-  const Eigen::LLT<Eigen::MatrixXd> factor(information);
-  if (factor.info() != Eigen::Success) return found;
-  const Eigen::MatrixXd reduced = factor.matrixL().solve(asked.transpose());
-  const Eigen::VectorXd likeliest = -factor.solve(known.transpose() * residuals);
-  const Eigen::VectorXd moved = asked * likeliest;
+  const auto told = what_is_told(*here, there->slopes, data.points.size(), possible.at.size(), {});
+  if (!told) return found;
   for (Eigen::Index i = 0; i < g; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    found.variance[k] = reduced.col(i).squaredNorm();
-    found.restitution[k] = std::max(0.0, found.restitution[k] - possible.sd[k] * moved(i));
+    found.variance[k] = told->reduced.col(i).squaredNorm();
+    found.restitution[k] = std::max(0.0, found.restitution[k] - possible.sd[k] * told->moved(i));
   }
+  return found;
+}
+
+namespace {
+
+/// C_H and C_A of every dataset by themselves, and its adhesion.
+FitSpec with_own_contacts(const FitSpec& spec) {
+  FitSpec own = spec;
+  own.parameters.clear();
+  for (const Parameter* parameter : parameters_with(spec.mechanisms, spec.adhesion)) {
+    ParameterSpec& stated = own.parameters.emplace_back(spec.statement_of(*parameter));
+    if (parameter->is_damping() || parameter->is_adhesion()) stated.per_dataset = true;
+  }
+  return own;
+}
+
+/// The slots of theta under which a point of `dataset` is predicted, in one order for all models
+/// with the same mechanisms.
+std::vector<std::size_t> slots_of(const ImpactModel& model, std::size_t dataset) {
+  std::vector<std::size_t> slots = {model.slot_C_H[dataset], model.slot_C_A[dataset],
+                                    model.slot_adhesion[dataset]};
+  for (const auto& own : model.slot_own) {
+    slots.insert(slots.end(), own[dataset].begin(), own[dataset].end());
+  }
+  return slots;
+}
+
+/// The slot of the constant of `model` that is constant `k` of `other`, which has more datasets.
+std::optional<std::size_t> same_constant(const ImpactModel& model, const ImpactModel& other,
+                                         std::size_t k) {
+  const UncertainConstant& wanted = other.constants[k];
+  for (std::size_t j = 0; j < model.constants.size(); ++j) {
+    const UncertainConstant& constant = model.constants[j];
+    if (constant.body == wanted.body && constant.constant == wanted.constant &&
+        constant.datasets.front() == wanted.datasets.front()) {
+      return model.first_constant() + j;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+RivalElsewhere::RivalElsewhere(const SearchBase& base, const CandidateResult& rival,
+                               const Dataset& target, std::size_t like)
+    : base_(base), dataset_(base.datasets.size()) {
+  std::vector<Dataset> datasets = base.datasets;
+  datasets.push_back(target);
+  const Candidate& here = rival.candidate;
+  rival_.candidate =
+      make_candidate(with_own_contacts(base.spec), datasets, here.added, here.released);
+  rival_.candidate.model.solver = here.model.solver;
+  rival_.refit.usable = true;
+  rival_.refit.theta = rival_.candidate.model.initial();
+  rival_.refit.moving.assign(rival_.refit.theta.size(), false);
+  precisions_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rival_.refit.theta.size()));
+  carry_over(rival);
+  guess_the_contact(like);
+}
+
+void RivalElsewhere::carry_over(const CandidateResult& rival) {
+  const ImpactModel& from = rival.candidate.model;
+  const ImpactModel& to = rival_.candidate.model;
+  const auto take = [&](std::size_t slot, std::size_t of_rival) {
+    const auto& moving = rival.refit.moving;
+    rival_.refit.theta[slot] = rival.refit.theta[of_rival];
+    rival_.refit.moving[slot] = of_rival < moving.size() && moving[of_rival];
+  };
+  for (std::size_t d = 0; d < dataset_; ++d) {
+    const std::vector<std::size_t> old_slots = slots_of(from, d);
+    const std::vector<std::size_t> slots = slots_of(to, d);
+    for (std::size_t k = 0; k < slots.size(); ++k) take(slots[k], old_slots[k]);
+  }
+  for (std::size_t k = 0; k < to.constants.size(); ++k) {
+    const std::size_t slot = to.first_constant() + k;
+    const auto old_slot = same_constant(from, to, k);
+    rival_.refit.moving[slot] = true;
+    if (old_slot) take(slot, *old_slot);
+  }
+}
+
+void RivalElsewhere::guess(std::size_t slot, double value, double sd) {
+  rival_.refit.theta[slot] = value;
+  if (!(sd > 0.0)) return;
+  rival_.refit.moving[slot] = true;
+  precisions_(static_cast<Eigen::Index>(slot)) = 1.0 / (sd * sd);
+}
+
+void RivalElsewhere::guess_the_contact(std::size_t like) {
+  const ImpactModel& model = rival_.candidate.model;
+  const std::vector<double>& theta = rival_.refit.theta;
+  for (const auto* slots : {&model.slot_C_H, &model.slot_C_A}) {
+    const double value = theta[(*slots)[like]];
+    const std::size_t slot = (*slots)[dataset_];
+    guess(slot, value, std::max(value, model.slots[slot].parameter->initial));
+  }
+  for (const auto& own : model.slot_own) {  // those of which the fit has one for each target
+    const std::size_t slot = own[dataset_].front();
+    const ParameterSlot& its = model.slots[slot];
+    if (its.stated || its.parameter->per_series || slot == own[like].front()) continue;
+    const double value = theta[own[like].front()];
+    guess(slot, value, std::abs(value));
+  }
+  const double derived = derived_adhesion(model, like);
+  const double factor = derived > 0.0 ? derived_adhesion(model, dataset_) / derived : 0.0;
+  const double adhesion = factor * theta[model.slot_adhesion[like]];
+  const bool ring = model.adhesion == AdhesionLaw::ring;
+  const double log_sd = (ring ? 1.0 : 1.5) * log_sd_of_other_adhesion;  // of f0, or of W
+  const bool by_constants = follows_materials(model, dataset_);
+  guess(model.slot_adhesion[dataset_], adhesion, by_constants ? 0.0 : log_sd * adhesion);
+}
+
+std::vector<double> RivalElsewhere::restitution(const std::vector<PointConditions>& at) const {
+  std::vector<double> found;
+  for (const Prediction& there : predict(rival_.candidate.model, rival_.refit.theta, at, false)) {
+    found.push_back(there.usable() ? there.restitution() : NAN);
+  }
+  return found;
+}
+
+PredictedTogether RivalElsewhere::predicted(const PossibleImpacts& possible) const {
+  const std::vector<double> expected = restitution(possible.at);
+  PredictedTogether found;
+  found.restitution = Eigen::Map<const Eigen::VectorXd>(expected.data(),
+                                                        static_cast<Eigen::Index>(expected.size()));
+  if (!found.restitution.allFinite()) return found;
+  const Observations& data = base_.fitted.data;
+  const Observations all = with_possible(data, possible, expected);
+  LawErrors laws = base_.laws;
+  laws.functions = smooth_functions(all);
+  const auto here = linearised_at(rival_, all, rival_.refit.theta, laws);
+  if (!here) return found;
+  std::vector<double> known;
+  for (std::size_t j = 0; j < rival_.refit.moving.size(); ++j) {
+    if (rival_.refit.moving[j]) known.push_back(precisions_(static_cast<Eigen::Index>(j)));
+  }
+  const auto told =
+      what_is_told(*here, here->slopes, data.points.size(), possible.at.size(), known);
+  if (!told) return found;
+  const Eigen::Map<const Eigen::VectorXd> sd(possible.sd.data(), found.restitution.size());
+  found.restitution = (found.restitution - sd.cwiseProduct(told->moved)).cwiseMax(0.0);
+  found.covariance = told->reduced.transpose() * told->reduced;
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "data/dataset.hpp"
 #include "diagnosis/candidate_result.hpp"
 #include "diagnosis/search.hpp"
 
@@ -32,5 +33,43 @@ struct PredictedSpread {
 PredictedSpread predicted_spread(const SearchBase& base, const CandidateResult& rival,
                                  const PossibleImpacts& possible,
                                  const Mechanism* without = nullptr);
+
+/// What a rival predicts of several impacts together, each at a place of its own.
+struct PredictedTogether {
+  Eigen::VectorXd restitution;  ///< mean e, 0 where captured; NaN without an answer
+  Eigen::MatrixXd covariance;   ///< of the predictions, each in the deviation of one impact; empty
+                                ///< without an answer
+};
+
+/// A rival's model of all that was measured and of impacts on another target.
+class RivalElsewhere {
+ public:
+  /// @param target `on_target` of a dataset of `base`, at place `like`
+  RivalElsewhere(const SearchBase& base, const CandidateResult& rival, const Dataset& target,
+                 std::size_t like);
+
+  /// e at places on the target with its damping and adhesion as on the present one, or as they
+  /// would follow from the materials; NaN without an answer.
+  std::vector<double> restitution(const std::vector<PointConditions>& at) const;
+
+  /// The predictive distribution as in `predicted_spread`. On the other target nobody knows C_H and
+  /// C_A, which are taken for those of the present one with a standard deviation as large, nor the
+  /// adhesion (`log_sd_of_other_adhesion`); the strength of the mechanism is the same, and so are
+  /// the errors of the laws.
+  PredictedTogether predicted(const PossibleImpacts& possible) const;
+
+  /// The place of the target among the datasets.
+  std::size_t dataset() const { return dataset_; }
+
+ private:
+  void carry_over(const CandidateResult& rival);
+  void guess(std::size_t slot, double value, double sd);
+  void guess_the_contact(std::size_t like);
+
+  const SearchBase& base_;
+  std::size_t dataset_;
+  CandidateResult rival_;       ///< with the target
+  Eigen::VectorXd precisions_;  ///< known beforehand of its parameters [slots]
+};
 
 }  // namespace recoil

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.hpp"
 #include "data/text.hpp"
 #include "document/sentence.hpp"
 #include "mechanism/catalogue.hpp"
@@ -56,6 +57,33 @@ const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
   return found == d.candidates.end() ? nullptr : &*found;
 }
 
+/// "24 impacts of spheres of 2.6 and 6.9 um, 2 at each of 12 velocities from 2.1 to 95 m/s"
+std::string places_words(const NextExperiment& next) {
+  const ExperimentPlace& first = next.places.front();
+  const ExperimentPlace& last = next.places.back();
+  const std::string sizes =
+      first.diameter == last.diameter
+          ? diameter_words(first.diameter)
+          : fmt::format("{} and {}", diameter_words(first.diameter), diameter_words(last.diameter));
+  const auto [slowest, fastest] = std::minmax_element(
+      next.places.begin(), next.places.end(),
+      [](const ExperimentPlace& a, const ExperimentPlace& b) { return a.velocity < b.velocity; });
+  return fmt::format("{} impacts of {}, {} at each of {} velocities from {:.3g} to {:.3g} m/s",
+                     next.events, sizes, first.events, next.places.size(), slowest->velocity,
+                     fastest->velocity);
+}
+
+/// Of kind `target`.
+std::string target_words(const NextExperiment& next) {
+  return fmt::format(
+      "To find out, measure the same spheres with the same instrument on {} (E = {:.3g} GPa): {}. "
+      "What damps them there is fitted anew (C_H and C_A with per = \"dataset\"); at {:.3g} m/s, e "
+      "of {} is {} by {:.2g} with {} than with {}.",
+      block_words(next.material), next.material.youngs_modulus / units::GPa, places_words(next),
+      next.velocity, diameter_words(next.diameter), next.difference > 0.0 ? "higher" : "lower",
+      std::abs(next.difference), words_of(next.one), words_of(next.other));
+}
+
 /// The experiment that would tell most for its effort.
 std::string experiment_words(const Diagnosis& d) {
   if (d.experiments.empty()) {
@@ -67,6 +95,7 @@ std::string experiment_words(const Diagnosis& d) {
                  "it is made on, or with.";
   }
   const NextExperiment& next = d.experiments.front();
+  if (next.kind == ExperimentKind::target) return target_words(next);
   const std::string impacts =
       fmt::format("{} impact{} of {} at {:.3g} m/s", next.events, next.events == 1 ? "" : "s",
                   diameter_words(next.diameter), next.velocity);
@@ -167,6 +196,13 @@ std::string several_words(const Diagnosis& d) {
   if (!d.shared_cause.empty()) {
     return fmt::format("The cause is {}; which of its laws holds, these data cannot tell: {}.",
                        d.shared_cause, all);
+  }
+  if (!d.alone.empty()) {
+    return fmt::format(
+        "Two causes at once leave nothing behind ({}), but one alone comes so close ({}) that it "
+        "is "
+        "as likely, if its law is wrong by more than laws are taken to be. Candidates: {}.",
+        words_of(d.extended->candidate.name()), titles_of(d.alone, "; "), all);
   }
   if (d.extended->candidate.added.size() > 1) {
     std::vector<std::string> others = d.rivals;

@@ -231,12 +231,10 @@ Table next_experiment_table(const Diagnosis& d) {
                    {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
                    {say("difference in {e}")}};
   for (const NextExperiment& next : d.experiments) {
-    table.rows.push_back({Sentence(next.kind == ExperimentKind::condition ? std::string(next.doing)
-                                                                          : "more impacts"),
-                          Number{static_cast<double>(next.events), fixed(0)},
-                          Sentence(size_text(next.diameter, sizes)),
-                          Number{next.velocity, significant(3)}, Sentence(next.one),
-                          Sentence(next.other), Number{next.difference, signed_fixed(3)}});
+    table.rows.push_back(
+        {Sentence(doing_words(next)), Number{static_cast<double>(next.events), fixed(0)},
+         Sentence(size_text(next.diameter, sizes)), Number{next.velocity, significant(3)},
+         Sentence(next.one), Sentence(next.other), Number{next.difference, signed_fixed(3)}});
   }
   return table;
 }

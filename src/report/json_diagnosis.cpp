@@ -133,6 +133,20 @@ Json next_json(const Diagnosis& d) {
   return out;
 }
 
+/// On what to measure, and where.
+void add_target(Json& entry, const NextExperiment& next) {
+  entry["target"] = {{"material", next.material.name},
+                     {"youngs_modulus", next.material.youngs_modulus},
+                     {"poisson_ratio", next.material.poisson_ratio},
+                     {"density", next.material.density}};
+  entry["points"] = Json::array();
+  for (const ExperimentPlace& place : next.places) {
+    entry["points"].push_back({{"diameter_um", place.diameter / units::um},
+                               {"incident_velocity", place.velocity},
+                               {"events", place.events}});
+  }
+}
+
 Json experiments_json(const Diagnosis& d) {
   Json out = Json::array();
   for (const NextExperiment& next : d.experiments) {
@@ -142,6 +156,7 @@ Json experiments_json(const Diagnosis& d) {
       entry["value"] = next.value;
       entry["doing"] = next.doing;
     }
+    if (next.kind == ExperimentKind::target) add_target(entry, next);
     entry["dataset"] = d.datasets[next.dataset].id;
     entry["series"] = d.datasets[next.dataset].series[next.series];
     entry["diameter_um"] = next.diameter / units::um;

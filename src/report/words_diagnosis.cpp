@@ -34,6 +34,23 @@ std::string condition_words(Condition condition) {
   return words_of(std::string(name_of(condition)));
 }
 
+std::string block_words(const TargetMaterial& material) {
+  return fmt::format("a thick, polished block of {}", material.name);
+}
+
+std::string doing_words(const NextExperiment& experiment) {
+  switch (experiment.kind) {
+    case ExperimentKind::points:
+      break;
+    case ExperimentKind::condition:
+      return std::string(experiment.doing);
+    case ExperimentKind::target:
+      return fmt::format("take {} as the target, at {} velocities and sizes",
+                         block_words(experiment.material), experiment.places.size());
+  }
+  return "more impacts";
+}
+
 std::string because_words(const CandidateResult& c) {
   switch (c.set_aside.value_or(SetAside::not_possible)) {
     case SetAside::description:
@@ -49,6 +66,9 @@ std::string because_words(const CandidateResult& c) {
     case SetAside::batch_is_size:
       return "every series has its own diameter and the offsets vary smoothly with it: offsets of "
              "batches cannot be told from an unknown law of size here";
+    case SetAside::within_a_step:
+      return "the readings lie on steps of a height, and rounding to a step passes for an error of "
+             "up to half of it";
     case SetAside::leaves_structure:
       return fmt::format("it leaves structure behind (p = {:.2g})", c.remaining_p);
     case SetAside::predicts_no_better:

@@ -114,6 +114,9 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
   command->add_option("--dropped", size.dropped,
                       "of each effect of drops of spheres of millimetres and visible strength; six "
                       "times as many with heights set wrong, and with nothing hidden");
+  command->add_option("--rounded", size.rounded,
+                      "of each step of reading, design of drops and effect: heights or times of "
+                      "flight that are read to a finite step");
   command->add_option("--odd", size.odd, "of each design, with a few points misread");
   command->add_option("--only", options->only, "only orders whose key contains this");
   command->add_option("--recoil", options->binary, "the command to be judged");

@@ -9,7 +9,6 @@
 #include "studies/hidden_effects_plan.hpp"
 #include "studies/program_run.hpp"
 #include "studies/synthetic/case_files.hpp"
-#include "studies/synthetic/circumstances.hpp"
 
 namespace hidden {
 namespace {
@@ -50,6 +49,14 @@ FurtherImpacts advice_of(const Json& answer) {
   further.events = first.at("events");
   if (first.at("kind") == "condition") {
     further.changed = {first.at("condition"), first.at("value")};
+  } else if (first.at("kind") == "target") {
+    const Json& target = first.at("target");
+    further.target = {target.at("material"), target.at("youngs_modulus"),
+                      target.at("poisson_ratio"), target.at("density")};
+    for (const Json& place : first.at("points")) {
+      further.places.push_back({1e-6 * place.at("diameter_um").get<double>(),
+                                place.at("incident_velocity"), place.at("events")});
+    }
   }
   return further;
 }
@@ -120,7 +127,8 @@ Json json_of(const Answered& a) {
     taken.push_back({{"diameter_um", 1e6 * f.diameter},
                      {"incident_velocity", f.velocity},
                      {"events", f.events},
-                     {"changed", f.changed.name}});
+                     {"changed", f.changed.name},
+                     {"target", f.target.material}});
   }
   Json contenders = Json::array();
   for (const Contender& c : a.contenders) contenders.push_back({c.id, c.behind});
@@ -136,6 +144,7 @@ Json json_of(const Answered& a) {
           {"other_law", a.order.other_law},
           {"circumstances", recoil::to_string(a.order.circumstances)},
           {"most_rounds", a.order.rounds},
+          {"readout", recoil::to_string(a.order.readout)},
           {"rounds", a.rounds},
           {"events", a.events},
           {"taken", taken},
@@ -171,14 +180,17 @@ Answered answered_of(const Json& json) {
              recoil::value_named<Circumstances>(json.value("circumstances", "unstated"))
                  .value_or(Circumstances::unstated),
              json.value("other_law", false),
-             json.value("most_rounds", 0)};
+             json.value("most_rounds", 0),
+             recoil::value_named<Readout>(json.value("readout", "exact")).value_or(Readout::exact)};
   a.rounds = json.value("rounds", 0);
   a.events = json.value("events", 0LL);
   for (const Json& f : json.value("taken", Json::array())) {
     a.taken.push_back({1e-6 * f.at("diameter_um").get<double>(),
                        f.at("incident_velocity"),
                        f.at("events"),
-                       {f.at("changed"), 0.0}});
+                       {f.at("changed"), 0.0},
+                       {f.value("target", ""), 0.0, 0.0, 0.0},
+                       {}});
   }
   a.reached = json.at("reached");
   a.signal_to_noise = json.at("signal_to_noise");

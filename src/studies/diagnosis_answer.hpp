@@ -10,7 +10,7 @@
 
 #include "core/names.hpp"
 #include "studies/nearest_rival.hpp"
-#include "studies/synthetic/circumstances.hpp"
+#include "studies/synthetic/further_impacts.hpp"
 
 namespace hidden {
 

@@ -63,9 +63,11 @@ Sentence bar_words(Bar bar) {
     case Bar::other_listed:
       return "made by another published law: among named and rivals, or its shape recognised";
     case Bar::other_wrong:
-      return "made by another published law: wrong cause named";
+      return "made by another published law, dry ones beside adhesion included: wrong cause named";
     case Bar::other_unexplained:
       return "made by another published law: unexplained";
+    case Bar::other_unseen:
+      return "made by another published law: called adequate";
     case Bar::base_alarm:
       return "nothing hidden, losses of the base model bent by 3 %: alarms";
     case Bar::impossible_named:
@@ -80,6 +82,12 @@ Sentence bar_words(Bar bar) {
       return "the same: wrong cause named";
     case Bar::settings_named:
       return "heights set wrong: a cause named";
+    case Bar::rounded_named:
+      return "drops read to a finite step, nothing hidden: a cause named";
+    case Bar::rounded_listed:
+      return "the same with an effect: among named and rivals, or its shape recognised";
+    case Bar::rounded_wrong:
+      return "the same: wrong cause named";
     case Bar::odd_named:
       return "a few points misread: a cause named";
     case Bar::odd_found:
@@ -354,6 +362,13 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
                  "order by Ramirez et al. (1999), the thin plate by Boettcher et al. "
                  "(2017), the film of gas to leading order by Barnocky & Davis (1988)."}},
       {Arm::other_law});
+  arms_section(
+      "Laws of dry contacts beside adhesion",
+      {Paragraph{
+          "The same laws of yielding, of the bulk and of the plate, where adhesion holds the "
+          "spheres as well. Dahneke's balance of energies joins the two, which is good far "
+          "above capture only: a test of what is said where no law of the catalogue is near."}},
+      {Arm::other_adhesive});
   arms_section("Effects of impossible size",
                {Paragraph{"At three times the largest strength that nature or a careful "
                           "experimenter still has."}},
@@ -381,6 +396,14 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
                               "every second data set a column names the heights.",
                               code("drops"))}},
                {Arm::dropped, Arm::settings});
+  arms_section("Drops that are read to a finite step",
+               {Paragraph{say("Spheres of 3 to 12 mm ({}) and of 12 to 40 mm ({}). Heights of "
+                              "rebounds read to 1 or 5 mm, or times of flight to 1 ms or to frames "
+                              "of a video (240 in a second). The standard deviations of two data "
+                              "sets in four know of the rounding, and in two a column names the "
+                              "settings.",
+                              code("drops"), code("balls"))}},
+               {Arm::rounded});
   arms_section("A few points are misread",
                {Paragraph{"Six points in a hundred, by 6 to 15 standard deviations."}}, {Arm::odd});
   arms_section("One diameter", {}, {Arm::single});

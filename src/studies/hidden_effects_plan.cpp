@@ -45,16 +45,51 @@ class Plan {
   std::uint64_t seed_;
 };
 
+/// Laws of dry contacts in dry contacts, and beside adhesion.
+void add_other_laws(Plan& plan, int count) {
+  for (const std::string_view effect : effects_with_other_law()) {
+    std::vector<const char*> designs = {"wall", "li"};
+    if (is_law_of_dry_contact(effect)) designs.push_back("drops");
+    for (const char* design : designs) {
+      for (const double strength : {10.0, 20.0}) {
+        plan.add(design, {std::string(effect)}, strength, count, {.other_law = true});
+      }
+    }
+  }
+}
+
+/// Nothing hidden, or what such readings may have beside it: of heights air and an origin, of times
+/// what the contact loses.
+void add_rounded(Plan& plan, int count) {
+  for (const Readout readout : recoil::values_of<Readout>()) {
+    if (readout == Readout::exact) continue;
+    const CaseOrder order{.readout = readout};
+    for (const char* design : {"drops", "balls"}) plan.add(design, {}, 0.0, count, order);
+    if (reads_times(readout)) {
+      plan.add("drops", {"plastic_yield"}, 20.0, count, order);
+      continue;
+    }
+    plan.add("drops", {"flight_drag"}, 20.0, count, order);
+    for (const char* design : {"drops", "balls"}) {
+      plan.add(design, {"height_origin"}, 20.0, count, order);
+    }
+  }
+}
+
 }  // namespace
 
 Arm arm_of(const CaseOrder& order) {
   if (!order.effects.empty() && order.effects.front() == "settings") return Arm::settings;
   if (!order.effects.empty() && order.effects.front() == "odd_points") return Arm::odd;
+  if (order.readout != Readout::exact) return Arm::rounded;
   if (!has_several_diameters(order.design)) return Arm::single;
   if (order.effects.empty()) return order.base_bend > 0.0 ? Arm::base_bent : Arm::correct;
   if (order.beyond > 0.0) return Arm::impossible;
   if (order.law_bend > 0.0) return order.law_bend > some_bend ? Arm::bent_more : Arm::bent;
-  if (order.other_law) return Arm::other_law;
+  if (order.other_law) {
+    const bool dry = is_law_of_dry_contact(order.effects.front());
+    return dry && order.design != "drops" ? Arm::other_adhesive : Arm::other_law;
+  }
   if (order.circumstances == Circumstances::stated) return Arm::stated;
   if (order.circumstances == Circumstances::varied) return Arm::varied;
   if (order.rounds > 0) return Arm::loop;
@@ -99,12 +134,6 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
         plan.add(design, effect, strength, size.bent, {.law_bend = some_bend});
         plan.add(design, effect, strength, size.bent / 2, {.law_bend = great_bend});
       }
-      const auto& others = effects_with_other_law();
-      if (std::find(others.begin(), others.end(), effect.front()) != others.end()) {
-        for (const double strength : {10.0, 20.0}) {
-          plan.add(design, effect, strength, size.other_law, {.other_law = true});
-        }
-      }
       plan.add(design, effect, 0.0, size.impossible, {.beyond = too_strong});
       for (const double strength : {10.0, 20.0}) {
         plan.add(design, effect, strength, size.loop, {.rounds = most_rounds});
@@ -129,6 +158,8 @@ std::vector<CaseOrder> plan_study(const StudySize& size) {
     for (const double strength : {10.0, 20.0}) plan.add("drops", {effect}, strength, size.dropped);
   }
   plan.add("drops", {}, 0.0, 6 * size.dropped);
+  add_other_laws(plan, size.other_law);
+  add_rounded(plan, size.rounded);
   // Nothing hidden: half as in Wall's design, the rest shared.
   plan.add("wall", {}, 0.0, (size.correct + 1) / 2);
   plan.add("li", {}, 0.0, size.correct / 4);

@@ -27,6 +27,7 @@ struct StudySize {
                        ///< what the answer advises
   int dropped = 2;     ///< of each effect that drops by hand may have and visible strength, of each
                        ///< error of a setting; and six times as many with nothing hidden
+  int rounded = 4;     ///< of each step of reading, design of drops and effect
   int odd = 6;         ///< of each design, with a few points misread
   std::uint64_t seed = 20260101;
 };
@@ -45,17 +46,19 @@ enum class Arm {
   outside,
   single,
   careless,
-  bent,        ///< an effect whose law is wrong by 10 %
-  bent_more,   ///< by 20 %
-  other_law,   ///< an effect by another published law
-  base_bent,   ///< nothing hidden, the losses of the base model wrong by 3 %
-  impossible,  ///< an effect beyond what nature has
-  stated,      ///< an effect whose condition is stated
-  varied,      ///< an effect whose condition is changed for half of the points
-  loop,        ///< an effect that is asked for again after doing what the answer advises
-  dropped,     ///< an effect in drops of spheres of millimetres
-  settings,    ///< heights that were set wrong, each by itself
-  odd          ///< a few points are misread
+  bent,            ///< an effect whose law is wrong by 10 %
+  bent_more,       ///< by 20 %
+  other_law,       ///< an effect by another published law
+  other_adhesive,  ///< by one of dry contacts, where adhesion acts as well
+  base_bent,       ///< nothing hidden, the losses of the base model wrong by 3 %
+  impossible,      ///< an effect beyond what nature has
+  stated,          ///< an effect whose condition is stated
+  varied,          ///< an effect whose condition is changed for half of the points
+  loop,            ///< an effect that is asked for again after doing what the answer advises
+  dropped,         ///< an effect in drops of spheres of millimetres
+  settings,        ///< heights that were set wrong, each by itself
+  rounded,         ///< drops of which heights or times of flight are read to a finite step
+  odd              ///< a few points are misread
 };
 Arm arm_of(const CaseOrder& order);
 
@@ -67,8 +70,8 @@ std::vector<CaseOrder> plan_study(const StudySize& size);
 
 template <>
 struct recoil::NamesOf<hidden::Arm> {
-  static constexpr std::array<std::string_view, 17> names = {
-      "effect", "correct",   "pair",      "outside",   "single",     "careless",
-      "bent",   "bent_more", "other_law", "base_bent", "impossible", "stated",
-      "varied", "loop",      "dropped",   "settings",  "odd"};
+  static constexpr std::array<std::string_view, 19> names = {
+      "effect",    "correct",   "pair",           "outside",   "single",     "careless", "bent",
+      "bent_more", "other_law", "other_adhesive", "base_bent", "impossible", "stated",   "varied",
+      "loop",      "dropped",   "settings",       "rounded",   "odd"};
 };

@@ -74,11 +74,16 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
       those(all, [](const Answered& a) { return in(Arm::single)(a) && !a.order.effects.empty(); });
   const Answers bent = those(all, in(Arm::bent));
   const Answers other = those(all, in(Arm::other_law));
+  const Answers any_other = those(all, [](const Answered& a) { return a.order.other_law; });
   const Test named = marked({Mark::named});
   const Answers loop = those(all, in(Arm::loop));
   const Answers odd = those(all, in(Arm::odd));
   const Answers dropped = those(
       all, [](const Answered& a) { return seen(Arm::dropped)(a) && !a.order.effects.empty(); });
+  const Answers unhidden =
+      those(all, [](const Answered& a) { return in(Arm::rounded)(a) && a.order.effects.empty(); });
+  const Answers beside_rounding = those(
+      all, [](const Answered& a) { return seen(Arm::rounded)(a) && !a.order.effects.empty(); });
   const Test names_a_cause = [](const Answered& a) { return a.verdict == "cause_named"; };
   const Test wrong = [](const Answered& a) {
     return mark_of(a) == Mark::wrong || (mark_of(a) == Mark::outside && !a.shared_cause.empty());
@@ -102,14 +107,19 @@ std::map<Bar, Count> bars_of(const std::vector<Answered>& all) {
           {Bar::bent_wrong, count(bent, wrong)},
           {Bar::bent_unexplained, count(bent, marked({Mark::unexplained}))},
           {Bar::other_listed, count(other, marked({Mark::named, Mark::inside, Mark::resembled}))},
-          {Bar::other_wrong, count(other, wrong)},
+          {Bar::other_wrong, count(any_other, wrong)},
           {Bar::other_unexplained, count(other, marked({Mark::unexplained}))},
+          {Bar::other_unseen, count(other, marked({Mark::nothing}))},
           {Bar::base_alarm, count(those(all, in(Arm::base_bent)),
                                   [](const Answered& a) { return mark_of(a) != Mark::nothing; })},
           {Bar::impossible_named, count(those(all, in(Arm::impossible)), names_a_cause)},
           {Bar::dropped_listed, count(dropped, marked({Mark::named, Mark::inside}))},
           {Bar::dropped_wrong, count(dropped, wrong)},
           {Bar::settings_named, count(those(all, in(Arm::settings)), names_a_cause)},
+          {Bar::rounded_named, count(unhidden, names_a_cause)},
+          {Bar::rounded_listed,
+           count(beside_rounding, marked({Mark::named, Mark::inside, Mark::resembled}))},
+          {Bar::rounded_wrong, count(beside_rounding, wrong)},
           {Bar::odd_named, count(odd, names_a_cause)},
           {Bar::odd_found, points_of(odd, &Answered::odd_found, &Answered::odd)},
           {Bar::odd_accused, points_of(odd, &Answered::accused, &Answered::right)}};
@@ -188,7 +198,8 @@ std::vector<AlarmRow> alarms_of(const std::vector<Answered>& all) {
   std::vector<AlarmRow> rows;
   for (const std::string_view design : design_ids()) {
     const Answers of = those(all, [&](const Answered& a) {
-      return a.order.design == design && a.order.effects.empty();
+      return a.order.design == design && a.order.effects.empty() &&
+             a.order.readout == Readout::exact;
     });
     rows.push_back({std::string(design),
                     count(of, [](const Answered& a) { return mark_of(a) != Mark::nothing; }),
@@ -381,11 +392,14 @@ Wanted wanted_of(Bar bar) {
     case Bar::unstated_named:
     case Bar::impossible_named:
     case Bar::settings_named:
+    case Bar::rounded_named:
+    case Bar::rounded_wrong:
     case Bar::odd_named:
       return {0.03, false};
     case Bar::false_alarm:
     case Bar::base_alarm:
     case Bar::unseen:
+    case Bar::other_unseen:
       return {0.05, false};
     case Bar::bent_unexplained:
     case Bar::other_unexplained:

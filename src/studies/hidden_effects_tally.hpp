@@ -48,8 +48,9 @@ enum class Bar {
   bent_wrong,           ///< the same: a wrong cause named
   bent_unexplained,     ///< the same: unexplained
   other_listed,         ///< made by another published law: named, listed, or its shape recognised
-  other_wrong,          ///< the same: a wrong cause named
-  other_unexplained,    ///< the same: unexplained
+  other_wrong,          ///< the same, also by a dry law beside adhesion: a wrong cause named
+  other_unexplained,    ///< by another published law: unexplained
+  other_unseen,         ///< the same: called adequate
   base_alarm,           ///< anything but adequate where the losses are bent by 3 %
   impossible_named,     ///< a cause named for an effect of impossible size
   loop_named,           ///< named, or its cause told, after doing what is advised, three times at
@@ -58,6 +59,9 @@ enum class Bar {
   dropped_listed,       ///< an effect in drops of spheres of millimetres: named or listed
   dropped_wrong,        ///< the same: a wrong cause named
   settings_named,       ///< a cause named where heights were set wrong
+  rounded_named,        ///< a cause named where readings are rounded and nothing is hidden
+  rounded_listed,       ///< an effect beside rounding: named or listed
+  rounded_wrong,        ///< the same: a wrong cause named
   odd_named,            ///< a cause named where points are misread
   odd_found,            ///< of the points that are misread, those set aside
   odd_accused           ///< of the others, those set aside
@@ -160,11 +164,35 @@ StudyTally read_tally(const std::filesystem::path& file);
 
 template <>
 struct recoil::NamesOf<hidden::Bar> {
-  static constexpr std::array<std::string_view, 27> names = {
-      "named",       "separable_named",     "named_or_law",   "listed",           "wrong",
-      "false_alarm", "outside_unexplained", "unstated_named", "unstated_told",    "single_diameter",
-      "unseen",      "bent_listed",         "bent_wrong",     "bent_unexplained", "other_listed",
-      "other_wrong", "other_unexplained",   "base_alarm",     "impossible_named", "loop_named",
-      "loop_wrong",  "dropped_listed",      "dropped_wrong",  "settings_named",   "odd_named",
-      "odd_found",   "odd_accused"};
+  static constexpr std::array<std::string_view, 31> names = {"named",
+                                                             "separable_named",
+                                                             "named_or_law",
+                                                             "listed",
+                                                             "wrong",
+                                                             "false_alarm",
+                                                             "outside_unexplained",
+                                                             "unstated_named",
+                                                             "unstated_told",
+                                                             "single_diameter",
+                                                             "unseen",
+                                                             "bent_listed",
+                                                             "bent_wrong",
+                                                             "bent_unexplained",
+                                                             "other_listed",
+                                                             "other_wrong",
+                                                             "other_unexplained",
+                                                             "other_unseen",
+                                                             "base_alarm",
+                                                             "impossible_named",
+                                                             "loop_named",
+                                                             "loop_wrong",
+                                                             "dropped_listed",
+                                                             "dropped_wrong",
+                                                             "settings_named",
+                                                             "rounded_named",
+                                                             "rounded_listed",
+                                                             "rounded_wrong",
+                                                             "odd_named",
+                                                             "odd_found",
+                                                             "odd_accused"};
 };

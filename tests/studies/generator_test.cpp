@@ -10,6 +10,7 @@
 #include "studies/nearest_rival.hpp"
 #include "studies/program_run.hpp"
 #include "studies/synthetic/case_files.hpp"
+#include "studies/synthetic/further_impacts.hpp"
 
 namespace {
 
@@ -167,6 +168,78 @@ TEST(Generator, PairsHoldBoth) {
   EXPECT_TRUE(made.reached);
   EXPECT_GT(made.effects.contact.yield_pressure, 0.0);
   EXPECT_GT(made.effects.bridge_length, 0.0);
+}
+
+// Heights and times lie on their steps, and scatter as those who know of it say.
+TEST(Generator, RoundedReadingsLieOnTheirSteps) {
+  double square = 0.0;
+  int count = 0;
+  for (const Readout readout : {Readout::five_millimetres, Readout::frame}) {
+    for (std::uint64_t k = 0; k < 8; ++k) {
+      CaseOrder order{"balls", {}, 0.0, k};
+      order.readout = readout;
+      const Case made = make_case(order);
+      ASSERT_FALSE(made.points.empty());
+      for (std::size_t i = 0; i < made.points.size(); ++i) {
+        const Point& p = made.points[i];
+        const double e = made.readings[i];
+        if (readout == Readout::five_millimetres) {
+          const double steps = e * e * p.velocity * p.velocity / (2.0 * 9.81) / 5e-3;
+          EXPECT_NEAR(steps, std::round(steps), 1e-6 * steps);
+        } else {
+          const double before = std::round(2.0 * p.velocity / 9.81 * 240.0);
+          EXPECT_NEAR(e * before, std::round(e * before), 1e-6 * before);
+        }
+        if (k % 4 < 2) continue;
+        square += std::pow((e - p.restitution) / p.sd, 2);
+        ++count;
+      }
+    }
+  }
+  // Rounding of four like drops is the same: half as much is known of the mean as it seems.
+  EXPECT_NEAR(square / count, 1.0, 0.3);
+}
+
+// The same spheres on another target: what belongs to them and to the instrument stays.
+TEST(Generator, AnotherTargetChangesTheContactOnly) {
+  const Case made = make_case({"wall", {"jkr_hysteresis", "gas_film"}, 8.0, 0});
+  const OtherTarget acrylic = {"acrylic glass", 3.1e9, 0.37, 1190.0};
+  const Base& here = made.design.base;
+  double squares[3] = {};
+  constexpr int draws = 400;
+  for (int i = 0; i < draws; ++i) {
+    const Elsewhere there = move_to(acrylic, here, made.effects, static_cast<std::uint64_t>(i));
+    EXPECT_LT(there.base.stiffness(), here.stiffness());
+    EXPECT_EQ(there.base.density, here.density);
+    EXPECT_EQ(there.effects.gas_pressure, made.effects.gas_pressure);
+    const double f0 = std::log(there.base.adhesion_force / there.expected.adhesion_force);
+    const double work = there.effects.jkr_work / made.effects.jkr_work /
+                        (there.expected.adhesion_energy() / here.adhesion_energy());
+    EXPECT_NEAR(std::log(work), 1.5 * f0, 1e-9);
+    squares[0] += std::pow(std::log(there.base.C_H / here.C_H) / log_sd_of_damping, 2) / draws;
+    squares[1] += std::pow(std::log(there.base.C_A / here.C_A) / log_sd_of_damping, 2) / draws;
+    squares[2] += std::pow(std::log(work) / log_sd_of_work, 2) / draws;
+  }
+  for (const double square : squares) EXPECT_NEAR(square, 1.0, 4.0 * std::sqrt(2.0 / draws));
+}
+
+// It is a table of its own beside the first, and the fit has C_H and C_A for each.
+TEST(Generator, AnotherTargetIsASecondDataset) {
+  Case made = make_case({"wall", {"gas_film"}, 10.0, 0});
+  FurtherImpacts further;
+  further.target = {"acrylic glass", 3.1e9, 0.37, 1190.0};
+  for (const double velocity : {5.0, 20.0, 80.0}) further.places.push_back({4.9e-6, velocity, 50});
+  take_further(made, further, 0);
+  take_further(made, further, 1);
+  ASSERT_EQ(made.elsewhere.size(), 1U);
+  EXPECT_EQ(made.elsewhere[0].points.size(), 6U);
+  const ScratchFolder scratch;
+  const fs::path fit = write_case(made, scratch.path());
+  EXPECT_NE(text_of(fit).find("per = \"dataset\""), std::string::npos);
+  EXPECT_GT(misfit_left(fit, "", RECOIL_BINARY), 0.0);
+  EXPECT_NE(text_of(scratch.path() / (neutral_name(made.order) + "-target-2") / "datapackage.json")
+                .find("acrylic glass"),
+            std::string::npos);
 }
 
 TEST(Generator, WhatNatureDoesNotHaveIsNotReached) {

@@ -67,6 +67,7 @@ std::string CaseOrder::key() const {
   if (circumstances != Circumstances::unstated) {
     bends += fmt::format("|{}", recoil::name_of(circumstances));
   }
+  if (readout != Readout::exact) bends += fmt::format("/{}", recoil::name_of(readout));
   const std::string again = rounds > 0 ? fmt::format("^{}", rounds) : "";
   return fmt::format("{}{}{}@{:g}#{}{}", design, joined(effects), bends, signal_to_noise, index,
                      again);
@@ -90,6 +91,8 @@ Case make_case(const CaseOrder& order) {
   for (int i = 0; i < 100 && expected_points(made.design, {}).empty(); ++i) {
     made.design = draw_design(order.design, ++seed);
   }
+  made.design.readout = order.readout;
+  made.design.states_rounding = order.readout != Readout::exact && order.index % 4 >= 2;
   made.reached = true;
   made.effects.other_laws = order.other_law;
   for (std::size_t k = 0; k < order.effects.size(); ++k) {
@@ -151,7 +154,8 @@ Case make_case(const CaseOrder& order) {
   for (std::size_t i = 0; i < made.points.size(); ++i) {
     recoil::RandomStream random(readings_seed, hidden_purpose, 100 + i);
     const Point& point = made.points[i];
-    const double right = reading_of(made, point, random);
+    const double right =
+        rounded(made.design.readout, point.velocity, reading_of(made, point, random));
     const double wrong = misreading(made, point, random);
     made.readings.push_back(wrong == 0.0 ? right : std::clamp(right + wrong, 0.02, 1.5));
     made.odd.push_back(std::abs(made.readings.back() - right) > 5.0 * point.sd);

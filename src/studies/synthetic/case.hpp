@@ -7,6 +7,7 @@
 
 #include "core/names.hpp"
 #include "studies/synthetic/hidden_effect.hpp"
+#include "studies/synthetic/other_target.hpp"
 #include "studies/synthetic/strength.hpp"
 
 namespace hidden {
@@ -32,11 +33,14 @@ struct CaseOrder {
   Circumstances circumstances = Circumstances::unstated;
   bool other_law = false;  ///< the effects follow second published laws (other_laws.hpp)
   int rounds = 0;  ///< how often the first of what the answer advises is done, and asked again
+  /// Of drops. The deviations of two data sets in four state what it does.
+  Readout readout = Readout::exact;
 
   /// wall+plastic_yield+probe_plane@10#3; bent by 10 % and 3 %: wall+plastic_yield~10%~base3%@20#0;
   /// by another published law: wall+plastic_yield:other@20#0;
   /// three times what is possible: wall+velocity_offset*3@0#0; with its condition varied, and asked
-  /// again up to three times: wall+gas_film|varied@10#0^3
+  /// again up to three times: wall+gas_film|varied@10#0^3; heights read to 1 mm:
+  /// drops/millimetre@0#0
   std::string key() const;
   /// The same for all strengths of one experiment, so that these differ in strength only.
   std::uint64_t experiment_seed() const;
@@ -53,6 +57,7 @@ struct Case {
   Refit refit;                              ///< of the base to them, all effects at work
   std::vector<double> readings;             ///< the mean of the events of each point, with noise
   std::vector<bool> odd;                    ///< misread by more than 5 standard deviations [points]
+  std::vector<Elsewhere> elsewhere;         ///< what was measured on other targets since
 };
 
 /// Nuisances the experiment, tunes every effect by itself to the wanted misfit, and takes the

@@ -1,14 +1,7 @@
 #include "studies/synthetic/circumstances.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-
-#include "core/random.hpp"
-#include "studies/synthetic/case.hpp"
-#include "studies/synthetic/observed_mean.hpp"
-#include "studies/synthetic/purpose.hpp"
 
 namespace hidden {
 namespace {
@@ -26,27 +19,6 @@ double thickness_for(const Base& base, double mobility) {
                           std::sqrt(base.surface_modulus * base.surface_density /
                                     (1.0 - std::pow(base.surface_ratio, 2)));
   return 1.0 / std::sqrt(mobility * per_area);
-}
-
-struct Seen {
-  int rebounds = 0;
-  int captured = 0;
-  double sum = 0.0;  ///< of the readings
-};
-
-/// Each impact by itself: it comes back, stays, or comes back too slowly to be seen.
-Seen impacts_seen(const Design& design, const Effects& effects, const Point& point,
-                  recoil::RandomStream& random) {
-  Seen seen;
-  const auto typical = shared_square(design.base, effects, point.velocity, point.diameter);
-  for (int i = 0; i < point.events; ++i) {
-    const Reading one = read_impact(design.base, effects, design.scatter, point.velocity,
-                                    point.diameter, typical, random);
-    seen.captured += one.captured ? 1 : 0;
-    seen.rebounds += one.seen ? 1 : 0;
-    seen.sum += one.restitution;
-  }
-  return seen;
 }
 
 }  // namespace
@@ -105,46 +77,6 @@ Effects under(const StatedCondition& condition, Effects effects) {
     effects.diameter_error = 0.0;
   }
   return effects;
-}
-
-void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round) {
-  recoil::RandomStream random(made.order.experiment_seed() + 7919 * (round + 1), hidden_purpose,
-                              99);
-  Design& design = made.design;
-  const auto row = std::find_if(design.rows.begin(), design.rows.end(), [&](const Row& r) {
-    return std::abs(r.diameter / further.diameter - 1.0) < 1e-6;
-  });
-  Point point;
-  point.row = static_cast<std::size_t>(row - design.rows.begin());
-  if (row == design.rows.end()) {
-    Row added;
-    added.name = fmt::format("{:.3g} um", 1e6 * further.diameter);
-    added.diameter = further.diameter;
-    design.rows.push_back(added);
-    if (!made.effects.series_offset.empty()) {  // another batch, with an error of its own
-      double square = 0.0;
-      for (const double offset : made.effects.series_offset) square += offset * offset;
-      const double sd = std::sqrt(square / static_cast<double>(made.effects.series_offset.size()));
-      made.effects.series_offset.push_back(sd * random.normal());
-    }
-  }
-  point.diameter = further.diameter;
-  point.velocity = further.velocity;
-  point.events = further.events;
-  point.changed = further.changed;
-  point.setting = 900000 + static_cast<std::size_t>(round);
-  const Effects effects = under(further.changed, made.effects);
-  const Seen seen = impacts_seen(design, effects, point, random);
-  if (seen.rebounds + seen.captured == 0) return;  // too slow to be seen, all of them
-  point.events = seen.rebounds + seen.captured;
-  point.captured = seen.captured;
-  const double e = seen.rebounds > 0 ? seen.sum / seen.rebounds : 0.0;
-  point.restitution = e;
-  // What an experimenter knows of the scatter: that of the other points.
-  point.sd = design.scatter.of(std::max(e, 0.1)) / std::sqrt(std::max(seen.rebounds, 1));
-  made.points.push_back(point);
-  made.readings.push_back(
-      e > 0.0 && !effects.series_offset.empty() ? e + effects.series_offset[point.row] : e);
 }
 
 }  // namespace hidden

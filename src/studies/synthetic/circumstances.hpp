@@ -7,8 +7,6 @@
 
 namespace hidden {
 
-struct Case;
-
 /// A condition as a table states it, in SI.
 struct StatedCondition {
   std::string name;
@@ -27,17 +25,5 @@ StatedCondition change_against(const std::string& effect);
 
 /// What is left of `effects` under a changed condition.
 Effects under(const StatedCondition& condition, Effects effects);
-
-/// Impacts that somebody takes after a first answer.
-struct FurtherImpacts {
-  double diameter = 0.0;  ///< [m]
-  double velocity = 0.0;  ///< [m/s]
-  int events = 0;
-  StatedCondition changed;  ///< that they were taken under; of no name: as the others
-};
-
-/// Adds one point with the mean of so many further impacts, its noise drawn by `round`. A diameter
-/// that no row has makes a row.
-void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round);
 
 }  // namespace hidden

@@ -1,5 +1,6 @@
 #include "studies/synthetic/design.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -19,6 +20,11 @@ struct Surface {
 constexpr Surface targets[] = {{"molybdenum", 320e9, 0.31, 10280.0, 8.90, 2.41},
                                {"silicon [100]", 131e9, 0.28, 2330.0, 6.60, 1.67},
                                {"mica", 90e9, 0.30, 2800.0, 5.81, 1.43}};
+
+struct Size {
+  const char* name;
+  double diameter;  ///< [m]
+};
 
 class Draw {
  public:
@@ -58,16 +64,41 @@ void fluorescein(Draw& draw, Design& design) {
   b.C_H = draw.log_between(1.5e-3, 4e-3);
 }
 
+void dropped_spheres(Draw& draw, Design& design) {
+  const bool large = design.id == "balls";
+  Base& b = design.base;
+  design.dropped = true;
+  design.sphere = large ? "polyoxymethylene" : "polyamide 6.6";
+  design.surface = "steel";
+  b.density = large ? 1410.0 : 1140.0;
+  b.youngs_modulus = 1e7 * std::round(1e-7 * draw.between(2.4e9, 3.2e9));
+  b.poisson_ratio = 0.39;
+  b.surface_modulus = 210e9;
+  b.surface_ratio = 0.29;
+  b.surface_density = 7850.0;
+  b.reference_diameter = large ? 25e-3 : 6e-3;
+  b.C_H = draw.log_between(0.03, 0.08);
+  design.scatter = {0.004, 0.001, 0.0};
+  design.events = 1;
+  design.decimals = 4;
+  static constexpr Size small_balls[] = {{"3 mm", 3e-3}, {"6 mm", 6e-3}, {"12 mm", 12e-3}};
+  static constexpr Size large_balls[] = {{"12 mm", 12e-3}, {"25 mm", 25e-3}, {"40 mm", 40e-3}};
+  for (const Size& size : large ? large_balls : small_balls) {
+    design.rows.push_back(make_row(draw, size.name, size.diameter, 5, 0.65, 4.4));
+    design.rows.back().repeats = 4;
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& design_ids() {
-  static const std::vector<std::string_view> ids = {"wall",     "wall-batches", "li",
-                                                    "wall-one", "dahneke",      "drops"};
+  static const std::vector<std::string_view> ids = {"wall",    "wall-batches", "li",   "wall-one",
+                                                    "dahneke", "drops",        "balls"};
   return ids;
 }
 
 bool has_several_diameters(std::string_view id) {
-  return id == "wall" || id == "wall-batches" || id == "li" || id == "drops";
+  return id == "wall" || id == "wall-batches" || id == "li" || id == "drops" || id == "balls";
 }
 
 Design draw_design(std::string_view id, std::uint64_t seed) {
@@ -75,10 +106,6 @@ Design draw_design(std::string_view id, std::uint64_t seed) {
   Design design;
   design.id = id;
   Base& b = design.base;
-  struct Size {
-    const char* name;
-    double diameter;
-  };
   static constexpr Size wall[] = {
       {"2.58 um", 2.58e-6}, {"3.42 um", 3.42e-6}, {"4.90 um", 4.90e-6}, {"6.89 um", 6.89e-6}};
   if (id == "wall" || id == "wall-batches" || id == "wall-one") {
@@ -131,30 +158,54 @@ Design draw_design(std::string_view id, std::uint64_t seed) {
     design.events = 100;
     design.decimals = 4;
     design.rows.push_back(make_row(draw, "1.27 um", 1.27e-6, 20, 2.5, 35.0));
-  } else if (id == "drops") {
-    design.dropped = true;
-    design.sphere = "polyamide 6.6";
-    design.surface = "steel";
-    b.density = 1140.0;
-    b.youngs_modulus = 1e7 * std::round(1e-7 * draw.between(2.4e9, 3.2e9));
-    b.poisson_ratio = 0.39;
-    b.surface_modulus = 210e9;
-    b.surface_ratio = 0.29;
-    b.surface_density = 7850.0;
-    b.reference_diameter = 6e-3;
-    b.C_H = draw.log_between(0.03, 0.08);
-    design.scatter = {0.004, 0.001, 0.0};
-    design.events = 1;
-    design.decimals = 4;
-    static constexpr Size balls[] = {{"3 mm", 3e-3}, {"6 mm", 6e-3}, {"12 mm", 12e-3}};
-    for (const Size& size : balls) {
-      design.rows.push_back(make_row(draw, size.name, size.diameter, 5, 0.65, 4.4));
-      design.rows.back().repeats = 4;
-    }
+  } else if (id == "drops" || id == "balls") {
+    dropped_spheres(draw, design);
   } else {
     throw std::invalid_argument("no design '" + std::string(id) + "'");
   }
   return design;
+}
+
+double step_of(Readout readout) {
+  switch (readout) {
+    case Readout::exact:
+      return 0.0;
+    case Readout::millimetre:
+      return 1e-3;
+    case Readout::five_millimetres:
+      return 5e-3;
+    case Readout::millisecond:
+      return 1e-3;
+    case Readout::frame:
+      return 1.0 / 240.0;
+  }
+  return 0.0;
+}
+
+bool reads_times(Readout readout) {
+  return readout == Readout::millisecond || readout == Readout::frame;
+}
+
+double rounded(Readout readout, double velocity, double restitution) {
+  const double step = step_of(readout);
+  if (step == 0.0) return restitution;
+  const auto on_step = [step](double x) { return step * std::max(std::round(x / step), 1.0); };
+  if (reads_times(readout)) {
+    const double before = 2.0 * velocity / gravity;
+    return on_step(before * restitution) / on_step(before);
+  }
+  const double drop = velocity * velocity / (2.0 * gravity);
+  return std::sqrt(on_step(drop * restitution * restitution) / drop);
+}
+
+double rounding_sd(Readout readout, double velocity, double restitution) {
+  const double sd = step_of(readout) / std::sqrt(12.0);
+  if (reads_times(readout)) {
+    const double before = 2.0 * velocity / gravity;
+    return std::hypot(sd / before, restitution * sd / before);
+  }
+  const double drop = velocity * velocity / (2.0 * gravity);
+  return sd / (2.0 * drop * restitution);
 }
 
 double capture_velocity(const Base& base, const Effects& effects, double diameter, double highest) {
@@ -198,6 +249,9 @@ std::vector<Point> expected_points(const Design& design, const Effects& effects)
       point.velocity = velocity;
       point.restitution = e.restitution;
       point.sd = e.event_sd / std::sqrt(static_cast<double>(design.events));
+      if (design.states_rounding) {
+        point.sd = std::hypot(point.sd, rounding_sd(design.readout, velocity, e.restitution));
+      }
       point.setting = 1000 * r + static_cast<std::size_t>(i);
       points.insert(points.end(), static_cast<std::size_t>(row.repeats), point);
     }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
 #include "studies/synthetic/circumstances.hpp"
 #include "studies/synthetic/effects.hpp"
 
@@ -22,6 +23,9 @@ struct Row {
   int repeats = 1;             ///< impacts at each velocity, each a point of its own
 };
 
+/// How drops are read: exactly, or rounded to a step of a height or of a time of flight.
+enum class Readout { exact, millimetre, five_millimetres, millisecond, frame };
+
 /// An experiment that somebody could have made, drawn by seed around one that was made.
 struct Design {
   std::string id;
@@ -34,11 +38,24 @@ struct Design {
   int events = 40;
   int decimals = 3;      ///< of e, as printed
   bool dropped = false;  ///< by hand from measured heights, and known to be so
+  Readout readout = Readout::exact;
+  bool states_rounding = false;  ///< in the standard deviations
 };
+
+/// The step of a height [m] or of a time [s]; 0: none. A frame is one of 240 in a second.
+double step_of(Readout readout);
+bool reads_times(Readout readout);
+
+/// e as it is read: the height of a rebound is rounded, that of the drop was set on a mark; or the
+/// times before and after an impact, 2 V / g and 2 e V / g, are both.
+double rounded(Readout readout, double velocity, double restitution);
+
+/// Standard deviation of e that rounding makes, step / sqrt(12) of each thing read [1].
+double rounding_sd(Readout readout, double velocity, double restitution);
 
 /// `wall` (4 diameters x 15), `wall-batches` (4 diameters x 2 batches x 8), `li` (4 diameters x
 /// 15), `wall-one` (1 x 15), `dahneke` (1 x 20), `drops` (3 diameters of millimetres x 5 heights x
-/// 4 drops, without adhesion).
+/// 4 drops, without adhesion), `balls` (the same of centimetres).
 const std::vector<std::string_view>& design_ids();
 bool has_several_diameters(std::string_view id);
 
@@ -66,3 +83,9 @@ std::vector<Point> expected_points(const Design& design, const Effects& effects)
 double capture_velocity(const Base& base, const Effects& effects, double diameter, double highest);
 
 }  // namespace hidden
+
+template <>
+struct recoil::NamesOf<hidden::Readout> {
+  static constexpr std::array<std::string_view, 5> names = {
+      "exact", "millimetre", "five_millimetres", "millisecond", "frame"};
+};

@@ -15,7 +15,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double gravity = 9.81;            // [m/s2]
 constexpr double permittivity = 8.854e-12;  // of vacuum [F/m]
 constexpr double surface_tension = 0.0728;  // of water at 20 C [N/m]
 constexpr double viscosity = 1.81e-5;       // of air at 20 C [Pa s]
@@ -122,15 +121,23 @@ double after_gas(const Effects& effects, const Sphere& sphere, double speed, boo
   return speed - speed_lost_in_film(viscosity, sphere, effects.gas_distance, path);
 }
 
-/// Takes from the contact what a second published law says of it, and returns what is left of the
-/// speed.
-double by_other_laws(const Sphere& sphere, ContactExtras& extras, double speed) {
+/// Takes from the contact what second published laws say of it, and returns v^2 with which the rest
+/// of it begins; below zero: the energy that is missing. These laws are of dry spheres. As in
+/// Dahneke's (1975) balance of energies, adhesion has the contact struck at a higher speed, and
+/// takes back what it gave: e^2 (v^2 + w) - w, w the depth of the well.
+double left_by_other_laws(const Sphere& sphere, ContactExtras& extras, double speed) {
+  const double depth = well_depth(sphere);
+  const double struck = std::sqrt(speed * speed + depth);
   double e = 1.0;
-  if (extras.yield_pressure > 0.0) e *= jackson_restitution(sphere, extras.yield_pressure, speed);
-  if (extras.bulk_relaxation > 0.0) e *= ramirez_restitution(sphere, extras.bulk_relaxation, speed);
-  if (extras.plate_mobility > 0.0) e *= boettcher_restitution(sphere, extras.plate_mobility, speed);
+  if (extras.yield_pressure > 0.0) e *= jackson_restitution(sphere, extras.yield_pressure, struck);
+  if (extras.bulk_relaxation > 0.0) {
+    e *= ramirez_restitution(sphere, extras.bulk_relaxation, struck);
+  }
+  if (extras.plate_mobility > 0.0) {
+    e *= boettcher_restitution(sphere, extras.plate_mobility, struck);
+  }
   extras.yield_pressure = extras.bulk_relaxation = extras.plate_mobility = 0.0;
-  return speed * e;
+  return e * e * struck * struck - depth;
 }
 
 /// By exact laws, or other ones.
@@ -168,8 +175,11 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
   // contact
   v = std::sqrt(square);
   ContactExtras extras = effects.contact;
-  if (effects.other_laws) v = by_other_laws(sphere, extras, v);
-  if (!(v > 0.0)) return -1e-6 / (velocity * velocity);
+  if (effects.other_laws) {
+    square = left_by_other_laws(sphere, extras, v);
+    if (!(square > 0.0)) return square / (velocity * velocity);
+    v = std::sqrt(square);
+  }
   if (extras.yield_pressure > 0.0) {
     const PlasticResult plastic = plastic_contact(sphere.mass, sphere.radius, sphere.stiffness,
                                                   extras.yield_pressure, v, work_at_rest(sphere));

@@ -24,6 +24,10 @@ const std::vector<std::string_view>& effects_with_other_law() {
   return ids;
 }
 
+bool is_law_of_dry_contact(std::string_view effect) {
+  return effect == "plastic_yield" || effect == "bulk_viscoelastic" || effect == "plate_flexure";
+}
+
 double jackson_restitution(const Sphere& s, double yield_pressure, double velocity) {
   const double depth = s.radius * std::pow(2.0 * pi * yield_pressure / (3.0 * s.stiffness), 2);
   const double energy = 0.4 * s.stiffness * std::sqrt(s.radius) * std::pow(depth, 2.5);

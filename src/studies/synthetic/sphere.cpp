@@ -77,6 +77,10 @@ Sphere sphere_of(const Base& base, double diameter) {
   return sphere;
 }
 
+double well_depth(const Sphere& sphere) {
+  return -well(sphere, 2.0 * pi * sphere.adhesion_force / sphere.stiffness);
+}
+
 double Base::stiffness() const {
   if (stated_stiffness > 0.0) return stated_stiffness;
   return 4.0 / 3.0 /

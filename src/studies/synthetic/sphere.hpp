@@ -2,6 +2,8 @@
 
 namespace hidden {
 
+inline constexpr double gravity = 9.81;  ///< [m/s2]
+
 /// One kind of sphere on one surface, and the model that the fitter has of it (Li, Dunn & Brach
 /// 1999, equation 5, adhesion damped on rebound). SI units.
 struct Base {
@@ -46,6 +48,10 @@ struct Sphere {
 
 /// A sphere of this diameter [m], hard and dry: without adhesion and damping.
 Sphere sphere_of(const Base& base, double diameter);
+
+/// Twice the energy per mass that adhesion without damping gives a sphere on its way to the depth
+/// at which it would rest, n = 2 pi f0 / K [m2/s2].
+double well_depth(const Sphere& sphere);
 
 struct ContactResult {
   bool rebounded = false;
