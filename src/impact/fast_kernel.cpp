@@ -68,7 +68,7 @@ void fly_batch(std::span<const ImpactGroups> groups, const ImpactOptions& option
   }
   if constexpr (by_phases) {
     Phases<Law, PackOf<phase_lanes>, with_gradient> phases(options.phase, options.fast_tolerance);
-    try_phases<20, PhaseEnd::release>(phases, groups, all, results, &captured, difficult);
+    try_phases<16, PhaseEnd::release>(phases, groups, all, results, &captured, difficult);
     try_phases<28, PhaseEnd::release>(phases, groups, difficult, results, nullptr, left);
     try_phases<24, PhaseEnd::outer_turning_point>(phases, groups, captured, results, nullptr, left);
   }
