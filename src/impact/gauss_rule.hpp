@@ -30,7 +30,7 @@ struct GaussRule {
   /// The same for an f that is s times a polynomial. The error is then s^2 times a small number:
   /// what is divided by s^2 or its root keeps its digits at the first nodes.
   std::array<Row, count> grown = {};
-  Row last = {}, last_but_one = {};   ///< coefficients of P_(count - 1) and P_(count - 2)
+  Row last = {}, last_but_one = {};  ///< coefficients of P_(count - 1) and P_(count - 2)
 
   static constexpr GaussRule made() {
     GaussRule rule;
@@ -80,8 +80,8 @@ struct GaussRule {
     }
     double moment[count] = {0.25 * (part[0] + part[1])};
     for (std::size_t k = 1; k < count; ++k) {
-      moment[k] =
-          0.25 * (double(2 * k + 1) * part[k] + double(k + 1) * part[k + 1] + double(k) * part[k - 1]);
+      moment[k] = 0.25 * (double(2 * k + 1) * part[k] + double(k + 1) * part[k + 1] +
+                          double(k) * part[k - 1]);
     }
     for (std::size_t j = 0; j < count; ++j) {
       double sum = 0.0;

@@ -135,7 +135,8 @@ struct Phase {
       const Pack left_over = abs(missing(next_loss));
       where(moving, sweeps) += 1.0;
       // What is still to come is about change^2 / last_change, as changes shrink by equal factors.
-      const Mask close = change < settle_below || (change < 1e3 * settle_below && change * change < settle_below * last_change);
+      const Mask close = change < settle_below || (change < 1e3 * settle_below &&
+                                                   change * change < settle_below * last_change);
       last_change = change;
       const Mask arrived = left_over < 10.0 * settle_below;
       settled = settled || (close && arrived);

@@ -12,7 +12,8 @@ enum class PhaseEnd { release, outer_turning_point };
 
 /// The nodes of a phase: part[i] is how far the i-th lies on the way from the inner turning point
 /// to the other end, rate[i] its derivative in s. Where u vanishes it does so like a root of the
-/// way, so that u is smooth in s: the way is s^2 (1 + c (1 - s^2)), or sin^2(pi s / 2) if u vanishes at both ends.
+/// way, so that u is smooth in s: the way is s^2 (1 + c (1 - s^2)), or sin^2(pi s / 2) if u
+/// vanishes at both ends.
 template <class Owner, std::size_t count, PhaseEnd end>
 struct PhaseRule {
   GaussRule<Owner, count> gauss = GaussRule<Owner, count>::made();

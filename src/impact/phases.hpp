@@ -203,7 +203,9 @@ class Phases {
   /// act.operator()<k>() for each group k.
   template <class Act>
   [[gnu::always_inline]] static void for_each_group(const Act& act) {
-    [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) { (act.template operator()<k>(), ...); }
+    [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
+      (act.template operator()<k>(), ...);
+    }
     (std::make_integer_sequence<unsigned, parameters>{});
   }
 
@@ -251,7 +253,8 @@ class Phases {
     for (std::size_t k = 0; k < errors.size(); ++k) {
       const double size = __builtin_fabs(result.gradient[k]);
       const double tail = __builtin_fabs(errors[k]) / (size > 1.0 ? size : 1.0);
-      if (!(tail < most_tail && tail * double(held_defect_[lane]) < most_gradient_error)) return false;
+      if (!(tail < most_tail && tail * double(held_defect_[lane]) < most_gradient_error))
+        return false;
     }
     return true;
   }
@@ -269,14 +272,14 @@ class Phases {
   static constexpr int first_steps = 3;  // from LawPath::deepest, by Newton's rule
   static constexpr std::size_t few_nodes = 8;
   static constexpr double coarse_change = 1e-5;  // of the losses, with few nodes
-  static constexpr double most_held = 6.0;     // of the integral of D dsigma
+  static constexpr double most_held = 6.0;       // of the integral of D dsigma
   // An impact is difficult, and for more nodes or for Flights, where the last two coefficients of
   // the rates have not become small: the error of e^2 goes with their product with those of D
   // dsigma / ds, that of the gradient with the product of the latter and its own.
   static constexpr double most_defect = 1e-4;
   static constexpr double most_tail = 1e-3;
-  static constexpr double most_error = 1e-10;
-  static constexpr double most_gradient_error = 1e-8;
+  static constexpr double most_error = 2e-10;
+  static constexpr double most_gradient_error = 2e-8;
   // So it is where the energy at the end is this part of what there is: near capture a zero of u
   // comes close to the way.
   static constexpr double nearest = 0.02;
