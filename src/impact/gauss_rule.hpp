@@ -27,10 +27,7 @@ struct GaussRule {
   Row node = {};
   Row weight = {};                    ///< sum_j weight[j] f(s_j) = integral from 0 to 1
   std::array<Row, count> up_to = {};  ///< sum_j up_to[i][j] f(s_j) = integral from 0 to s_i
-  /// The same for an f that is s times a polynomial. The error is then s^2 times a small number:
-  /// what is divided by s^2 or its root keeps its digits at the first nodes.
-  std::array<Row, count> grown = {};
-  Row last = {}, last_but_one = {};  ///< coefficients of P_(count - 1) and P_(count - 2)
+  Row last = {}, last_but_one = {};   ///< coefficients of P_(count - 1) and P_(count - 2)
 
   static constexpr GaussRule made() {
     GaussRule rule;
@@ -47,10 +44,7 @@ struct GaussRule {
       rule.last[j] = double(2 * count - 1) * at_j[count - 1] * rule.weight[j];
       rule.last_but_one[j] = double(2 * count - 3) * at_j[count - 2] * rule.weight[j];
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      rule.up_to[i] = rule.integral_up_to(rule.node[i]);
-      rule.grown[i] = rule.growing_up_to(rule.node[i]);
-    }
+    for (std::size_t i = 0; i < count; ++i) rule.up_to[i] = rule.integral_up_to(rule.node[i]);
     return rule;
   }
 
@@ -69,24 +63,27 @@ struct GaussRule {
     return row;
   }
 
-  /// As integral_up_to for `up_to`, for `grown`.
-  constexpr Row growing_up_to(double s) const {
-    Row row = {};
+  /// The same for an f that is s, or with `at_both_ends` s (1 - s), times a polynomial through the
+  /// nodes. The error vanishes with its slope where f does: what is divided by s^2 or its root
+  /// keeps its digits at the first nodes.
+  constexpr Row vanishing_up_to(double s, bool at_both_ends) const {
     const auto at_s = polynomials(2.0 * s - 1.0);
-    // The integrals I_k of P_k from -1 to x, and of (1 + x) / 2 times it by the recurrence of P_k.
-    double part[count + 1] = {2.0 * s};
-    for (std::size_t k = 1; k <= count; ++k) {
-      part[k] = (at_s[k + 1] - at_s[k - 1]) / double(2 * k + 1);
-    }
-    double moment[count] = {0.25 * (part[0] + part[1])};
-    for (std::size_t k = 1; k < count; ++k) {
-      moment[k] = 0.25 * (double(2 * k + 1) * part[k] + double(k + 1) * part[k + 1] +
-                          double(k) * part[k - 1]);
-    }
+    Row row = {};
     for (std::size_t j = 0; j < count; ++j) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < count; ++k) sum += of_node[j][k] * moment[k];
-      row[j] = weight[j] * sum / node[j];
+      Series series = {};
+      for (std::size_t k = 0; k < count; ++k) {
+        series[k] = double(2 * k + 1) * weight[j] * of_node[j][k] / node[j];
+      }
+      series = times_half(series, 1.0);
+      if (at_both_ends) {
+        for (double& entry : series) entry /= 1.0 - node[j];
+        series = times_half(series, -1.0);
+      }
+      double sum = series[0] * s;
+      for (std::size_t k = 1; k < series.size(); ++k) {
+        sum += series[k] * 0.5 * (at_s[k + 1] - at_s[k - 1]) / double(2 * k + 1);
+      }
+      row[j] = sum;
     }
     return row;
   }
@@ -94,13 +91,28 @@ struct GaussRule {
  private:
   double of_node[count][count] = {};  // P_k at each node
 
+  using Series = std::array<double, count + 2>;  // in Legendre polynomials
+
+  /// (1 + sign x) / 2 times the series, by the recurrence of the polynomials.
+  static constexpr Series times_half(const Series& series, double sign) {
+    Series product = {};
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      product[k] = 0.5 * series[k];
+      if (k > 0) product[k] += 0.5 * sign * double(k) / double(2 * k - 1) * series[k - 1];
+      if (k + 1 < series.size()) {
+        product[k] += 0.5 * sign * double(k + 1) / double(2 * k + 3) * series[k + 1];
+      }
+    }
+    return product;
+  }
+
   struct Value {
     double value, slope;
   };
-  /// P_0(x), ..., P_(count + 1)(x)
-  static constexpr std::array<double, count + 2> polynomials(double x) {
-    std::array<double, count + 2> p = {1.0, x};
-    for (std::size_t k = 2; k <= count + 1; ++k) {
+  /// P_0(x), ..., P_(count + 2)(x)
+  static constexpr std::array<double, count + 3> polynomials(double x) {
+    std::array<double, count + 3> p = {1.0, x};
+    for (std::size_t k = 2; k < p.size(); ++k) {
       p[k] = (double(2 * k - 1) * x * p[k - 1] - double(k - 1) * p[k - 2]) / double(k);
     }
     return p;

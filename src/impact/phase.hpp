@@ -111,11 +111,13 @@ struct Phase {
 
   /// Puts in the losses, block by block, each with what those before it have just become, until
   /// they change by less than `settle_below` [m V^2]. Lanes that have settled are left as they are.
+  /// @param arrive_below what the energy at the end may miss [m V^2]
   /// @param missing what the energy at the end misses with this loss
   /// @param move where the end goes for that; true when it went
   template <bool compression, class Rule, class Look, class Missing, class Move>
-  [[gnu::always_inline]] void settle(const Rule& rule, double settle_below, const Look& look_again,
-                                     const Missing& missing, const Move& move) {
+  [[gnu::always_inline]] void settle(const Rule& rule, double settle_below, double arrive_below,
+                                     const Look& look_again, const Missing& missing,
+                                     const Move& move) {
     constexpr int most_sweeps = 14;
     look_again();
     for (std::size_t i = 0; i < count; ++i) start<compression>(i);
@@ -124,7 +126,7 @@ struct Phase {
       const Mask moving = !settled;
       Pack change = 0.0;
       for (std::size_t first = 0; first < count; first += phase_block) {
-        const auto next = block_times(rule.gauss.grown, rates, first);
+        const auto next = block_times(rule.losses, rates, first);
         for (std::size_t i = 0; i < phase_block; ++i) {
           change = pack_larger(change, Pack(abs(next[i] - lost[first + i])));
           where(moving, lost[first + i]) = next[i];
@@ -138,7 +140,7 @@ struct Phase {
       const Mask close = change < settle_below || (change < 1e3 * settle_below &&
                                                    change * change < settle_below * last_change);
       last_change = change;
-      const Mask arrived = left_over < 10.0 * settle_below;
+      const Mask arrived = left_over < arrive_below;
       settled = settled || (close && arrived);
       if (move(moving && !arrived, next_loss)) {
         look_again();

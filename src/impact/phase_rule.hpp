@@ -21,7 +21,9 @@ struct PhaseRule {
   /// Draws the nodes a little towards the release, where adhesion brings zeros of u close to the
   /// way. The best for 12 and 16 nodes on the shipped fits, of 0, 0.15, 0.3, 0.45 and 0.6.
   static constexpr double crowding = 0.15;
-  /// What integrates a polynomial through the nodes of the rule with `few` of them up to each node.
+  /// sum_j losses[i][j] f(s_j) = integral up to node i of an f that vanishes where u does.
+  std::array<std::array<double, count>, count> losses = {};
+  /// The same from the nodes of the rule with `few` of them.
   static constexpr std::size_t few = 8;
   std::array<std::array<double, few>, count> from_few = {};
 
@@ -39,7 +41,9 @@ struct PhaseRule {
         rule.part[i] = sine * sine;
         rule.rate[i] = pi * sine * sine_of_quarters(1.0 - s);
       }
-      rule.from_few[i] = coarse.growing_up_to(s);
+      constexpr bool both = end == PhaseEnd::outer_turning_point;
+      rule.losses[i] = rule.gauss.vanishing_up_to(s, both);
+      rule.from_few[i] = coarse.vanishing_up_to(s, both);
     }
     return rule;
   }

@@ -97,8 +97,9 @@ class Phases {
   [[gnu::always_inline]] void compress_by(const Rule& rule, Path<count>& phase,
                                           double settle_below) {
     Pack bottom;
+    // What is missing is made up for in the end (missing_).
     phase.template settle<true>(
-        rule, settle_below,
+        rule, settle_below, 10.0 * settle_below,
         [&] {
           bottom = law_.potential(deepest_);
           phase.look(rule, law_, deepest_, start_, acts_at_first_, bottom);
@@ -138,11 +139,11 @@ class Phases {
     const auto look_at_all = [&] { phase.look(rule, law_, deepest_, end_, Pack(1.0), bottom); };
     if constexpr (end == PhaseEnd::release) {
       phase.template settle<false>(
-          rule, settle_below, look_at_all, [](const Pack&) { return Pack(0.0); },
+          rule, settle_below, settle_below, look_at_all, [](const Pack&) { return Pack(0.0); },
           [](const Mask&, const Pack&) { return false; });
     } else {
       phase.template settle<false>(
-          rule, settle_below, look_at_all,
+          rule, settle_below, 0.1 * settle_below, look_at_all,
           [&](const Pack& loss) { return law_.potential(end_) - (bottom - loss); },
           [&](const Mask& moving, const Pack& loss) {
             if (none_of(moving)) return false;
@@ -278,8 +279,8 @@ class Phases {
   // dsigma / ds, that of the gradient with the product of the latter and its own.
   static constexpr double most_defect = 1e-4;
   static constexpr double most_tail = 1e-3;
-  static constexpr double most_error = 2e-10;
-  static constexpr double most_gradient_error = 2e-8;
+  static constexpr double most_error = 1e-10;
+  static constexpr double most_gradient_error = 1e-8;
   // So it is where the energy at the end is this part of what there is: near capture a zero of u
   // comes close to the way.
   static constexpr double nearest = 0.02;
