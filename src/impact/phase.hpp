@@ -136,15 +136,17 @@ struct Phase {
       const Pack next_loss = row_times(rule.gauss.weight, rates);
       const Pack left_over = abs(missing(next_loss));
       where(moving, sweeps) += 1.0;
-      // What is still to come is about change^2 / last_change, as changes shrink by equal factors.
-      const Mask close = change < settle_below || (change < 1e3 * settle_below &&
-                                                   change * change < settle_below * last_change);
+      // Changes that shrink by equal factors add up to change^2 / (last_change - change).
+      const Mask close =
+          change < 0.1 * settle_below ||
+          (change < 1e3 * settle_below && change * change < settle_below * (last_change - change));
       last_change = change;
       const Mask arrived = left_over < arrive_below;
       settled = settled || (close && arrived);
-      if (move(moving && !arrived, next_loss)) {
+      const Mask goes = moving && !arrived;
+      if (move(goes, next_loss)) {
         look_again();
-        follow_all<compression>(moving);
+        follow_all<compression>(goes);
       }
     }
     follow_all<compression>(Mask(true));

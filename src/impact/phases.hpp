@@ -52,7 +52,7 @@ class Phases {
     const Pack defect = in.defect + out.defect;
     Mask good = in.settled && out.settled && deepest_ > resting_ && in.lowest > 0.0 &&
                 out.lowest > 0.0 && held_ < most_held;
-    good = good && defect < most_defect && defect * held_defect_ < most_error;
+    good = good && defect < most_defect && defect * held_defect_ < most_e2_error;
     good = good && abs(energy) > nearest * (0.5 - law_.potential(resting_));
     if constexpr (end == PhaseEnd::release) good = good && left > 0.0;
     for (std::size_t lane = 0; lane < order.size(); ++lane) {
@@ -63,7 +63,9 @@ class Phases {
       result.restitution_squared = 2.0 * double(energy[lane]);
       result.outcome = end == PhaseEnd::release ? ImpactOutcome::rebound : ImpactOutcome::captured;
       if constexpr (with_gradient) {
-        if (!put_gradient(lane, queue[order[lane]], result)) continue;
+        constexpr double share = end == PhaseEnd::release ? 1.0 : 0.1;  // u vanishes twice
+        const double most = share * most_gradient_error;
+        if (!put_gradient(lane, most, queue[order[lane]], result)) continue;
       }
       result.steps = static_cast<long>(double(in.sweeps[lane] + out.sweeps[lane]));
       verdicts[lane] = Verdict::good;
@@ -242,7 +244,8 @@ class Phases {
   }
 
   /// False when its last coefficients are not small beside the gradient.
-  bool put_gradient(std::size_t lane, const ImpactGroups& impact, ImpactResult& result) {
+  bool put_gradient(std::size_t lane, double most_error, const ImpactGroups& impact,
+                    ImpactResult& result) {
     std::array<double, parameters> slopes, tails;
     for (unsigned k = 0; k < parameters; ++k) {
       slopes[k] = 2.0 * double(slopes_[k][lane]);
@@ -254,8 +257,7 @@ class Phases {
     for (std::size_t k = 0; k < errors.size(); ++k) {
       const double size = __builtin_fabs(result.gradient[k]);
       const double tail = __builtin_fabs(errors[k]) / (size > 1.0 ? size : 1.0);
-      if (!(tail < most_tail && tail * double(held_defect_[lane]) < most_gradient_error))
-        return false;
+      if (!(tail * (tail + double(held_defect_[lane])) < most_error)) return false;
     }
     return true;
   }
@@ -276,10 +278,9 @@ class Phases {
   static constexpr double most_held = 6.0;       // of the integral of D dsigma
   // An impact is difficult, and for more nodes or for Flights, where the last two coefficients of
   // the rates have not become small: the error of e^2 goes with their product with those of D
-  // dsigma / ds, that of the gradient with the product of the latter and its own.
+  // dsigma / ds, that of the gradient with the product of its own with these and with themselves.
   static constexpr double most_defect = 1e-4;
-  static constexpr double most_tail = 1e-3;
-  static constexpr double most_error = 1e-10;
+  static constexpr double most_e2_error = 1e-10;
   static constexpr double most_gradient_error = 1e-8;
   // So it is where the energy at the end is this part of what there is: near capture a zero of u
   // comes close to the way.
