@@ -27,7 +27,7 @@ class Phases {
 
   Phases(AdhesionDampingPhase phase, double tolerance)
       : acts_at_first_(phase == AdhesionDampingPhase::both ? 1.0 : 0.0),
-        settled_change_(10.0 * tolerance) {}
+        settled_change_(3.0 * tolerance) {}
 
   /// What came of an attempt.
   enum class Verdict : std::uint8_t { good, captured, difficult };
