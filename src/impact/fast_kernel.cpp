@@ -25,7 +25,7 @@ using PackOf = std::experimental::fixed_size_simd<double, count>;
 using Pack = PackOf<RECOIL_LANES>;
 
 constexpr std::size_t phase_lanes = RECOIL_LANES == 16 ? 8 : RECOIL_LANES;
-constexpr std::size_t batch = 512;
+constexpr std::size_t batch = 1024;
 
 /// Indices of impacts, without memory of the heap.
 struct Order {
@@ -68,8 +68,8 @@ void fly_batch(std::span<const ImpactGroups> groups, const ImpactOptions& option
   }
   if constexpr (by_phases) {
     Phases<Law, PackOf<phase_lanes>, with_gradient> phases(options.phase, options.fast_tolerance);
-    try_phases<20, PhaseEnd::release>(phases, groups, all, results, &captured, difficult);
-    try_phases<28, PhaseEnd::release>(phases, groups, difficult, results, nullptr, left);
+    try_phases<16, PhaseEnd::release>(phases, groups, all, results, &captured, difficult);
+    try_phases<24, PhaseEnd::release>(phases, groups, difficult, results, nullptr, left);
     try_phases<24, PhaseEnd::outer_turning_point>(phases, groups, captured, results, nullptr, left);
   }
   if (left.size == 0) return;

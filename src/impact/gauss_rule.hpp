@@ -63,16 +63,56 @@ struct GaussRule {
     return row;
   }
 
+  /// The same for an f that is s, or with `at_both_ends` s (1 - s), times a polynomial through the
+  /// nodes. The error vanishes with its slope where f does: what is divided by s^2 or its root
+  /// keeps its digits at the first nodes.
+  constexpr Row vanishing_up_to(double s, bool at_both_ends) const {
+    const auto at_s = polynomials(2.0 * s - 1.0);
+    Row row = {};
+    for (std::size_t j = 0; j < count; ++j) {
+      Series series = {};
+      for (std::size_t k = 0; k < count; ++k) {
+        series[k] = double(2 * k + 1) * weight[j] * of_node[j][k] / node[j];
+      }
+      series = times_half(series, 1.0);
+      if (at_both_ends) {
+        for (double& entry : series) entry /= 1.0 - node[j];
+        series = times_half(series, -1.0);
+      }
+      double sum = series[0] * s;
+      for (std::size_t k = 1; k < series.size(); ++k) {
+        sum += series[k] * 0.5 * (at_s[k + 1] - at_s[k - 1]) / double(2 * k + 1);
+      }
+      row[j] = sum;
+    }
+    return row;
+  }
+
  private:
   double of_node[count][count] = {};  // P_k at each node
+
+  using Series = std::array<double, count + 2>;  // in Legendre polynomials
+
+  /// (1 + sign x) / 2 times the series, by the recurrence of the polynomials.
+  static constexpr Series times_half(const Series& series, double sign) {
+    Series product = {};
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      product[k] = 0.5 * series[k];
+      if (k > 0) product[k] += 0.5 * sign * double(k) / double(2 * k - 1) * series[k - 1];
+      if (k + 1 < series.size()) {
+        product[k] += 0.5 * sign * double(k + 1) / double(2 * k + 3) * series[k + 1];
+      }
+    }
+    return product;
+  }
 
   struct Value {
     double value, slope;
   };
-  /// P_0(x), ..., P_count(x)
-  static constexpr std::array<double, count + 1> polynomials(double x) {
-    std::array<double, count + 1> p = {1.0, x};
-    for (std::size_t k = 2; k <= count; ++k) {
+  /// P_0(x), ..., P_(count + 2)(x)
+  static constexpr std::array<double, count + 3> polynomials(double x) {
+    std::array<double, count + 3> p = {1.0, x};
+    for (std::size_t k = 2; k < p.size(); ++k) {
       p[k] = (double(2 * k - 1) * x * p[k - 1] - double(k - 1) * p[k - 2]) / double(k);
     }
     return p;

@@ -28,22 +28,28 @@ template <class Pack, std::size_t count>
   return even + odd;
 }
 
+/// The two last coefficients of the values.
+template <class Gauss, class Pack, std::size_t count>
+[[gnu::always_inline]] inline Pack defect_of(const Gauss& gauss,
+                                             const std::array<Pack, count>& values) {
+  return abs(row_times(gauss.last, values)) + abs(row_times(gauss.last_but_one, values));
+}
+
 /// How many nodes are put in together.
 inline constexpr std::size_t phase_block = 4;
 
-/// The integrals of the values up to the nodes `first`, ..., `first` + phase_block - 1. The nodes
-/// before them come last, as these values have just been put in.
-template <class Rule, class Pack, std::size_t count>
-[[gnu::always_inline]] inline std::array<Pack, phase_block> integrals_up_to(
-    const Rule& rule, const std::array<Pack, count>& values, std::size_t first) {
+/// rows[i] times the values for i = `first`, ..., `first` + phase_block - 1. The values before
+/// them come last, as they have just been put in.
+template <class Pack, std::size_t count>
+[[gnu::always_inline]] inline std::array<Pack, phase_block> block_times(
+    const std::array<std::array<double, count>, count>& rows, const std::array<Pack, count>& values,
+    std::size_t first) {
   static_assert(count % phase_block == 0);
   std::array<Pack, phase_block> sums;
   sums.fill(Pack(0.0));
   const auto add = [&](std::size_t from, std::size_t to) {
     for (std::size_t j = from; j < to; ++j) {
-      for (std::size_t i = 0; i < phase_block; ++i) {
-        sums[i] += rule.gauss.up_to[first + i][j] * values[j];
-      }
+      for (std::size_t i = 0; i < phase_block; ++i) sums[i] += rows[first + i][j] * values[j];
     }
   };
   add(first, count);
@@ -55,7 +61,8 @@ template <class Rule, class Pack, std::size_t count>
 /// PhaseRule. What is lost up to a node is the integral of the rate D u dq/ds, in which u^2 / 2 is
 /// the energy at the turning point less the potential energy, more (compression) or less
 /// (restitution) what is lost. Putting the losses in again and again converges like M^n / n!,
-/// M = integral of D dsigma.
+/// M = integral of D dsigma. Meanwhile u follows by Newton's rule, which needs neither a root nor a
+/// quotient.
 template <class Pack, std::size_t count>
 struct Phase {
   using Mask = typename Pack::mask_type;
@@ -65,8 +72,9 @@ struct Phase {
   Nodes place;          ///< q
   Nodes height;         ///< energy at the inner turning point less the potential energy
   Nodes damping;        ///< of the loss, per u and s
-  Nodes lost = {};      ///< from the inner turning point to the node
+  Nodes lost;           ///< from the inner turning point to the node
   Nodes speed;          ///< u without its sign
+  Nodes slowness;       ///< 1 / u
   Nodes rates;          ///< of the loss, per s
   Pack loss;            ///< of the whole phase
   Pack lowest = 1e300;  ///< u^2 / 2
@@ -93,59 +101,110 @@ struct Phase {
     sweeps = coarse.sweeps;
   }
 
+  /// The integral of D dsigma.
+  template <class Rule>
+  [[gnu::always_inline]] Pack held(const Rule& rule) const {
+    Nodes values;
+    for (std::size_t i = 0; i < count; ++i) values[i] = damping[i] * slowness[i];
+    return row_times(rule.gauss.weight, values);
+  }
+
   /// Puts in the losses, block by block, each with what those before it have just become, until
   /// they change by less than `settle_below` [m V^2]. Lanes that have settled are left as they are.
+  /// @param arrive_below what the energy at the end may miss [m V^2]
   /// @param missing what the energy at the end misses with this loss
-  /// @param move where the end goes for that
+  /// @param move where the end goes for that; true when it went
   template <bool compression, class Rule, class Look, class Missing, class Move>
-  [[gnu::always_inline]] void settle(const Rule& rule, double settle_below, const Look& look_again,
-                                     const Missing& missing, const Move& move) {
+  [[gnu::always_inline]] void settle(const Rule& rule, double settle_below, double arrive_below,
+                                     const Look& look_again, const Missing& missing,
+                                     const Move& move) {
     constexpr int most_sweeps = 14;
+    look_again();
+    for (std::size_t i = 0; i < count; ++i) start<compression>(i);
+    Pack last_change = 0.0;
     for (int sweep = 0; sweep < most_sweeps && !all_of(settled); ++sweep) {
-      look_again();
-      if (sweep == 0) {
-        for (std::size_t i = 0; i < count; ++i) rates[i] = rate<compression>(i);
-      }
       const Mask moving = !settled;
       Pack change = 0.0;
       for (std::size_t first = 0; first < count; first += phase_block) {
-        const auto next = integrals_up_to(rule, rates, first);
+        const auto next = block_times(rule.losses, rates, first);
         for (std::size_t i = 0; i < phase_block; ++i) {
           change = pack_larger(change, Pack(abs(next[i] - lost[first + i])));
           where(moving, lost[first + i]) = next[i];
-          rates[first + i] = rate<compression>(first + i);
         }
+        follow_block<compression>(first, moving);
       }
       const Pack next_loss = row_times(rule.gauss.weight, rates);
-      const Pack left_over = missing(next_loss);
+      const Pack left_over = abs(missing(next_loss));
       where(moving, sweeps) += 1.0;
-      move(moving, next_loss, left_over);
-      settled = settled || pack_larger(change, Pack(abs(left_over))) < settle_below;
+      // Changes that shrink by equal factors add up to change^2 / (last_change - change).
+      const Mask close =
+          change < 0.1 * settle_below ||
+          (change < 1e3 * settle_below && change * change < settle_below * (last_change - change));
+      last_change = change;
+      const Mask arrived = left_over < arrive_below;
+      settled = settled || (close && arrived);
+      const Mask goes = moving && !arrived;
+      if (move(goes, next_loss)) {
+        look_again();
+        follow_all<compression>(goes);
+      }
     }
-    look_again();
+    follow_all<compression>(Mask(true));
     for (std::size_t i = 0; i < count; ++i) {
       lowest = pack_smaller(lowest, half_square<compression>(i));
-      speed[i] = root<compression>(i);
-      rates[i] = damping[i] * speed[i];
     }
     loss = row_times(rule.gauss.weight, rates);
-    defect =
-        abs(row_times(rule.gauss.last, rates)) + abs(row_times(rule.gauss.last_but_one, rates));
+    defect = defect_of(rule.gauss, rates);
   }
 
  private:
+  static constexpr double least = 1e-30;  // of u^2, so that there is 1 / u
+
   template <bool compression>
   [[gnu::always_inline]] Pack half_square(std::size_t i) const {
     return compression ? height[i] + lost[i] : height[i] - lost[i];
   }
   template <bool compression>
-  [[gnu::always_inline]] Pack root(std::size_t i) const {
-    const Pack half = pack_larger(half_square<compression>(i), Pack(0.0));
-    return sqrt(half + half);
+  [[gnu::always_inline]] Pack square(std::size_t i) const {
+    const Pack half = half_square<compression>(i);
+    return pack_larger(half + half, Pack(least));
   }
   template <bool compression>
-  [[gnu::always_inline]] Pack rate(std::size_t i) const {
-    return damping[i] * root<compression>(i);
+  [[gnu::always_inline]] void start(std::size_t i) {
+    speed[i] = sqrt(square<compression>(i));
+    slowness[i] = 1.0 / speed[i];
+    rates[i] = damping[i] * speed[i];
+  }
+  template <bool compression>
+  [[gnu::always_inline]] void follow_all(const Mask& moving) {
+    for (std::size_t first = 0; first < count; first += phase_block) {
+      follow_block<compression>(first, moving);
+    }
+  }
+  /// u and 1 / u of the lanes that move, by one step of Newton's; anew where that is too long.
+  template <bool compression>
+  [[gnu::always_inline]] void follow_block(std::size_t first, const Mask& moving) {
+    constexpr double longest = 0.02;  // of u; the step errs by half of its square
+    std::array<Pack, phase_block> squares;
+    Pack furthest = 0.0;
+    for (std::size_t k = 0; k < phase_block; ++k) {
+      const std::size_t i = first + k;
+      squares[k] = square<compression>(i);
+      const Pack half = 0.5 * slowness[i];
+      const Pack step = (squares[k] - speed[i] * speed[i]) * half;
+      furthest = pack_larger(furthest, Pack(abs(step * slowness[i])));
+      where(moving, speed[i]) = speed[i] + step;
+      where(moving, slowness[i]) = slowness[i] * (2.0 - speed[i] * slowness[i]);
+    }
+    const Mask too_long = moving && !(furthest < longest);
+    if (any_of(too_long)) {
+      for (std::size_t k = 0; k < phase_block; ++k) {
+        const Pack root = sqrt(squares[k]);
+        where(too_long, speed[first + k]) = root;
+        where(too_long, slowness[first + k]) = 1.0 / root;
+      }
+    }
+    for (std::size_t i = first; i < first + phase_block; ++i) rates[i] = damping[i] * speed[i];
   }
 };
 

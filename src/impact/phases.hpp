@@ -27,7 +27,7 @@ class Phases {
 
   Phases(AdhesionDampingPhase phase, double tolerance)
       : acts_at_first_(phase == AdhesionDampingPhase::both ? 1.0 : 0.0),
-        settled_change_(20.0 * tolerance) {}
+        settled_change_(3.0 * tolerance) {}
 
   /// What came of an attempt.
   enum class Verdict : std::uint8_t { good, captured, difficult };
@@ -45,14 +45,16 @@ class Phases {
     target_ = 0.5 + law_.potential(start_);
     Path<count> in, out;
     compress<count>(in);
-    restore<count, end>(in.loss, out);
-    const Pack energy = target_ - in.loss - out.loss;
+    restore<count, end>(out);
+    follow_both<count>(inwards, outwards, in, out);
+    const Pack energy = law_.potential(deepest_) - out.loss - all_ * missing_;
     const Pack left = energy - law_.potential(end_);
+    const Pack defect = in.defect + out.defect;
     Mask good = in.settled && out.settled && deepest_ > resting_ && in.lowest > 0.0 &&
-                out.lowest > 0.0 && in.defect + out.defect < most_defect;
+                out.lowest > 0.0 && held_ < most_held;
+    good = good && defect < most_defect && defect * held_defect_ < most_e2_error;
     good = good && abs(energy) > nearest * (0.5 - law_.potential(resting_));
     if constexpr (end == PhaseEnd::release) good = good && left > 0.0;
-    if constexpr (with_gradient) follow_both<count>(inwards, outwards, in, out, good);
     for (std::size_t lane = 0; lane < order.size(); ++lane) {
       const bool is_captured = end == PhaseEnd::release && !(double(left[lane]) > 0.0);
       verdicts[lane] = is_captured ? Verdict::captured : Verdict::difficult;
@@ -61,7 +63,9 @@ class Phases {
       result.restitution_squared = 2.0 * double(energy[lane]);
       result.outcome = end == PhaseEnd::release ? ImpactOutcome::rebound : ImpactOutcome::captured;
       if constexpr (with_gradient) {
-        if (!put_gradient(lane, queue[order[lane]], result)) continue;
+        constexpr double share = end == PhaseEnd::release ? 1.0 : 0.1;  // u vanishes twice
+        const double most = share * most_gradient_error;
+        if (!put_gradient(lane, most, queue[order[lane]], result)) continue;
       }
       result.steps = static_cast<long>(double(in.sweeps[lane] + out.sweeps[lane]));
       verdicts[lane] = Verdict::good;
@@ -86,6 +90,7 @@ class Phases {
       deepest_ -= (law_.potential(deepest_) - target_) / law_.slope(deepest_);
     }
     Path<few_nodes> coarse;
+    coarse.lost.fill(Pack(0.0));
     compress_by(phase_rule<Pack, few_nodes, PhaseEnd::release>, coarse, coarse_change);
     phase.refine(phase_rule<Pack, count, PhaseEnd::release>, coarse);
     compress_by(phase_rule<Pack, count, PhaseEnd::release>, phase, settled_change_);
@@ -94,31 +99,38 @@ class Phases {
   [[gnu::always_inline]] void compress_by(const Rule& rule, Path<count>& phase,
                                           double settle_below) {
     Pack bottom;
+    // What is missing is made up for in the end (missing_).
     phase.template settle<true>(
-        rule, settle_below,
+        rule, settle_below, 10.0 * settle_below,
         [&] {
           bottom = law_.potential(deepest_);
           phase.look(rule, law_, deepest_, start_, acts_at_first_, bottom);
         },
         [&](const Pack& loss) { return (bottom + loss) - target_; },
-        [&](const Mask& moving, const Pack& loss, const Pack& missing) {
-          // A deeper turning point takes more energy, and loses more of it.
-          const Pack height = bottom - missing / (1.0 + steeper * loss);
+        [&](const Mask& moving, const Pack& loss) {
+          if (none_of(moving)) return false;
+          // A deeper turning point takes more energy, and loses more of it: exp(M) in all.
+          const Pack held = phase.held(rule);
+          const Pack height =
+              bottom - ((bottom + loss) - target_) / (1.0 + held * (1.0 + 0.5 * held));
           const Pack near = deepest_ - (bottom - height) / law_.slope(deepest_);
           where(moving, deepest_) = near - (law_.potential(near) - height) / law_.slope(near);
+          return true;
         });
+    missing_ = (bottom + phase.loss) - target_;
   }
 
   /// From the deepest point to the end.
   template <std::size_t count, PhaseEnd end>
-  [[gnu::flatten]] void restore(const Pack& lost_before, Path<count>& phase) {
-    const Pack bottom = target_ - lost_before;
+  [[gnu::flatten]] void restore(Path<count>& phase) {
+    const Pack bottom = law_.potential(deepest_);
     if constexpr (end == PhaseEnd::release) {
       end_ = release_;
     } else {
-      guess_outer_turning_point(bottom, lost_before);
+      guess_outer_turning_point(bottom, target_ - bottom);
     }
     Path<few_nodes> coarse;
+    coarse.lost.fill(Pack(0.0));
     restore_by<end>(phase_rule<Pack, few_nodes, end>, bottom, coarse, coarse_change);
     phase.refine(phase_rule<Pack, count, end>, coarse);
     restore_by<end>(phase_rule<Pack, count, end>, bottom, phase, settled_change_);
@@ -128,18 +140,20 @@ class Phases {
                                          double settle_below) {
     const auto look_at_all = [&] { phase.look(rule, law_, deepest_, end_, Pack(1.0), bottom); };
     if constexpr (end == PhaseEnd::release) {
-      look_at_all();
       phase.template settle<false>(
-          rule, settle_below, [] {}, [](const Pack&) { return Pack(0.0); },
-          [](const Mask&, const Pack&, const Pack&) {});
+          rule, settle_below, settle_below, look_at_all, [](const Pack&) { return Pack(0.0); },
+          [](const Mask&, const Pack&) { return false; });
     } else {
       phase.template settle<false>(
-          rule, settle_below, look_at_all,
+          rule, settle_below, 0.1 * settle_below, look_at_all,
           [&](const Pack& loss) { return law_.potential(end_) - (bottom - loss); },
-          [&](const Mask& moving, const Pack&, const Pack& missing) {
+          [&](const Mask& moving, const Pack& loss) {
+            if (none_of(moving)) return false;
+            const Pack missing = law_.potential(end_) - (bottom - loss);
             const Pack moved = end_ - missing / law_.slope(end_);
             where(moving, end_) =
                 pack_smaller(pack_larger(moved, 0.5 * (release_ + end_)), 0.5 * (resting_ + end_));
+            return true;
           });
     }
   }
@@ -164,124 +178,86 @@ class Phases {
     return e;
   }
 
-  /// The derivatives of the loss of one phase, for a fixed deepest point: z . g, where g_j is that
-  /// of the rate of the loss at node j for fixed losses, and z obeys z = weight +- up_to^T (k z), k
-  /// = D dsigma / ds, as the loss itself obeys its equation. The beginning of z is weight times
-  /// exp(integral of k).
+  /// What a change of the kinetic energy at the nodes becomes by the end of the impact is exp(-x),
+  /// x the integral of D dsigma from there to the end. `held` is D dsigma / ds.
+  /// The derivative of that energy at the end is then the sum of what a parameter changes in the
+  /// force, weighted so: the areas of Flights.
   /// @param sign 1 for the compression, else -1
   template <class Rule, std::size_t count>
   [[gnu::always_inline]] void follow(const Rule& rule, double sign, const Pack& acts,
-                                     const Path<count>& phase, const Nodes<count>& held,
-                                     const Pack& all_held, Mask& good) {
-    Nodes<count> z;
+                                     const Path<count>& phase, const Nodes<count>& held) {
     for (std::size_t first = 0; first < count; first += block) {
-      const std::array<Pack, block> passed = integrals_up_to(rule, held, first);
-      for (std::size_t i = 0; i < block; ++i) {
-        const Pack mu =
-            sign > 0.0 ? 1.0 / decay(all_held - passed[i]) : decay(all_held - passed[i]);
-        z[first + i] = rule.gauss.weight[first + i] * mu;
+      const std::array<Pack, block> passed = block_times(rule.gauss.up_to, held, first);
+      for (std::size_t k = 0; k < block; ++k) {
+        const std::size_t i = first + k;
+        const Pack stays = decay(held_out_ + sign * passed[k]);
+        const Pack way = sign * (phase.length * rule.rate[i]) * stays;
+        const auto force = law_.field(phase.place[i], sign * phase.speed[i], acts);
+        for_each_group([&]<unsigned p>() {
+          const Pack rate = way * force.template derivative<p + 1>();
+          slopes_[p] += rule.gauss.weight[i] * rate;
+          tails_[p] += rule.gauss.last[i] * rate;
+          next_tails_[p] += rule.gauss.last_but_one[i] * rate;
+        });
       }
-    }
-    Pack change = 0.0;
-    for (int sweep = 0; sweep < follow_sweeps; ++sweep) {
-      change = 0.0;
-      for (std::size_t first = count; first > 0;) {
-        first -= block;
-        std::array<Pack, block> sums;
-        sums.fill(Pack(0.0));
-        for (std::size_t i = 0; i < count; ++i) {
-          const Pack value = held[i] * z[i];
-          for (std::size_t j = 0; j < block; ++j) sums[j] += rule.gauss.up_to[i][first + j] * value;
-        }
-        for (std::size_t j = 0; j < block; ++j) {
-          const Pack next = rule.gauss.weight[first + j] + sign * sums[j];
-          change = pack_larger(change, abs(next - z[first + j]));
-          z[first + j] = next;
-        }
-      }
-    }
-    good = good && change < most_change;
-    for (std::size_t i = 0; i < count; ++i) {
-      add(rule, i, acts, phase, held[i], z[i]);
     }
   }
 
-  template <class Rule, std::size_t count>
-  [[gnu::always_inline]] void add(const Rule& rule, std::size_t i, const Pack& acts,
-                                  const Path<count>& phase, const Pack& held, const Pack& z) {
-    const auto moving = law_.field(phase.place[i], phase.speed[i], acts);
-    const auto resting = law_.field(phase.place[i], Pack(0.0), acts);
-    const auto potential = law_.potential_with_gradient(phase.place[i]);
-    const Pack way = phase.length * rule.rate[i];
-    const Pack tail = rule.gauss.last[i] / rule.gauss.weight[i] * z;
+  /// act.operator()<k>() for each group k.
+  template <class Act>
+  [[gnu::always_inline]] static void for_each_group(const Act& act) {
     [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
-      const auto add_one = [&]<unsigned p>() {
-        const Pack rate =
-            held * (at_bottom_[p - 1] - potential.template derivative<p>()) +
-            way * (resting.template derivative<p>() - moving.template derivative<p>());
-        slopes_[p - 1] += z * rate;
-        tails_[p - 1] += tail * rate;
-      };
-      (add_one.template operator()<k + 1>(), ...);
+      (act.template operator()<k>(), ...);
     }
     (std::make_integer_sequence<unsigned, parameters>{});
   }
 
-  /// The gradient of half of e^2. With the losses at a fixed deepest point it is
-  ///   dP/dp - d(loss out)/dp + exp(-integral of D dsigma) (dH/dp at touch - dP/dp - d(loss
-  ///   in)/dp),
-  /// P at the deepest point.
+  /// What changes of the energy become, and the gradient of half of e^2.
   template <std::size_t count, class Inwards, class Outwards>
   [[gnu::flatten]] void follow_both(const Inwards& inwards, const Outwards& outwards,
-                                    const Path<count>& in, const Path<count>& out, Mask& good) {
+                                    const Path<count>& in, const Path<count>& out) {
     Nodes<count> held_in, held_out;
-    for (std::size_t i = 0; i < count; ++i) held_in[i] = in.damping[i] / in.speed[i];
-    for (std::size_t i = 0; i < count; ++i) held_out[i] = out.damping[i] / out.speed[i];
-    const Pack all_in = row_times(inwards.gauss.weight, held_in);
-    const Pack all_out = row_times(outwards.gauss.weight, held_out);
-    good = good && all_in + all_out < most_held;  // false for NaN
-    const auto each = [&]<class Act>(const Act& act) {
-      [&]<unsigned... k>(std::integer_sequence<unsigned, k...>) {
-        (act.template operator()<k>(), ...);
+    for (std::size_t i = 0; i < count; ++i) held_in[i] = in.damping[i] * in.slowness[i];
+    for (std::size_t i = 0; i < count; ++i) held_out[i] = out.damping[i] * out.slowness[i];
+    held_out_ = row_times(outwards.gauss.weight, held_out);
+    held_ = row_times(inwards.gauss.weight, held_in) + held_out_;
+    all_ = decay(pack_smaller(held_, Pack(most_held)));
+    held_defect_ = defect_of(inwards.gauss, held_in) + defect_of(outwards.gauss, held_out);
+    if constexpr (with_gradient) {
+      slopes_.fill(Pack(0.0));
+      tails_.fill(Pack(0.0));
+      next_tails_.fill(Pack(0.0));
+      follow(inwards, 1.0, acts_at_first_, in, held_in);
+      follow(outwards, -1.0, Pack(1.0), out, held_out);
+      if constexpr (Law::constants > 0) {
+        constexpr auto moving = [] {
+          unsigned k = 0;
+          while (Law::places[k] != place_of_range) ++k;
+          return k;
+        }();
+        slopes_[moving] -=
+            all_ * (law_.field(start_, Pack(1.0), acts_at_first_).value * start_slope_);
       }
-      (std::make_integer_sequence<unsigned, parameters>{});
-    };
-    const auto bottom = law_.potential_with_gradient(deepest_);
-    const auto touch = law_.potential_with_gradient(start_);
-    each([&]<unsigned k>() { at_bottom_[k] = bottom.template derivative<k + 1>(); });
-    slopes_.fill(Pack(0.0));
-    tails_.fill(Pack(0.0));
-    follow(inwards, 1.0, acts_at_first_, in, held_in, all_in, good);
-    const Pack mu = decay(all_in + all_out);
-    each([&]<unsigned k>() {
-      const Pack at_touch = touch.template derivative<k + 1>() - at_bottom_[k];
-      slopes_[k] = mu * (slopes_[k] - at_touch);
-      tails_[k] *= mu;
-    });
-    if constexpr (Law::constants > 0) {
-      constexpr auto moving = [] {
-        unsigned k = 0;
-        while (Law::places[k] != place_of_range) ++k;
-        return k;
-      }();
-      slopes_[moving] += mu * (law_.field(start_, Pack(1.0), acts_at_first_).value * start_slope_);
+      const auto potential = law_.potential_with_gradient(end_);
+      for_each_group([&]<unsigned p>() { slopes_[p] += potential.template derivative<p + 1>(); });
     }
-    follow(outwards, -1.0, Pack(1.0), out, held_out, all_out, good);
-    each([&]<unsigned k>() { slopes_[k] = at_bottom_[k] - slopes_[k]; });
   }
 
   /// False when its last coefficients are not small beside the gradient.
-  bool put_gradient(std::size_t lane, const ImpactGroups& impact, ImpactResult& result) {
+  bool put_gradient(std::size_t lane, double most_error, const ImpactGroups& impact,
+                    ImpactResult& result) {
     std::array<double, parameters> slopes, tails;
     for (unsigned k = 0; k < parameters; ++k) {
       slopes[k] = 2.0 * double(slopes_[k][lane]);
-      tails[k] = 2.0 * double(tails_[k][lane]);
+      tails[k] = 2.0 * (__builtin_fabs(double(tails_[k][lane])) +
+                        __builtin_fabs(double(next_tails_[k][lane])));
     }
     result.gradient = impact_gradient<Law>(impact, slopes);
     const std::array<double, 5> errors = impact_gradient<Law>(impact, tails);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       const double size = __builtin_fabs(result.gradient[k]);
-      if (!(__builtin_fabs(errors[k]) < most_tail * (size > 1.0 ? size : 1.0))) return false;
+      const double tail = __builtin_fabs(errors[k]) / (size > 1.0 ? size : 1.0);
+      if (!(tail * (tail + double(held_defect_[lane])) < most_error)) return false;
     }
     return true;
   }
@@ -298,16 +274,14 @@ class Phases {
 
   static constexpr int first_steps = 3;  // from LawPath::deepest, by Newton's rule
   static constexpr std::size_t few_nodes = 8;
-  static constexpr double coarse_change = 1e-6;  // of the losses, with few nodes
-  static constexpr double steeper = 3.0;  // Hertz's contact: d(loss) / d(energy) = 3 loss + ...
-  static constexpr int follow_sweeps = 2;
-  static constexpr double most_change = 1e-7;  // of what the gradient is summed with
-  static constexpr double most_held = 6.0;     // of the integral of D dsigma
-  // An impact is difficult, and for Flights, where these coefficients have not become small: the
-  // error of the integrals goes with their square. Both limits were found by comparison with the
-  // reference on some thousand impacts of each law.
-  static constexpr double most_defect = 1e-5;
-  static constexpr double most_tail = 2e-5;
+  static constexpr double coarse_change = 1e-5;  // of the losses, with few nodes
+  static constexpr double most_held = 6.0;       // of the integral of D dsigma
+  // An impact is difficult, and for more nodes or for Flights, where the last two coefficients of
+  // the rates have not become small: the error of e^2 goes with their product with those of D
+  // dsigma / ds, that of the gradient with the product of its own with these and with themselves.
+  static constexpr double most_defect = 1e-4;
+  static constexpr double most_e2_error = 1e-10;
+  static constexpr double most_gradient_error = 1e-8;
   // So it is where the energy at the end is this part of what there is: near capture a zero of u
   // comes close to the way.
   static constexpr double nearest = 0.02;
@@ -318,8 +292,11 @@ class Phases {
   Pack start_ = 0.0, start_slope_ = 0.0, release_ = 0.0, resting_ = 0.0;
   Pack deepest_ = 0.0, end_ = 0.0;  // q of the turning point and of the end
   Pack target_ = 0.0;               // the energy at the start
-  std::array<Pack, parameters> at_bottom_ = {}, slopes_ = {};
-  std::array<Pack, parameters> tails_ = {};
+  Pack missing_ = 0.0;              // the energy at the start of the path that was found, less that
+  Pack held_ = 0.0, held_out_ = 0.0;  // integral of D dsigma, of the impact and of its second phase
+  Pack held_defect_ = 0.0;            // the last two coefficients of what is integrated there
+  Pack all_ = 0.0;                    // exp(-held_)
+  std::array<Pack, parameters> slopes_ = {}, tails_ = {}, next_tails_ = {};
 };
 
 }  // namespace recoil
