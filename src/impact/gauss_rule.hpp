@@ -63,22 +63,33 @@ struct GaussRule {
     return row;
   }
 
-  /// The same for an f that is s, or with `at_both_ends` s (1 - s), times a polynomial through the
-  /// nodes. The error vanishes with its slope where f does: what is divided by s^2 or its root
-  /// keeps its digits at the first nodes.
-  constexpr Row vanishing_up_to(double s, bool at_both_ends) const {
-    const auto at_s = polynomials(2.0 * s - 1.0);
-    Row row = {};
+  using Series = std::array<double, count + 2>;  ///< in Legendre polynomials
+
+  /// For an f that is s, or with `at_both_ends` s (1 - s), times a polynomial through the nodes:
+  /// what is 1 at each node in turn and 0 at the others. Integrals of such an f have an error that
+  /// vanishes with its slope where f does: what is divided by s^2 or its root keeps its digits at
+  /// the first nodes.
+  constexpr std::array<Series, count> vanishing(bool at_both_ends) const {
+    std::array<Series, count> all = {};
     for (std::size_t j = 0; j < count; ++j) {
-      Series series = {};
+      Series& series = all[j];
       for (std::size_t k = 0; k < count; ++k) {
         series[k] = double(2 * k + 1) * weight[j] * of_node[j][k] / node[j];
       }
       series = times_half(series, 1.0);
-      if (at_both_ends) {
-        for (double& entry : series) entry /= 1.0 - node[j];
-        series = times_half(series, -1.0);
-      }
+      if (!at_both_ends) continue;
+      for (double& entry : series) entry /= 1.0 - node[j];
+      series = times_half(series, -1.0);
+    }
+    return all;
+  }
+
+  /// The same for the f of `vanishing`.
+  static constexpr Row integral_up_to(double s, const std::array<Series, count>& vanishing) {
+    const auto at_s = polynomials(2.0 * s - 1.0);
+    Row row = {};
+    for (std::size_t j = 0; j < count; ++j) {
+      const Series& series = vanishing[j];
       double sum = series[0] * s;
       for (std::size_t k = 1; k < series.size(); ++k) {
         sum += series[k] * 0.5 * (at_s[k + 1] - at_s[k - 1]) / double(2 * k + 1);
@@ -90,8 +101,6 @@ struct GaussRule {
 
  private:
   double of_node[count][count] = {};  // P_k at each node
-
-  using Series = std::array<double, count + 2>;  // in Legendre polynomials
 
   /// (1 + sign x) / 2 times the series, by the recurrence of the polynomials.
   static constexpr Series times_half(const Series& series, double sign) {

@@ -30,6 +30,9 @@ struct PhaseRule {
   static constexpr PhaseRule made() {
     PhaseRule rule;
     constexpr auto coarse = GaussRule<Owner, few>::made();
+    constexpr bool both = end == PhaseEnd::outer_turning_point;
+    constexpr auto of_few = coarse.vanishing(both);
+    const auto of_all = rule.gauss.vanishing(both);
     for (std::size_t i = 0; i < count; ++i) {
       const double s = rule.gauss.node[i];
       if (end == PhaseEnd::release) {
@@ -41,9 +44,8 @@ struct PhaseRule {
         rule.part[i] = sine * sine;
         rule.rate[i] = pi * sine * sine_of_quarters(1.0 - s);
       }
-      constexpr bool both = end == PhaseEnd::outer_turning_point;
-      rule.losses[i] = rule.gauss.vanishing_up_to(s, both);
-      rule.from_few[i] = coarse.vanishing_up_to(s, both);
+      rule.losses[i] = rule.gauss.integral_up_to(s, of_all);
+      rule.from_few[i] = coarse.integral_up_to(s, of_few);
     }
     return rule;
   }

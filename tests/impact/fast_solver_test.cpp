@@ -56,9 +56,9 @@ void expect_exact(const Rule& rule) {
     // s, and s (1 - s), times the polynomial
     const double s = 0.3;
     const auto powers = [&](int n) { return std::pow(s, n + 1) / (n + 1); };
-    const auto one_end = rule.vanishing_up_to(s, false);
+    const auto one_end = rule.integral_up_to(s, rule.vanishing(false));
     EXPECT_NEAR(integral(one_end, power + 1), powers(power + 1), 1e-14);
-    const auto both_ends = rule.vanishing_up_to(s, true);
+    const auto both_ends = rule.integral_up_to(s, rule.vanishing(true));
     EXPECT_NEAR(integral(both_ends, power + 1) - integral(both_ends, power + 2),
                 powers(power + 1) - powers(power + 2), 1e-14);
   }
