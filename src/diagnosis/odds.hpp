@@ -7,8 +7,8 @@
 namespace recoil {
 
 inline constexpr double most_impacts = 1e6;  ///< that anybody makes
-/// ln 99: from these expected log odds on, two rivals count as told apart.
-inline const double wanted_log_odds = std::log(99.0);
+/// ln 99: from these expected log odds on, a cause counts as seen, or as told from another.
+inline constexpr double wanted_log_odds = 4.59511985013459;
 
 /// The fewest impacts for which `log_odds(count)`, which rises with them, is what is wanted; none
 /// where `most` would not do.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/discrepancy.hpp"
-#include "diagnosis/other_target.hpp"
+#include "diagnosis/elsewhere.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/predictor.hpp"
 
@@ -145,113 +145,16 @@ PredictedSpread predicted_spread(const SearchBase& base, const CandidateResult& 
   return found;
 }
 
-namespace {
-
-/// C_H and C_A of every dataset by themselves, and its adhesion.
-FitSpec with_own_contacts(const FitSpec& spec) {
-  FitSpec own = spec;
-  own.parameters.clear();
-  for (const Parameter* parameter : parameters_with(spec.mechanisms, spec.adhesion)) {
-    ParameterSpec& stated = own.parameters.emplace_back(spec.statement_of(*parameter));
-    if (parameter->is_damping() || parameter->is_adhesion()) stated.per_dataset = true;
-  }
-  return own;
-}
-
-/// The slots of theta under which a point of `dataset` is predicted, in one order for all models
-/// with the same mechanisms.
-std::vector<std::size_t> slots_of(const ImpactModel& model, std::size_t dataset) {
-  std::vector<std::size_t> slots = {model.slot_C_H[dataset], model.slot_C_A[dataset],
-                                    model.slot_adhesion[dataset]};
-  for (const auto& own : model.slot_own) {
-    slots.insert(slots.end(), own[dataset].begin(), own[dataset].end());
-  }
-  return slots;
-}
-
-/// The slot of the constant of `model` that is constant `k` of `other`, which has more datasets.
-std::optional<std::size_t> same_constant(const ImpactModel& model, const ImpactModel& other,
-                                         std::size_t k) {
-  const UncertainConstant& wanted = other.constants[k];
-  for (std::size_t j = 0; j < model.constants.size(); ++j) {
-    const UncertainConstant& constant = model.constants[j];
-    if (constant.body == wanted.body && constant.constant == wanted.constant &&
-        constant.datasets.front() == wanted.datasets.front()) {
-      return model.first_constant() + j;
-    }
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
 RivalElsewhere::RivalElsewhere(const SearchBase& base, const CandidateResult& rival,
                                const Dataset& target, std::size_t like)
-    : base_(base), dataset_(base.datasets.size()) {
-  std::vector<Dataset> datasets = base.datasets;
-  datasets.push_back(target);
-  const Candidate& here = rival.candidate;
-  rival_.candidate =
-      make_candidate(with_own_contacts(base.spec), datasets, here.added, here.released);
-  rival_.candidate.model.solver = here.model.solver;
+    : base_(base) {
+  Elsewhere there = carried_elsewhere(base.spec, base.datasets, target, like, rival.candidate,
+                                      rival.refit.theta, rival.refit.moving);
+  rival_.candidate = std::move(there.candidate);
   rival_.refit.usable = true;
-  rival_.refit.theta = rival_.candidate.model.initial();
-  rival_.refit.moving.assign(rival_.refit.theta.size(), false);
-  precisions_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rival_.refit.theta.size()));
-  carry_over(rival);
-  guess_the_contact(like);
-}
-
-void RivalElsewhere::carry_over(const CandidateResult& rival) {
-  const ImpactModel& from = rival.candidate.model;
-  const ImpactModel& to = rival_.candidate.model;
-  const auto take = [&](std::size_t slot, std::size_t of_rival) {
-    const auto& moving = rival.refit.moving;
-    rival_.refit.theta[slot] = rival.refit.theta[of_rival];
-    rival_.refit.moving[slot] = of_rival < moving.size() && moving[of_rival];
-  };
-  for (std::size_t d = 0; d < dataset_; ++d) {
-    const std::vector<std::size_t> old_slots = slots_of(from, d);
-    const std::vector<std::size_t> slots = slots_of(to, d);
-    for (std::size_t k = 0; k < slots.size(); ++k) take(slots[k], old_slots[k]);
-  }
-  for (std::size_t k = 0; k < to.constants.size(); ++k) {
-    const std::size_t slot = to.first_constant() + k;
-    const auto old_slot = same_constant(from, to, k);
-    rival_.refit.moving[slot] = true;
-    if (old_slot) take(slot, *old_slot);
-  }
-}
-
-void RivalElsewhere::guess(std::size_t slot, double value, double sd) {
-  rival_.refit.theta[slot] = value;
-  if (!(sd > 0.0)) return;
-  rival_.refit.moving[slot] = true;
-  precisions_(static_cast<Eigen::Index>(slot)) = 1.0 / (sd * sd);
-}
-
-void RivalElsewhere::guess_the_contact(std::size_t like) {
-  const ImpactModel& model = rival_.candidate.model;
-  const std::vector<double>& theta = rival_.refit.theta;
-  for (const auto* slots : {&model.slot_C_H, &model.slot_C_A}) {
-    const double value = theta[(*slots)[like]];
-    const std::size_t slot = (*slots)[dataset_];
-    guess(slot, value, std::max(value, model.slots[slot].parameter->initial));
-  }
-  for (const auto& own : model.slot_own) {  // those of which the fit has one for each target
-    const std::size_t slot = own[dataset_].front();
-    const ParameterSlot& its = model.slots[slot];
-    if (its.stated || its.parameter->per_series || slot == own[like].front()) continue;
-    const double value = theta[own[like].front()];
-    guess(slot, value, std::abs(value));
-  }
-  const double derived = derived_adhesion(model, like);
-  const double factor = derived > 0.0 ? derived_adhesion(model, dataset_) / derived : 0.0;
-  const double adhesion = factor * theta[model.slot_adhesion[like]];
-  const bool ring = model.adhesion == AdhesionLaw::ring;
-  const double log_sd = (ring ? 1.0 : 1.5) * log_sd_of_other_adhesion;  // of f0, or of W
-  const bool by_constants = follows_materials(model, dataset_);
-  guess(model.slot_adhesion[dataset_], adhesion, by_constants ? 0.0 : log_sd * adhesion);
+  rival_.refit.theta = std::move(there.theta);
+  rival_.refit.moving = std::move(there.moving);
+  precisions_ = std::move(there.precisions);
 }
 
 std::vector<double> RivalElsewhere::restitution(const std::vector<PointConditions>& at) const {

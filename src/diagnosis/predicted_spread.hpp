@@ -41,7 +41,7 @@ struct PredictedTogether {
                                 ///< without an answer
 };
 
-/// A rival's model of all that was measured and of impacts on another target.
+/// A rival's model of all that was measured and of impacts on another target, `Elsewhere`.
 class RivalElsewhere {
  public:
   /// @param target `on_target` of a dataset of `base`, at place `like`
@@ -52,22 +52,12 @@ class RivalElsewhere {
   /// would follow from the materials; NaN without an answer.
   std::vector<double> restitution(const std::vector<PointConditions>& at) const;
 
-  /// The predictive distribution as in `predicted_spread`. On the other target nobody knows C_H and
-  /// C_A, which are taken for those of the present one with a standard deviation as large, nor the
-  /// adhesion (`log_sd_of_other_adhesion`); the strength of the mechanism is the same, and so are
-  /// the errors of the laws.
+  /// The predictive distribution as in `predicted_spread`; the errors of the laws are the same on
+  /// both targets.
   PredictedTogether predicted(const PossibleImpacts& possible) const;
 
-  /// The place of the target among the datasets.
-  std::size_t dataset() const { return dataset_; }
-
  private:
-  void carry_over(const CandidateResult& rival);
-  void guess(std::size_t slot, double value, double sd);
-  void guess_the_contact(std::size_t like);
-
   const SearchBase& base_;
-  std::size_t dataset_;
   CandidateResult rival_;       ///< with the target
   Eigen::VectorXd precisions_;  ///< known beforehand of its parameters [slots]
 };

@@ -6,10 +6,11 @@
 #include <numbers>
 #include <utility>
 
+#include "core/units.hpp"
+
 namespace recoil {
 namespace {
 
-constexpr double standard_gravity = 9.80665;  // [m/s2]
 constexpr double steps_of_rulers[] = {0.01, 0.005, 0.002, 0.001};
 constexpr double highest_of_steps = 15.0;
 constexpr double coherent = 0.9;

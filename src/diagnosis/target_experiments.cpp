@@ -4,25 +4,13 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/elsewhere.hpp"
 #include "diagnosis/measurable.hpp"
 #include "diagnosis/odds.hpp"
 #include "diagnosis/predicted_spread.hpp"
 
 namespace recoil {
 namespace {
-
-constexpr double least_expected = 0.3;  // nearer to capture a straight line is a poor guess
-constexpr int velocities_of_size = 6;   // of each size
-constexpr double least_range = 3.0;     // the fastest over the slowest of them
-constexpr int looked_at = 24;           // velocities, to find the slowest
-
-/// The dataset with the most points.
-std::size_t fullest(const SearchBase& base) {
-  const auto most = std::max_element(
-      base.datasets.begin(), base.datasets.end(),
-      [](const Dataset& a, const Dataset& b) { return a.points.size() < b.points.size(); });
-  return static_cast<std::size_t>(most - base.datasets.begin());
-}
 
 /// ln of the odds that `count` impacts at every place are expected to give the right one of two:
 /// the smaller of the two divergences of Kullback & Leibler.
@@ -52,7 +40,7 @@ class Target {
     const Dataset dataset = on_target(base.datasets[like], material);
     std::vector<RivalElsewhere> models;
     for (const CandidateResult* rival : rivals) models.emplace_back(base, *rival, dataset, like);
-    place(models);
+    find_places(models);
     for (const RivalElsewhere& model : models) {
       predicted_.push_back(possible_.at.empty() ? PredictedTogether{} : model.predicted(possible_));
     }
@@ -91,39 +79,25 @@ class Target {
   }
 
  private:
-  void place(const std::vector<RivalElsewhere>& models) {
+  void find_places(const std::vector<RivalElsewhere>& models) {
     double low = INFINITY, high = 0.0;
     for (const ImpactPoint& point : base_.datasets[like_].points) {
       low = std::min(low, point.incident_velocity);
       high = std::max(high, point.incident_velocity);
     }
-    const std::vector<double> sizes = distinct_diameters(base_.datasets[like_]);
-    add_places(models, sizes.front(), low, high);
-    if (sizes.size() > 1) add_places(models, sizes.back(), low, high);
-  }
-
-  void add_places(const std::vector<RivalElsewhere>& models, double diameter, double low,
-                  double high) {
-    const std::size_t dataset = models.front().dataset();
-    const auto spaced = [&](double from, int count) {
-      std::vector<PointConditions> at;
-      for (int k = 0; k < count; ++k) {
-        const double share = static_cast<double>(k) / (count - 1);
-        at.push_back({dataset, diameter, from * std::pow(high / from, share)});
+    const auto expected = [&](const std::vector<PointConditions>& at) {
+      std::vector<double> least(at.size(), INFINITY);
+      for (const RivalElsewhere& model : models) {
+        const std::vector<double> e = model.restitution(at);
+        for (std::size_t i = 0; i < e.size(); ++i) {
+          least[i] = std::isnan(e[i]) ? 0.0 : std::min(least[i], e[i]);
+        }
       }
-      return at;
+      return least;
     };
-    const std::vector<PointConditions> looked = spaced(low, looked_at);
-    std::size_t first = 0;  // from here on all expect rebounds
-    for (const RivalElsewhere& model : models) {
-      const std::vector<double> e = model.restitution(looked);
-      for (std::size_t i = first; i < e.size(); ++i) {
-        if (!(e[i] >= least_expected)) first = i + 1;
-      }
-    }
-    if (first == looked.size() || high < least_range * looked[first].velocity) return;
-    for (const PointConditions& at : spaced(looked[first].velocity, velocities_of_size)) {
-      possible_.at.push_back(at);
+    possible_.at =
+        places_elsewhere(base_.datasets[like_], base_.datasets.size(), low, high, expected);
+    for (const PointConditions& at : possible_.at) {
       possible_.sd.push_back(scatter_of_one_event(base_.fitted, like_, at.velocity));
     }
   }
@@ -140,7 +114,7 @@ class Target {
 std::vector<NextExperiment> target_experiments(const SearchBase& base,
                                                const std::vector<const CandidateResult*>& rivals) {
   if (rivals.size() < 2) return {};
-  const std::size_t like = fullest(base);
+  const std::size_t like = fullest(base.datasets);
   std::vector<Target> targets;
   for (const TargetMaterial& material : other_targets(base.datasets[like])) {
     targets.emplace_back(base, rivals, like, material);

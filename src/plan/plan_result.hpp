@@ -10,6 +10,7 @@
 #include "data/condition.hpp"
 #include "data/dataset.hpp"
 #include "diagnosis/next_experiment.hpp"
+#include "diagnosis/odds.hpp"
 #include "estimate/model.hpp"
 #include "mechanism/mechanism.hpp"
 
@@ -31,9 +32,6 @@ struct PlanOptions {
 };
 
 inline constexpr int most_planned_impacts = 10000;  ///< where the wanted error decides
-
-/// ln 99: from these expected log odds on, a cause counts as seen, or as told from another.
-inline constexpr double planned_log_odds = 4.59511985013459;
 
 /// Points to be made at one velocity and size.
 struct PlannedSetting {
@@ -86,6 +84,10 @@ struct PlanRemedy {
   Condition condition = Condition::ambient_pressure;  ///< of kind `condition`
   double value = 0.0;                                 ///< what it is set to, in its unit
   std::string_view doing;                             ///< in a laboratory: "pump the chamber"
+  /// Of kind `target`: on what, and where; `impacts` are all of them, `diameter` and `velocity`
+  /// those of the first place.
+  TargetMaterial material;
+  std::vector<ExperimentPlace> places;
 };
 
 /// A rival that the plan does not tell from a cause.
@@ -111,7 +113,7 @@ struct PlannedCause {
   int rivals = 0;                    ///< other causes with which it was compared
   std::vector<Confusion> confused;   ///< those of them from which it is not told
 
-  bool seen() const { return log_odds >= planned_log_odds; }
+  bool seen() const { return log_odds >= wanted_log_odds; }
 };
 
 /// Two causes to be told apart, by their ids; the second is empty where the first is to be seen.

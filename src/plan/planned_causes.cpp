@@ -1,122 +1,32 @@
 #include "plan/planned_causes.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <map>
 
 #include "diagnosis/candidate.hpp"
+#include "diagnosis/elsewhere.hpp"
 #include "diagnosis/next_experiments.hpp"
+#include "plan/comparison.hpp"
+#include "plan/planned_target.hpp"
 #include "plan/possible_causes.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr double unknown_precision = 1e-10;  // of a free parameter, in the points' own
-constexpr double most_more_impacts = 1e4;
 constexpr double worth_sharing = 3.0;  // times the least effort, for a step that does more
-constexpr int rounds_of_amplitude = 3;
 
-/// What is true, seen by one who takes the effect `rival` for it; null: by the base model.
-class Comparison {
- public:
-  Comparison(const PlanGround& ground, double law_error, const Effect& truth, const Effect* rival,
-             double least, double most)
-      : ground_(ground), law_error_(law_error), truth_(truth), rival_(rival) {
-    if (rival != nullptr) k_ = std::clamp(amplitude(ground, truth, *rival), least, most);
-    lay_out();
-    for (int round = 0; rival != nullptr && round < rounds_of_amplitude; ++round) {
-      const Eigen::VectorXd z = rival->change.head(ground.settings);
-      const double zz = product(z, z);
-      if (!(zz > 0.0)) break;
-      const double next =
-          std::clamp(product(truth_.change.head(ground.settings), z) / zz, least, most);
-      if (std::abs(next - k_) < 1e-3 * std::abs(next)) break;
-      k_ = next;
-      lay_out();
-    }
-    const Eigen::VectorXd y = left();
-    chi2_ = std::max(0.0, product(y, y));
-    found_ = factor_.solve(columns_.topRows(ground.settings).transpose() * y);
-  }
+/// More impacts: at a place, under a condition that takes something away or as they are (null), or
+/// on another target.
+struct Option {
+  std::optional<std::size_t> target;  ///< of those that are examined
+  const TakenAway* away = nullptr;
+  std::size_t place = 0;
 
-  double log_odds() const { return 0.5 * chi2_; }
-
-  /// Impacts at place `i` for expected odds of 99 to 1, where a condition may have taken away the
-  /// truth or the rival.
-  std::optional<int> impacts_for(Eigen::Index i, bool no_truth, bool no_rival) const {
-    Eigen::VectorXd row = columns_.row(i).transpose();
-    double y = 0.0;
-    if (!no_truth) y += truth_.change(i);
-    if (!no_rival && rival_ != nullptr) y -= k_ * rival_->change(i);
-    if (no_truth) row.segment(of_truth_, functions()).setZero();
-    if (no_rival && rival_ != nullptr) row.tail(row.size() - of_rival_).setZero();
-    row *= ground_.once(i);
-    const double apart = ground_.once(i) * y - row.dot(found_);
-    const double spread = row.dot(factor_.solve(row));
-    const double lacking = 2.0 * planned_log_odds - chi2_;
-    const double room = apart * apart / lacking - spread;  // for 1 / n
-    if (!(room * most_more_impacts > 1.0)) return std::nullopt;
-    return std::max(1, static_cast<int>(std::ceil(1.0 / room)));
-  }
-
- private:
-  Eigen::Index functions() const { return ground_.functions.cols(); }
-
-  /// Everything that could make up for the effect: parameters, errors of the laws.
-  void lay_out() {
-    const Eigen::Index p = ground_.slopes.cols();
-    const Eigen::Index r = functions();
-    const Eigen::Index released = rival_ != nullptr ? rival_->released.cols() : 0;
-    of_truth_ = p + r;
-    of_rival_ = p + 2 * r;
-    columns_.resize(ground_.slopes.rows(), of_rival_ + (rival_ != nullptr ? r + released : 0));
-    columns_.leftCols(p) = ground_.slopes;
-    columns_.middleCols(p, r) = ground_.errors;
-    columns_.middleCols(of_truth_, r) =
-        (law_error_ * truth_.change).asDiagonal() * ground_.functions;
-    if (rival_ != nullptr) {
-      columns_.middleCols(of_rival_, r) =
-          (law_error_ * k_ * rival_->change).asDiagonal() * ground_.functions;
-      columns_.rightCols(released) = k_ * rival_->released;
-    }
-    const auto made = columns_.topRows(ground_.settings);
-    Eigen::MatrixXd information = made.transpose() * made;
-    for (Eigen::Index j = 0; j < information.rows(); ++j) {
-      const double prior = j >= p ? 1.0 : ground_.known(j);
-      information(j, j) += prior > 0.0 ? prior : unknown_precision * information(j, j) + 1e-300;
-    }
-    factor_.compute(information);
-  }
-
-  /// What the rival leaves of the effect before anything else makes up for it.
-  Eigen::VectorXd left() const {
-    Eigen::VectorXd y = truth_.change.head(ground_.settings);
-    if (rival_ != nullptr) y -= k_ * rival_->change.head(ground_.settings);
-    return y;
-  }
-
-  /// a' S^-1 b, S the covariance of the settings with all of `columns_`.
-  double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
-    const auto made = columns_.topRows(ground_.settings);
-    return a.dot(b) - (made.transpose() * a).dot(factor_.solve(made.transpose() * b));
-  }
-
-  const PlanGround& ground_;
-  double law_error_;
-  const Effect& truth_;
-  const Effect* rival_;
-  double k_ = 0.0;
-  Eigen::Index of_truth_ = 0, of_rival_ = 0;
-  Eigen::MatrixXd columns_;
-  Eigen::LDLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd found_;
-  double chi2_ = 0.0;
+  auto operator<=>(const Option&) const = default;
 };
-
-/// More impacts at a place, under a condition that takes something away or as they are (null).
-using Option = std::pair<const TakenAway*, std::size_t>;
 using Options = std::map<Option, int>;  ///< and how many
 
 class Causes {
@@ -129,6 +39,9 @@ class Causes {
       if (auto cause = possible_cause(spec, plan, ground_, *mechanism)) {
         all_.push_back(std::move(*cause));
       }
+    }
+    for (const TargetMaterial& material : other_targets(plan.datasets[fullest(plan.datasets)])) {
+      targets_.emplace_back(spec, plan, all_, material);
     }
   }
 
@@ -164,25 +77,15 @@ class Causes {
     if (!cause.parameter->log_scale && !cause.stated && found.log_odds > 0.0) {
       const double null = cause.parameter->null_value;
       found.seen_from =
-          null + (found.strength - null) * std::sqrt(planned_log_odds / found.log_odds);
+          null + (found.strength - null) * std::sqrt(wanted_log_odds / found.log_odds);
     }
     if (!found.seen()) found.remedy = remedy(with_base, cause, nullptr);
     for (const PossibleCause& rival : all_) {
       if (one_cause(cause, rival)) continue;
       ++found.rivals;
       if (!found.seen()) continue;
-      std::optional<Comparison> closest;
-      const auto compare = [&](const Effect& effect) {
-        const double scale = amplitude(ground_, effect, rival.typical);
-        if (!(std::abs(scale) > 0.0)) return;
-        const double least = std::min(rival.least / scale, rival.most / scale);
-        const double most = std::max(rival.least / scale, rival.most / scale);
-        Comparison with(ground_, law_error_, cause.typical, &effect, least, most);
-        if (!closest || with.log_odds() < closest->log_odds()) closest.emplace(std::move(with));
-      };
-      compare(rival.typical);
-      for (const Effect& other : rival.others) compare(other);
-      if (!closest || closest->log_odds() >= planned_log_odds) continue;
+      const auto closest = closest_comparison(ground_, law_error_, cause, rival);
+      if (!closest || closest->log_odds() >= wanted_log_odds) continue;
       found.confused.push_back({std::string(rival.mechanism->info.id), closest->log_odds(),
                                 remedy(*closest, cause, &rival)});
     }
@@ -200,8 +103,9 @@ class Causes {
     return (impacts + events - 1) / events * events;
   }
 
-  int effort(const Option& option, int impacts) const {
-    return impacts + (option.first != nullptr ? effort_of_a_change : 0);
+  static int effort(const Option& option, int impacts) {
+    if (option.target) return impacts + effort_of_a_target;
+    return impacts + (option.away != nullptr ? effort_of_a_change : 0);
   }
 
   /// The impacts of everything that would tell `rival` (none: the base model) from `cause`.
@@ -212,7 +116,7 @@ class Causes {
       for (std::size_t i = 0; i < ground_.at.size(); ++i) {
         const auto impacts =
             comparison.impacts_for(static_cast<Eigen::Index>(i), no_truth, no_rival);
-        if (impacts) found[{away, i}] = whole(*impacts);
+        if (impacts) found[{std::nullopt, away, i}] = whole(*impacts);
       }
     };
     look(false, false, nullptr);
@@ -223,11 +127,21 @@ class Causes {
       const bool no_rival = rival != nullptr && goes(*rival, away.condition);
       if (!(no_truth && no_rival)) look(no_truth, no_rival, &away);
     }
+    if (!found.empty() && least_effort(found) <= effort_of_a_target) return found;
+    const auto place_of = [&](const PossibleCause& one) {
+      return static_cast<std::size_t>(&one - all_.data());
+    };
+    for (std::size_t t = 0; t < targets_.size(); ++t) {
+      const auto other = rival != nullptr ? std::optional(place_of(*rival)) : std::nullopt;
+      const auto impacts = targets_[t].impacts_for(place_of(cause), other);
+      if (impacts) found[{t}] = *impacts;
+    }
     return found;
   }
 
   PlanRemedy remedy_of(const Option& option, int impacts) const {
-    const auto& [away, place] = option;
+    if (option.target) return targets_[*option.target].remedy(impacts);
+    const auto& [target, away, place] = option;
     PlanRemedy remedy;
     remedy.dataset = ground_.at[place].dataset;
     remedy.diameter = ground_.at[place].diameter;
@@ -241,7 +155,7 @@ class Causes {
     return remedy;
   }
 
-  int least_effort(const Options& options) const {
+  static int least_effort(const Options& options) {
     int least = std::numeric_limits<int>::max();
     for (const auto& [option, impacts] : options) {
       least = std::min(least, effort(option, impacts));
@@ -308,6 +222,7 @@ class Causes {
   double law_error_;
   PlanGround ground_;
   std::vector<PossibleCause> all_;
+  std::vector<PlannedTarget> targets_;
   std::map<CausePair, Options> needs_;  // what the plan lacks
 };
 

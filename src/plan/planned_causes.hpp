@@ -20,8 +20,9 @@ namespace recoil {
 ///
 /// What is not told apart gets the cheapest remedy: more points at one of the settings or beyond
 /// them (0.7 times the slowest to 1.5 times the fastest velocity, 0.6 times the smallest to 1.6
-/// times the largest size), or the same under a condition that takes one of the two away, which
-/// costs `effort_of_a_change` impacts on top; no more than 10000 impacts. The steps are chosen one
+/// times the largest size), the same under a condition that takes one of the two away, which costs
+/// `effort_of_a_change` impacts on top, or impacts on another target (`PlannedTarget`), which costs
+/// `effort_of_a_target`; no more than 10000 impacts. The steps are chosen one
 /// by one, each the one that does most of what is left for at most three times the least effort.
 /// Laws of one cause are not compared, nor descriptions; what moves each series by itself is left
 /// out, as nobody plans for it, and so is what spreads the impacts of a point where

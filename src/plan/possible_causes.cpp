@@ -63,6 +63,12 @@ Eigen::VectorXd squares_at(PointPredictor& predictor, const std::vector<double>&
   return found;
 }
 
+/// A parameter of a mechanism, and how far it can be from where it is.
+struct NotKnown {
+  std::size_t slot = 0;
+  double sd = 0.0;
+};
+
 /// One mechanism under the plan.
 class Examined {
  public:
@@ -78,27 +84,28 @@ class Examined {
 
   Effect effect(double strength) {
     std::vector<double> theta = theta_;
-    std::vector<std::size_t> fixed;
+    std::vector<NotKnown> not_known;
     for (std::size_t j = 0; j < theta.size(); ++j) {
       const ParameterSlot& slot = candidate_.model.slots[j];
       if (slot.mechanism() != &mechanism_ || slot.stated) continue;
       if (slot.parameter == &mechanism_.info.parameters.front()) {
         theta[j] = strength;
       } else if (slot.free || slot.parameter->searched) {
-        fixed.push_back(j);
+        const PlausibleRange& range = slot.parameter->plausible;
+        not_known.push_back({j, 0.5 * (range.upper - range.lower)});
       }
     }
+    if (own_strength_) not_known.push_back({*own_strength_, std::abs(strength)});
     Effect found;
     found.strength = strength;
     const Eigen::VectorXd with = squares_at(predictor_, theta, true);
     found.change = (with - without_).cwiseProduct(ground_.weight);
-    found.released.resize(with.size(), static_cast<Eigen::Index>(fixed.size()));
+    found.released.resize(with.size(), static_cast<Eigen::Index>(not_known.size()));
     std::vector<double> row(theta.size());
     for (Eigen::Index i = 0; i < with.size(); ++i) {
       predictor_.gradient_row(static_cast<std::size_t>(i), ground_.weight(i), row);
-      for (std::size_t k = 0; k < fixed.size(); ++k) {
-        const PlausibleRange& range = candidate_.model.slots[fixed[k]].parameter->plausible;
-        const double slope = row[fixed[k]] * 0.5 * (range.upper - range.lower);
+      for (std::size_t k = 0; k < not_known.size(); ++k) {
+        const double slope = row[not_known[k].slot] * not_known[k].sd;
         const bool known = std::isfinite(with(i)) && std::isfinite(slope);
         found.released(i, static_cast<Eigen::Index>(k)) = known ? slope : 0.0;
       }
@@ -111,6 +118,15 @@ class Examined {
     return found;
   }
 
+  /// Its strength in the last dataset is not known where it is one for each dataset.
+  void forget_the_last_strength() {
+    const auto& own = candidate_.model.slot_own[first_parameter(candidate_.model, mechanism_)];
+    const std::size_t slot = own.back().front();
+    const ParameterSlot& its = candidate_.model.slots[slot];
+    if (its.stated || its.parameter->per_series || slot == own.front().front()) return;
+    own_strength_ = slot;
+  }
+
   const std::vector<double>& theta() const { return theta_; }
 
  private:
@@ -120,19 +136,24 @@ class Examined {
   std::vector<double> theta_;
   PointPredictor predictor_;
   Eigen::VectorXd without_;
+  std::optional<std::size_t> own_strength_;
 };
 
 }  // namespace
 
 PlanGround ground_of(const FitSpec& spec, const ExperimentPlan& plan) {
+  return ground_at(spec, plan, planned_parameters(plan.model, plan.theta), places_to_look(plan));
+}
+
+PlanGround ground_at(const FitSpec& spec, const ExperimentPlan& plan,
+                     const PlannedParameters& parameters, std::vector<PointConditions> at) {
   PlanGround ground;
-  ground.at = places_to_look(plan);
+  ground.at = std::move(at);
   ground.settings = static_cast<Eigen::Index>(plan.settings.size());
   std::vector<PlannedScatter> scatter;
   for (const Dataset& dataset : plan.datasets) {
     scatter.push_back(planned_scatter(plan.options, spec.noise, dataset));
   }
-  const PlannedParameters parameters = planned_parameters(plan.model, plan.theta);
   const PossiblePoints points =
       possible_points(plan.model, plan.theta, parameters, ground.at, scatter);
   const auto rows = static_cast<Eigen::Index>(ground.at.size());
@@ -208,6 +229,18 @@ std::optional<PossibleCause> possible_cause(const FitSpec& spec, const Experimen
   }
   cause.most = std::max(cause.most, 1.0);
   return cause;
+}
+
+PossibleCause carried_to(const PossibleCause& cause, const FitSpec& spec,
+                         const ExperimentPlan& plan, const PlanGround& ground) {
+  const Candidate candidate =
+      make_candidate(spec, plan.datasets, {std::string(cause.mechanism->info.id)});
+  Examined examined(plan, ground, candidate, *cause.mechanism);
+  examined.forget_the_last_strength();
+  PossibleCause carried = cause;
+  carried.typical = examined.effect(cause.typical.strength);
+  for (Effect& other : carried.others) other = examined.effect(other.strength);
+  return carried;
 }
 
 }  // namespace recoil

@@ -8,6 +8,7 @@
 #include "estimate/point_conditions.hpp"
 #include "mechanism/mechanism.hpp"
 #include "plan/plan_result.hpp"
+#include "plan/possible_points.hpp"
 
 namespace recoil {
 
@@ -28,6 +29,10 @@ struct PlanGround {
 /// The settings of `plan`, then 24 velocities (0.7 times the slowest to 1.5 times the fastest) of
 /// its sizes, of 0.6 times the smallest and of 1.6 times the largest one, in every dataset.
 PlanGround ground_of(const FitSpec& spec, const ExperimentPlan& plan);
+
+/// @param at the settings of `plan` first
+PlanGround ground_at(const FitSpec& spec, const ExperimentPlan& plan,
+                     const PlannedParameters& parameters, std::vector<PointConditions> at);
 
 /// What one mechanism does at one strength to all places of a PlanGround.
 struct Effect {
@@ -54,5 +59,10 @@ struct PossibleCause {
 /// None where the conditions take it away, or it cannot be of any size.
 std::optional<PossibleCause> possible_cause(const FitSpec& spec, const ExperimentPlan& plan,
                                             const PlanGround& ground, const Mechanism& mechanism);
+
+/// `cause` at the same strengths on another ground. A strength that is the last dataset's own is
+/// not known there.
+PossibleCause carried_to(const PossibleCause& cause, const FitSpec& spec,
+                         const ExperimentPlan& plan, const PlanGround& ground);
 
 }  // namespace recoil

@@ -200,8 +200,7 @@ std::string several_words(const Diagnosis& d) {
   if (!d.alone.empty()) {
     return fmt::format(
         "Two causes at once leave nothing behind ({}), but one alone comes so close ({}) that it "
-        "is "
-        "as likely, if its law is wrong by more than laws are taken to be. Candidates: {}.",
+        "is as likely, if its law is wrong by more than laws are taken to be. Candidates: {}.",
         words_of(d.extended->candidate.name()), titles_of(d.alone, "; "), all);
   }
   if (d.extended->candidate.added.size() > 1) {

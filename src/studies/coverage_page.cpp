@@ -115,8 +115,7 @@ std::optional<Sentence> verdict_words(const std::vector<ParameterCoverage>& rows
   return say(
       "The verdict has a coverage of its own: of {} parameters whose estimates scatter by more "
       "than a tenth of their scale (actual error), {} were called identifiable in more than {:.0f} "
-      "% of "
-      "the data sets, in {:.1f} % at most.",
+      "% of the data sets, in {:.1f} % at most.",
       judged, misled, 100.0 * most_misled, 100.0 * most);
 }
 

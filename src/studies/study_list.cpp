@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view coverage_sources = "coverage_";  // of src/studies
+
 Study grid_study(const std::string& name, const std::string& designs, int datasets) {
   return {"coverage-grid-" + name,
           fmt::format("coverage-grid fits/wall1990-molybdenum.toml --designs {} --datasets {} "
@@ -91,12 +93,21 @@ bool shows_results(const std::string& stage) {
   return std::find(stages.begin(), stages.end(), stage) != stages.end();
 }
 
+bool decides(const std::string& command, const fs::path& source) {
+  const std::string stage = source.begin()->string();
+  if (shows_results(stage)) return false;
+  if (!command.starts_with("coverage-")) return true;
+  constexpr std::array<std::string_view, 5> later = {"predict", "diagnosis", "plan", "export",
+                                                     "python"};
+  if (stage == "studies") return source.filename().string().starts_with(coverage_sources);
+  return std::find(later.begin(), later.end(), stage) == later.end();
+}
+
 std::string study_key(const fs::path& root, const std::string& command) {
   std::vector<fs::path> files;
   const fs::path sources = root / "src";
-  add_files(files, sources, [&](const fs::path& file) {
-    return !shows_results(fs::relative(file, sources).begin()->string());
-  });
+  add_files(files, sources,
+            [&](const fs::path& file) { return decides(command, fs::relative(file, sources)); });
   add_files(files, root / "fits", [](const fs::path& file) { return file.extension() == ".toml"; });
   add_files(files, root / "datasets",
             [](const fs::path& file) { return file.filename() != correction_studies_name; });

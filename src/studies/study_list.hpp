@@ -19,11 +19,16 @@ const std::vector<Study>& all_studies();
 const Study& study_named(const std::string& name);
 
 /// Changes with everything that a study's numbers depend on: the command, the fits, the data, and
-/// all sources below `root`/src but those that only show results (`shows_results`).
+/// the sources below `root`/src that decide them (`decides`).
 std::string study_key(const std::filesystem::path& root, const std::string& command);
 
 /// Does this folder of src only show what others computed?
 bool shows_results(const std::string& stage);
+
+/// Can `source`, a file below src, change a number of the study `command`? Not where it only shows
+/// results, nor, for a study of coverage, where it comes later in the pipeline or belongs to
+/// another study.
+bool decides(const std::string& command, const std::filesystem::path& source);
 
 enum class StudyState {
   missing,

@@ -5,23 +5,15 @@
 
 #include "diagnosis/next_experiments.hpp"
 #include "estimate/predictor.hpp"
-#include "support/synthetic.hpp"
+#include "search_with_exact_laws.hpp"
 
 namespace recoil {
 namespace {
 
-FitSpec with_exact_laws() {
-  FitSpec spec = synthetic::spec();
-  spec.law_error = 0.0;
-  return spec;
-}
-
 /// Rivals that differ, as a search would have left them, beside a fit with errors of 0.01 in e.
-class NextExperiments : public testing::Test {
+class NextExperiments : public SearchWithExactLaws {
  protected:
   NextExperiments() {
-    fitted_ = fit(make_model(spec_, data_), gather(data_, spec_.noise));
-    base_.emplace(search_base(spec_, data_, fitted_, options_));
     for (const auto& [id, value] :
          std::vector<std::pair<std::string, double>>{{"plastic_yield", 2e8},
                                                      {"electrostatic_image", 2e6},
@@ -53,11 +45,6 @@ class NextExperiments : public testing::Test {
     return NAN;
   }
 
-  const FitSpec spec_ = with_exact_laws();
-  const DiagnosisOptions options_;
-  const std::vector<Dataset> data_ = {synthetic::dataset({})};
-  FitResult fitted_;
-  std::optional<SearchBase> base_;
   std::vector<CandidateResult> rivals_;
 };
 

@@ -7,7 +7,7 @@
 
 #include "diagnosis/predicted_spread.hpp"
 #include "diagnosis/target_experiments.hpp"
-#include "support/synthetic.hpp"
+#include "search_with_exact_laws.hpp"
 
 namespace recoil {
 namespace {
@@ -66,19 +66,8 @@ TEST(OtherTarget, KeepsSpheresAndInstrumentAndScalesWhatIsStatedOfThePair) {
       1.0, 1e-9);
 }
 
-class OnAnotherTarget : public testing::Test {
+class OnAnotherTarget : public SearchWithExactLaws {
  protected:
-  OnAnotherTarget() {
-    fitted_ = fit(make_model(spec_, data_), gather(data_, spec_.noise));
-    base_.emplace(search_base(spec_, data_, fitted_, options_));
-  }
-
-  static FitSpec exact_laws() {
-    FitSpec spec = synthetic::spec();
-    spec.law_error = 0.0;
-    return spec;
-  }
-
   CandidateResult rival(const std::vector<std::string>& added, double value) const {
     CandidateResult rival;
     rival.candidate = make_candidate(spec_, data_, added);
@@ -87,12 +76,6 @@ class OnAnotherTarget : public testing::Test {
     if (!added.empty()) rival.refit.theta.at(3) = value;
     return rival;
   }
-
-  const FitSpec spec_ = exact_laws();
-  const DiagnosisOptions options_;
-  const std::vector<Dataset> data_ = {synthetic::dataset({})};
-  FitResult fitted_;
-  std::optional<SearchBase> base_;
 };
 
 // Where all is known but C_H, C_A and f0 of the new target, its readings vary together as these
@@ -102,7 +85,7 @@ TEST_F(OnAnotherTarget, NobodyKnowsWhatDampsAndHoldsTheSpheresThere) {
   const RivalElsewhere elsewhere(*base_, rival({}, 0.0), target, 0);
   PossibleImpacts possible;
   for (const double velocity : {6.0, 20.0, 80.0}) {
-    possible.at.push_back({elsewhere.dataset(), 4.9e-6, velocity});
+    possible.at.push_back({data_.size(), 4.9e-6, velocity});
     possible.sd.push_back(0.01);
   }
   const PredictedTogether found = elsewhere.predicted(possible);

@@ -131,7 +131,7 @@ TEST(PlannedCauses, EveryOneOfTheListIsSaidOnceAndWithinWhatItCanBe) {
       EXPECT_FALSE(cause.remedy) << cause.id;
     }
     for (const recoil::Confusion& rival : cause.confused) {
-      EXPECT_LT(rival.log_odds, recoil::planned_log_odds) << cause.id << " " << rival.id;
+      EXPECT_LT(rival.log_odds, recoil::wanted_log_odds) << cause.id << " " << rival.id;
     }
   }
   EXPECT_GT(ids.size(), 10U);

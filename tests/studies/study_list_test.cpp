@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <regex>
 #include <set>
+#include <sstream>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -32,6 +35,7 @@ class Tree : public testing::Test {
     write_whole_file(root_ / file, text);
   }
   std::string key() const { return study_key(root_, "coverage-grid fits/a.toml"); }
+  std::string diagnosis_key() const { return study_key(root_, "hidden-effects"); }
 
   fs::path root_;
 };
@@ -45,13 +49,41 @@ TEST_F(Tree, TheKeyChangesWithEveryFolderThatDecidesNumbers) {
   ASSERT_TRUE(stages.contains("mechanism"));
   for (const std::string& stage : stages) write("src/" + stage + "/a.cpp", "1");
   for (const std::string& stage : stages) {
-    const std::string before = key();
+    const std::string before = diagnosis_key();
     write("src/" + stage + "/a.cpp", "2");
-    EXPECT_EQ(key() == before, shows_results(stage)) << stage;
+    EXPECT_EQ(diagnosis_key() == before, shows_results(stage)) << stage;
   }
   for (const char* stage : {"core", "mechanism", "impact", "coverage", "diagnosis", "studies"}) {
     EXPECT_FALSE(shows_results(stage)) << stage;
   }
+}
+
+// A study of coverage ends where the pipeline has its intervals: what it leaves out, none of its
+// sources includes, directly or by way of another.
+TEST_F(Tree, TheKeyOfCoverageLeavesOutOnlyWhatItsSourcesDoNotInclude) {
+  const std::string command = "coverage-grid fits/a.toml";
+  std::vector<fs::path> left = {"studies/coverage_study.cpp", "studies/coverage_grid.cpp"};
+  std::set<fs::path> seen(left.begin(), left.end());
+  while (!left.empty()) {
+    const fs::path file = left.back();
+    left.pop_back();
+    const bool stamp = file.filename().stem() == "study_stamp";  // what is written above the result
+    EXPECT_TRUE(decides(command, file) || shows_results(file.begin()->string()) || stamp) << file;
+    std::istringstream lines(read_text_file(source_root / "src" / file));
+    for (std::string line; std::getline(lines, line);) {
+      std::smatch match;
+      if (!std::regex_match(line, match, std::regex("#include \"(.*)\""))) continue;
+      fs::path included = match[1].str();
+      for (const char* extension : {".hpp", ".cpp"}) {
+        included.replace_extension(extension);
+        if (!fs::exists(source_root / "src" / included)) continue;
+        if (seen.insert(included).second) left.push_back(included);
+      }
+    }
+  }
+  EXPECT_GT(seen.size(), 100u);
+  EXPECT_FALSE(decides(command, "diagnosis/search.cpp"));
+  EXPECT_FALSE(decides(command, "studies/hidden_effects_plan.cpp"));
 }
 
 TEST_F(Tree, TheKeyChangesWithFitsDataAndTheCommandButNotWithResults) {

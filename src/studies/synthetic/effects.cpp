@@ -219,6 +219,13 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
 
 }  // namespace
 
+double size_of_offsets(const Effects& effects) {
+  if (effects.series_offset.empty()) return 0.0;
+  double square = 0.0;
+  for (const double offset : effects.series_offset) square += offset * offset;
+  return std::sqrt(square / static_cast<double>(effects.series_offset.size()));
+}
+
 double square_of_restitution(const Base& base, const Effects& effects, double velocity,
                              double diameter, double size_factor, double adhesion_factor) {
   const double exact =

@@ -47,6 +47,9 @@ struct Effects {
   Bend bend_of_base;           ///< a factor on 1 - e^2 of the base model
 };
 
+/// Root mean square of the offsets of the series on e; 0 without any.
+double size_of_offsets(const Effects& effects);
+
 /// (v_out / V)^2 of one sphere on its way from the measuring plane to the surface and back; below
 /// zero when it does not come back. @param velocity as read [m/s] @param diameter as stated [m]
 /// @param size_factor, adhesion_factor how this sphere differs from the typical one

@@ -53,6 +53,15 @@ double reading_of(const Effects& effects, const Point& point) {
   return e > 0.0 && !effects.series_offset.empty() ? e + effects.series_offset[point.row] : e;
 }
 
+/// Until every row has one; each has an error of its own, if any has.
+void add_batches(Effects& effects, std::size_t rows, recoil::RandomStream& random) {
+  if (effects.series_offset.empty()) return;
+  const double size = size_of_offsets(effects);
+  while (effects.series_offset.size() < rows) {
+    effects.series_offset.push_back(size * random.normal());
+  }
+}
+
 void take_here(Case& made, const FurtherImpacts& further, std::uint64_t round) {
   recoil::RandomStream random(made.order.experiment_seed() + 7919 * (round + 1), hidden_purpose,
                               99);
@@ -67,12 +76,7 @@ void take_here(Case& made, const FurtherImpacts& further, std::uint64_t round) {
     added.name = fmt::format("{:.3g} um", 1e6 * further.diameter);
     added.diameter = further.diameter;
     design.rows.push_back(added);
-    if (!made.effects.series_offset.empty()) {  // another batch, with an error of its own
-      double square = 0.0;
-      for (const double offset : made.effects.series_offset) square += offset * offset;
-      const double sd = std::sqrt(square / static_cast<double>(made.effects.series_offset.size()));
-      made.effects.series_offset.push_back(sd * random.normal());
-    }
+    add_batches(made.effects, design.rows.size(), random);
   }
   point.diameter = further.diameter;
   point.velocity = further.velocity;
@@ -106,6 +110,7 @@ void take_there(Case& made, const FurtherImpacts& further, std::uint64_t round) 
         move_to(further.target, made.design.base, made.effects, made.order.experiment_seed()));
     there = made.elsewhere.end() - 1;
   }
+  add_batches(there->effects, made.design.rows.size(), random);
   for (const Place& place : further.places) {
     Point point;
     point.row = row_of(made.design, place.diameter);

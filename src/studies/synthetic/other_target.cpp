@@ -46,11 +46,8 @@ Elsewhere move_to(const OtherTarget& target, const Base& base, const Effects& ef
   }
   e.contact.plate_mobility = 0.0;
   e.asperity_energy = 0.0;
-  double square = 0.0;  // every batch there is a new one
-  for (const double offset : effects.series_offset) square += offset * offset;
-  for (double& offset : e.series_offset) {
-    offset = std::sqrt(square / static_cast<double>(e.series_offset.size())) * random.normal();
-  }
+  const double size = size_of_offsets(effects);  // every batch there is a new one
+  for (double& offset : e.series_offset) offset = size * random.normal();
   return there;
 }
 
