@@ -177,8 +177,10 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
 
 HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base,
                           std::vector<FoldPrediction> extended, std::uint64_t seed) {
+  std::vector<bool> chosen(folds.size(), true);
   for (std::size_t f = 0; f < folds.size(); ++f) {
-    if (extended[f].usable && extended[f].criterion > base[f].criterion) extended[f] = base[f];
+    chosen[f] = !(extended[f].usable && extended[f].criterion > base[f].criterion);
+    if (!chosen[f]) extended[f] = base[f];
   }
   HeldOutGain gain;
   std::vector<std::size_t> used;
@@ -191,7 +193,7 @@ HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<Fold
     if (!base[f].usable || !extended[f].usable) continue;
     gain.folds.push_back({folds[f], std::sqrt(mean_square(base[f].error)),
                           std::sqrt(mean_square(extended[f].error)),
-                          0.5 * (base[f].deviance - extended[f].deviance), true});
+                          0.5 * (base[f].deviance - extended[f].deviance), true, chosen[f]});
     gain.folds.back().counted = !gain.decisive || folds[f].kind != FoldKind::velocity;
     if (!gain.folds.back().counted) continue;
     used.push_back(f);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -58,6 +59,7 @@ struct HeldOutGain {
     double rmse_base = 0.0, rmse_extended = 0.0;  ///< of e [1]
     double log_score = 0.0;  ///< gain of ln likelihood, no miss taken for more than 5 sd [nat]
     bool counted = true;     ///< in the sums below
+    bool chosen = true;      ///< the extended model, by the other points
   };
   bool decisive = false;  ///< are the sums those of sizes and targets?
   std::vector<PerFold> folds;
@@ -67,6 +69,13 @@ struct HeldOutGain {
   /// Of `relative`, 95 %: percentile of 1999 samples in which the points of every fold are drawn
   /// with replacement. It knows the scatter of the held-out points, not that of the fits.
   std::optional<double> lower, upper;
+
+  /// Does any block that counts have other points that choose the extended model? Where none has,
+  /// what was held out says nothing of it.
+  bool any_chosen() const {
+    return std::any_of(folds.begin(), folds.end(),
+                       [](const PerFold& one) { return one.counted && one.chosen; });
+  }
 };
 
 /// A fold is predicted by the model that the other points choose: by the base again where its

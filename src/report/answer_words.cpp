@@ -35,6 +35,10 @@ std::string titles_of(const std::vector<std::string>& ids, const char* between) 
 
 std::string gain_words(const Diagnosis& d) {
   if (!d.gain || d.gain->folds.empty()) return "";
+  if (!d.gain->any_chosen()) {
+    return "Points that were held out say nothing of it: without them, the others are too few to "
+           "ask for more than the base model.";
+  }
   std::string text = fmt::format(
       "Points that were held out are predicted with an error of {:.3g} in e instead of {:.3g}",
       d.gain->rmse_extended, d.gain->rmse_base);

@@ -51,7 +51,7 @@ Cell said_of_both(const std::string& base, const std::string& extended) {
 }
 
 Paragraph gain_summary(const Diagnosis& d) {
-  if (!d.gain || !d.gain->lower || !d.gain->upper) return {};
+  if (!d.gain || !d.gain->lower || !d.gain->upper || !d.gain->any_chosen()) return {};
   return {say("Together: {} instead of {}, {:.0f} % less (95 % interval {:.0f} to {:.0f} %).",
               number(d.gain->rmse_extended, 3), number(d.gain->rmse_base, 3),
               100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper)};
@@ -144,6 +144,13 @@ Table found_parameters_table(const std::vector<CandidateResult>& candidates, std
   return table;
 }
 
+std::string remark_of(const HeldOutGain::PerFold& fold) {
+  std::vector<std::string> remarks;
+  if (!fold.chosen) remarks.emplace_back("the other points choose the base model");
+  if (!fold.counted) remarks.emplace_back("shown, not counted");
+  return fmt::format("{}", fmt::join(remarks, "; "));
+}
+
 Table held_out_table(const Diagnosis& d) {
   Table table;
   if (!d.gain) return table;
@@ -161,8 +168,7 @@ Table held_out_table(const Diagnosis& d) {
         {say("{} {}", to_string(fold.fold.kind), fold_words(fold.fold, d.datasets)),
          Number{static_cast<double>(fold.fold.points.size()), fixed(0)},
          Number{fold.rmse_base, significant(3)}, Number{fold.rmse_extended, significant(3)},
-         Number{fold.log_score, signed_fixed(1)},
-         Sentence(fold.counted ? "" : "shown, not counted")});
+         Number{fold.log_score, signed_fixed(1)}, Sentence(remark_of(fold))});
   }
   return table;
 }

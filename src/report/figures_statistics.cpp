@@ -139,22 +139,26 @@ plot::Plot residuals_by_diameter(const std::vector<ResidualRow>& rows) {
   means.name = "mean ± 1 sd";
   plot::Plot shown = residual_plot(rows);
   shown.x = {"diameter d", unit.sign};
-  shown.x.set_range(by_diameter.size() == 1
-                        ? plot::Range{0.5 * diameters.front(), 1.5 * diameters.front()}
-                        : plot::range_of(diameters, 0.08));
+  shown.x.set_range(plot::range_of(diameters, 0.08));
   shown.layers.push_back(std::move(cloud));
   shown.layers.push_back(std::move(means));
   return shown;
 }
 
+bool differ_in_size(const std::vector<ResidualRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(),
+                     [&](const ResidualRow& row) { return row.diameter != rows.front().diameter; });
+}
+
 template <class MakePlot>
 std::vector<Figure> per_dataset(const Analysis& analysis, const std::string& name,
                                 const std::string& title, const std::string& extra,
-                                MakePlot make_plot) {
+                                MakePlot make_plot,
+                                bool (*worth_it)(const std::vector<ResidualRow>&)) {
   std::vector<Figure> figures;
   for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
     const std::vector<ResidualRow> rows = residual_rows(analysis, k);
-    if (rows.empty()) continue;
+    if (rows.empty() || !worth_it(rows)) continue;
     plot::Picture picture;
     picture.name = fmt::format("{}-{}", name, k + 1);
     picture.title = fmt::format("{}, {}", title, analysis.datasets[k].id);
@@ -227,13 +231,14 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
 
 std::vector<Figure> residual_velocity_figures(const Analysis& analysis) {
   return per_dataset(analysis, "residual-velocity", "Weighted residuals against velocity",
-                     " A trend along the axis is a misfit.", residuals_by_velocity);
+                     " A trend along the axis is a misfit.", residuals_by_velocity,
+                     [](const std::vector<ResidualRow>&) { return true; });
 }
 
 std::vector<Figure> residual_diameter_figures(const Analysis& analysis) {
   return per_dataset(analysis, "residual-diameter", "Weighted residuals against diameter",
                      " Means away from zero show that the model gets the dependence on size wrong.",
-                     residuals_by_diameter);
+                     residuals_by_diameter, differ_in_size);
 }
 
 std::vector<Figure> bootstrap_figures(const Analysis& analysis) {

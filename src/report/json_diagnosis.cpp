@@ -6,6 +6,7 @@
 #include "diagnosis/diagnosis_result.hpp"
 #include "report/answer_words.hpp"
 #include "report/diagnosis_headline.hpp"
+#include "report/json_target.hpp"
 #include "report/json_values.hpp"
 #include "report/words_diagnosis.hpp"
 
@@ -88,7 +89,8 @@ Json gain_json(const Diagnosis& d) {
                      {"rmse_base", number_or_null(fold.rmse_base)},
                      {"rmse_extended", number_or_null(fold.rmse_extended)},
                      {"log_score", number_or_null(fold.log_score)},
-                     {"counted", fold.counted}});
+                     {"counted", fold.counted},
+                     {"chosen", fold.chosen}});
   }
   Json interval = nullptr;
   if (d.gain->lower && d.gain->upper) interval = {*d.gain->lower, *d.gain->upper};
@@ -133,20 +135,6 @@ Json next_json(const Diagnosis& d) {
   return out;
 }
 
-/// On what to measure, and where.
-void add_target(Json& entry, const NextExperiment& next) {
-  entry["target"] = {{"material", next.material.name},
-                     {"youngs_modulus", next.material.youngs_modulus},
-                     {"poisson_ratio", next.material.poisson_ratio},
-                     {"density", next.material.density}};
-  entry["points"] = Json::array();
-  for (const ExperimentPlace& place : next.places) {
-    entry["points"].push_back({{"diameter_um", place.diameter / units::um},
-                               {"incident_velocity", place.velocity},
-                               {"events", place.events}});
-  }
-}
-
 Json experiments_json(const Diagnosis& d) {
   Json out = Json::array();
   for (const NextExperiment& next : d.experiments) {
@@ -156,7 +144,9 @@ Json experiments_json(const Diagnosis& d) {
       entry["value"] = next.value;
       entry["doing"] = next.doing;
     }
-    if (next.kind == ExperimentKind::target) add_target(entry, next);
+    if (next.kind == ExperimentKind::target) {
+      add_target(entry, next.material, next.places);
+    }
     entry["dataset"] = d.datasets[next.dataset].id;
     entry["series"] = d.datasets[next.dataset].series[next.series];
     entry["diameter_um"] = next.diameter / units::um;

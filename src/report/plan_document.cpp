@@ -13,6 +13,7 @@
 #include "predict/validity.hpp"
 #include "report/figures_plan.hpp"
 #include "report/format.hpp"
+#include "report/words_diagnosis.hpp"
 #include "report/words_validity.hpp"
 
 namespace recoil {
@@ -245,6 +246,36 @@ std::string done_words(const std::vector<CausePair>& pairs, std::size_t most) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
+std::string doing_words(const PlanRemedy& remedy) {
+  switch (remedy.kind) {
+    case ExperimentKind::points:
+      break;
+    case ExperimentKind::condition:
+      return std::string(remedy.doing);
+    case ExperimentKind::target:
+      return fmt::format("take {} as the target, {} impacts at each of {} velocities and sizes",
+                         block_words(remedy.material), remedy.places.front().events,
+                         remedy.places.size());
+  }
+  return "more points";
+}
+
+Cell size_cell(const ExperimentPlan& plan, const PlanRemedy& remedy) {
+  const SizeUnit unit = planned_unit(plan);
+  const std::string first = size_text(remedy.diameter, unit);
+  if (remedy.places.empty()) return Sentence(first);
+  const std::string last = size_text(remedy.places.back().diameter, unit);
+  return Sentence(first == last ? first : first + " and " + last);
+}
+
+Cell velocity_cell(const PlanRemedy& remedy) {
+  if (remedy.places.empty()) return Number{remedy.velocity, significant(3)};
+  const auto [slowest, fastest] = std::minmax_element(
+      remedy.places.begin(), remedy.places.end(),
+      [](const ExperimentPlace& a, const ExperimentPlace& b) { return a.velocity < b.velocity; });
+  return say("{:.3g} to {:.3g}", slowest->velocity, fastest->velocity);
+}
+
 Table steps_table(const ExperimentPlan& plan) {
   Table table;
   table.compact = true;
@@ -259,12 +290,10 @@ Table steps_table(const ExperimentPlan& plan) {
   for (const PlanStep& step : plan.expected.steps) {
     if (table.rows.size() == most_steps) break;
     const PlanRemedy& remedy = step.remedy;
-    table.rows.push_back(
-        {Sentence(remedy.kind == ExperimentKind::condition ? std::string(remedy.doing)
-                                                           : "more points"),
-         Number{static_cast<double>(remedy.impacts), fixed(0)},
-         Sentence(size_text(remedy.diameter, planned_unit(plan))),
-         Number{remedy.velocity, significant(3)}, Sentence(done_words(step.tells, most_told))});
+    table.rows.push_back({Sentence(doing_words(remedy)),
+                          Number{static_cast<double>(remedy.impacts), fixed(0)},
+                          size_cell(plan, remedy), velocity_cell(remedy),
+                          Sentence(done_words(step.tells, most_told))});
   }
   return table;
 }
@@ -277,10 +306,10 @@ List beyond_reach(const ExperimentPlan& plan) {
         say("{} more steps stand in plan.json.", expected.steps.size() - most_steps));
   }
   if (expected.beyond.empty()) return list;
-  list.entries.push_back(Sentence(
-      "At these strengths no size, velocity or condition within reach, with 10000 impacts, "
-      "would " +
-      done_words(expected.beyond, expected.beyond.size()) + "."));
+  list.entries.push_back(
+      Sentence("At these strengths no size, velocity, condition or target within reach, with 10000 "
+               "impacts, would " +
+               done_words(expected.beyond, expected.beyond.size()) + "."));
   return list;
 }
 

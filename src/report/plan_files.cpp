@@ -7,6 +7,7 @@
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
 #include "report/format.hpp"
+#include "report/json_target.hpp"
 #include "report/json_values.hpp"
 
 namespace recoil {
@@ -67,6 +68,7 @@ Json remedy_json(const ExperimentPlan& plan, const std::optional<PlanRemedy>& re
     out["condition"] = to_string(remedy->condition);
     out["value"] = remedy->value;
   }
+  if (remedy->kind == ExperimentKind::target) add_target(out, remedy->material, remedy->places);
   return out;
 }
 

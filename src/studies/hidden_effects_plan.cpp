@@ -58,18 +58,18 @@ void add_other_laws(Plan& plan, int count) {
   }
 }
 
-/// Nothing hidden, or what such readings may have beside it: of heights air and an origin, of times
+/// Nothing hidden, or what such readings may have beside it: air, of heights an origin, of times
 /// what the contact loses.
 void add_rounded(Plan& plan, int count) {
   for (const Readout readout : recoil::values_of<Readout>()) {
     if (readout == Readout::exact) continue;
     const CaseOrder order{.readout = readout};
     for (const char* design : {"drops", "balls"}) plan.add(design, {}, 0.0, count, order);
+    plan.add("drops", {"flight_drag"}, 20.0, count, order);
     if (reads_times(readout)) {
       plan.add("drops", {"plastic_yield"}, 20.0, count, order);
       continue;
     }
-    plan.add("drops", {"flight_drag"}, 20.0, count, order);
     for (const char* design : {"drops", "balls"}) {
       plan.add(design, {"height_origin"}, 20.0, count, order);
     }

@@ -206,6 +206,7 @@ std::map<std::string, std::pair<double, double>> figures_of(const Json& results)
   std::map<std::string, std::pair<double, double>> figures;
   const Json& impact = results.at("impact_with_gradient");
   figures["ring"] = {impact.at("fast_ns").get<double>() * 1e-9, 0.0};
+  figures["reference"] = {impact.at("reference_ns").get<double>() * 1e-9, 0.0};
   for (const Json& law : impact.value("laws", Json::array())) {
     figures[law.at("adhesion").get<std::string>()] = {law.at("fast_ns").get<double>() * 1e-9, 0.0};
   }
@@ -226,17 +227,21 @@ std::map<std::string, std::pair<double, double>> figures_of(const Json& results)
 std::string earlier_section(const Json& results, const Json& earlier) {
   const auto now = figures_of(results);
   std::string text = fmt::format(
-      "## Beside what it was\n\nThe same measurements by `./run bench` of {}.\n\n"
-      "| what | was | is | ratio |\n|---|---|---|---|\n",
+      "## Beside what it was\n\nThe same measurements by `./run bench` of {}. The last column "
+      "takes "
+      "the machine out: it counts both times in those of the reference, an impact by CVODES, which "
+      "has not changed.\n\n"
+      "| what | was | is | ratio | in the reference's time |\n|---|---|---|---|---|\n",
       earlier.at("of").get<std::string>());
+  const double machine = now.at("reference").first / earlier.at("reference_seconds").get<double>();
   for (const Json& one : earlier.at("figures")) {
     const auto found = now.find(one.at("key").get<std::string>());
     if (found == now.end()) continue;
     const auto& [seconds, memory] = found->second;
     const double before = one.at("seconds");
-    text += fmt::format("| {} | {} | {} | {} |\n", one.at("what").get<std::string>(),
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", one.at("what").get<std::string>(),
                         cost_text(before, one.value("memory_mb", 0.0)), cost_text(seconds, memory),
-                        ratio_text(before / seconds));
+                        ratio_text(before / seconds), ratio_text(before / seconds * machine));
   }
   return text + "\n";
 }

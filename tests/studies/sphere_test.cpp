@@ -354,6 +354,27 @@ TEST(HiddenEffects, AirSlowsADroppedBallTwice) {
   EXPECT_NEAR(std::sqrt(square_of_restitution(base, effects, v, 40e-3)), 0.813, 0.002);
 }
 
+// Read by times of flight, air takes the same of e to first order in the drag as by heights: with a
+// drag k v^2, 1 - k V^2 / 4g of the velocity before and of that after an impact, either way.
+TEST(HiddenEffects, AirTakesAsMuchByTimesOfFlightAsByHeights) {
+  Base base = fluorescein();
+  base.density = 2.7e-3 / (pi / 6.0 * std::pow(40e-3, 3));
+  const auto e = [&](double pressure, bool timed) {
+    Effects effects;
+    effects.flight_pressure = pressure;
+    effects.flights_timed = timed;
+    effects.contact.hysteretic_share = 0.19;
+    return std::sqrt(square_of_restitution(base, effects, 3.0, 40e-3));
+  };
+  const double without = e(0.0, false);
+  for (const double pressure : {1e4, 3e4, 1e5}) {
+    const double by_heights = without - e(pressure, false);
+    const double by_times = without - e(pressure, true);
+    EXPECT_GT(by_heights, 0.02 * pressure / 1e5);
+    EXPECT_NEAR(by_times / by_heights, 1.0, 1e-3) << pressure;
+  }
+}
+
 // Each way costs (9 mu / (2 rho r)) times a sum that hardly depends on the velocity: 1 - e ~ 1/V.
 TEST(HiddenEffects, GasSlowsBothWaysByAFixedSpeed) {
   Effects gas;

@@ -58,6 +58,46 @@ double risen(double pressure, double density, double diameter, double speed) {
   return turned ? y[1] : 0.0;
 }
 
+/// A jump: how long it lasts, and the speed at its end.
+struct Jump {
+  double time = 0.0;     ///< [s]
+  double landing = 0.0;  ///< [m/s]
+};
+
+/// From a surface at `speed` up and down again; y = speed upwards, height, time.
+Jump jump(double pressure, double density, double diameter, double speed) {
+  State<3> y = {speed, 0.0, 0.0};
+  const auto field = [&](const State<3>& at) -> State<3> {
+    const double drag = air_drag(pressure, density, diameter, std::abs(at[0]));
+    return {-gravity - std::copysign(drag, at[0]), at[0], 1.0};
+  };
+  const double step = 1e-3 * speed / gravity;
+  const State<3> scales = {speed, speed * speed / gravity, speed / gravity};
+  const auto rises = [](const State<3>& at) { return at[0]; };
+  const auto is_above = [](const State<3>& at) { return at[1]; };
+  if (!integrate_until<3>(field, rises, y, step, scales, 1e-8)) return {};
+  y[0] = std::min(y[0], 0.0);
+  return integrate_until<3>(field, is_above, y, step, scales, 1e-8) ? Jump{y[2], -y[0]} : Jump{};
+}
+
+/// Speed at the end of a jump that lasts as long as one without air that lands at `speed`.
+double landed(double pressure, double density, double diameter, double speed) {
+  const double time = 2.0 * speed / gravity;
+  double from = speed;
+  Jump found;
+  for (int round = 0; round < 12; ++round) {  // the time is about proportional to the speed
+    found = jump(pressure, density, diameter, from);
+    if (!(found.time > 0.0)) return 0.0;
+    from *= time / found.time;
+  }
+  return std::abs(found.time - time) < 1e-6 * time ? found.landing : 0.0;
+}
+
+/// Speed at which a jump without air would last as long as one that begins at `speed`.
+double lasted(double pressure, double density, double diameter, double speed) {
+  return 0.5 * gravity * jump(pressure, density, diameter, speed).time;
+}
+
 /// Speed of a sphere after crossing the gas between the measuring plane and the surface (inward:
 /// the gap closes). Drag of Stokes with Schiller & Naumann's inertia and Cunningham's slip far from
 /// the wall, plus the film between slipping walls near it (Hocking 1973), and between them what
@@ -158,7 +198,8 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
     return flight(effects.flight_pressure, base.density, d, from);
   };
   if (effects.flight_pressure > 0.0) {
-    v = air(fallen, 0.5 * square / gravity);
+    v = effects.flights_timed ? air(landed, std::sqrt(square))
+                              : air(fallen, 0.5 * square / gravity);
     if (!(v > 0.0)) return -1.0;
     square = v * v;
   }
@@ -203,7 +244,9 @@ double exact_square(const Base& base, const Effects& effects, double velocity, d
     square = v > 0.0 ? v * v : -1e-6;
   }
   if (effects.flight_pressure > 0.0 && square > 0.0) {
-    square = 2.0 * gravity * air(risen, std::sqrt(square));
+    v = std::sqrt(square);
+    const double by_time = effects.flights_timed ? air(lasted, v) : 0.0;
+    square = effects.flights_timed ? by_time * by_time : 2.0 * gravity * air(risen, v);
   }
   square -= 2.0 * gravity * effects.plane_height;
   if (square > 0.0 && effects.height_error != 0.0) {

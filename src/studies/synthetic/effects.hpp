@@ -24,6 +24,7 @@ struct Effects {
   double charge_exponent = 2.0;       ///< of the charge with the diameter
   double hamaker_constant = 0.0;      ///< [J]
   double flight_pressure = 0.0;       ///< of the air in which dropped spheres fly [Pa]
+  bool flights_timed = false;         ///< velocities stand for times of flight, not for heights
   double height_error = 0.0;          ///< read too much in the height of the rebound [m]
   double plane_height = 0.0;          ///< [m]
   double velocity_error = 0.0;        ///< read too much [m/s]

@@ -48,7 +48,10 @@ const std::vector<HiddenEffect>& hidden_effects() {
       {"van_der_waals_approach", physics, "J", 5e-19, 0.0,
        [](E& e, double s, const D&) { e.hamaker_constant = s; }},
       {"flight_drag", physics, "Pa", 1.05e5, 0.0,
-       [](E& e, double s, const D& d) { e.flight_pressure = are_dropped(d) ? s : 0.0; }},
+       [](E& e, double s, const D& d) {
+         e.flight_pressure = are_dropped(d) ? s : 0.0;
+         e.flights_timed = reads_times(d.readout);
+       }},
       // Points on a sphere are no further apart than its diameter: that of the smallest.
       {"height_origin", measurement, "diameters", 1.0, 1.0,
        [](E& e, double s, const D& d) { e.height_error = s * d.rows.front().diameter; }},
