@@ -182,12 +182,15 @@ void extend(const SearchBase& base, Diagnosis& diagnosis) {
 /// Do errors that were not stated leave nothing, and fit so well that no cause can be told beside
 /// them? Better by `margin` than a single cause; nearly as well as two, the best of so many pairs:
 /// chance gives the best of N independent ones a criterion that is smaller by about 2 ln N.
+/// Readings of a scale have an error of their own, so that it need only come as close as a rival
+/// would.
 bool outdone_by_errors(const CandidateResult& best, const Diagnosis& diagnosis, double margin) {
   const bool pair = best.candidate.added.size() > 1;
   const double lead = pair ? -2.0 * std::log(static_cast<double>(diagnosis.pairs.size())) : margin;
   return std::any_of(diagnosis.unstated.begin(), diagnosis.unstated.end(),
                      [&](const UnstatedErrors& errors) {
-                       return errors.leave_nothing() && errors.delta_aicc + lead < best.delta_aicc;
+                       const double ahead = errors.of_readings() ? lead - 2.0 * margin : lead;
+                       return errors.leave_nothing() && errors.delta_aicc + ahead < best.delta_aicc;
                      });
 }
 

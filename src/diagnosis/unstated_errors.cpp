@@ -10,6 +10,7 @@
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "core/units.hpp"
 #include "diagnosis/search.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_settings.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double smallest_error = 0.002;  // of a velocity, relative
 constexpr double largest_error = 0.15;
+constexpr double smallest_reading = 2e-4;        // of a height or a time, over the middle one
 constexpr double smallest_setting_error = 2e-4;  // of e
 constexpr int steps = 15;
 
@@ -77,15 +79,48 @@ double remaining_p(const SearchBase& base, const Observations& data, const Refit
   return std::min(1.0, 2.0 * std::min(structure, tails));
 }
 
-FitResult fit_with_velocity_errors(const SearchBase& base, double relative_sd) {
-  NoiseSpec noise = base.spec.noise;
-  noise.velocity_errors = true;
-  noise.velocity_relative_sd = relative_sd;
+/// The fit under the noise with which `datasets` and `noise` say that the points of `base` came.
+FitResult fit_under(const SearchBase& base, const std::vector<Dataset>& datasets, NoiseSpec noise) {
   if (base.fitted.data.shares_settings()) noise.setting_sd = base.fitted.data.noise.setting_sd;
   FitOptions options;
   options.several_starts = false;
   options.start = base.fitted.theta;
-  return fit(base.candidate.model, gather(base.datasets, noise), options);
+  return fit(base.candidate.model, gather(datasets, noise), options);
+}
+
+FitResult fit_with_velocity_errors(const SearchBase& base, double relative_sd) {
+  NoiseSpec noise = base.spec.noise;
+  noise.velocity_errors = true;
+  noise.velocity_relative_sd = relative_sd;
+  return fit_under(base, base.datasets, noise);
+}
+
+/// What was read of a rebound: a height [m], or a time of flight [s].
+double reading_of(const ImpactPoint& point, ErrorSource source) {
+  const double rebound = point.restitution * point.incident_velocity;
+  return source == ErrorSource::height_readings ? rebound * rebound / (2.0 * standard_gravity)
+                                                : 2.0 * rebound / standard_gravity;
+}
+
+/// sd of e over that of a reading [1/m or 1/s].
+double slope_of_reading(const ImpactPoint& point, ErrorSource source) {
+  const double e = point.restitution;
+  const double v = point.incident_velocity;
+  return source == ErrorSource::height_readings
+             ? standard_gravity / (e * v * v)
+             : std::sqrt(1.0 + e * e) * standard_gravity / (2.0 * v);
+}
+
+FitResult fit_with_reading_errors(const SearchBase& base, ErrorSource source, double sd) {
+  std::vector<Dataset> datasets = base.datasets;
+  for (Dataset& dataset : datasets) {
+    for (ImpactPoint& point : dataset.points) {
+      if (!(point.restitution > 0.0) || !point.restitution_sd) continue;
+      point.restitution_sd =
+          std::hypot(*point.restitution_sd, sd * slope_of_reading(point, source));
+    }
+  }
+  return fit_under(base, datasets, base.spec.noise);
 }
 
 /// The abscissa of the minimum of the parabola through three equidistant points; the middle one
@@ -96,32 +131,32 @@ double vertex(double middle, double step, double before, double at, double after
   return middle + step * std::clamp(0.5 * (before - after) / curvature, -1.0, 1.0);
 }
 
-/// The relative error of the velocities that makes the data most likely; none where it is on the
-/// edge of what was tried.
-std::optional<double> likeliest_velocity_error(const SearchBase& base) {
-  const double step = std::log(largest_error / smallest_error) / (steps - 1);
+/// The error from `least` to `most` that makes the data most likely; none where it is on the edge
+/// of what was tried.
+template <class FitWith>
+std::optional<double> likeliest_error(const SearchBase& base, double least, double most,
+                                      const FitWith& fit_with) {
+  const double step = std::log(most / least) / (steps - 1);
   std::vector<double> deviance(steps, INFINITY);
   parallel_over(steps, base.options.threads, [&](std::size_t k) {
-    const double tried = smallest_error * std::exp(step * static_cast<double>(k));
-    const FitResult fitted = fit_with_velocity_errors(base, tried);
+    const FitResult fitted = fit_with(least * std::exp(step * static_cast<double>(k)));
     if (fitted.usable) deviance[k] = deviance_with_weights(fitted.data, fitted.residuals);
   });
   const auto best = static_cast<std::size_t>(std::min_element(deviance.begin(), deviance.end()) -
                                              deviance.begin());
   if (best == 0 || best + 1 == deviance.size()) return std::nullopt;
   if (!std::isfinite(deviance[best - 1]) || !std::isfinite(deviance[best + 1])) return std::nullopt;
-  const double middle = std::log(smallest_error) + step * static_cast<double>(best);
+  const double middle = std::log(least) + step * static_cast<double>(best);
   return std::exp(vertex(middle, step, deviance[best - 1], deviance[best], deviance[best + 1]));
 }
 
-std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
-  const Observations& data = base.fitted.data;
-  const bool some = std::any_of(data.points.begin(), data.points.end(),
-                                [](const Observation& point) { return point.velocity_sd > 0.0; });
-  if (some) return std::nullopt;
-  const std::optional<double> relative_sd = likeliest_velocity_error(base);
-  if (!relative_sd) return std::nullopt;
-  const FitResult fitted = fit_with_velocity_errors(base, *relative_sd);
+/// Errors of the size that makes the data most likely.
+template <class FitWith>
+std::optional<UnstatedErrors> likeliest(const SearchBase& base, ErrorSource source, double least,
+                                        double most, const FitWith& fit_with) {
+  const std::optional<double> value = likeliest_error(base, least, most, fit_with);
+  if (!value) return std::nullopt;
+  const FitResult fitted = fit_with(*value);
   if (!fitted.usable) return std::nullopt;
   const Refit refit =
       with_law_errors(base.candidate, fitted.data,
@@ -129,13 +164,50 @@ std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
   if (!refit.usable) return std::nullopt;
   const int free = base.candidate.free_count;
   UnstatedErrors found;
-  found.source = ErrorSource::velocity_errors;
-  found.value = *relative_sd;
+  found.source = source;
+  found.value = *value;
   found.delta_aicc =
       corrected_criterion(fitted.data, deviance_with_weights(fitted.data, refit), free + 1) -
-      corrected_criterion(data, deviance_with_weights(data, base.refit), free);
+      corrected_criterion(base.fitted.data, deviance_with_weights(base.fitted.data, base.refit),
+                          free);
   found.remaining_p = remaining_p(base, fitted.data, refit, fitted.prediction_squared);
   return found;
+}
+
+std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
+  const Observations& data = base.fitted.data;
+  const bool some = std::any_of(data.points.begin(), data.points.end(),
+                                [](const Observation& point) { return point.velocity_sd > 0.0; });
+  if (some) return std::nullopt;
+  return likeliest(base, ErrorSource::velocity_errors, smallest_error, largest_error,
+                   [&](double sd) { return fit_with_velocity_errors(base, sd); });
+}
+
+/// What the instrument of all datasets reads; none where they have no such scale in common.
+std::optional<ErrorSource> readings_of(const std::vector<Dataset>& datasets) {
+  const auto all_by = [&](Method method) {
+    return std::all_of(datasets.begin(), datasets.end(),
+                       [&](const Dataset& one) { return one.system.method == method; });
+  };
+  if (all_by(Method::drop_heights)) return ErrorSource::height_readings;
+  if (all_by(Method::bounce_intervals)) return ErrorSource::time_readings;
+  return std::nullopt;
+}
+
+std::optional<UnstatedErrors> reading_errors(const SearchBase& base) {
+  const std::optional<ErrorSource> source = readings_of(base.datasets);
+  if (!source) return std::nullopt;
+  std::vector<double> readings;
+  for (const Dataset& dataset : base.datasets) {
+    for (const ImpactPoint& point : dataset.points) {
+      if (point.restitution > 0.0) readings.push_back(reading_of(point, *source));
+    }
+  }
+  if (readings.empty()) return std::nullopt;
+  const auto middle = readings.begin() + static_cast<std::ptrdiff_t>(readings.size() / 2);
+  std::nth_element(readings.begin(), middle, readings.end());
+  return likeliest(base, *source, smallest_reading * *middle, largest_error * *middle,
+                   [&](double sd) { return fit_with_reading_errors(base, *source, sd); });
 }
 
 std::optional<UnstatedErrors> larger_deviations(const SearchBase& base) {
@@ -229,7 +301,8 @@ std::vector<UnstatedErrors> unstated_errors(const SearchBase& base) {
   std::vector<UnstatedErrors> all;
   if (const auto found = shared_settings(base)) all.push_back(*found);
   if (base.fitted.data.sd_stated) {
-    for (const auto& found : {velocity_errors(base), larger_deviations(base)}) {
+    for (const auto& found :
+         {velocity_errors(base), larger_deviations(base), reading_errors(base)}) {
       if (found) all.push_back(*found);
     }
   }

@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t most_titles = 3;    // of tests that found something
 constexpr std::size_t most_expected = 3;  // effects of stated conditions
 constexpr std::size_t most_impossible = 2;
+const double steps_of_sd = std::sqrt(12.0);  // of a reading that is rounded
 
 /// "gas film (gas between the measuring plane and the contact)"
 std::string title_of(const std::string& id) {
@@ -122,23 +123,34 @@ std::string dominant_point_words(const Diagnosis& d) {
 }
 
 std::string errors_words(const UnstatedErrors& errors) {
-  if (errors.source == ErrorSource::shared_setting) {
-    return fmt::format(
-        "an error of {:.2g} in e that all points of one setting of the apparatus have in common "
-        "leaves nothing systematic (p = {:.2g}): repeating one setting does not average it out, "
-        "and "
-        "setting_sd = {:.2g} under [noise] takes it into the fit",
-        errors.value, errors.remaining_p, errors.value);
+  const std::string p = fmt::format("(p = {:.2g})", errors.remaining_p);
+  switch (errors.source) {
+    case ErrorSource::shared_setting:
+      return fmt::format(
+          "an error of {:.2g} in e that all points of one setting of the apparatus have in common "
+          "leaves nothing systematic {}: repeating one setting does not average it out, and "
+          "setting_sd = {:.2g} under [noise] takes it into the fit",
+          errors.value, p, errors.value);
+    case ErrorSource::velocity_errors:
+      return fmt::format(
+          "velocities uncertain by {:.2g} % each (velocity_relative_sd = {:.2g} under [noise]) "
+          "leave nothing systematic {}",
+          100.0 * errors.value, errors.value, p);
+    case ErrorSource::height_readings:
+      return fmt::format(
+          "heights read with an error of {:.2g} mm each, a step of {:.2g} mm, leave nothing "
+          "systematic {}: let restitution_sd contain it",
+          errors.value / units::mm, steps_of_sd * errors.value / units::mm, p);
+    case ErrorSource::time_readings:
+      return fmt::format(
+          "times read with an error of {:.2g} ms each, a step of {:.2g} ms, leave nothing "
+          "systematic {}: let restitution_sd contain it",
+          errors.value / units::ms, steps_of_sd * errors.value / units::ms, p);
+    case ErrorSource::larger_deviations:
+      break;
   }
-  return errors.source == ErrorSource::velocity_errors
-             ? fmt::format(
-                   "velocities uncertain by {:.2g} % each (velocity_relative_sd = {:.2g} "
-                   "under [noise]) leave nothing systematic (p = {:.2g})",
-                   100.0 * errors.value, errors.value, errors.remaining_p)
-             : fmt::format(
-                   "standard deviations {:.2g} times as large leave nothing systematic "
-                   "(p = {:.2g})",
-                   errors.value, errors.remaining_p);
+  return fmt::format("standard deviations {:.2g} times as large leave nothing systematic {}",
+                     errors.value, p);
 }
 
 std::string rival_errors_words(const Diagnosis& d) {

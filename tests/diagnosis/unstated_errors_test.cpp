@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <tuple>
 
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/search.hpp"
@@ -79,6 +80,37 @@ Dataset drops(unsigned seed, double shared) {
       ImpactPoint point = impact(4.9e-6, velocity);
       point.series = 0;
       point.restitution += set_wrong + stated_sd * normal(random);
+      data.points.push_back(point);
+    }
+  }
+  return data;
+}
+
+/// Impacts whose velocities come from heights or from times of flight, each read with an error of
+/// sd `error` [m, s].
+Dataset read_from(unsigned seed, Method method, double error) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  constexpr double g = 9.80665;
+  Dataset data = synthetic::dataset({});
+  data.system.method = method;
+  data.points.clear();
+  data.series = {"drops"};
+  for (const double diameter : {2.58e-6, 3.42e-6, 4.9e-6, 6.89e-6}) {
+    for (const double velocity : {4.0, 5.0, 6.0, 8.0, 10.0, 13.0, 17.0, 22.0, 30.0, 40.0}) {
+      ImpactPoint point = impact(diameter, velocity);
+      point.series = 0;
+      const double rebound = point.restitution * velocity;
+      if (method == Method::drop_heights) {
+        const double height = rebound * rebound / (2.0 * g) + error * normal(random);
+        point.restitution = std::sqrt(2.0 * g * std::max(height, 0.0)) / velocity;
+      } else {
+        const double before = 2.0 * velocity / g + error * normal(random);
+        const double after = 2.0 * rebound / g + error * normal(random);
+        point.incident_velocity = 0.5 * g * before;
+        point.restitution = after / before;
+      }
+      point.restitution += stated_sd * normal(random);
       data.points.push_back(point);
     }
   }
@@ -173,6 +205,38 @@ TEST(UnstatedErrors, VelocityErrorsAreNotAskedForWhereTheyAreStated) {
   ASSERT_NE(find(asked(data), ErrorSource::velocity_errors), nullptr);
   for (ImpactPoint& point : data.points) point.velocity_sd = 0.002 * point.incident_velocity;
   EXPECT_EQ(find(asked(data), ErrorSource::velocity_errors), nullptr);
+}
+
+TEST(UnstatedErrors, OfReadingsAreFoundOnTheScaleOfTheInstrument) {
+  for (const auto& [method, source, error] :
+       {std::tuple(Method::drop_heights, ErrorSource::height_readings, 0.06),
+        std::tuple(Method::bounce_intervals, ErrorSource::time_readings, 0.04)}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      const std::vector<UnstatedErrors> all = asked(read_from(seed, method, error));
+      const UnstatedErrors* const readings = find(all, source);
+      ASSERT_NE(readings, nullptr) << seed;
+      EXPECT_TRUE(readings->of_readings());
+      EXPECT_TRUE(readings->leave_nothing()) << readings->remaining_p;
+      EXPECT_NEAR(std::log(readings->value / error), 0.0, 0.55) << name_of(source) << seed;
+      EXPECT_EQ(readings, &all.front()) << name_of(source) << seed;
+    }
+  }
+}
+
+// A velocimeter has no such scale, and who does not say how velocities were measured is not asked.
+TEST(UnstatedErrors, OfReadingsAreAskedOfTheirInstrumentsOnly) {
+  for (const Method method : {Method::unknown, Method::velocimeter, Method::video}) {
+    Dataset data = read_from(1, Method::drop_heights, 0.06);
+    data.system.method = method;
+    for (const UnstatedErrors& errors : asked(data)) EXPECT_FALSE(errors.of_readings());
+  }
+}
+
+TEST(Diagnose, ReadingErrorsAreNoCause) {
+  const Diagnosis found = diagnosed(read_from(1, Method::bounce_intervals, 0.04));
+  EXPECT_EQ(found.verdict, Verdict::unexplained);
+  EXPECT_TRUE(found.named.empty() && found.rivals.empty());
+  EXPECT_NE(find(rival_errors(found), ErrorSource::time_readings), nullptr);
 }
 
 TEST(UnstatedErrors, OfASettingAreSharedByItsPoints) {

@@ -196,7 +196,7 @@ TEST(Generator, RoundedReadingsLieOnTheirSteps) {
       }
     }
   }
-  // Rounding of four like drops is the same: half as much is known of the mean as it seems.
+  // Rounding of four drops from one height is the same: less is known of the mean than it seems.
   EXPECT_NEAR(square / count, 1.0, 0.3);
 }
 

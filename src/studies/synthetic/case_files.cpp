@@ -72,7 +72,8 @@ std::vector<std::string> changed_conditions(const Table& table) {
 
 /// Drops are of known heights; in every second data set somebody wrote down which.
 bool names_settings(const Table& table) {
-  return table.made.design.dropped && table.made.order.index % 2 == 1;
+  const Design& design = table.made.design;
+  return design.dropped && !reads_times(design.readout) && table.made.order.index % 2 == 1;
 }
 
 bool counts_captures(const Table& table) {
