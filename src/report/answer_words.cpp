@@ -206,8 +206,8 @@ std::string several_words(const Diagnosis& d) {
   if (has_one_size(d.base.data)) {
     return fmt::format(
         "One diameter does not show how an effect depends on size, which is what tells one cause "
-        "from another; any of these would do: {}.",
-        all);
+        "from another; {} would do: {}.",
+        d.rivals.size() == 1 ? "this" : "any of these", all);
   }
   if (!d.shared_cause.empty()) {
     return fmt::format("The cause is {}; which of its laws holds, these data cannot tell: {}.",

@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t most_on_terminal = 12;  // of the causes tried
 constexpr std::size_t most_pairs = 8;
+constexpr std::size_t most_values = 8;  // of the parameters of one mechanism
 
 /// One parameter under one of the models: estimate, interval, and what is special about it.
 struct UnderModel {
@@ -127,6 +128,24 @@ Table candidates_table(const std::vector<CandidateResult>& candidates, std::size
   return table;
 }
 
+Sentence value_of(const FoundParameter& p) {
+  return say("{} = {:.3g}", symbol(p.label), p.value) + unit_after_number(p.unit);
+}
+
+/// All of them; of many, the least and the largest.
+Sentence values_of(const std::vector<FoundParameter>& parameters) {
+  if (parameters.size() > most_values) {
+    const auto [least, largest] =
+        std::minmax_element(parameters.begin(), parameters.end(),
+                            [](const auto& a, const auto& b) { return a.value < b.value; });
+    return say("{} values from ", parameters.size()) + value_of(*least) + Sentence(" to ") +
+           value_of(*largest);
+  }
+  std::vector<Sentence> values;
+  for (const FoundParameter& p : parameters) values.push_back(value_of(p));
+  return join(values, ", ");
+}
+
 Table found_parameters_table(const std::vector<CandidateResult>& candidates, std::size_t most) {
   Table table;
   table.compact = true;
@@ -134,11 +153,7 @@ Table found_parameters_table(const std::vector<CandidateResult>& candidates, std
   table.columns = {{"mechanism"}, {"parameters", "", true}, {"verdict", "", true}};
   for (std::size_t k = 0; k < std::min(most, candidates.size()); ++k) {
     const CandidateResult& c = candidates[k];
-    std::vector<Sentence> values;
-    for (const FoundParameter& p : c.parameters) {
-      values.push_back(say("{} = {:.3g}", symbol(p.label), p.value) + unit_after_number(p.unit));
-    }
-    table.rows.push_back({Sentence(c.candidate.name()), join(values, ", "),
+    table.rows.push_back({Sentence(c.candidate.name()), values_of(c.parameters),
                           Sentence(c.explains() ? "explains it" : set_aside_words(c))});
   }
   return table;

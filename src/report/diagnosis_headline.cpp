@@ -36,6 +36,10 @@ std::string headline_of_several(const Diagnosis& d) {
     return fmt::format("What the model misses: {}, together with {}", causes(d.common),
                        causes(doubtful, " or "));
   }
+  if (d.rivals.size() == 1) {
+    return fmt::format("The model misses something that could be {}, but these data cannot tell",
+                       causes(d.rivals));
+  }
   return "The model misses something, and these data cannot tell what: " + causes(d.rivals);
 }
 

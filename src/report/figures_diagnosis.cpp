@@ -251,30 +251,13 @@ std::vector<Figure> before_after_figures(const Diagnosis& d) {
 
 namespace {
 
-constexpr std::size_t longest_line = 34;  // of a reason [letters]
-constexpr double letter_width = 5.2;      // of its type [px]
-constexpr double room_for_bars = 430.0;   // of the whole picture [px]
-
-/// A long reason on two lines: broken at the blank nearest to its middle.
-std::string in_two_lines(std::string text) {
-  if (text.size() <= longest_line) return text;
-  const std::size_t before = text.rfind(' ', text.size() / 2);
-  const std::size_t after = text.find(' ', text.size() / 2);
-  const bool later =
-      before == std::string::npos || (after != std::string::npos && after + before < text.size());
-  const std::size_t blank = later ? after : before;
-  if (blank != std::string::npos) text[blank] = '\n';
-  return text;
-}
+constexpr double letter_width = 5.2;     // of its type [px]
+constexpr double room_for_bars = 430.0;  // of the whole picture [px]
+constexpr int lowest_picture = 142;      // for one bar [px]
 
 /// The end of an axis on which a bar of `value` leaves room for the words behind it.
 double end_with_words(double value, const std::string& words) {
-  const std::size_t line =
-      std::max(words.find('\n') == std::string::npos
-                   ? words.size()
-                   : std::max(words.find('\n'), words.size() - words.find('\n')),
-               std::size_t{1});
-  const double taken = (12.0 + letter_width * static_cast<double>(line)) / room_for_bars;
+  const double taken = (12.0 + letter_width * static_cast<double>(words.size())) / room_for_bars;
   return value / (1.0 - std::min(taken, 0.7));
 }
 
@@ -304,8 +287,7 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
     const double row = static_cast<double>(k);
     (is_answer(d, c) ? taken : aside).add(0.0, -c.delta_aicc, row - 0.32, row + 0.32);
     ranking.y.ticks.push_back({row, c.candidate.name()});
-    plot::Words reason{in_two_lines(short_set_aside_words(c)), plot::on_axis(-c.delta_aicc),
-                       plot::on_axis(row)};
+    plot::Words reason{short_set_aside_words(c), plot::on_axis(-c.delta_aicc), plot::on_axis(row)};
     reason.size = 9.0;
     reason.colour = plot::grey;
     reason.shift_x = 0.6;
@@ -321,7 +303,7 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
   picture.name = "ranking";
   picture.title = "Candidates by what they gain over the base model";
   picture.width = 720;
-  picture.height = 70 + 24 * static_cast<int>(shown.size());
+  picture.height = std::max(lowest_picture, 70 + 24 * static_cast<int>(shown.size()));
   picture.plots = {std::move(ranking)};
   return {
       figure_of(std::move(picture),

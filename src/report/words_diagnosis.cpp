@@ -182,7 +182,34 @@ std::string set_aside_words(const CandidateResult& c) {
 }
 
 std::string short_set_aside_words(const CandidateResult& c) {
-  return c.set_aside == SetAside::not_possible ? "not possible" : set_aside_words(c);
+  if (c.explains() || !c.set_aside) return "";
+  switch (*c.set_aside) {
+    case SetAside::description:
+      return "a description";
+    case SetAside::gains_too_little:
+      return "gains too little";
+    case SetAside::chance:
+      return "gains no more than chance";
+    case SetAside::not_possible:
+      return "not possible";
+    case SetAside::batch_is_size:
+      return "may be a law of size";
+    case SetAside::within_a_step:
+      return "may be rounding";
+    case SetAside::leaves_structure:
+      return fmt::format("leaves structure (p = {:.2g})", c.remaining_p);
+    case SetAside::predicts_no_better:
+      return "predicts no better";
+    case SetAside::one_would_do:
+      return "one would do";
+    case SetAside::one_hardly_takes_part:
+      return "one hardly takes part";
+    case SetAside::at_the_edge:
+      return "at the limit of the possible";
+    case SetAside::far_behind:
+      return "far behind";
+  }
+  return "";
 }
 
 std::vector<std::string> diagnosis_warnings(const Diagnosis& d) {

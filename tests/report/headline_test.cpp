@@ -31,6 +31,8 @@ TEST(Headline, TellsTheCertainFromTheDoubtful) {
   EXPECT_EQ(headline(d),
             "The model misses something, and these data cannot tell what: crack rate, plastic "
             "yield, capillary");
+  EXPECT_EQ(headline(answered(Verdict::not_separable, {"height_origin"})),
+            "The model misses something that could be height origin, but these data cannot tell");
   d.common = {"plastic_yield"};
   EXPECT_EQ(headline(d),
             "What the model misses: plastic yield, together with crack rate or capillary");
