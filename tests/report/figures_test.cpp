@@ -292,7 +292,7 @@ TEST(RankingFigures, LeaveRoomForTheReasonBehindALongBar) {
   d.candidates[0].set_aside = SetAside::not_possible;
   const double end = *plot_of(ranking_figures(d).at(0)).x.to;
   EXPECT_GT(end, 22.0);
-  EXPECT_LT(end, 40.0);  // the bars are what the picture is about
+  EXPECT_LT(end, 40.0);                               // the bars are what the picture is about
   d.candidates[0].set_aside = SetAside::at_the_edge;  // in more words
   EXPECT_GT(*plot_of(ranking_figures(d).at(0)).x.to, 1.1 * end);
   EXPECT_LT(*plot_of(ranking_figures(d).at(0)).x.to, 45.0);
