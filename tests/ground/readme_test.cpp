@@ -70,9 +70,21 @@ TEST(Readme, NamesEveryFolderOfTheSource) {
   }
 }
 
-/// What the table of the shipped designs has to say of one parameter.
-std::string coverage_words(const std::string& recommended, const std::string& identifiable) {
-  return recommended + " %" + (std::stod(identifiable) <= 10.0 ? ", warned" : "");
+/// What the table of the shipped designs has to say of one parameter; of capture velocities, that
+/// of the size whose intervals contain the truth least often.
+std::string coverage_words(const std::vector<std::vector<std::string>>& study,
+                           const std::string& design, const std::string& parameter,
+                           std::size_t recommended, std::size_t identifiable) {
+  const std::vector<std::string>* least = nullptr;
+  for (const std::vector<std::string>& row : study) {
+    if (row.at(0) != design || row.at(1).rfind(parameter, 0) != 0) continue;
+    if (least == nullptr || std::stod(row.at(recommended)) < std::stod(least->at(recommended))) {
+      least = &row;
+    }
+  }
+  if (least == nullptr) return "not in the study";
+  const bool warned = std::stod(least->at(identifiable)) <= 10.0;
+  return least->at(recommended) + " %" + (warned ? ", warned" : "");
 }
 
 TEST(Readme, CoverageIsThatOfTheStudy) {
@@ -81,18 +93,17 @@ TEST(Readme, CoverageIsThatOfTheStudy) {
   const std::size_t recommended = page::column_of(report, "| design |", "recommended, %");
   const std::size_t identifiable = page::column_of(report, "| design |", "identifiable, %");
   for (const fs::path& file : {readme(), tree::root() / "docs/coverage.md"}) {
-    for (const std::vector<std::string>& row : page::table_of(file, "| design")) {
+    const auto rows = page::table_of(file, "| design");
+    EXPECT_GE(rows.size(), 4U);
+    for (const std::vector<std::string>& row : rows) {
       ASSERT_EQ(row.size(), 4U);
       const std::string design = row[0].substr(1, row[0].find('`', 1) - 1);
-      int compared = 0;
-      for (const std::vector<std::string>& found : study) {
-        if (found.at(0) != design) continue;
-        const std::size_t column = found[1] == "C_H" ? 1 : found[1] == "C_A" ? 2 : 3;
-        EXPECT_EQ(row[column], coverage_words(found.at(recommended), found.at(identifiable)))
-            << file << " " << design << " " << found[1];
-        ++compared;
+      const char* parameters[] = {"C_H", "C_A", "V\\*"};
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(row[k + 1],
+                  coverage_words(study, design, parameters[k], recommended, identifiable))
+            << file << " " << design << " " << parameters[k];
       }
-      EXPECT_GE(compared, 3) << design;
     }
   }
 }
