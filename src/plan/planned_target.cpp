@@ -31,7 +31,7 @@ Elsewhere planned_elsewhere(const FitSpec& spec, const ExperimentPlan& plan, con
 void repeat(Effect& effect, Eigen::Index settings, int points) {
   const Eigen::Index places = effect.change.size() - settings;
   effect.change.tail(places) *= std::sqrt(points);
-  effect.released.bottomRows(places) *= std::sqrt(points);
+  if (effect.released.cols() > 0) effect.released.bottomRows(places) *= std::sqrt(points);
 }
 
 PossibleCause repeated(PossibleCause cause, Eigen::Index settings, int points) {
