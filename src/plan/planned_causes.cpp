@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "diagnosis/candidate.hpp"
 #include "diagnosis/elsewhere.hpp"
@@ -25,7 +25,9 @@ struct Option {
   const TakenAway* away = nullptr;
   std::size_t place = 0;
 
-  auto operator<=>(const Option&) const = default;
+  bool operator<(const Option& other) const {
+    return std::tie(target, away, place) < std::tie(other.target, other.away, other.place);
+  }
 };
 using Options = std::map<Option, int>;  ///< and how many
 
