@@ -30,8 +30,7 @@ double coherence(const Dataset& dataset, double step) {
   for (const ImpactPoint& point : dataset.points) {
     if (!(point.restitution > 0.0)) continue;
     Heights& heights = places[{point.diameter, point.incident_velocity}];
-    const double rebound = point.restitution * point.incident_velocity;
-    const double height = rebound * rebound / (2.0 * standard_gravity);
+    const double height = rebound_height(point);
     heights.sum += height;
     heights.cosines += std::cos(2.0 * std::numbers::pi * height / step);
     ++heights.count;
@@ -47,6 +46,11 @@ double coherence(const Dataset& dataset, double step) {
 }
 
 }  // namespace
+
+double rebound_height(const ImpactPoint& point) {
+  const double rebound = point.restitution * point.incident_velocity;
+  return rebound * rebound / (2.0 * standard_gravity);
+}
 
 double height_step(const Dataset& dataset) {
   if (dataset.system.method != Method::drop_heights) return 0.0;

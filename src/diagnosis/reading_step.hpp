@@ -6,7 +6,10 @@
 
 namespace recoil {
 
-/// The step [m] on which the heights of the rebounds lie, e^2 V^2 / 2g, where `dataset` says that
+/// To which the sphere of `point` rises in vacuum, e^2 V^2 / 2g [m].
+double rebound_height(const ImpactPoint& point);
+
+/// The step [m] on which the heights of the rebounds lie where `dataset` says that
 /// velocities come from heights; 0 where they lie on none of 1, 2, 5 and 10 mm.
 ///
 /// With h the mean height of one size and velocity, it is the largest step for which the mean of

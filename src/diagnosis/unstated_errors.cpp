@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "diagnosis/reading_step.hpp"
 #include "diagnosis/search.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_settings.hpp"
@@ -97,9 +98,9 @@ FitResult fit_with_velocity_errors(const SearchBase& base, double relative_sd) {
 
 /// What was read of a rebound: a height [m], or a time of flight [s].
 double reading_of(const ImpactPoint& point, ErrorSource source) {
-  const double rebound = point.restitution * point.incident_velocity;
-  return source == ErrorSource::height_readings ? rebound * rebound / (2.0 * standard_gravity)
-                                                : 2.0 * rebound / standard_gravity;
+  return source == ErrorSource::height_readings
+             ? rebound_height(point)
+             : 2.0 * point.restitution * point.incident_velocity / standard_gravity;
 }
 
 /// sd of e over that of a reading [1/m or 1/s].

@@ -65,12 +65,7 @@ PlannedTarget::PlannedTarget(const FitSpec& spec, const ExperimentPlan& plan,
   places_ = places_elsewhere(plan.datasets[like_], elsewhere.dataset, plan.options.slowest,
                              plan.options.fastest, expected);
   if (places_.empty()) return;
-  std::vector<PointConditions> at;
-  for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
-    for (const ImpactPoint& point : plan.datasets[d].points) {
-      at.push_back({d, point.diameter, point.incident_velocity, point.series});
-    }
-  }
+  std::vector<PointConditions> at = settings_of(plan);
   for (const PointConditions& place : places_) {
     at.push_back(place);
     there.settings.push_back({place.dataset, place.diameter, place.velocity, 1});

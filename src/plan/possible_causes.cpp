@@ -16,12 +16,7 @@ constexpr int beyond_velocities = 24;  // of one size
 constexpr double slower = 0.7, faster = 1.5, smaller = 0.6, larger = 1.6;
 
 std::vector<PointConditions> places_to_look(const ExperimentPlan& plan) {
-  std::vector<PointConditions> at;
-  for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
-    for (const ImpactPoint& point : plan.datasets[d].points) {
-      at.push_back({d, point.diameter, point.incident_velocity, point.series});
-    }
-  }
+  std::vector<PointConditions> at = settings_of(plan);
   const std::vector<double>& sizes = plan.options.diameters;
   std::vector<double> beyond = sizes;
   beyond.push_back(smaller * sizes.front());
@@ -140,6 +135,16 @@ class Examined {
 };
 
 }  // namespace
+
+std::vector<PointConditions> settings_of(const ExperimentPlan& plan) {
+  std::vector<PointConditions> at;
+  for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
+    for (const ImpactPoint& point : plan.datasets[d].points) {
+      at.push_back({d, point.diameter, point.incident_velocity, point.series});
+    }
+  }
+  return at;
+}
 
 PlanGround ground_of(const FitSpec& spec, const ExperimentPlan& plan) {
   return ground_at(spec, plan, planned_parameters(plan.model, plan.theta), places_to_look(plan));

@@ -30,6 +30,9 @@ struct PlanGround {
 /// its sizes, of 0.6 times the smallest and of 1.6 times the largest one, in every dataset.
 PlanGround ground_of(const FitSpec& spec, const ExperimentPlan& plan);
 
+/// Where the settings of `plan` are.
+std::vector<PointConditions> settings_of(const ExperimentPlan& plan);
+
 /// @param at the settings of `plan` first
 PlanGround ground_at(const FitSpec& spec, const ExperimentPlan& plan,
                      const PlannedParameters& parameters, std::vector<PointConditions> at);

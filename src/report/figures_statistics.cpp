@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/units.hpp"
 #include "report/density.hpp"
@@ -102,8 +103,9 @@ plot::Plot residuals_by_velocity(const std::vector<ResidualRow>& rows) {
   return shown;
 }
 
-/// Residuals of one dataset against diameter, with the mean of each and its standard error.
-plot::Plot residuals_by_diameter(const std::vector<ResidualRow>& rows) {
+/// Residuals of one dataset against diameter, with the mean of each and its standard error; none
+/// where there is one diameter.
+std::optional<plot::Plot> residuals_by_diameter(const std::vector<ResidualRow>& rows) {
   std::map<double, std::vector<double>> by_diameter;
   plot::Points cloud;
   cloud.marker = {plot::sky, plot::Mark::circle};
@@ -123,6 +125,7 @@ plot::Plot residuals_by_diameter(const std::vector<ResidualRow>& rows) {
     cloud.x.push_back(size);
     cloud.y.push_back(rows[i].residual);
   }
+  if (by_diameter.size() == 1) return std::nullopt;
   plot::Points means;
   std::vector<double> errors;
   for (const auto& [size, residuals] : by_diameter) {
@@ -145,25 +148,21 @@ plot::Plot residuals_by_diameter(const std::vector<ResidualRow>& rows) {
   return shown;
 }
 
-bool differ_in_size(const std::vector<ResidualRow>& rows) {
-  return std::any_of(rows.begin(), rows.end(),
-                     [&](const ResidualRow& row) { return row.diameter != rows.front().diameter; });
-}
-
 template <class MakePlot>
 std::vector<Figure> per_dataset(const Analysis& analysis, const std::string& name,
                                 const std::string& title, const std::string& extra,
-                                MakePlot make_plot,
-                                bool (*worth_it)(const std::vector<ResidualRow>&)) {
+                                MakePlot make_plot) {
   std::vector<Figure> figures;
   for (std::size_t k = 0; k < analysis.datasets.size(); ++k) {
     const std::vector<ResidualRow> rows = residual_rows(analysis, k);
-    if (rows.empty() || !worth_it(rows)) continue;
+    if (rows.empty()) continue;
+    std::optional<plot::Plot> shown = make_plot(rows);
+    if (!shown) continue;
     plot::Picture picture;
     picture.name = fmt::format("{}-{}", name, k + 1);
     picture.title = fmt::format("{}, {}", title, analysis.datasets[k].id);
     picture.height = 320;
-    picture.plots = {make_plot(rows)};
+    picture.plots = {*std::move(shown)};
     figures.push_back(figure_of(
         std::move(picture),
         analysis.datasets[k].id + ". " + residual_words(analysis) + beyond_two(rows) + extra));
@@ -231,14 +230,13 @@ Figure bootstrap_figure(const Analysis& analysis, std::size_t slot) {
 
 std::vector<Figure> residual_velocity_figures(const Analysis& analysis) {
   return per_dataset(analysis, "residual-velocity", "Weighted residuals against velocity",
-                     " A trend along the axis is a misfit.", residuals_by_velocity,
-                     [](const std::vector<ResidualRow>&) { return true; });
+                     " A trend along the axis is a misfit.", residuals_by_velocity);
 }
 
 std::vector<Figure> residual_diameter_figures(const Analysis& analysis) {
   return per_dataset(analysis, "residual-diameter", "Weighted residuals against diameter",
                      " Means away from zero show that the model gets the dependence on size wrong.",
-                     residuals_by_diameter, differ_in_size);
+                     residuals_by_diameter);
 }
 
 std::vector<Figure> bootstrap_figures(const Analysis& analysis) {

@@ -144,9 +144,7 @@ Json experiments_json(const Diagnosis& d) {
       entry["value"] = next.value;
       entry["doing"] = next.doing;
     }
-    if (next.kind == ExperimentKind::target) {
-      add_target(entry, next.material, next.places);
-    }
+    if (next.kind == ExperimentKind::target) add_target(entry, next.material, next.places);
     entry["dataset"] = d.datasets[next.dataset].id;
     entry["series"] = d.datasets[next.dataset].series[next.series];
     entry["diameter_um"] = next.diameter / units::um;

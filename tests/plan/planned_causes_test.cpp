@@ -43,6 +43,20 @@ ExperimentPlan examined_plan(const recoil::FitSpec& spec, const recoil::Dataset&
                                  options);
 }
 
+/// Evenly spread points of spheres that are all alike.
+ExperimentPlan plan_of_equal_spheres(const recoil::FitSpec& spec) {
+  PlanOptions options;
+  options.diameters = {2.58e-6, 4.9e-6};
+  options.slowest = 5.0;
+  options.fastest = 80.0;
+  options.impacts = 2000;
+  options.spread = 0.0;
+  options.checks = 1.0;
+  const auto datasets = recoil::datasets_to_plan({materials_alone()}, options.diameters);
+  return recoil::plan_experiment(spec, datasets, recoil::make_model(spec, datasets).initial(),
+                                 options);
+}
+
 recoil::FitSpec exact_laws() {
   recoil::FitSpec spec = recoil::synthetic::spec();
   spec.law_error = 0.0;
@@ -90,16 +104,7 @@ double log_odds_by_refit(const recoil::FitSpec& spec, const ExperimentPlan& plan
 
 TEST(PlannedCauses, WhatIsSeenIsWhatARefitLeaves) {
   const recoil::FitSpec spec = exact_laws();
-  PlanOptions sharp;
-  sharp.diameters = {2.58e-6, 4.9e-6};
-  sharp.slowest = 5.0;
-  sharp.fastest = 80.0;
-  sharp.impacts = 2000;
-  sharp.spread = 0.0;
-  sharp.checks = 1.0;
-  const auto datasets = recoil::datasets_to_plan({materials_alone()}, sharp.diameters);
-  const ExperimentPlan plan =
-      recoil::plan_experiment(spec, datasets, recoil::make_model(spec, datasets).initial(), sharp);
+  const ExperimentPlan plan = plan_of_equal_spheres(spec);
   int compared = 0;
   for (const PlannedCause& cause : plan.expected.causes) {
     if (std::abs(cause.change) > 0.05 || cause.log_odds < 0.05) continue;  // linear, and visible
@@ -249,16 +254,7 @@ double log_odds_on_two_targets(const recoil::FitSpec& spec, const ExperimentPlan
 // does not know.
 TEST(PlannedTarget, ShowsWhatARefitOfBothTargetsLeaves) {
   const recoil::FitSpec spec = exact_laws();
-  PlanOptions sharp;
-  sharp.diameters = {2.58e-6, 4.9e-6};
-  sharp.slowest = 5.0;
-  sharp.fastest = 80.0;
-  sharp.impacts = 2000;
-  sharp.spread = 0.0;
-  sharp.checks = 1.0;
-  const auto datasets = recoil::datasets_to_plan({materials_alone()}, sharp.diameters);
-  const ExperimentPlan plan =
-      recoil::plan_experiment(spec, datasets, recoil::make_model(spec, datasets).initial(), sharp);
+  const ExperimentPlan plan = plan_of_equal_spheres(spec);
   const PlannedCause* cause = cause_of(plan, "bulk_viscoelastic");
   ASSERT_NE(cause, nullptr);
   const recoil::PlanGround ground = recoil::ground_of(spec, plan);
@@ -273,7 +269,7 @@ TEST(PlannedTarget, ShowsWhatARefitOfBothTargetsLeaves) {
     ++shown;
     const recoil::PlanRemedy remedy = target.remedy(*impacts);
     EXPECT_EQ(remedy.kind, recoil::ExperimentKind::target);
-    EXPECT_EQ(*impacts % (sharp.events * static_cast<int>(remedy.places.size())), 0);
+    EXPECT_EQ(*impacts % (plan.options.events * static_cast<int>(remedy.places.size())), 0);
     const double free = log_odds_on_two_targets(spec, plan, *cause, remedy, true);
     const double known = log_odds_on_two_targets(spec, plan, *cause, remedy, false);
     EXPECT_LE(free, known * (1.0 + 1e-6)) << material.name;
