@@ -1,13 +1,13 @@
 #include <vector>
 
 #include "core/quadrature.hpp"
+#include "core/units.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr double earth_gravity = 9.80665;  // standard [m/s2]
-constexpr double no_drag_below = 10.0;     // [Pa]
+constexpr double no_drag_below = 10.0;  // [Pa]
 
 // Air at 293 K (Hinds, Aerosol Technology): viscosity [Pa s], density over pressure [kg/(m3 Pa)],
 // free path times pressure [m Pa].
@@ -29,7 +29,7 @@ class Flight {
     const T slip =
         inverse_knudsen / (inverse_knudsen + 1.257 + 0.4 * exponential(-1.1 * inverse_knudsen));
     stokes_ =
-        slip / (e.diameter * e.diameter) * (18.0 * Air::viscosity / (e.density * earth_gravity));
+        slip / (e.diameter * e.diameter) * (18.0 * Air::viscosity / (e.density * standard_gravity));
   }
   T drag(const T& speed) const {
     constexpr double still = 1e-9;  // keeps slopes finite where there is no gas
@@ -140,7 +140,7 @@ Mechanism flight_drag() {
                                 .of =
                                     [](const Encounter<double>& sphere, std::span<const double>) {
                                       const double v = sphere.velocity;
-                                      return v * v / (2.0 * earth_gravity) / 20.0;
+                                      return v * v / (2.0 * standard_gravity) / 20.0;
                                     }},
                       // Flights through stated air may have been reduced already.
                       .stated_by = StatedBy{Condition::ambient_pressure,

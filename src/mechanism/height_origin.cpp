@@ -1,3 +1,4 @@
+#include "core/units.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -10,7 +11,7 @@ struct HeightOrigin {
   /// 2 g delta.
   template <class T>
   static T too_much(std::span<const T> own) {
-    return 2.0 * 9.80665 * own[0];  // standard gravity [m/s2]
+    return 2.0 * standard_gravity * own[0];
   }
   template <class T>
   static void before(Encounter<T>& e, std::span<const T> own) {

@@ -1,18 +1,17 @@
+#include "core/units.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr double gravity = 9.80665;  // standard [m/s2]
-
 struct ProbePlane {
   template <class T>
   static void before(Encounter<T>& e, std::span<const T> own) {
-    e.velocity = sqrt(e.velocity * e.velocity + 2.0 * gravity * own[0]);
+    e.velocity = sqrt(e.velocity * e.velocity + 2.0 * standard_gravity * own[0]);
   }
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    e.square -= 2.0 * gravity * own[0];
+    e.square -= 2.0 * standard_gravity * own[0];
   }
 };
 

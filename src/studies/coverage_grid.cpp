@@ -132,8 +132,10 @@ FitSpec grid_spec(const FitSpec& spec, const GridDesign& design) {
 
 CoverageTruth grid_truth(const FitSpec& spec, const Dataset& base, const GridDesign& design,
                          std::uint64_t seed) {
-  FitSpec exact = spec;
-  exact.uncertainty.materials = false;
+  // With f0 free the fit ends at C_A = 0, at its bound, where no interval of C_A can be judged.
+  GridDesign fixed = design;
+  fixed.adhesion_free = false;
+  const FitSpec exact = grid_spec(spec, fixed);
   const EstimatedTruth found = truth_at_estimate(exact, {base}, gather({base}, exact));
   const Truth& truth = found.truths.front();
   CoverageTruth study;

@@ -16,7 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view coverage_sources = "coverage_";  // of src/studies
+/// Of src/studies; what is called coverage_page or coverage_picture shows the numbers.
+constexpr std::array<std::string_view, 2> coverage_sources = {"coverage_grid", "coverage_study"};
+
+template <std::size_t N>
+bool contains(const std::array<std::string_view, N>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 Study grid_study(const std::string& name, const std::string& designs, int datasets) {
   return {"coverage-grid-" + name,
@@ -90,7 +96,7 @@ const Study& study_named(const std::string& name) {
 
 bool shows_results(const std::string& stage) {
   constexpr std::array<std::string_view, 4> stages = {"document", "plot", "report", "cli"};
-  return std::find(stages.begin(), stages.end(), stage) != stages.end();
+  return contains(stages, stage);
 }
 
 bool decides(const std::string& command, const fs::path& source) {
@@ -99,8 +105,8 @@ bool decides(const std::string& command, const fs::path& source) {
   if (!command.starts_with("coverage-")) return true;
   constexpr std::array<std::string_view, 5> later = {"predict", "diagnosis", "plan", "export",
                                                      "python"};
-  if (stage == "studies") return source.filename().string().starts_with(coverage_sources);
-  return std::find(later.begin(), later.end(), stage) == later.end();
+  if (stage == "studies") return contains(coverage_sources, source.stem().string());
+  return !contains(later, stage);
 }
 
 std::string study_key(const fs::path& root, const std::string& command) {

@@ -84,6 +84,7 @@ TEST_F(Tree, TheKeyOfCoverageLeavesOutOnlyWhatItsSourcesDoNotInclude) {
   EXPECT_GT(seen.size(), 100u);
   EXPECT_FALSE(decides(command, "diagnosis/search.cpp"));
   EXPECT_FALSE(decides(command, "studies/hidden_effects_plan.cpp"));
+  EXPECT_FALSE(decides(command, "studies/coverage_picture.cpp"));
 }
 
 TEST_F(Tree, TheKeyChangesWithFitsDataAndTheCommandButNotWithResults) {
