@@ -70,7 +70,7 @@ const std::vector<Study>& all_studies() {
       grid_study("n60-stated", "n60,stated", 1000),
       grid_study("n10-estimated", "n10,estimated", 200),
       grid_study("n20-estimated", "n20,estimated", 200),
-      grid_study("n60-estimated", "n60,estimated", 500),
+      grid_study("n60-estimated", "n60,estimated", 200),
       {"hidden-effects",
        "hidden-effects --datasets 2 --correct 400 --pairs 1 --outside 1 --single 1 --careless 6",
        "reports/hidden-effects.json"},
