@@ -79,8 +79,12 @@ struct CandidateResult {
   /// Of the base model's misfit beyond the noise, what is left [1]; 1 where no errors are stated.
   double remaining_part = 1.0;
   std::optional<HeldOutGain> gain;  ///< where worth computing
-  bool plausible = true;            ///< all of its parameters are
-  bool near_plausible = true;       ///< see `FoundParameter`
+  /// By how much the criterion rises where the parameters are kept within what is possible; asked
+  /// where the best value lies outside by less than its error, and else 0. A standard error says
+  /// little of a limit where two parameters trade for each other.
+  double cost_of_possible = 0.0;
+  bool plausible = true;       ///< all of its parameters are
+  bool near_plausible = true;  ///< see `FoundParameter`
   std::optional<SetAside> set_aside;
 
   bool explains() const { return !set_aside; }

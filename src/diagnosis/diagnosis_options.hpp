@@ -11,10 +11,9 @@ class KeptRows;
 struct DiagnosisOptions {
   int simulated = 999;  ///< data sets of the base model that calibrate the tests of the residuals
   int compared = 39;    ///< of these, how many are fitted with every candidate
-  /// A correct model is accused in this part of all data, if the stated deviations are right. 5 %
-  /// are promised: the rest is room for what they do not cover, such as velocities that a table
-  /// rounds to three digits where e is steep, close to capture.
-  double level = 0.02;
+  /// A correct model whose losses are wrong by the error that they are allowed is accused in this
+  /// part of all data, if the stated deviations are right; one without that error in less.
+  double level = 0.05;
   double chance = 0.05;  ///< what a cause gains, chance gives in no more than this part
   /// Two causes whose criteria differ by less than this margin cannot be told from each other. For
   /// a false rival R and the truth T, with delta^2 the misfit that R would leave, the difference of

@@ -18,11 +18,10 @@ bool is_near(const ParameterSlot& slot, double value, double lower, double upper
   return value >= lower - half && value <= upper + half;
 }
 
-/// `value` by `errors` standard errors `sd` towards the range; for a logarithmic slot in ln.
-double nearest_to_range(const ParameterSlot& slot, double value, double sd, double lower,
+/// `value` by `reach` towards the range; for a logarithmic slot in ln.
+double nearest_to_range(const ParameterSlot& slot, double value, double reach, double lower,
                         double upper) {
-  if (!(sd > 0.0)) return value;
-  const double reach = allowed_errors * sd;
+  if (!(reach > 0.0)) return value;
   const double down = slot.log_scale ? value * std::exp(-reach / value) : value - reach;
   const double up = slot.log_scale ? value * std::exp(reach / value) : value + reach;
   if (value > upper) return std::max(down, upper);
@@ -31,11 +30,11 @@ double nearest_to_range(const ParameterSlot& slot, double value, double sd, doub
 }
 
 /// Sets what of `parameter`, the one of slot `j`, is impossible.
-void judge(const Candidate& candidate, const Refit& refit, std::size_t j, double error,
+void judge(const Candidate& candidate, const Refit& refit, std::size_t j, double reach,
            FoundParameter& parameter) {
   const ParameterSlot& slot = candidate.model.slots[j];
   const AllowedValues allowed = allowed_values(candidate, refit.theta, j);
-  const double value = nearest_to_range(slot, parameter.value, error, allowed.lower, allowed.upper);
+  const double value = nearest_to_range(slot, parameter.value, reach, allowed.lower, allowed.upper);
   if (value >= allowed.lower && value <= allowed.upper) return;
   const bool by_limit = value > allowed.upper ? allowed.upper_by_limit : allowed.lower_by_limit;
   const PlausibleLimit& limit = slot.parameter->limit;
@@ -71,8 +70,8 @@ std::vector<double> standard_errors(const Refit& refit, double noise_scale) {
 }
 
 std::vector<FoundParameter> found_parameters(const Candidate& candidate, const Refit& refit,
-                                             double noise_scale) {
-  const std::vector<double> errors = standard_errors(refit, noise_scale);
+                                             double noise_scale, double errors) {
+  const std::vector<double> sd = standard_errors(refit, noise_scale);
   std::vector<FoundParameter> found;
   for (std::size_t j = 0; j < refit.theta.size(); ++j) {
     const ParameterSlot& slot = candidate.model.slots[j];
@@ -81,12 +80,12 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
     parameter.label = slot.label();
     parameter.unit = slot.parameter->unit;
     parameter.value = refit.theta[j];
-    parameter.sd = errors[j];
+    parameter.sd = sd[j];
     parameter.null_value = slot.parameter->null_value;
     if (slot.stated) parameter.stated_by = slot.parameter->stated_by->condition;
     const bool vanishes = std::abs(parameter.value - slot.parameter->null_value) <=
                           at_null * (slot.upper - slot.lower);
-    if (slot.free && !vanishes) judge(candidate, refit, j, errors[j], parameter);
+    if (slot.free && !vanishes) judge(candidate, refit, j, errors * sd[j], parameter);
     found.push_back(std::move(parameter));
   }
   return found;

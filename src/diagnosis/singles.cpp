@@ -27,6 +27,7 @@ CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
       carried_over(base.candidate.model, base.refit.theta, candidate.model);
   CandidateResult result = try_one(base, std::move(candidate), near, tries_alone);
   try_released(base, result, tries_alone);
+  hold_to_what_is_possible(base, result, tries_alone);
   return result;
 }
 

@@ -41,6 +41,17 @@ double part_left(const SearchBase& base, const CandidateResult& candidate) {
   return before > 0.0 ? after / before : 1.0;
 }
 
+/// Sets the parameters of a fitted candidate and whether they are possible.
+void find_parameters(const SearchBase& base, CandidateResult& result) {
+  const bool by_error = result.cost_of_possible <= allowed_errors * allowed_errors;
+  result.parameters = found_parameters(result.candidate, result.refit, base.noise_scale,
+                                       by_error ? allowed_errors : 0.0);
+  result.plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
+                                 [](const FoundParameter& p) { return p.plausible(); });
+  result.near_plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
+                                      [](const FoundParameter& p) { return p.near_plausible; });
+}
+
 /// What a fitted candidate is.
 CandidateResult described(const SearchBase& base, Candidate candidate, Refit refit) {
   CandidateResult result;
@@ -48,11 +59,7 @@ CandidateResult described(const SearchBase& base, Candidate candidate, Refit ref
   result.kind = kind_of(result.candidate.added);
   result.refit = std::move(refit);
   if (!result.refit.usable) return result;
-  result.parameters = found_parameters(result.candidate, result.refit, base.noise_scale);
-  result.plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
-                                 [](const FoundParameter& p) { return p.plausible(); });
-  result.near_plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
-                                      [](const FoundParameter& p) { return p.near_plausible; });
+  find_parameters(base, result);
   return result;
 }
 
@@ -99,6 +106,24 @@ void try_released(const SearchBase& base, CandidateResult& result, int tries) {
   }
 }
 
+void hold_to_what_is_possible(const SearchBase& base, CandidateResult& result, int tries) {
+  if (!result.refit.usable || !result.plausible) return;
+  const std::vector<FoundParameter> sharp =
+      found_parameters(result.candidate, result.refit, base.noise_scale, 0.0);
+  if (std::all_of(sharp.begin(), sharp.end(),
+                  [](const FoundParameter& p) { return p.plausible(); })) {
+    return;
+  }
+  Candidate held = make_candidate(base.spec, base.datasets, result.candidate.added,
+                                  result.candidate.released, true);
+  const std::vector<double> near = within_bounds(
+      held.model, carried_over(result.candidate.model, result.refit.theta, held.model));
+  const CandidateResult possible = try_one(base, std::move(held), near, tries);
+  if (!possible.refit.usable) return;
+  result.cost_of_possible = possible.delta_aicc - result.delta_aicc;
+  find_parameters(base, result);
+}
+
 CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size_t k,
                                const std::vector<std::string>& added,
                                const std::function<CandidateResult()>& make) {
@@ -106,8 +131,9 @@ CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size
   const auto write = [&](const CandidateResult& c) {
     if (!c.refit.usable) return Json::array({added});
     const Json aside = c.set_aside ? Json(name_of(*c.set_aside)) : Json(nullptr);
-    return Json::array({added, c.candidate.released, json_of(c.refit),
-                        row_json({c.delta_aicc, c.remaining_p, c.remaining_part}), aside});
+    return Json::array(
+        {added, c.candidate.released, json_of(c.refit),
+         row_json({c.delta_aicc, c.remaining_p, c.remaining_part, c.cost_of_possible}), aside});
   };
   const auto read = [&](const Json& row) {
     require_names(row, added);
@@ -120,6 +146,8 @@ CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size
     c.delta_aicc = values.at(0);
     c.remaining_p = values.at(1);
     c.remaining_part = values.at(2);
+    c.cost_of_possible = values.at(3);
+    if (c.refit.usable) find_parameters(base, c);
     if (!row.at(4).is_null()) c.set_aside = value_named<SetAside>(row.at(4).get<std::string>());
     return c;
   };

@@ -21,6 +21,9 @@ CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit
 /// The same with released parameters, if that is worth it.
 void try_released(const SearchBase& base, CandidateResult& result, int tries);
 
+/// Finds `cost_of_possible` where an error alone makes a value possible, and judges by it.
+void hold_to_what_is_possible(const SearchBase& base, CandidateResult& result, int tries);
+
 /// What `make` gives for `added`, or what is kept of it as piece `k` of its kind.
 CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size_t k,
                                const std::vector<std::string>& added,

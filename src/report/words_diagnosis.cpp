@@ -86,7 +86,11 @@ std::string because_words(const CandidateResult& c) {
       return "it fits far worse than the best two";
   }
   for (const FoundParameter& parameter : c.parameters) {
-    if (!parameter.plausible()) return implausible_words(parameter);
+    if (parameter.plausible()) continue;
+    const std::string words = implausible_words(parameter);
+    if (!(c.cost_of_possible > 0.0)) return words;
+    return fmt::format("{}; with a possible value it fits worse by {:.0f} in AICc", words,
+                       c.cost_of_possible);
   }
   return "";
 }

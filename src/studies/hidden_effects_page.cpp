@@ -125,26 +125,52 @@ std::string listed(const std::map<std::string, int>& counts) {
   return words;
 }
 
+using MarkColumn = std::pair<const char*, Mark>;
+constexpr std::array<MarkColumn, 9> mark_columns = {{{"named", Mark::named},
+                                                     {"one of several", Mark::part},
+                                                     {"listed", Mark::inside},
+                                                     {"wrong", Mark::wrong},
+                                                     {"not listed", Mark::outside},
+                                                     {"unexplained", Mark::unexplained},
+                                                     {"resembles", Mark::resembled},
+                                                     {"adequate", Mark::nothing},
+                                                     {"no answer", Mark::failed}}};
+
+/// All effects of an arm together: shares of the data sets of one strength.
+Table strength_table(const StudyTally& tally, Arm arm) {
+  std::map<double, std::map<Mark, int>> sums;
+  std::map<double, int> counts;
+  for (const PowerRow& row : tally.powers) {
+    if (row.arm != arm) continue;
+    for (const auto& [mark, count] : row.marks) sums[row.signal_to_noise][mark] += count;
+    counts[row.signal_to_noise] += row.n;
+  }
+  Table table;
+  table.columns = {{"snr"}};
+  for (const MarkColumn& column : mark_columns) table.columns.push_back({column.first});
+  table.columns.push_back({"n"});
+  for (auto& [strength, sum] : sums) {
+    std::vector<Cell> cells = {Sentence(fmt::format("{:g}", strength))};
+    for (const MarkColumn& column : mark_columns) {
+      cells.push_back(
+          Sentence(fmt::format("{:.0f} %", 100.0 * sum[column.second] / counts[strength])));
+    }
+    cells.push_back(Sentence(std::to_string(counts[strength])));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
 Table power_table(const StudyTally& tally, Arm arm) {
-  using Column = std::pair<const char*, Mark>;
-  constexpr std::array<Column, 9> marks = {{{"named", Mark::named},
-                                            {"one of several", Mark::part},
-                                            {"listed", Mark::inside},
-                                            {"wrong", Mark::wrong},
-                                            {"not listed", Mark::outside},
-                                            {"unexplained", Mark::unexplained},
-                                            {"resembles", Mark::resembled},
-                                            {"adequate", Mark::nothing},
-                                            {"no answer", Mark::failed}}};
   Table table;
   table.columns = {{"hidden", {}, true}, {"designs", {}, true}, {"snr"}};
-  for (const Column& column : marks) table.columns.push_back({column.first});
+  for (const MarkColumn& column : mark_columns) table.columns.push_back({column.first});
   table.columns.push_back({"n"});
   for (const PowerRow& row : tally.powers) {
     if (row.arm != arm) continue;
     std::vector<Cell> cells = {Sentence(row.hidden), Sentence(listed(row.designs)),
                                Sentence(fmt::format("{:g}", row.signal_to_noise))};
-    for (const Column& column : marks) {
+    for (const MarkColumn& column : mark_columns) {
       const auto found = row.marks.find(column.second);
       cells.push_back(found == row.marks.end() || found->second == 0
                           ? Cell(Sentence())
@@ -350,6 +376,12 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
     }
     if (blocks.size() > words) section(std::move(title), std::move(blocks));
   };
+  section(
+      "What the errors of the laws cost",
+      {Paragraph{"The base model's losses are allowed an error of 3 %, and every law one of 10 % "
+                 "of its effect. What such errors can take up is not seen: of exact laws, all "
+                 "effects together."},
+       strength_table(tally, Arm::effect)});
   arms_section("Power against strength, effect by effect", {}, {Arm::effect});
   arms_section(
       "Laws that are wrong by some per cent",

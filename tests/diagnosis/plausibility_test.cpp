@@ -9,7 +9,8 @@ namespace {
 
 /// The parameters of a mechanism at `value`, known to one part in a thousand. Spheres of 2.58 and
 /// 4.9 um of ammonium fluorescein on molybdenum, 2.5 to 90 m/s.
-std::vector<FoundParameter> found(const std::string& id, double value) {
+std::vector<FoundParameter> found(const std::string& id, double value,
+                                  double errors = allowed_errors) {
   const std::vector<Dataset> data = {synthetic::dataset({})};
   const Candidate candidate = make_candidate(synthetic::spec(), data, {id});
   Refit refit;
@@ -22,7 +23,7 @@ std::vector<FoundParameter> found(const std::string& id, double value) {
   refit.residuals.assign(4, 0.0);
   refit.jacobian.assign(4 * p, 0.0);
   for (std::size_t i = 0; i < 4; ++i) refit.jacobian[i * p + 3] = 500.0 / value;
-  return found_parameters(candidate, refit, 1.0);
+  return found_parameters(candidate, refit, 1.0, errors);
 }
 
 TEST(Plausibility, RefusesAYieldPressureOfSteelInAPolymer) {
@@ -52,6 +53,9 @@ TEST(Plausibility, AllowsTwoStandardErrors) {
   // The standard error is 0.1 % of the value: 3.005e6 is 1.7 of them above 3e6.
   EXPECT_TRUE(found("electrostatic_image", 3.005e6).front().plausible());
   EXPECT_FALSE(found("electrostatic_image", 3.02e6).front().plausible());
+  const FoundParameter sharp = found("electrostatic_image", 3.005e6, 0.0).front();
+  EXPECT_FALSE(sharp.plausible());
+  EXPECT_NEAR(sharp.sd, 3.005e3, 1.0);  // is told all the same
 }
 
 TEST(Plausibility, KnowsWhatLiesJustBeyond) {

@@ -9,9 +9,11 @@
 #include <string>
 
 #include "core/files.hpp"
+#include "mechanism/catalogue.hpp"
 #include "studies/program_run.hpp"
 #include "studies/synthetic/case.hpp"
 #include "studies/synthetic/case_files.hpp"
+#include "studies/synthetic/hidden_effect.hpp"
 
 namespace {
 
@@ -102,5 +104,19 @@ INSTANTIATE_TEST_SUITE_P(
         Pairing{"survivor_bias", "wall", 0, 10.0, "adhesion_spread", 1.0, false, 0.1, 0.2},
         Pairing{"rebound_truncation", "li", 0, 10.0, "slowest_rebound", 1.0, false, 0.1, 0.2},
         Pairing{"outliers", "li", 0, 10.0, "outlier_share", 1.0, false, 0.05, 0.1}));
+
+TEST(Limits, WhatTheStudyHidesIsPossibleToTheCatalogue) {
+  int compared = 0;
+  for (const HiddenEffect& effect : hidden_effects()) {
+    const recoil::Mechanism* const known = recoil::find_mechanism(effect.id);
+    if (known == nullptr) continue;
+    const recoil::Parameter& strength = known->info.parameters.front();
+    if (strength.unit != effect.unit) continue;
+    EXPECT_LE(effect.largest, strength.plausible.upper) << effect.id;
+    EXPECT_GE(-effect.most_negative, strength.plausible.lower) << effect.id;
+    ++compared;
+  }
+  EXPECT_GE(compared, 12);
+}
 
 }  // namespace
