@@ -378,9 +378,9 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
   };
   section(
       "What the errors of the laws cost",
-      {Paragraph{"The base model's losses are allowed an error of 3 %, and every law one of 10 % "
-                 "of its effect. What such errors can take up is not seen: of exact laws, all "
-                 "effects together."},
+      {Paragraph{"The losses of the base model are allowed an error of 3 %, and every law one of "
+                 "10 % of its effect, so that a misfit which such errors could make is not "
+                 "reported. All effects together, by strength; the laws were exact here:"},
        strength_table(tally, Arm::effect)});
   arms_section("Power against strength, effect by effect", {}, {Arm::effect});
   arms_section(

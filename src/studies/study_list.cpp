@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of src/studies; what is called coverage_page or coverage_picture shows the numbers.
 constexpr std::array<std::string_view, 2> coverage_sources = {"coverage_grid", "coverage_study"};
 
 template <std::size_t N>
@@ -94,17 +93,21 @@ const Study& study_named(const std::string& name) {
                    near.empty() ? "take one of these" : fmt::format("did you mean '{}'?", near));
 }
 
-bool shows_results(const std::string& stage) {
+bool shows_results(const fs::path& source) {
+  const std::string stage = source.begin()->string();
+  const std::string name = source.stem().string();
   constexpr std::array<std::string_view, 4> stages = {"document", "plot", "report", "cli"};
-  return contains(stages, stage);
+  return contains(stages, stage) ||
+         (stage == "studies" &&
+          (name.ends_with("_page") || name.ends_with("_pages") || name.ends_with("_picture")));
 }
 
 bool decides(const std::string& command, const fs::path& source) {
-  const std::string stage = source.begin()->string();
-  if (shows_results(stage)) return false;
+  if (shows_results(source)) return false;
   if (!command.starts_with("coverage-")) return true;
   constexpr std::array<std::string_view, 5> later = {"predict", "diagnosis", "plan", "export",
                                                      "python"};
+  const std::string stage = source.begin()->string();
   if (stage == "studies") return contains(coverage_sources, source.stem().string());
   return !contains(later, stage);
 }

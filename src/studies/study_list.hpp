@@ -22,8 +22,8 @@ const Study& study_named(const std::string& name);
 /// the sources below `root`/src that decide them (`decides`).
 std::string study_key(const std::filesystem::path& root, const std::string& command);
 
-/// Does this folder of src only show what others computed?
-bool shows_results(const std::string& stage);
+/// Does this folder of src, or this file below it, only show what others computed?
+bool shows_results(const std::filesystem::path& source);
 
 /// Can `source`, a file below src, change a number of the study `command`? Not where it only shows
 /// results, nor, for a study of coverage, where it comes later in the pipeline or belongs to
