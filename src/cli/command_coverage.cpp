@@ -148,7 +148,7 @@ void add_coverage(CLI::App& program) {
       "Grids of designs, tables of several fits and their summary are studies of recoil's\n"
       "authors: ./run study, or recoil_study --help.");
   const auto options = std::make_shared<Options>();
-  command->add_option("FIT", options->fit_file, "a fit file")->required();
+  add_fit_file(*command, options->fit_file);
   command->add_option("--datasets", options->datasets, "simulated data sets")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));

@@ -125,7 +125,7 @@ void add_diagnose(CLI::App& program) {
       "  recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis\n"
       "  recoil fit diagnosis/extended.toml");
   const auto flags = std::make_shared<DiagnoseFlags>();
-  command->add_option("FIT", flags->fit, "a fit file")->required();
+  add_fit_file(*command, flags->fit);
   command->add_option("--out", flags->out, "folder for the results (default: nothing is written)")
       ->type_name("DIR");
   command->add_option("--threads", flags->threads, "threads to use (default: all cores)")

@@ -230,7 +230,7 @@ void add_export(CLI::App& program) {
       "  recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps\n"
       "  lmp -in my-lammps/impact.lammps -var V 2.4");
   const auto options = std::make_shared<ExportOptions>();
-  command->add_option("FIT", options->fit_file, "a fit file")->required();
+  add_fit_file(*command, options->fit_file);
   command->add_option("--to", options->to, "the program")
       ->required()
       ->check(CLI::IsMember(all_names<ExportTarget>()));

@@ -91,7 +91,7 @@ void add_fit(CLI::App& program) {
       "and the same command goes on from there.\n\n"
       "  recoil fit fits/dahneke1975-quartz.toml --out results");
   const auto flags = std::make_shared<FitFlags>();
-  command->add_option("FIT", flags->fit_file, "a fit file")->required();
+  add_fit_file(*command, flags->fit_file);
   command->add_option("--out", flags->out, "folder for fit.json (default: nothing is written)")
       ->type_name("DIR");
   add_shard_flags(*command, "bootstrap's replicates", flags->shards);

@@ -174,7 +174,7 @@ void add_plan(CLI::App& program) {
       "  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \\\n"
       "      --out my-plan");
   const auto flags = std::make_shared<PlanFlags>();
-  command->add_option("FIT", flags->fit_file, "a fit file")->required();
+  add_fit_file(*command, flags->fit_file);
   command
       ->add_option("--velocity", flags->velocity,
                    "range of incident velocities MIN,MAX [m/s] (default: that of the points, or "

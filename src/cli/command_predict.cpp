@@ -90,7 +90,7 @@ void add_predict(CLI::App& program) {
       "  recoil predict fits/li1999-sst65-silicon.toml --sizes "
       "datasets/li1999-sst65-silicon/sizes.csv");
   const auto options = std::make_shared<PredictOptions>();
-  command->add_option("FIT", options->fit_file, "a fit file")->required();
+  add_fit_file(*command, options->fit_file);
   command->add_option("--sizes", options->sizes, "the size distribution (CSV)")
       ->required()
       ->type_name("FILE");

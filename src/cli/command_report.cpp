@@ -218,7 +218,7 @@ void add_report(CLI::App& program) {
       "  recoil report                      every fits/*.toml into reports/\n"
       "  recoil report my.toml --out pages  one fit");
   const auto options = std::make_shared<ReportOptions>();
-  command->add_option("FIT", options->fits, "fit files (default: fits/*.toml)");
+  add_fit_files(*command, options->fits, "fit files (default: fits/*.toml)");
   command->add_option("--out", options->out, "folder for the pages")
       ->capture_default_str()
       ->type_name("DIR");

@@ -232,7 +232,7 @@ void add_simulate(CLI::App& program) {
       "  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 "
       "--history forces.csv");
   const auto options = std::make_shared<SimulateOptions>();
-  command->add_option("FIT", options->fit_file, "a fit file")->required();
+  add_fit_file(*command, options->fit_file);
   command->add_option("--velocity", options->velocity, "incident velocity [m/s]")
       ->required()
       ->check(positive_number("velocity", velocity_limits.first, velocity_limits.second));

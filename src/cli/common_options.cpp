@@ -2,9 +2,48 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <limits>
 
+#include "core/error.hpp"
+
 namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> fits_beside(const fs::path& file) {
+  std::vector<std::string> names;
+  std::error_code failed;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string require_there(const std::string& file) {
+  std::error_code failed;
+  if (fs::exists(fs::status(file, failed))) return "";
+  const std::string near = nearest_word(fs::path(file).filename().string(), fits_beside(file));
+  throw InputError({file}, "no such file", "",
+                   near.empty() ? "check the path"
+                                : fmt::format("did you mean '{}'?",
+                                              (fs::path(file).parent_path() / near).string()));
+}
+
+}  // namespace
+
+void add_fit_file(CLI::App& command, std::string& fit_file) {
+  command.add_option("FIT", fit_file, "a fit file")->required()->check(require_there);
+}
+
+CLI::Option* add_fit_files(CLI::App& command, std::vector<std::string>& fits,
+                           const std::string& meaning) {
+  return command.add_option("FIT", fits, meaning)->check(require_there);
+}
 
 AnalysisOptions AnalysisFlags::resolved() const {
   AnalysisOptions options;

@@ -1,10 +1,19 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "cli/analysis.hpp"
 
 namespace recoil {
+
+/// FIT, a required fit file. One that is not there is refused with the name of one that is.
+void add_fit_file(CLI::App& command, std::string& fit_file);
+
+/// The same for any number of them, none required.
+CLI::Option* add_fit_files(CLI::App& command, std::vector<std::string>& fits,
+                           const std::string& meaning);
 
 /// The options that every analysing command shares, as given.
 struct AnalysisFlags {

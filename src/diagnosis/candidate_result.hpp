@@ -84,6 +84,7 @@ struct CandidateResult {
   /// little of a limit where two parameters trade for each other.
   double cost_of_possible = 0.0;
   bool plausible = true;       ///< all of its parameters are
+  bool only_by_error = false;  ///< one lies outside of what is possible, by less than its error
   bool near_plausible = true;  ///< see `FoundParameter`
   std::optional<SetAside> set_aside;
 

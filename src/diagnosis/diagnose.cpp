@@ -59,6 +59,11 @@ void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress)
   }
 }
 
+bool beyond_a_sharp_limit(const CandidateResult& c) {
+  return std::any_of(c.parameters.begin(), c.parameters.end(),
+                     [](const FoundParameter& p) { return p.limit != nullptr && p.limit->sharp; });
+}
+
 /// The best explanation among `candidates` (the best first), and what cannot be told from it; none
 /// without an explanation.
 std::vector<const CandidateResult*> explanations(const std::vector<CandidateResult>& candidates,
@@ -71,8 +76,9 @@ std::vector<const CandidateResult*> explanations(const std::vector<CandidateResu
     if (c.delta_aicc > best->delta_aicc + margin) break;
     if (&c == &*best) continue;
     // So close to the best one, or before it, the other reasons to set something aside are as
-    // doubtful as it.
-    const bool possible = c.near_plausible && c.kind != MechanismKind::description &&
+    // doubtful as it. If the best is itself possible by its error only, so is how far others are.
+    const bool near = c.near_plausible || (best->only_by_error && !beyond_a_sharp_limit(c));
+    const bool possible = near && c.kind != MechanismKind::description &&
                           c.set_aside != SetAside::batch_is_size && c.delta_aicc < 0.0;
     const bool pair = c.candidate.added.size() > 1;
     if (one_size || pair ? c.explains() : possible) found.push_back(&c);

@@ -41,25 +41,33 @@ double part_left(const SearchBase& base, const CandidateResult& candidate) {
   return before > 0.0 ? after / before : 1.0;
 }
 
+bool all_plausible(const std::vector<FoundParameter>& parameters) {
+  return std::all_of(parameters.begin(), parameters.end(),
+                     [](const FoundParameter& p) { return p.plausible(); });
+}
+
 /// Sets the parameters of a fitted candidate and whether they are possible.
 void find_parameters(const SearchBase& base, CandidateResult& result) {
+  const auto found = [&](double errors) {
+    return found_parameters(result.candidate, result.refit, base.noise_scale, errors);
+  };
   const bool by_error = result.cost_of_possible <= allowed_errors * allowed_errors;
-  result.parameters = found_parameters(result.candidate, result.refit, base.noise_scale,
-                                       by_error ? allowed_errors : 0.0);
-  result.plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
-                                 [](const FoundParameter& p) { return p.plausible(); });
+  result.parameters = found(by_error ? allowed_errors : 0.0);
+  result.plausible = all_plausible(result.parameters);
+  result.only_by_error = result.plausible && by_error && !all_plausible(found(0.0));
   result.near_plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
                                       [](const FoundParameter& p) { return p.near_plausible; });
 }
 
-/// What a fitted candidate is.
-CandidateResult described(const SearchBase& base, Candidate candidate, Refit refit) {
+/// What a fitted candidate is, `cost_of_possible` being known.
+CandidateResult described(const SearchBase& base, Candidate candidate, Refit refit,
+                          double cost_of_possible) {
   CandidateResult result;
   result.candidate = std::move(candidate);
   result.kind = kind_of(result.candidate.added);
   result.refit = std::move(refit);
-  if (!result.refit.usable) return result;
-  find_parameters(base, result);
+  result.cost_of_possible = cost_of_possible;
+  if (result.refit.usable) find_parameters(base, result);
   return result;
 }
 
@@ -74,7 +82,7 @@ bool can_be_released(const Candidate& candidate) {
 
 CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit) {
   const Observations& data = base.fitted.data;
-  CandidateResult result = described(base, std::move(candidate), std::move(refit));
+  CandidateResult result = described(base, std::move(candidate), std::move(refit), 0.0);
   if (!result.refit.usable) return result;
   result.delta_aicc =
       corrected_criterion(data, result.refit, result.candidate.free_count) - base.criterion;
@@ -107,13 +115,7 @@ void try_released(const SearchBase& base, CandidateResult& result, int tries) {
 }
 
 void hold_to_what_is_possible(const SearchBase& base, CandidateResult& result, int tries) {
-  if (!result.refit.usable || !result.plausible) return;
-  const std::vector<FoundParameter> sharp =
-      found_parameters(result.candidate, result.refit, base.noise_scale, 0.0);
-  if (std::all_of(sharp.begin(), sharp.end(),
-                  [](const FoundParameter& p) { return p.plausible(); })) {
-    return;
-  }
+  if (!result.refit.usable || !result.only_by_error) return;
   Candidate held = make_candidate(base.spec, base.datasets, result.candidate.added,
                                   result.candidate.released, true);
   const std::vector<double> near = within_bounds(
@@ -141,13 +143,11 @@ CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size
     Candidate candidate =
         make_candidate(base.spec, base.datasets, added, row.at(1).get<bool>(), added.size() > 1);
     Refit refit = refit_of(row.at(2), candidate, base.fitted.data.points.size());
-    CandidateResult c = described(base, std::move(candidate), std::move(refit));
     const std::vector<double> values = row_of(row.at(3));
+    CandidateResult c = described(base, std::move(candidate), std::move(refit), values.at(3));
     c.delta_aicc = values.at(0);
     c.remaining_p = values.at(1);
     c.remaining_part = values.at(2);
-    c.cost_of_possible = values.at(3);
-    if (c.refit.usable) find_parameters(base, c);
     if (!row.at(4).is_null()) c.set_aside = value_named<SetAside>(row.at(4).get<std::string>());
     return c;
   };

@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "core/progress.hpp"
 #include "diagnosis/candidate.hpp"
 #include "diagnosis/elsewhere.hpp"
 #include "diagnosis/next_experiments.hpp"
@@ -49,7 +50,11 @@ class Causes {
 
   PlannedCauses examined() {
     PlannedCauses found;
-    for (const PossibleCause& cause : all_) found.causes.push_back(examine(cause));
+    Progress progress("causes told apart", all_.size());
+    for (const PossibleCause& cause : all_) {
+      found.causes.push_back(examine(cause));
+      progress.advance();
+    }
     std::stable_sort(
         found.causes.begin(), found.causes.end(),
         [](const PlannedCause& a, const PlannedCause& b) { return a.log_odds > b.log_odds; });

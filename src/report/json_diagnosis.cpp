@@ -66,7 +66,8 @@ Json candidate_json(const CandidateResult& c) {
               {"remaining_part", c.remaining_part},
               {"held_out_gain", c.gain ? number_or_null(c.gain->relative) : Json(nullptr)},
               {"held_out_log_score", c.gain ? number_or_null(c.gain->log_score) : Json(nullptr)},
-              {"plausible", c.plausible}};
+              {"plausible", c.plausible},
+              {"cost_of_possible", c.cost_of_possible}};
   out["aside"] = c.explains() ? Json(nullptr) : Json(set_aside_words(c));
   return out;
 }

@@ -180,6 +180,16 @@ TEST(CommandLine, SuggestsTheNearestOption) {
   EXPECT_NE(run.err.find("did you mean --replicates?"), std::string::npos) << run.err;
 }
 
+TEST(CommandLine, SuggestsTheNearestFitFile) {
+  const Workplace place;
+  const Outcome near = place.run({"diagnose", "fits.toml"});
+  EXPECT_EQ(near.status, 2);
+  EXPECT_EQ(near.err, "fits.toml: no such file; did you mean 'fit.toml'?\n");
+  const Outcome far = place.run({"fit", "elsewhere/fit.toml"});
+  EXPECT_EQ(far.status, 2);
+  EXPECT_EQ(far.err, "elsewhere/fit.toml: no such file; check the path\n");
+}
+
 TEST(CommandLine, OutputThatCannotBeWrittenIsNotSuccess) {
   const Workplace place;
   const std::string command = "cd '" + place.path().string() +
