@@ -325,7 +325,7 @@ Sentence loop_words(const StudyTally& tally) {
   return say(
       "Where no cause is certain, the first of {} is done, simulated by the hidden truth with the "
       "same noise per impact, and all points are diagnosed again. {} were told at once; {} after "
-      "further impacts, {:.0f} in the median, in {:g} rounds.",
+      "further impacts, {:g} in the median, in {:g} rounds.",
       code("next_experiment"), effort.at_once, effort.n, effort.median_events,
       effort.median_rounds);
 }
