@@ -98,6 +98,7 @@ void run(const Options& options) {
   std::optional<Claim> claim;
   if (!options.out.empty()) {
     require_writable_folder(std::filesystem::absolute(options.out).parent_path());
+    require_other_file(options.out, {options.fit_file});
   }
   const std::unique_ptr<Prepared> ready = prepare(options);
   if (!options.out.empty()) claim.emplace(options.out);

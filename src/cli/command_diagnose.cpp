@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -79,7 +81,10 @@ std::shared_ptr<KeptRows> kept_by(const DiagnoseFlags& flags, const FitInputs& i
 }
 
 void run_diagnosis(const DiagnoseFlags& flags) {
-  if (!flags.out.empty()) require_writable_folder(flags.out);
+  if (!flags.out.empty()) {
+    require_writable_folder(flags.out);
+    require_other_file(std::filesystem::path(flags.out) / "extended.toml", {flags.fit});
+  }
   const FitInputs inputs = load_inputs(flags.fit);
   std::optional<Claim> claim;
   if (!flags.out.empty()) claim.emplace(result_in(flags.out));
@@ -133,7 +138,7 @@ void add_diagnose(CLI::App& program) {
   command
       ->add_option("--seed", flags->seed,
                    "seed of the simulated data sets (default: the fit file's)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   add_shard_flags(*command, "calibration's data sets", flags->shards);
   add_json_flag(*command, flags->json);
   command->callback([flags] {

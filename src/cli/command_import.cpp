@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -23,7 +24,37 @@ struct ImportFlags {
   std::string like;
 };
 
-void run_import(ImportFlags flags) {
+/// An option that says something about points of some formats only.
+struct OptionOfFormats {
+  std::string_view option;
+  std::vector<ImportFormat> formats;
+};
+
+/// @throws InputError for one that was given with another format, where it would do nothing
+void require_used(const CLI::App& command, ImportFormat format) {
+  using enum ImportFormat;
+  static const std::vector<OptionOfFormats> some = {
+      {"--axis", {webplotdigitizer}},      {"--reading-error", {webplotdigitizer}},
+      {"--scatter", {webplotdigitizer}},   {"--captured-below", {webplotdigitizer, heights}},
+      {"--drop-error", {heights}},         {"--rebound-error", {heights}},
+      {"--time-error", {intervals}},       {"--average", {heights}},
+      {"--gravity", {heights, intervals}},
+  };
+  for (const OptionOfFormats& one : some) {
+    const std::string option(one.option);
+    if (command.count(option) == 0 ||
+        std::count(one.formats.begin(), one.formats.end(), format) > 0)
+      continue;
+    std::vector<std::string_view> names;
+    for (const ImportFormat its : one.formats) names.push_back(name_of(its));
+    throw InputError(
+        {}, fmt::format("{} does nothing with --format {}", option, name_of(format)),
+        fmt::format("it belongs to {}", fmt::join(names, " and ")),
+        "leave it out; a column of the file is named by --map, as restitution_sd=COLUMN");
+  }
+}
+
+void run_import(ImportFlags flags, const CLI::App& command) {
   flags.request.file = flags.file;
   flags.request.into = flags.into;
   flags.request.like = flags.like;
@@ -33,6 +64,7 @@ void run_import(ImportFlags flags) {
                      "", did_you_mean(flags.format, all_names<ImportFormat>()));
   }
   flags.request.format = *format;
+  require_used(command, *format);
   flags.request.provenance = value_named<Provenance>(flags.provenance);
   const ImportResult result = import_points(flags.request);
   fmt::print("{}", dataset_text(result.dataset));
@@ -103,7 +135,7 @@ void add_import(CLI::App& program) {
                       "scatter of e in addition to the errors of reading: 10%, or 0.02");
   command
       ->add_option("--captured-below", r.captured_below,
-                   "a digitised restitution below this is a capture")
+                   "a restitution below this is a capture (digitised points, heights)")
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--drop-error", r.drop_error,
                       "one standard deviation of the drop height: 1mm or 1%");
@@ -124,7 +156,7 @@ void add_import(CLI::App& program) {
     if (option->get_items_expected_max() > 1)
       option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   }
-  command->callback([flags] { run_import(*flags); });
+  command->callback([flags, command] { run_import(*flags, *command); });
 }
 
 }  // namespace recoil

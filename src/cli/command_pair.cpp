@@ -165,7 +165,9 @@ void run_pair(PairCommand command) {
     if (!folder.empty()) require_writable_folder(folder);
   }
   for (const std::string& file : {command.out, command.impacts}) {
-    if (!file.empty()) require_writable_folder(fs::absolute(file).parent_path());
+    if (file.empty()) continue;
+    require_writable_folder(fs::absolute(file).parent_path());
+    require_other_file(file, {command.events});
   }
   const PassageFormat format = {assignments(command.units, "--unit"),
                                 assignments(command.columns, "--column"),

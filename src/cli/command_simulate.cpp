@@ -187,6 +187,7 @@ Table sensitivities(const ImpactConditions& c, const ImpactResult& impact, const
 void simulate(const SimulateOptions& options) {
   if (!options.history.empty()) {
     require_writable_folder(std::filesystem::absolute(options.history).parent_path());
+    require_other_file(options.history, {options.fit_file, options.parameters});
   }
   const FitSpec spec = load_fit(options.fit_file);
   const std::vector<Dataset> datasets = load_datasets(spec);

@@ -44,6 +44,24 @@ int write_to_disk(const std::filesystem::path& path, std::string_view text) {
   return failed;
 }
 
+/// The file that a path leads to: a link stays where it is, and what it names is replaced.
+std::filesystem::path behind_links(std::filesystem::path path) {
+  constexpr int most_links = 40;  // as Linux follows
+  std::error_code failed;
+  for (int i = 0; i < most_links && std::filesystem::is_symlink(path, failed); ++i) {
+    path = path.parent_path() / std::filesystem::read_symlink(path, failed);
+  }
+  return path;
+}
+
+/// Something that is written into and cannot be replaced: a device, a pipe.
+bool is_special(const std::filesystem::path& path) {
+  std::error_code failed;
+  const auto status = std::filesystem::status(path, failed);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
 /// What whoever reads that something cannot be written can do about it.
 std::string advice_on(int failed) {
   switch (failed) {
@@ -108,8 +126,12 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
   write_whole_files({{path, std::string(text)}});
 }
 
-void write_whole_files(const std::vector<WholeFile>& files) {
+void write_whole_files(const std::vector<WholeFile>& all) {
   const std::string ending = unique_ending();
+  std::vector<WholeFile> files, special;
+  for (const WholeFile& file : all) {
+    (is_special(file.path) ? special : files).push_back({behind_links(file.path), file.text});
+  }
   const auto beside = [&ending](const WholeFile& file) -> std::filesystem::path {
     return file.path.string() + ending;
   };
@@ -137,6 +159,21 @@ void write_whole_files(const std::vector<WholeFile>& files) {
     remove_all_from(i);
     throw InputError({files[i].path.string()}, "the finished file cannot be put in its place",
                      failed.message(), "choose another place");
+  }
+  for (const WholeFile& file : special) {
+    if (const int error = write_to_disk(file.path, file.text)) {
+      throw cannot_be_written(file.path, error);
+    }
+  }
+}
+
+void require_other_file(const std::filesystem::path& out,
+                        const std::vector<std::filesystem::path>& read) {
+  for (const std::filesystem::path& file : read) {
+    std::error_code absent;
+    if (!std::filesystem::equivalent(out, file, absent)) continue;
+    throw InputError({out.string()}, "this file is read, and would be overwritten", "",
+                     "choose another place for the result");
   }
 }
 

@@ -22,13 +22,18 @@ struct WholeFile {
 };
 
 /// Writes beside the target, waits for the disk and renames: a reader sees the old file or the new
-/// one, never a part, whoever else writes it. Makes the folder when it is missing. @throws
-/// InputError when the place cannot be written.
+/// one, never a part, whoever else writes it. Makes the folder when it is missing. Where `path` is
+/// a link, the file behind it is replaced; a device or a pipe is written into.
+/// @throws InputError when the place cannot be written
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
 /// The same for files that belong together: none is put in its place before all are on the disk, so
 /// that a disk that is full leaves those that were there.
 void write_whole_files(const std::vector<WholeFile>& files);
+
+/// @throws InputError where the result `out` would take the place of a file that is read for it
+void require_other_file(const std::filesystem::path& out,
+                        const std::vector<std::filesystem::path>& read);
 
 /// The complaint about a file of which the system says `failed`, an errno.
 InputError cannot_be_written(const std::filesystem::path& path, int failed);

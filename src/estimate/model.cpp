@@ -356,6 +356,18 @@ double adhesion_value_under(const ImpactModel& model, std::span<const double> th
          model.contacts[dataset].adhesion_energy;
 }
 
+std::optional<std::size_t> followed_in(const ImpactModel& model, std::size_t slot) {
+  for (std::size_t d = 0; d < model.contacts.size(); ++d) {
+    if (model.slot_adhesion[d] == slot && follows_materials(model, d)) return d;
+  }
+  return std::nullopt;
+}
+
+double acting_value(const ImpactModel& model, std::span<const double> theta, std::size_t slot) {
+  const std::optional<std::size_t> dataset = followed_in(model, slot);
+  return dataset ? adhesion_value_under(model, theta, *dataset) : theta[slot];
+}
+
 ImpactModel with_exact_materials(ImpactModel model) {
   model.slots.resize(model.first_constant());
   model.constants.clear();

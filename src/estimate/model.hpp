@@ -99,6 +99,13 @@ bool averages_over_sizes(const ImpactModel& model);  ///< those of any dataset
 /// Does the adhesion of `dataset` follow the constants of its materials?
 bool follows_materials(const ImpactModel& model, std::size_t dataset);
 
+/// The dataset in which the slot is an adhesion that follows the materials, if there is one.
+std::optional<std::size_t> followed_in(const ImpactModel& model, std::size_t slot);
+
+/// The value of a slot as it acts: an adhesion that follows the materials moves with their
+/// constants, those of the first dataset that has it.
+double acting_value(const ImpactModel& model, std::span<const double> theta, std::size_t slot);
+
 /// The parameter of adhesion at the reference diameter, f0 [N/m] or W [J/m2], as it acts.
 double adhesion_value_under(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset);

@@ -132,7 +132,8 @@ class Reduction {
                  fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
                              sphere_.air.pressure),
                  "a sphere of this size and density could not have flown so far",
-                 "check --diameter and the density, or write --ambient-pressure 0 for vacuum");
+                 "check the units in --map, --diameter and the density, or write --ambient-pressure 0 "
+                 "for vacuum");
     }
     const double share = e > 0.0 ? 1.0 - plain / e : 0.0;
     if (!any_ || point.velocity < share_.slow) {
@@ -238,8 +239,9 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
     double drop = 0.0;
     double drop_sd = 0.0;
     double rebound_sd = 0.0;
-    std::vector<double> e;
+    std::vector<double> e;      // of those that came back
     std::vector<double> plain;  // e as it would be in vacuum
+    double captured = 0.0;
   };
   std::vector<Group> groups;
   for (std::size_t r = 0; r < table.size(); ++r) {
@@ -255,26 +257,35 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
     group.drop = h1;
     group.drop_sd = table.value(r, "drop_height_sd").value_or(drop.of(h1));
     group.rebound_sd = table.value(r, "rebound_height_sd").value_or(rebound.of(h2));
-    group.plain = {std::sqrt(h2 / h1)};
-    group.e = group.plain;
+    const double plain = std::sqrt(h2 / h1);
     group.point.velocity = std::sqrt(2.0 * g * h1);
-    if (const auto air = reduction.flights_of(group.point.series, group.point.diameter)) {
-      group.point.velocity = air->fall(h1).speed;
-      group.e = {air->launch_for_height(h2) / group.point.velocity};
-      group.point.restitution = group.e.front();
-      reduction.add(table, r, "rebound_height", *air, group.point, group.plain.front());
+    const auto air = reduction.flights_of(group.point.series, group.point.diameter);
+    if (air) group.point.velocity = air->fall(h1).speed;
+    const double e = air ? air->launch_for_height(h2) / group.point.velocity : plain;
+    if (h2 > 0.0 && e >= request.captured_below) {
+      group.plain = {plain};
+      group.e = {e};
+      group.point.restitution = e;
+      if (air) reduction.add(table, r, "rebound_height", *air, group.point, plain);
+    } else {
+      group.captured = 1.0;
     }
     const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& other) {
       return other.drop == h1 && other.point.series == group.point.series &&
              other.point.diameter == group.point.diameter;
     });
     if (request.average && same != groups.end()) {
-      same->e.push_back(group.e.front());
-      same->plain.push_back(group.plain.front());
+      if (same->e.empty()) same->rebound_sd = group.rebound_sd;
+      same->e.insert(same->e.end(), group.e.begin(), group.e.end());
+      same->plain.insert(same->plain.end(), group.plain.begin(), group.plain.end());
+      same->captured += group.captured;
     } else {
       groups.push_back(std::move(group));
     }
   }
+  // Where the table has captures, those that came back are no gaps either.
+  const bool counted = std::any_of(groups.begin(), groups.end(),
+                                   [](const Group& group) { return group.captured > 0.0; });
   bool few = false;
   for (Group& group : groups) {
     const double n = static_cast<double>(group.e.size());
@@ -293,12 +304,13 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
     few = few || (group.e.size() > 1 && group.e.size() < 5);
     const double shared = 0.5 * mean * group.drop_sd / group.drop;
     const double sd = std::hypot(own, shared);
-    group.point.restitution = mean;
+    group.point.restitution = n > 0.0 ? std::optional(mean) : std::nullopt;
     if (sd > 0.0) group.point.restitution_sd = sd;
     if (group.drop_sd > 0.0) {
       group.point.velocity_sd = 0.5 * group.point.velocity * group.drop_sd / group.drop;
     }
-    if (request.average) group.point.events = n;
+    if (request.average || counted) group.point.events = n + group.captured;
+    if (counted) group.point.captured = group.captured;
     // Drops from one height share the error with which it was set.
     const auto of_the_height = std::count_if(groups.begin(), groups.end(), [&](const Group& other) {
       return other.drop == group.drop && other.point.series == group.point.series;

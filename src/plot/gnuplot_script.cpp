@@ -290,9 +290,12 @@ class ScriptWriter {
   }
 
   std::string element(const Spans& spans, std::string&) {
-    return fmt::format("{} using 2:1:($3-$2):(0) with vectors heads size screen {:.4f},90 {} {}",
-                       data({&spans.y, &spans.lower, &spans.upper}),
-                       0.0055 + 0.0013 * spans.stroke.width, pen(spans.stroke), title(spans.name));
+    const std::string ends = spans.stops ? fmt::format("heads size screen {:.4f},90",
+                                                       0.0055 + 0.0013 * spans.stroke.width)
+                                         : "nohead";
+    return fmt::format("{} using 2:1:($3-$2):(0) with vectors {} {} {}",
+                       data({&spans.y, &spans.lower, &spans.upper}), ends, pen(spans.stroke),
+                       title(spans.name));
   }
 
   std::string element(const Discs& discs, std::string&) {

@@ -57,11 +57,12 @@ struct Boxes {
   std::size_t size() const { return left.size(); }
 };
 
-/// Level pieces with a stop at each end, as intervals are drawn.
+/// Level pieces, with a stop at each end as intervals are drawn, or without as bars.
 struct Spans {
   std::vector<double> y, lower, upper;
   Stroke stroke = {};
   std::string name = {};
+  bool stops = true;
 };
 
 /// Discs whose area grows with how far `values` are from nothing, coloured by the colour scale.

@@ -32,6 +32,7 @@ std::vector<LawCapture> captures_of(const FitResult& fitted, const std::vector<D
       const CaptureVelocity found = capture_velocity(fitted.model, fitted.theta, d, diameter);
       if (!found.found || !(found.value > 0.0)) continue;
       capture.value = found.value;
+      if (fitted.covariance.size() != p * p) continue;  // the points do not determine all of them
       double variance = 0.0;
       for (std::size_t a = 0; a < p; ++a) {
         for (std::size_t b = 0; b < p; ++b) {

@@ -99,7 +99,8 @@ struct LayerJson {
             {"y", numbers_json(s.y)},
             {"lower", numbers_json(s.lower)},
             {"upper", numbers_json(s.upper)},
-            {"stroke", stroke_json(s.stroke)}};
+            {"stroke", stroke_json(s.stroke)},
+            {"stops", s.stops}};
   }
   Json operator()(const plot::Discs& d) const {
     return {{"kind", "discs"},

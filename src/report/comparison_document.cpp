@@ -89,7 +89,7 @@ Table quality_table(const std::vector<ComparedFit>& fits) {
 Cell quantity_cell(const ComparedQuantity* quantity) {
   if (quantity == nullptr) return {};
   if (!std::isfinite(quantity->value)) return "none";
-  if (!quantity->free) return say("{} (fixed)", number(quantity->value));
+  if (!quantity->free) return say("{} (not fitted)", number(quantity->value));
   if (!quantity->interval) return Number{quantity->value};
   return say("{} {}", number(quantity->value), quantity->interval->text());
 }

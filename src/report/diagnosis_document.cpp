@@ -33,7 +33,15 @@ UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& 
                        const std::string& label) {
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     if (fitted.model.slots[j].label() != label) continue;
-    if (!fitted.model.slots[j].free) return {Number{fitted.theta[j]}, {}, "fixed"};
+    if (!fitted.model.slots[j].free) {
+      const bool moves = fitted.model.slots[j].is_constant();
+      const bool follows = followed_in(fitted.model, j).has_value();
+      return {Number{acting_value(fitted.model, fitted.theta, j)},
+              {},
+              moves     ? "moves within its stated error"
+              : follows ? "follows the materials"
+                        : "fixed"};
+    }
     const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
     UnderModel found{Number{fitted.theta[j], significant(4), error}, {}, ""};
     if (fitted.at_bound[j]) found.remark = "at its bound";
@@ -195,6 +203,12 @@ Table both_models_table(const Diagnosis& d) {
   table.caption =
       "Parameters under both models: how far the base model's damping stood in for the missing "
       "effect";
+  if (d.spec.law_error > 0.0) {
+    table.caption += fmt::format(
+        ". These are fits as recoil fit makes them; what the answer and the list of causes state "
+        "allows every law an error of {} besides, and may differ",
+        percent(d.spec.law_error));
+  }
   table.columns = {{"parameter"}, {"unit", "", true},  {"base"}, {level}, {"extended"},
                    {level},       {"remark", "", true}};
   for (const ParameterSlot& slot : d.extended_fit->model.slots) {

@@ -13,6 +13,7 @@ namespace recoil {
 namespace {
 
 constexpr int panel_key_rows = 2;
+constexpr int key_row_height = 17;  // [px]
 // Where the axes stand, which what explores the picture has to know [px].
 constexpr plot::Frame restitution_frame = {73.0, 462.0, 108.0, 299.0};
 constexpr double hidden_sd = 0.012;  // an error bar within the mark's radius [1]
@@ -89,10 +90,11 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
     captured.size = 0.9;
     captured.name = "captured";
     shown.layers.push_back(std::move(captured));
+    ++shown.key.rows;  // a fifth entry: three columns of them would not fit
   }
   plot::Picture picture;
   picture.title = fmt::format("Restitution against incident velocity, {}", shown.heading);
-  picture.height = 365;
+  picture.height = 365 + key_row_height * (shown.key.rows - panel_key_rows);
   picture.plots = {std::move(shown)};
   return picture;
 }

@@ -52,6 +52,7 @@ std::vector<Figure> budget_figures(const Analysis& a) {
     plot::Spans spans;
     spans.stroke = {plot::marker(k).colour, 14.0};
     spans.name = sources[k];
+    spans.stops = false;
     for (std::size_t q = 0; q < budgets.size(); ++q) {
       for (const BudgetEntry& entry : budgets[q].budget->entries) {
         if (source_words(entry, a.fitted.model) != sources[k]) continue;

@@ -83,11 +83,10 @@ std::vector<Cell> fixed_row(const Analysis& a, std::size_t s) {
   const FitResult& f = a.fitted;
   const ParameterSlot& slot = f.model.slots[s];
   const Sentence name = symbol(slot.label());
-  for (std::size_t d = 0; d < f.model.contacts.size(); ++d) {
-    if (f.model.slot_adhesion[d] != s || !follows_materials(f.model, d)) continue;
+  if (followed_in(f.model, s)) {
     const double error = s < a.uncertainty.budgets.size() ? a.uncertainty.budgets[s].sd : 0.0;
     return {name,
-            Number{adhesion_value_under(f.model, f.theta, d), significant(4), error},
+            Number{acting_value(f.model, f.theta, s), significant(4), error},
             {},
             unit(slot.parameter->unit),
             {},

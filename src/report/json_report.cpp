@@ -86,20 +86,11 @@ Json options_json(const Analysis& a) {
           {"parameters", parameters}};
 }
 
-/// The value of a parameter as it acts: an adhesion that follows the materials does so in a fit
-/// that moves their constants.
-double acting_value(const FitResult& f, std::size_t s) {
-  for (std::size_t d = 0; d < f.model.contacts.size(); ++d) {
-    if (f.model.slot_adhesion[d] == s) return adhesion_value_under(f.model, f.theta, d);
-  }
-  return f.theta[s];
-}
-
 Json parameter_json(const Analysis& a, std::size_t s) {
   const FitResult& f = a.fitted;
   const ParameterSlot& slot = f.model.slots[s];
   Json out;
-  put(out, "value", acting_value(f, s), "the estimate is not finite");
+  put(out, "value", acting_value(f.model, f.theta, s), "the estimate is not finite");
   out["unit"] = slot.parameter->unit;
   out["free"] = slot.free;
   const bool at_bound = s < f.at_bound.size() && f.at_bound[s];

@@ -38,10 +38,12 @@ ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets
   fit.held_out_rmse = law.held_out_rmse;
   for (std::size_t s = 0; s < f.theta.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
-    ComparedQuantity quantity{slot.label(), std::string(slot.parameter->unit), f.theta[s],
-                              slot.free, std::nullopt};
-    if (slot.free && !f.at_bound[s] && f.std_error[s] > 0.0) {
-      quantity.interval = around(f.theta[s], f.std_error[s], slot.log_scale);
+    ComparedQuantity quantity{slot.label(), std::string(slot.parameter->unit),
+                              acting_value(f.model, f.theta, s), slot.free, std::nullopt};
+    const double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
+    if (slot.free && !f.at_bound[s] && error > 0.0) {
+      const NumberRange ends = around(f.theta[s], error, slot.log_scale);
+      quantity.interval = {std::max(ends.lower, slot.lower), std::min(ends.upper, slot.upper)};
     }
     fit.free_parameters += slot.free ? 1 : 0;
     fit.quantities.push_back(std::move(quantity));
@@ -84,9 +86,10 @@ Section laws_section(const std::vector<ComparedFit>& laws) {
   for (Section& part : comparison_sections(laws)) {
     for (Block& block : part.blocks) section.blocks.push_back(std::move(block));
   }
-  section.blocks.emplace_back(
-      Paragraph{"The same points under other laws. The intervals extend by 1.96 standard errors to "
-                "either side, to first order. C_A and C_H mean something else under every law."});
+  section.blocks.emplace_back(Paragraph{
+      "The same points under other laws. The intervals extend by 1.96 standard errors to "
+      "either side, to first order, and stop at the bounds. Under another law C_A and C_H act on "
+      "another force: that their intervals overlap does not make them one quantity."});
   return section;
 }
 

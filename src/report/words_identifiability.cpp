@@ -18,7 +18,8 @@ using Sentences = std::vector<std::string>;
 /// "2.1 %", or "a factor of 3" where percents no longer make sense.
 std::string known_to(double relative_sd) {
   constexpr double still_percent = 0.5;
-  if (!std::isfinite(relative_sd)) return "nothing at all";
+  constexpr double still_known = 7.0;  // a factor of 1100
+  if (!(relative_sd < still_known)) return "nothing at all";
   if (relative_sd < still_percent) return fmt::format("{:.2g} %", 100.0 * relative_sd);
   return fmt::format("a factor of {:.2g}", std::exp(relative_sd));
 }
@@ -105,7 +106,8 @@ void describe_reach(const FitResult& fitted, const Identifiability& found, Sente
     sentences.push_back(fmt::format(
         "the slowest impacts are at {:.2g} times the fitted capture velocity", *found.slowest));
   }
-  if (!found.more_points) return;
+  // Without a covariance there is nothing from which a gain could be counted.
+  if (!found.more_points || fitted.covariance.empty()) return;
   Sentences gains;
   for (const auto& [slot, now, then] : worthwhile_gains(found.information)) {
     gains.push_back(fmt::format("{} to {} instead of {}", fitted.model.slots[slot].label(),

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/row_file.hpp"
 
 namespace recoil {
 namespace {
@@ -42,6 +43,15 @@ std::string missing_words(const MissingShards& missing) {
                         missing.otherwise);
   return fmt::format("{} of {} shards are missing{}; run them again: --array={}",
                      missing.numbers.size(), missing.of, other, array_list(missing.numbers));
+}
+
+/// @throws InputError for a part that is not as it was written
+void require_unaltered(const PartFile& part) {
+  if (is_unaltered(part.file)) return;
+  throw InputError(
+      {part.file.string()}, "its rows are not those that were written",
+      "they give another SHA-256 than its first line names",
+      fmt::format("remove it, and run shard {}/{} again", part.shard.number, part.shard.of));
 }
 
 }  // namespace
@@ -98,6 +108,7 @@ std::vector<std::filesystem::path> parts_of(const Origin& origin,
       throw InputError({part.file.string()}, "this part is not of what would be computed here now",
                        difference_words(*differs), "run the shards again, into another folder");
     }
+    require_unaltered(part);
     files.push_back(part.file);
   }
   return files;

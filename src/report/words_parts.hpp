@@ -25,7 +25,8 @@ MissingShards missing_in(const std::vector<PartFile>& parts, const std::string& 
 void require_all_shards(const std::filesystem::path& folder, const MissingShards& missing);
 
 /// The files of the parts of `origin` in `folder`, all of them.
-/// @throws InputError for a part of another origin, ComputationError when some are missing
+/// @throws InputError for a part of another origin or with other rows than were written,
+/// ComputationError when some are missing
 std::vector<std::filesystem::path> parts_of(const Origin& origin,
                                             const std::filesystem::path& folder);
 

@@ -211,4 +211,40 @@ TEST(Help, TeachesEveryCommand) {
   }
 }
 
+const char* const header =
+    "series,diameter,incident_velocity,restitution,restitution_sd,events,captured\n";
+
+TEST(Degenerate, PointsThatDetermineNothingStillHaveTheirPages) {
+  for (const char* rows :
+       {"a,2,4,0.8,0.015,20,0\na,2,4,0.8,0.015,20,0\na,2,4,0.8,0.015,20,0\n",    // one velocity
+        "a,2,0.5,0,0.015,20,20\na,2,1,0,0.015,20,20\na,2,1.2,0,0.015,20,20\n",  // all captured
+        "a,2,4,0.8,0.015,20,0\na,2,4,0.7,0.015,20,0\na,2,4,0.9,0.015,20,0\n"}) {
+    const support::Workplace place;
+    place.write("data/points.csv", std::string(header) + rows);
+    const support::Outcome fitted = place.run({"fit", "fit.toml", "--replicates", "0"});
+    EXPECT_EQ(fitted.status, 0) << fitted.err;
+    EXPECT_EQ(fitted.out.find("factor of inf"), std::string::npos) << fitted.out;
+    EXPECT_EQ(fitted.out.find("to 0 %"), std::string::npos) << fitted.out;
+    const support::Outcome page =
+        place.run({"report", "fit.toml", "--replicates", "9", "--out", "pages"});
+    EXPECT_EQ(page.status, 0) << page.err;
+    EXPECT_TRUE(place.has("pages/index.html"));
+  }
+}
+
+TEST(Degenerate, AResultDoesNotReplaceWhatItIsMadeFrom) {
+  const support::Workplace place;
+  const std::string before = place.read("fit.toml");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"coverage", "fit.toml", "--datasets", "2", "--replicates", "39", "--out", "fit.toml"},
+           {"simulate", "fit.toml", "--velocity", "3", "--diameter", "4", "--history",
+            "./fit.toml"}}) {
+    const support::Outcome refused = place.run(words);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("this file is read, and would be overwritten"), std::string::npos)
+        << refused.err;
+    EXPECT_EQ(place.read("fit.toml"), before);
+  }
+}
+
 }  // namespace

@@ -54,6 +54,17 @@ std::size_t parts_in(const Workplace& place, const std::string& folder) {
   return count;
 }
 
+/// Writes a part again with other `rows`, its head saying of them what it would of its own.
+void put_rows(const Workplace& place, const std::string& part, const std::string& rows) {
+  const std::string text = place.read(part);
+  auto head = nlohmann::ordered_json::parse(text.substr(0, text.find('\n')));
+  place.write("rows", rows);
+  const Outcome sum = support::run_command({"sha256sum", (place / "rows").string()}, place.path());
+  head["bytes"] = rows.size();
+  head["sha256"] = sum.out.substr(0, sum.out.find(' '));
+  place.write(part, head.dump() + "\n" + rows);
+}
+
 const Words fit = {"fit", "fit.toml"};
 const Words coverage = {"coverage", "fit.toml", "--datasets", "7", "--replicates", "9"};
 
@@ -82,14 +93,47 @@ TEST(Shards, TheReplicatesComeFromThePartsAndNotFromTheMerge) {
   const std::string honest = place.read("parts/fit.json");
   for (const std::string& name : files_in(place, "parts")) {
     if (!name.starts_with("part-1-")) continue;
-    std::string text = place.read("parts/" + name);
-    const std::size_t row = text.find("\n[0,[");
-    ASSERT_NE(row, std::string::npos);
-    text.insert(row + 5, "1");  // ten times and more
-    place.write("parts/" + name, text);
+    const std::string text = place.read("parts/" + name);
+    std::string rows = text.substr(text.find('\n') + 1);
+    ASSERT_TRUE(rows.starts_with("[0,["));
+    rows.insert(4, "1");  // ten times and more
+    put_rows(place, "parts/" + name, rows);
   }
   ASSERT_EQ(place.run({"merge", "parts"}).status, 0);
   EXPECT_NE(place.read("parts/fit.json"), honest);
+}
+
+TEST(Shards, AnAlteredPartIsRefusedAndOneCutShortIsMissing) {
+  const Workplace place;
+  for (const Words& command : {fit, coverage}) {
+    const std::string folder = command.front();
+    run_shards(place, command, {1, 2}, 2, folder);
+    const Outcome honest = place.run({"merge", folder});
+    ASSERT_EQ(honest.status, 0) << honest.err;
+    for (const std::string& name : files_in(place, folder)) {
+      if (!name.starts_with("part-2-")) continue;
+      const std::string part = (fs::path(folder) / name).string();
+      const std::string whole = place.read(part);
+      std::string altered = whole;
+      const std::size_t digit = altered.find_last_of("12345678");
+      ++altered[digit];
+      place.write(part, altered);
+      const Outcome refused = place.run({"merge", folder});
+      EXPECT_EQ(refused.status, 2);
+      EXPECT_EQ(refused.out, "");
+      EXPECT_NE(refused.err.find("its rows are not those that were written (they give another "
+                                 "SHA-256 than its first line names); remove it, and run shard "
+                                 "2/2 again\n"),
+                std::string::npos)
+          << refused.err;
+      place.write(part, whole.substr(0, whole.size() - 30));
+      EXPECT_EQ(place.run({"merge", folder, "--missing"}).out, "--array=2\n");
+      EXPECT_EQ(place.run({"merge", folder}).status, 3);
+      run_shards(place, command, {2}, 2, folder);
+      EXPECT_EQ(place.read(part), whole) << "the shard takes no part that is cut for its own";
+    }
+    EXPECT_EQ(place.run({"merge", folder}).out, honest.out);
+  }
 }
 
 TEST(Shards, CoverageGivesTheBytesOfOneProcess) {
@@ -301,14 +345,14 @@ TEST(Shards, ADiagnosisTakesItsCalibrationFromThem) {
     for (const std::string& name : files_in(place, "parts")) {
       if (!name.starts_with("part-1-")) continue;
       const std::string text = place.read("parts/" + name);
-      std::string marked = text.substr(0, text.find('\n') + 1);
-      for (std::size_t at = marked.size(); at < text.size(); at = text.find('\n', at) + 1) {
+      std::string marked;
+      for (std::size_t at = text.find('\n') + 1; at < text.size(); at = text.find('\n', at) + 1) {
         const std::size_t end = text.find(',', at);
         const bool structure = std::stoi(text.substr(at + 1, end - at - 1)) < 999;
         marked += text.substr(at, end - at) +
                   (structure ? ",[1,9e9,9e9,9e9,9e9,9e9,9e9,9e9]]\n" : ",[9e9]]\n");
       }
-      place.write("parts/" + name, marked);
+      put_rows(place, "parts/" + name, marked);
     }
     ASSERT_EQ(place.run({"merge", "parts"}).status, 0);
     const auto other = nlohmann::json::parse(place.read("parts/diagnosis.json"));

@@ -1,6 +1,11 @@
 #include "core/files.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
 
 #include "support/mistake.hpp"
 #include "support/small_disk.hpp"
@@ -57,6 +62,44 @@ TEST_F(Files, WritesWholeAndLeavesNothingBeside) {
   write_whole_file(folder_ / "new" / "deep" / "a.json", "second");
   EXPECT_EQ(folder_.read("new/deep/a.json"), "second");
   EXPECT_EQ(folder_.listing().size(), 3U) << "two folders and one file";
+}
+
+TEST_F(Files, LinksStayAndDevicesAreWrittenInto) {
+  folder_.write("real", "old");
+  fs::create_symlink("real", folder_ / "link");
+  fs::create_symlink("link", folder_ / "link of a link");
+  fs::create_symlink("not there yet", folder_ / "promise");
+  write_whole_file(folder_ / "link of a link", "new");
+  write_whole_file(folder_ / "promise", "kept");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link of a link"));
+  EXPECT_EQ(folder_.read("real"), "new");
+  EXPECT_EQ(folder_.read("not there yet"), "kept");
+
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  write_whole_file(pipe, "through");
+  std::array<char, 16> got{};
+  EXPECT_EQ(read(reader, got.data(), got.size()), 7);
+  EXPECT_STREQ(got.data(), "through");
+  close(reader);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST_F(Files, AResultNeverTakesThePlaceOfItsInput) {
+  folder_.write("my.toml", "x");
+  fs::create_symlink("my.toml", folder_ / "link");
+  EXPECT_NO_THROW(require_other_file(folder_ / "result", {folder_ / "my.toml"}));
+  EXPECT_NO_THROW(require_other_file(folder_ / "result", {folder_ / "none", ""}));
+  for (const char* out : {"my.toml", "link"}) {
+    const fs::path place = folder_ / out;
+    EXPECT_EQ(support::message_of([&] { require_other_file(place, {folder_ / "my.toml"}); }),
+              place.string() +
+                  ": this file is read, and would be overwritten; choose another place for the "
+                  "result");
+  }
 }
 
 TEST_F(Files, AskingWhetherAFolderCanBeWrittenMakesNothing) {

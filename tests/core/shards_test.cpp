@@ -190,9 +190,22 @@ TEST(SharedWork, DamagedPartsAreNotTrusted) {
   EXPECT_EQ(rows_of({file}, 10)[2].get<double>(), 0.4);
   for (const std::size_t length : {whole.size() - 1, whole.size() - 3, whole.size() / 2}) {
     folder.write(file.filename().string(), whole.substr(0, length));
-    const bool last_line_end = length == whole.size() - 1;  // costs no row
-    EXPECT_EQ(rows_of({file}, 10)[2].is_null(), !last_line_end) << length;
+    EXPECT_TRUE(rows_of({file}, 10)[2].is_null()) << length;
+    EXPECT_TRUE(parts_in(folder.path()).empty())
+        << "its head alone tells that it is cut: " << length;
   }
+  // One digit of one row: the head cannot tell, the rows can.
+  std::string altered = whole;
+  const std::size_t digit = altered.find("0.4", altered.find('\n'));
+  ASSERT_NE(digit, std::string::npos);
+  altered[digit + 2] = '5';
+  folder.write(file.filename().string(), altered);
+  ASSERT_EQ(parts_in(folder.path()).size(), 1U);
+  EXPECT_FALSE(is_unaltered(file));
+  EXPECT_TRUE(rows_of({file}, 10)[2].is_null());
+  EXPECT_TRUE(rows_of({file}, 10)[0].is_null()) << "nothing of it is taken";
+  folder.write(file.filename().string(), whole);
+  EXPECT_TRUE(is_unaltered(file));
   folder.write(file.filename().string(), whole + "[1,7]\n");
   EXPECT_TRUE(rows_of({file}, 10)[1].is_null()) << "more rows than the head says";
   EXPECT_TRUE(rows_of({file}, 3)[0].is_null()) << "a piece beyond the last";

@@ -64,6 +64,37 @@ TEST(Heights, RepeatedDropsAreAveraged) {
   EXPECT_EQ(made.points[1].events, 1);
 }
 
+TEST(Heights, SpheresThatStayedAreCountedAndInNoMean) {
+  const Place place;
+  const std::string table = "h1,h2\n1,0\n1,0.64\n1,0.36\n1,0.49\n1,0.0025\n0.5,0\n0.25,0.2025\n";
+  auto request = place.request(table, ImportFormat::heights);
+  request.map = {"drop_height=h1:m,rebound_height=h2:m"};
+  request.rebound_error = "2%";
+  request.captured_below = 0.1;  // 0.0025 m is 0.05
+  request.average = true;
+  const Dataset averaged = recoil::import_points(request).dataset;
+  ASSERT_EQ(averaged.points.size(), 3U);
+  const auto& mixed = averaged.points[0];
+  EXPECT_EQ(mixed.events, 5);
+  EXPECT_EQ(mixed.captured, 2);
+  EXPECT_NEAR(mixed.restitution, 0.7, 1e-12);
+  EXPECT_NEAR(*mixed.restitution_sd, 0.1 / std::sqrt(3.0), 1e-9);
+  EXPECT_EQ(averaged.points[1].events, 1);
+  EXPECT_EQ(averaged.points[1].captured, 1);
+  EXPECT_EQ(averaged.points[2].captured, 0);
+  EXPECT_NEAR(*averaged.points[2].restitution_sd, 0.9 * 0.5 * 0.02, 1e-9);
+
+  const Place other;
+  auto single = other.request(table, ImportFormat::heights);
+  single.map = request.map;
+  const Dataset one_by_one = recoil::import_points(single).dataset;
+  ASSERT_EQ(one_by_one.points.size(), 7U);
+  EXPECT_EQ(one_by_one.points[0].captured, 1);
+  EXPECT_EQ(one_by_one.points[0].events, 1);
+  EXPECT_TRUE(one_by_one.points[1].counted);
+  EXPECT_NEAR(one_by_one.points[4].restitution, 0.05, 1e-12) << "below no limit that was stated";
+}
+
 TEST(Intervals, OneRestitutionPerBounce) {
   const Place place;
   auto request =

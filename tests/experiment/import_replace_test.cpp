@@ -170,6 +170,23 @@ TEST(Replace, TheCommandLine) {
   const support::Outcome wrong = at.run({"import", "x.csv", "--format", "pictures", "--into", "d"});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("known: webplotdigitizer, heights, intervals, csv"));
+  for (const auto& [format, option] :
+       std::vector<std::pair<std::string, std::string>>{{"csv", "--drop-error=1mm"},
+                                                        {"csv", "--average"},
+                                                        {"csv", "--captured-below=0.1"},
+                                                        {"csv", "--gravity=1.62"},
+                                                        {"heights", "--time-error=1ms"},
+                                                        {"heights", "--scatter=10%"},
+                                                        {"intervals", "--rebound-error=1mm"},
+                                                        {"intervals", "--reading-error=1%"},
+                                                        {"webplotdigitizer", "--average"},
+                                                        {"heights", "--axis=x=log,1,100"}}) {
+    const support::Outcome idle =
+        at.run({"import", "x.csv", "--format", format, "--into", "d", option});
+    EXPECT_EQ(idle.status, 2);
+    const std::string name = option.substr(0, option.find('='));
+    EXPECT_THAT(idle.err, HasSubstr(name + " does nothing with --format " + format));
+  }
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 // The bootstrap as a run: extended, stopped and continued, counting and locating what fails.
 #include "uncertainty/bootstrap.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 
+#include "core/files.hpp"
 #include "estimate/impact_problem.hpp"
 #include "support/noisy_case.hpp"
 #include "support/temporary_folder.hpp"
@@ -102,12 +104,22 @@ TEST(ReplicateTable, EveryDigitComesBackUnderItsKeyOnly) {
 
 TEST(ReplicateTable, DamagedFilesAreNotTrusted) {
   const Folder folder;
-  const std::string head = R"({"key": "key", "rows": 1})"
-                           "\n";
+  // One row is promised, and the bytes and their sum are right.
+  const auto holding = [](const std::string& rows) {
+    return fmt::format(R"({{"key": "key", "rows": 1, "bytes": {}, "sha256": "{}"}})"
+                       "\n{}",
+                       rows.size(), sha256_hex(rows), rows);
+  };
+  folder.write("replicates.json", holding("[0, [1], [1]]\n"));
+  ASSERT_EQ(loaded(folder.file(), "key", 1).finished(), 1U);
   for (const std::string& text :
-       {std::string(), std::string("{"), std::string("[1]"), std::string(R"({"key": "key"})"), head,
-        head + "[0, [1], []]", head + "[-1]", head + "7", head + "[99999999999]",
-        head + R"([0, ["a"], [1]])", head + "[0]\n[1]", head + "[0, [1], [1]]\n[0, [1]"}) {
+       {std::string(), std::string("{"), std::string("[1]"), std::string(R"({"key": "key"})"),
+        std::string(R"({"key": "key", "rows": 1})"
+                    "\n[0, [1], [1]]\n"),
+        holding(""), holding("[0, [1], []]"), holding("[-1]"), holding("7"),
+        holding("[99999999999]"), holding(R"([0, ["a"], [1]])"), holding("[0]\n[1]"),
+        holding("[0, [1], [1]]\n[0, [1]"), holding("[0, [1], [1]]\n") + "\n",
+        holding("[0, [1], [1]]\n").replace(holding("[0, [1], [1]]\n").size() - 4, 1, "2")}) {
     folder.write("replicates.json", text);
     EXPECT_EQ(loaded(folder.file(), "key", 1).finished(), 0U) << text;
   }

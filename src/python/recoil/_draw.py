@@ -150,7 +150,7 @@ def _spans(ax: "Axes", layer: Facts, plot: Facts) -> None:
         fmt="none",
         ecolor=layer.stroke.colour,
         elinewidth=layer.stroke.width * _POINTS_PER_PIXEL,
-        capsize=4,
+        capsize=4 if layer.stops else 0,
         label=layer.name and _set_symbols(layer.name),
     )
 
