@@ -128,12 +128,13 @@ class Reduction {
            const AirFlight& flights, const ImportedPoint& point, double plain) {
     const double e = *point.restitution;
     if (!(e <= limits::largest_restitution) && plain <= limits::largest_restitution) {
-      table.fail(row, quantity,
-                 fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
-                             sphere_.air.pressure),
-                 "a sphere of this size and density could not have flown so far",
-                 "check the units in --map, --diameter and the density, or write --ambient-pressure 0 "
-                 "for vacuum");
+      table.fail(
+          row, quantity,
+          fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
+                      sphere_.air.pressure),
+          "a sphere of this size and density could not have flown so far",
+          "check the units in --map, --diameter and the density, or write --ambient-pressure 0 "
+          "for vacuum");
     }
     const double share = e > 0.0 ? 1.0 - plain / e : 0.0;
     if (!any_ || point.velocity < share_.slow) {

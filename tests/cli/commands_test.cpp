@@ -216,7 +216,7 @@ const char* const header =
 
 TEST(Degenerate, PointsThatDetermineNothingStillHaveTheirPages) {
   for (const char* rows :
-       {"a,2,4,0.8,0.015,20,0\na,2,4,0.8,0.015,20,0\na,2,4,0.8,0.015,20,0\n",    // one velocity
+       {"a,2,4,0.8,0.015,20,0\na,2,4,0.8,0.015,20,0\na,2,4,0.8,0.015,20,0\n",   // one velocity
         "a,2,0.5,0,0.015,20,20\na,2,1,0,0.015,20,20\na,2,1.2,0,0.015,20,20\n",  // all captured
         "a,2,4,0.8,0.015,20,0\na,2,4,0.7,0.015,20,0\na,2,4,0.9,0.015,20,0\n"}) {
     const support::Workplace place;
