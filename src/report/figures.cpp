@@ -13,7 +13,7 @@ namespace recoil {
 namespace {
 
 constexpr int panel_key_rows = 2;
-constexpr int key_row_height = 17;  // [px]
+constexpr int key_row_height = 26;  // [px]
 // Where the axes stand, which what explores the picture has to know [px].
 constexpr plot::Frame restitution_frame = {73.0, 462.0, 108.0, 299.0};
 constexpr double hidden_sd = 0.012;  // an error bar within the mark's radius [1]
