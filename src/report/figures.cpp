@@ -13,7 +13,7 @@ namespace recoil {
 namespace {
 
 constexpr int panel_key_rows = 2;
-constexpr int key_row_height = 26;  // [px]
+constexpr int key_row_height = 20;  // [px]
 // Where the axes stand, which what explores the picture has to know [px].
 constexpr plot::Frame restitution_frame = {73.0, 462.0, 108.0, 299.0};
 constexpr double hidden_sd = 0.012;  // an error bar within the mark's radius [1]
@@ -94,7 +94,10 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
   }
   plot::Picture picture;
   picture.title = fmt::format("Restitution against incident velocity, {}", shown.heading);
-  picture.height = 365 + key_row_height * (shown.key.rows - panel_key_rows);
+  const int more = key_row_height * (shown.key.rows - panel_key_rows);
+  shown.frame->bottom += more;
+  shown.frame->top += more;
+  picture.height = 365 + more;
   picture.plots = {std::move(shown)};
   return picture;
 }
