@@ -34,6 +34,11 @@ std::vector<std::string> words_of_job(std::vector<std::string> words) {
   }
   if (std::none_of(std::begin(shareable), std::end(shareable),
                    [&](const char* name) { return words.front() == name; })) {
+    if (fs::path(words.front()).extension().empty() && !fs::exists(words.front())) {
+      throw InputError({}, fmt::format("{} does not run in shards", words.front()),
+                       "it is neither a fit file nor one of the commands that do",
+                       fmt::format("those are {}", fmt::join(shareable, ", ")));
+    }
     words.insert(words.begin(), "fit");
   }
   return words;

@@ -102,6 +102,17 @@ Sentence labelled(const ParameterSlot& slot) {
   return symbol(slot.label()) + " [" + unit(slot.parameter->unit) + "]";
 }
 
+/// Points less variables, and why it may be fewer.
+Cell degrees_of_freedom_cell(const FitResult& f) {
+  const int silent =
+      static_cast<int>(f.data.points.size()) - static_cast<int>(free_parameters(f)) - f.dof;
+  if (!f.data.sd_stated || f.data.spec.student || silent <= 0) {
+    return Number{static_cast<double>(f.dof), fixed(0)};
+  }
+  return say("{}; captured points that the model captures too, {}, cannot scatter and do not count",
+             f.dof, silent);
+}
+
 Table statistics_table(const Analysis& a) {
   const FitResult& f = a.fitted;
   return items(
@@ -111,7 +122,7 @@ Table statistics_table(const Analysis& a) {
        {"data points", count_cell(f.data.points.size())},
        {"variables", count_cell(free_parameters(f))},
        {"chi-square", Number{f.chi2, significant(6)}},
-       {"degrees of freedom", Number{static_cast<double>(f.dof), fixed(0)}},
+       {"degrees of freedom", degrees_of_freedom_cell(f)},
        {"reduced chi-square", f.dof > 0 ? Cell(Number{f.chi2 / f.dof, significant(5)})
                                         : Cell("not defined (no degrees of freedom left)")},
        {"p-value", p_value_cell(a)},

@@ -144,7 +144,8 @@ TEST(Cluster, MistakesAreToldBeforeAThousandShardsRepeatThem) {
         cluster("slurm", {"fit.toml", "--threads", "3"}),
         cluster("slurm", {"fit.toml", "--threads=3"}),
         cluster("slurm", {"fit.toml", "--shard", "1/2"}),
-        cluster("slurm", {"simulate", "fit.toml"}), cluster("slurm", {"fit.toml", "--time", "5"}),
+        cluster("slurm", {"simulate", "fit.toml"}), cluster("slurm", {"plan", "fit.toml"}),
+        cluster("slurm", {"fit.toml", "--time", "5"}),
         cluster("slurm", {"fit.toml", "--time", "aa:00:00"}),
         cluster("slurm", {"fit.toml", "--time", "00:09:59"}),
         cluster("slurm", {"fit.toml", "--time", "01:60:00"}),
@@ -158,6 +159,9 @@ TEST(Cluster, MistakesAreToldBeforeAThousandShardsRepeatThem) {
     EXPECT_EQ(std::count(told.err.begin(), told.err.end(), '\n'), 1) << told.err;
   }
   EXPECT_FALSE(place.has("job"));
+  EXPECT_NE(
+      place.run(cluster("slurm", {"plan", "fit.toml"})).err.find("plan does not run in shards"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -348,7 +348,7 @@ TEST(FitTables, SayWhatIsMissing) {
 }
 
 TEST(FitTables, GiveTheStatisticsOfTheFit) {
-  const Analysis analysis = sample::four_diameters();
+  Analysis analysis = sample::four_diameters();
   const Table table = statistics_table(analysis);
   EXPECT_EQ(number_in(row_of(table, "data points")[1]).value, 32.0);
   EXPECT_EQ(number_in(row_of(table, "variables")[1]).value, 2.0);
@@ -356,6 +356,9 @@ TEST(FitTables, GiveTheStatisticsOfTheFit) {
   EXPECT_EQ(number_in(row_of(table, "degrees of freedom")[1]).value, 30.0);
   EXPECT_EQ(number_in(row_of(table, "p-value")[1]).value, 0.37);
   EXPECT_EQ(number_in(row_of(table, "rms of e")[1]).value, 0.0293);
+  analysis.fitted.dof -= 3;
+  EXPECT_EQ(words(row_of(statistics_table(analysis), "degrees of freedom")[1]),
+            "27; captured points that the model captures too, 3, cannot scatter and do not count");
 }
 
 TEST(FitTables, GiveCorrelationsTheLargestFirst) {
