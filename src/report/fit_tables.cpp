@@ -107,10 +107,10 @@ Cell degrees_of_freedom_cell(const FitResult& f) {
   const int silent =
       static_cast<int>(f.data.points.size()) - static_cast<int>(free_parameters(f)) - f.dof;
   if (!f.data.sd_stated || f.data.spec.student || silent <= 0) {
-    return Number{static_cast<double>(f.dof), fixed(0)};
+    return Number{static_cast<double>(std::max(0, f.dof)), fixed(0)};
   }
   return say("{}; captured points that the model captures too, {}, cannot scatter and do not count",
-             f.dof, silent);
+             std::max(0, f.dof), silent);
 }
 
 Table statistics_table(const Analysis& a) {

@@ -44,7 +44,7 @@ std::string variance_words(const Observations& data) {
 std::string verdict_words(const FitResult& fitted) {
   switch (fitted.noise_verdict) {
     case NoiseVerdict::unchecked:
-      return "as many parameters as points: the noise cannot be checked";
+      return "no more points that scatter than parameters: the noise cannot be checked";
     case NoiseVerdict::estimated:
       return variance_words(fitted.data);
     case NoiseVerdict::explained:
