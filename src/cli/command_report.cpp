@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cli/analysis.hpp"
+#include "cli/at_once.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/recipe_words.hpp"
@@ -77,15 +78,26 @@ bool is_current(const fs::path& stamp, const std::string& expected,
   return all_there && fs::exists(stamp) && read_text_file(stamp) == expected;
 }
 
-Diagnosis diagnose_for_report(const Analysis& analysis, const AnalysisFlags& flags,
+/// The diagnosis of a fit, and beside it the fits under every law, into `analysis`: these take one
+/// thread, and a diagnosis leaves some time of one.
+Diagnosis diagnose_for_report(Analysis& analysis, const AnalysisFlags& flags,
                               const std::shared_ptr<KeptRows>& kept) {
   DiagnosisOptions options;
   options.kept = kept;
   options.seed = analysis.uncertainty.options.seed;
   options.threads = flags.threads;
   Diagnosis diagnosis = unless_stopped(*kept, [&] {
-    return diagnose(analysis.spec, analysis.datasets, analysis.fitted, options,
-                    analysis.uncertainty.intervals);
+    Diagnosis result;
+    at_once(
+        flags.threads,
+        [&] {
+          result = diagnose(analysis.spec, analysis.datasets, analysis.fitted, options,
+                            analysis.uncertainty.intervals);
+        },
+        [&] {
+          analysis.laws = fit_under_every_law(analysis.spec, analysis.datasets, analysis.fitted);
+        });
+    return result;
   });
   diagnosis.remarks = recipe_remarks(diagnosis.datasets);
   return diagnosis;
@@ -125,24 +137,27 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
   Analysis analysis = analyse(std::move(inputs), resolved);
   add_predictions(analysis);
   add_corrections(analysis);
-  analysis.laws = fit_under_every_law(analysis.spec, analysis.datasets, analysis.fitted);
   const auto kept = std::make_shared<KeptRows>(unfinished_beside(files.diagnosed),
                                                expected + arithmetic_fingerprint());
   const Diagnosis diagnosis = diagnose_for_report(analysis, flags, kept);
   entry.fit = summary_of(analysis, diagnosis);
-  entry.picture = thumbnail(analysis);
+  std::string page, diagnosis_page;
+  at_once(
+      flags.threads,
+      [&] { page = html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page)); },
+      [&] { diagnosis_page = diagnosis_html(diagnosis); },
+      [&] { entry.picture = thumbnail(analysis); });
   entry.picture_csv = thumbnail_csv(analysis);
-  write_whole_files(
-      {{files.page, html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page))},
-       {files.folder / "diagnosis.html", diagnosis_html(diagnosis)},
-       {files.diagnosed, diagnosis_json(diagnosis)},
-       {files.folder / "extended.toml", extended_toml(diagnosis, files.folder)},
-       {files.text, text_report(analysis)},
-       {files.laws, laws_json(entry.fit.laws)},
-       {files.picture, entry.picture},
-       {files.picture_data, entry.picture_csv},
-       {files.json, json_report(analysis)},
-       {files.stamp, expected}});
+  write_whole_files({{files.page, page},
+                     {files.folder / "diagnosis.html", diagnosis_page},
+                     {files.diagnosed, diagnosis_json(diagnosis)},
+                     {files.folder / "extended.toml", extended_toml(diagnosis, files.folder)},
+                     {files.text, text_report(analysis)},
+                     {files.laws, laws_json(entry.fit.laws)},
+                     {files.picture, entry.picture},
+                     {files.picture_data, entry.picture_csv},
+                     {files.json, json_report(analysis)},
+                     {files.stamp, expected}});
   kept->forget();
   forget_replicates(resolved.folder);
   return entry;

@@ -172,6 +172,7 @@ TEST(Table, PutsEarlierFiguresBesideTheirLikes) {
     "impact_with_gradient": {"fast_ns": 500.0, "reference_ns": 2e6, "laws": [{"adhesion": "jkr", "fast_ns": 800.0}]},
     "bootstrap": {"scaling": [{"threads": 1, "seconds": 0.4}]},
     "peer": {"fits": [{"seconds_of_full_fit": 0.02}]},
+    "shipped_fits": {"fits": 7, "pages": 8, "seconds": 50.0},
     "scaling": [{"points": 100, "seconds": 0.001, "peak_memory_mb": 17.0},
                 {"points": 1000000, "seconds": 4.0, "peak_memory_mb": 430.0}]})");
   const Json earlier = Json::parse(R"({"of": "a version", "reference_seconds": 1e-3, "figures": [
@@ -179,13 +180,14 @@ TEST(Table, PutsEarlierFiguresBesideTheirLikes) {
     {"what": "two", "key": "jkr", "seconds": 1.6e-6},
     {"what": "three", "key": "refits_1", "seconds": 0.6},
     {"what": "four", "key": "refits_16", "seconds": 0.1},
-    {"what": "five", "key": "points_1000000", "seconds": 16.0, "memory_mb": 1254.0}]})");
+    {"what": "five", "key": "points_1000000", "seconds": 16.0, "memory_mb": 1254.0},
+    {"what": "six", "key": "shipped_fits", "seconds": 75.0}]})");
   const std::string text = earlier_section(results, earlier);
   EXPECT_NE(text.find("of a version."), std::string::npos) << text;
   for (const char* row :
        {"| one | 1 us | 500 ns | 2 | 4 |\n", "| two | 1.6 us | 800 ns | 2 | 4 |\n",
         "| three | 600 ms | 400 ms | 1.5 | 3 |\n",
-        "| five | 16 s, 1254 MB | 4 s, 430 MB | 4 | 8 |\n"}) {
+        "| five | 16 s, 1254 MB | 4 s, 430 MB | 4 | 8 |\n", "| six | 75 s | 50 s | 1.5 | 3 |\n"}) {
     EXPECT_NE(text.find(row), std::string::npos) << row << text;
   }
   EXPECT_EQ(text.find("four"), std::string::npos) << "there is no figure of 16 threads to compare";

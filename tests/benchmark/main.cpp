@@ -21,6 +21,7 @@
 #include "measure.hpp"
 #include "peer.hpp"
 #include "scaling.hpp"
+#include "shipped_fits.hpp"
 #include "table.hpp"
 #include "uncertainty/bootstrap.hpp"
 
@@ -223,6 +224,9 @@ int run_all(const fs::path& program, const fs::path& root, std::size_t most_poin
 
   fmt::print("\nCost against size\n");
   results.update(measure_scaling(program, most_points));
+
+  fmt::print("\nThe report of every fit that is shipped\n");
+  results["shipped_fits"] = measure_shipped_fits(build / "recoil", root, folder / "pages");
 
   fmt::print("\nThe same fit elsewhere\n");
   results["peer"] = measure_peers(peer_case, folder, root / "tests/benchmark");

@@ -192,7 +192,16 @@ std::string scaling_section(const Json& results) {
         "points^{:.2f}",
         exponents.at("memory_over_points").get<double>());
   }
-  return text + ".\n";
+  return text + ".\n\n";
+}
+
+std::string shipped_section(const Json& shipped) {
+  return fmt::format(
+      "## Every fit that is shipped\n\nWhat `./run` does once recoil is built, nothing kept from "
+      "an earlier time: {} fits with their uncertainties and diagnoses, as {} pages. It took {} on "
+      "all cores.\n",
+      shipped.at("fits").get<int>(), shipped.at("pages").get<int>(),
+      time_of(shipped.at("seconds")));
 }
 
 /// Seconds and, where it was measured, memory.
@@ -219,6 +228,7 @@ std::map<std::string, std::pair<double, double>> figures_of(const Json& results)
   const Json& largest = largest_case(results.at("scaling"));
   figures[fmt::format("points_{}", largest.at("points").get<std::size_t>())] = {
       largest.at("seconds").get<double>(), largest.at("peak_memory_mb").get<double>()};
+  figures["shipped_fits"] = {results.at("shipped_fits").at("seconds").get<double>(), 0.0};
   return figures;
 }
 
@@ -296,7 +306,7 @@ std::string benchmark_page(const Json& results, const Json& earlier) {
   return std::string("# How fast\n\n") + begin_marker + short_table(results) + end_marker + "\n" +
          earlier_section(results, earlier) + impact_section(results.at("impact_with_gradient")) +
          bootstrap_section(results.at("bootstrap")) + peer_section(results.at("peer")) +
-         scaling_section(results);
+         scaling_section(results) + shipped_section(results.at("shipped_fits"));
 }
 
 namespace {

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "cli/at_once.hpp"
 #include "support/workplace.hpp"
 
 namespace {
@@ -88,6 +93,52 @@ TEST(Fit, WritesTheSameBytesAtAnyThreadCount) {
     EXPECT_TRUE(run.err.empty()) << run.err;
   }
   EXPECT_EQ(place.read("1/fit.json"), place.read("3/fit.json"));
+}
+
+TEST(Report, WritesTheSameBytesAtAnyThreadCount) {
+  const Workplace place;
+  const std::vector<std::string> words = {"report", "fit.toml", "--replicates", "9", "--out"};
+  const auto report = [&](const std::string& out, const std::vector<std::string>& options) {
+    std::vector<std::string> all = words;
+    all.push_back(out);
+    all.insert(all.end(), options.begin(), options.end());
+    return place.run(all);
+  };
+  const Outcome free = report("free", {});  // pages and laws are worked on at the same time
+  const Outcome single = report("single", {"--threads", "1"});
+  ASSERT_EQ(free.status, 0) << free.err;
+  ASSERT_EQ(single.status, 0) << single.err;
+  int compared = 0;
+  for (const std::string& name : place.listing()) {
+    if (!name.starts_with("free/") || !std::filesystem::is_regular_file(place.path() / name)) {
+      continue;
+    }
+    EXPECT_EQ(place.read(name), place.read("single" + name.substr(4))) << name;
+    ++compared;
+  }
+  EXPECT_GE(compared, 10);
+}
+
+TEST(AtOnce, DoesAllOfItAndTellsOfWhatFailed) {
+  for (const int threads : {0, 1}) {
+    int done[3] = {0, 0, 0};
+    recoil::at_once(
+        threads, [&] { ++done[0]; }, [&] { ++done[1]; }, [&] { ++done[2]; });
+    EXPECT_EQ(done[0] + done[1] + done[2], 3);
+    bool ended = false;
+    const auto end = [&] { ended = true; };
+    const auto fail = [] { throw std::runtime_error("of the second"); };
+    EXPECT_THROW(recoil::at_once(
+                     threads, [] {}, fail, end),
+                 std::runtime_error);
+    EXPECT_TRUE(ended) << "the third goes on where the second fails";
+    try {
+      recoil::at_once(
+          threads, [] { throw std::logic_error("of the first"); }, fail);
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::logic_error&) {
+    }
+  }
 }
 
 TEST(Fit, SeedIsInTheFileAndChangesTheBootstrapOnly) {
