@@ -20,11 +20,10 @@
 namespace recoil::RECOIL_KERNEL {
 namespace {
 
-template <std::size_t count>
-using PackOf = std::experimental::fixed_size_simd<double, count>;
-using Pack = PackOf<RECOIL_LANES>;
+/// A register's own type: of fixed_size_simd, which would do as well, max and min are calls.
+using Pack =
+    std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, RECOIL_LANES>>;
 
-constexpr std::size_t phase_lanes = RECOIL_LANES == 16 ? 8 : RECOIL_LANES;
 constexpr std::size_t batch = 1024;
 
 /// Indices of impacts, without memory of the heap.
@@ -34,29 +33,57 @@ struct Order {
 
   void add(std::uint32_t entry) { entries[size++] = entry; }
   std::span<const std::uint32_t> all() const { return {entries.data(), size}; }
+  std::span<const std::uint32_t> some(std::size_t first, std::size_t at_most) const {
+    return all().subspan(first, std::min(at_most, size - first));
+  }
 };
 
-/// The impacts of `order` by Phases; those that are not done go to `captured` or `left`.
+/// The impacts of `order` by Phases; those that are not done go to `others`.
 template <std::size_t nodes, PhaseEnd end, class Solver>
 void try_phases(Solver& solver, std::span<const ImpactGroups> groups, const Order& order,
-                std::span<ImpactResult> results, Order* captured, Order& left) {
+                std::span<const typename Solver::Sketch> sketches, std::span<ImpactResult> results,
+                Order& others) {
   for (std::size_t first = 0; first < order.size; first += Solver::lanes) {
-    const auto some = order.all().subspan(first, std::min(Solver::lanes, order.size - first));
-    std::array<typename Solver::Verdict, Solver::lanes> verdicts;
-    solver.template fly<nodes, end>(groups, some, results, verdicts);
+    const auto some = order.some(first, Solver::lanes);
+    const auto done = solver.template fly<nodes, end>(groups, some, sketches, results);
     for (std::size_t lane = 0; lane < some.size(); ++lane) {
-      if (verdicts[lane] == Solver::Verdict::good) continue;
-      const bool is_captured = verdicts[lane] == Solver::Verdict::captured;
-      (is_captured && captured != nullptr ? *captured : left).add(some[lane]);
+      if (!done[lane]) others.add(some[lane]);
     }
   }
+}
+
+/// The impacts of `order` by Phases, those that need the same together; who is not done is `left`.
+template <class Solver>
+void fly_phases(Solver solver, std::span<const ImpactGroups> groups, const Order& order,
+                std::span<ImpactResult> results, Order& left) {
+  std::array<typename Solver::Sketch, batch> sketches;
+  for (std::size_t first = 0; first < order.size; first += Solver::lanes) {
+    solver.sketch(groups, order.some(first, Solver::lanes), sketches);
+  }
+  Order smooth, difficult, captured;
+  for (const std::uint32_t entry : order.all()) {
+    switch (sketches[entry].outlook) {
+      case Solver::Outlook::smooth:
+        smooth.add(entry);
+        break;
+      case Solver::Outlook::difficult:
+        difficult.add(entry);
+        break;
+      case Solver::Outlook::captured:
+        captured.add(entry);
+        break;
+    }
+  }
+  try_phases<16, PhaseEnd::release>(solver, groups, smooth, sketches, results, difficult);
+  try_phases<24, PhaseEnd::release>(solver, groups, difficult, sketches, results, left);
+  try_phases<24, PhaseEnd::outer_turning_point>(solver, groups, captured, sketches, results, left);
 }
 
 /// The law decides what a step may err: the path of JKR is longer, out to where the contact parts.
 template <class Law, bool with_gradient>
 void fly_batch(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                std::span<ImpactResult> results) {
-  Order all, captured, difficult, left;
+  Order all, left;
   // A dashpot and a seam of the law (LawPath::seam) are for Flights alone; and strong damping where
   // the law is steep: above 0.5 the slope in beta had errors of 1e-7 and more.
   constexpr bool by_phases = Law::places.back() != 3;
@@ -67,10 +94,8 @@ void fly_batch(std::span<const ImpactGroups> groups, const ImpactOptions& option
     (apart ? left : all).add(static_cast<std::uint32_t>(i));
   }
   if constexpr (by_phases) {
-    Phases<Law, PackOf<phase_lanes>, with_gradient> phases(options.phase, options.fast_tolerance);
-    try_phases<16, PhaseEnd::release>(phases, groups, all, results, &captured, difficult);
-    try_phases<24, PhaseEnd::release>(phases, groups, difficult, results, nullptr, left);
-    try_phases<24, PhaseEnd::outer_turning_point>(phases, groups, captured, results, nullptr, left);
+    using Solver = Phases<Law, Pack, with_gradient>;
+    fly_phases(Solver(options.phase, options.fast_tolerance), groups, all, results, left);
   }
   if (left.size == 0) return;
   ImpactOptions flight = options;

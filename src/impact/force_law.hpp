@@ -64,9 +64,9 @@ inline constexpr double settled_part = 1e-10;
 /// 1e-3 to 1e4, not proved (tests/impact/outcome_test.cpp asks the reference again).
 inline bool creeps_into_the_well(const ImpactGroups& groups) {
   constexpr double critical_damping = 2.0;
-  const double damping = (groups.alpha + groups.gamma) * std::pow(groups.beta, 1.25);
-  if (groups.kappa == 0.0) return damping >= critical_damping;
-  return damping + groups.kappa * std::pow(groups.beta, 0.25) >= critical_damping;
+  const double fourth_root = std::sqrt(std::sqrt(groups.beta));
+  const double damping = (groups.alpha + groups.gamma) * groups.beta + groups.kappa;
+  return damping * fourth_root >= critical_damping;
 }
 
 /// Where an impact begins and ends, in the q of its law.

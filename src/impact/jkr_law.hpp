@@ -74,7 +74,8 @@ struct JkrLaw {
   /// Of the small motions about the bottom of the well, where n'' = -(9/10) b^(2/3) (n - n_0) -
   /// (alpha + gamma) b^2 n', b = beta^(3/4).
   static bool creeps(const ImpactGroups& g) {
-    return (g.alpha + g.gamma) * std::pow(g.beta, 1.25) >= 2.0 * std::sqrt(0.9);
+    const double fourth_root = std::sqrt(std::sqrt(g.beta));
+    return (g.alpha + g.gamma) * g.beta * fourth_root >= 2.0 * std::sqrt(0.9);
   }
   static double depth(const ImpactGroups& g) {
     return potential(path_of(g).resting, 0.0, strength(g), 0.0);

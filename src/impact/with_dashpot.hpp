@@ -116,11 +116,13 @@ template <class Law>
   std::array<double, 5> gradient = {};
   for (std::size_t k = 0; k < Law::groups; ++k) gradient[Law::places[k]] = by[k];
   gradient[1] *= Law::strength_slope(g);
-  const double unit = Law::dashpot_unit(g);
-  if (Law::dashpot_power != 0.0 && g.beta > 0.0) {
-    gradient[1] += gradient[3] * g.kappa * unit * Law::dashpot_power / g.beta;
+  if constexpr (Law::places.back() == 3) {
+    const double unit = Law::dashpot_unit(g);
+    if (Law::dashpot_power != 0.0 && g.beta > 0.0) {
+      gradient[1] += gradient[3] * g.kappa * unit * Law::dashpot_power / g.beta;
+    }
+    gradient[3] *= unit;
   }
-  gradient[3] *= unit;
   return gradient;
 }
 
