@@ -138,7 +138,7 @@ class Phases {
       deepest_ -= (law_.potential(deepest_) - target_) / law_.slope(deepest_);
     }
     in.lost.fill(Pack(0.0));
-    compress_by(rule, in, coarse_change);
+    compress_by(rule, in, coarse_change, 10.0 * coarse_change);
     go_deeper(Mask(true), in.held(rule));
     end_ = release_;
     out.lost.fill(Pack(0.0));
@@ -150,14 +150,14 @@ class Phases {
   [[gnu::flatten]] void compress(const Nodes<few_nodes>& sketched, Path<count>& phase) {
     static constexpr auto& rule = phase_rule<Pack, count, PhaseEnd::release>;
     phase.refine(rule, sketched);
-    compress_by(rule, phase, settled_change_);
+    compress_by(rule, phase, settled_change_, settled_change_);
   }
   template <class Rule, std::size_t count>
-  [[gnu::always_inline]] void compress_by(const Rule& rule, Path<count>& phase,
-                                          double settle_below) {
+  [[gnu::always_inline]] void compress_by(const Rule& rule, Path<count>& phase, double settle_below,
+                                          double arrive_below) {
     // What is missing is made up for in the end.
     phase.template settle<true>(
-        rule, settle_below, 10.0 * settle_below,
+        rule, settle_below, arrive_below,
         [&] {
           bottom_ = law_.potential(deepest_);
           phase.look(rule, law_, deepest_, start_, acts_at_first_, bottom_);
@@ -195,7 +195,9 @@ class Phases {
       phase.refine(rule, coarse.rates);
       phase.sweeps = coarse.sweeps;
     }
-    restore_by<end>(rule, bottom, phase, settled_change_);
+    // Where u vanishes at both ends, changes shrink by less than equal factors.
+    constexpr double tighter = end == PhaseEnd::release ? 1.0 : 0.03;
+    restore_by<end>(rule, bottom, phase, tighter * settled_change_);
   }
   template <PhaseEnd end, class Rule, std::size_t count>
   [[gnu::always_inline]] void restore_by(const Rule& rule, const Pack& bottom, Path<count>& phase,
