@@ -68,9 +68,10 @@ template <class Pack, std::size_t count>
 /// PhaseRule. What is lost up to a node is the integral of the rate D u dq/ds, in which u^2 / 2 is
 /// the energy at the turning point less the potential energy, more (compression) or less
 /// (restitution) what is lost. Putting the losses in again and again converges like M^n / n!,
-/// M = integral of D dsigma, and a thousand times faster per sweep where what a block of nodes does
-/// to itself is put in at once. Meanwhile u follows by Newton's rule, which needs neither a root
-/// nor a quotient.
+/// M = integral of D dsigma. What a block of nodes does to itself is put in at once: a sweep then
+/// leaves 1e-4 to 1e-3 of a change of 1e-5, and left 2e-3 to 1e-2 without (medians to 9 in 10 of
+/// the benchmark's rebounds). Meanwhile u follows by Newton's rule, which needs neither a root nor
+/// a quotient.
 template <class Pack, std::size_t count>
 struct Phase {
   using Mask = typename Pack::mask_type;
@@ -188,7 +189,8 @@ struct Phase {
     }
   }
   /// The losses at a block of nodes from the rates, more by what these change of the rates of the
-  /// block: d(rate) / d(loss) = +-D dq/ds / u, left out where u all but vanishes.
+  /// block: d(rate) / d(loss) = +-D dq/ds / u. Left out where that is steep, for u that all but
+  /// vanishes, as of a sphere that is captured: there it would keep the sweeps from settling.
   template <bool compression, class Rule>
   [[gnu::always_inline]] std::array<Pack, phase_block> next_losses(const Rule& rule,
                                                                    std::size_t first) const {

@@ -195,7 +195,8 @@ class Phases {
       phase.refine(rule, coarse.rates);
       phase.sweeps = coarse.sweeps;
     }
-    // Where u vanishes at both ends, changes shrink by less than equal factors.
+    // Where u vanishes at both ends, changes shrink by less and less: settled as elsewhere, 17 of
+    // 1053 captures had errors of 3e-8 and more in a derivative, and none 2e-9 so.
     constexpr double tighter = end == PhaseEnd::release ? 1.0 : 0.03;
     restore_by<end>(rule, bottom, phase, tighter * settled_change_);
   }
