@@ -61,6 +61,8 @@ std::string run_html(const Run& run) {
       return unit_html(run.text);
     case RunKind::plus_minus:
       return "±";
+    case RunKind::exponent:
+      return fmt::format("<sup>{}</sup>", escape_html(run.text));
     case RunKind::qualifier:
       return fmt::format(" <small>({})</small>", escape_html(run.text));
     case RunKind::strong:

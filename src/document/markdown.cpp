@@ -26,6 +26,8 @@ std::string run_markdown(const Run& run) {
       return escaped(run.text);
     case RunKind::plus_minus:
       return "±";
+    case RunKind::exponent:
+      return "^" + escaped(run.text);
     case RunKind::qualifier:
       return fmt::format(" ({})", escaped(run.text));
     case RunKind::strong:

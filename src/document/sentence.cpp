@@ -58,6 +58,7 @@ Sentence& Sentence::operator+=(const Sentence& more) {
 std::string plain_text(const Sentence& sentence) {
   std::string text;
   for (const Run& run : sentence.runs()) {
+    if (run.kind == RunKind::exponent) text += '^';
     text += run.kind == RunKind::qualifier ? fmt::format("[{}]", run.text) : run.text;
   }
   return text;
@@ -81,6 +82,10 @@ Sentence symbol(std::string_view label) {
 }
 
 Sentence unit(std::string_view name) { return Sentence(Run{RunKind::unit, std::string(name)}); }
+Sentence exponent(std::string number) {
+  return Sentence(Run{RunKind::exponent, std::move(number)});
+}
+
 Sentence strong(std::string text) { return Sentence(Run{RunKind::strong, std::move(text)}); }
 Sentence code(std::string text) { return Sentence(Run{RunKind::code, std::move(text)}); }
 Sentence link(std::string text, std::string address) {

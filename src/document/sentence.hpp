@@ -15,6 +15,7 @@ enum class RunKind {
   symbol,  ///< of the model: "C_H", "V*", "f0"
   unit,    ///< "um", "J/m2"
   plus_minus,
+  exponent,   ///< of what stands before it: "0.83" of "d^0.83"
   qualifier,  ///< what a symbol belongs to: the dataset of "C_A[mica]"
   strong,
   code,
@@ -59,6 +60,7 @@ std::vector<std::string> plain_texts(const std::vector<Sentence>& sentences);
 /// The symbol of a parameter's label: "C_A[mica]" is C_A of mica.
 Sentence symbol(std::string_view label);
 Sentence unit(std::string_view name);
+Sentence exponent(std::string number);
 Sentence strong(std::string text);
 Sentence code(std::string text);
 Sentence link(std::string text, std::string address);

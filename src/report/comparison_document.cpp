@@ -86,6 +86,17 @@ Table quality_table(const std::vector<ComparedFit>& fits) {
   return table;
 }
 
+/// A compared quantity by its name: "C_A", "V* at 1.27 um, quartz".
+Sentence quantity_sentence(const std::string& name) {
+  const auto end = name.find(" at ");
+  if (end == std::string::npos) return symbol(name);
+  const std::string where = name.substr(end);
+  const auto um = where.find(" um");
+  Sentence words = symbol(name.substr(0, end));
+  if (um == std::string::npos) return words + where;
+  return words + say("{} {um}{}", where.substr(0, um), where.substr(um + 3));
+}
+
 Cell quantity_cell(const ComparedQuantity* quantity) {
   if (quantity == nullptr) return {};
   if (!std::isfinite(quantity->value)) return "none";
@@ -99,10 +110,10 @@ Table quantity_table(const std::vector<ComparedFit>& fits) {
   table.columns = {{"quantity"}, {"unit"}};
   for (const ComparedFit& fit : fits) table.columns.push_back({Sentence(fit.id), "", true});
   for (const std::string& name : compared_names(fits)) {
-    std::vector<Cell> row = {Sentence(name), Cell()};
+    std::vector<Cell> row = {quantity_sentence(name), Cell()};
     for (const ComparedFit& fit : fits) {
       const ComparedQuantity* const quantity = quantity_of(fit, name);
-      if (quantity != nullptr) row[1] = Sentence(quantity->unit);
+      if (quantity != nullptr) row[1] = unit(quantity->unit);
       row.push_back(quantity_cell(quantity));
     }
     table.rows.push_back(std::move(row));
@@ -112,7 +123,9 @@ Table quantity_table(const std::vector<ComparedFit>& fits) {
 
 Sentence dependence_words(const ChoiceDependence& found) {
   const auto listed_names = [](const std::vector<std::string>& names) {
-    return fmt::format("{}", fmt::join(names, ", "));
+    std::vector<Sentence> sentences;
+    for (const std::string& name : names) sentences.push_back(quantity_sentence(name));
+    return join(sentences, ", ");
   };
   if (found.depends.empty() && found.holds.empty()) {
     return "No quantity has an interval in more than one of the fits.";

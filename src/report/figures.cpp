@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/model.hpp"
 #include "report/explore.hpp"
 #include "report/format.hpp"
 #include "report/panels.hpp"
@@ -103,8 +104,8 @@ plot::Picture restitution_picture(const Analysis& analysis, const Panel& panel, 
 }
 
 Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
-  Sentence text = fmt::format("{}: {} point{}.", analysis.datasets[panel.dataset].id,
-                              panel.points.size(), panel.points.size() == 1 ? "" : "s");
+  Sentence text = say("{}: {} point{}.", analysis.datasets[panel.dataset].id, panel.points.size(),
+                      panel.points.size() == 1 ? "" : "s");
   const std::size_t drawn_every = panel.points.size() / most_panel_points + 1;
   if (drawn_every > 1) text += fmt::format(" One point in {} is drawn.", drawn_every);
   if (panel.capture == nullptr) {
@@ -125,6 +126,11 @@ Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
   }
   if (analysis.fitted.data.sd_stated && largest_sd < hidden_sd) {
     text += " The error bars are hidden behind the marks.";
+  }
+  if (averages_over_sizes(analysis.fitted.model, panel.dataset)) {
+    text +=
+        " The curve is a mean over the sizes that rebound: where the smaller spheres stay, those "
+        "that are left can raise it again.";
   }
   if (panel.curve != nullptr && panel.curve->two_point.empty()) {
     text += " The two-point calibration has no curve to show.";

@@ -65,7 +65,7 @@ std::vector<Figure> budget_figures(const Analysis& a) {
     shown.layers.push_back(std::move(spans));
   }
   for (std::size_t q = 0; q < budgets.size(); ++q) {
-    shown.y.ticks.push_back({-static_cast<double>(q), budgets[q].quantity, false});
+    shown.y.ticks.push_back({-static_cast<double>(q), plain_text(budgets[q].quantity), false});
   }
   shown.y.set_range({-static_cast<double>(budgets.size()) + 0.4, 0.6});
   plot::Picture picture;

@@ -72,7 +72,7 @@ Figure comparison_figure(const Analysis& analysis, const CaptureComparison& comp
   shown.y.logarithmic = true;
   shown.y.set_range(velocities_of(comparison));
   shown.key = {plot::KeyPlace::below, 4};
-  std::vector<std::string> words;
+  std::vector<Sentence> words;
   for (std::size_t i = 0; i < comparison.curves.size(); ++i) {
     const CaptureCurve& curve = comparison.curves[i];
     const plot::Stroke& stroke = strokes[i % strokes.size()];
@@ -84,27 +84,26 @@ Figure comparison_figure(const Analysis& analysis, const CaptureComparison& comp
     line.name = words_of(curve.model);
     shown.layers.push_back(std::move(line));
     const auto falls = slope(comparison.diameter, curve);
-    words.push_back(fmt::format("{}: {}{}", words_of(curve.model),
-                                rests_on_words(comparison, curve.model),
-                                falls ? fmt::format(", V* ~ d^{:.2f}", *falls) : std::string()));
+    words.push_back(
+        say("{}: {}{}", words_of(curve.model), rests_on_words(comparison, curve.model),
+            falls ? say(", {V*} ~ {d}{}", exponent(fmt::format("{:.2f}", *falls))) : Sentence()));
   }
   for (const PublishedCapture& one : comparison.published) {
-    words.push_back(fmt::format("published, {} at {} µm: {} m/s, {}", one.what,
-                                diameter_text(one.diameter), number(one.velocity, 3), one.source));
+    words.push_back(say("published, {} at {} µm: {} m/s, {}", one.what, diameter_text(one.diameter),
+                        number(one.velocity, 3), one.source));
   }
   add_published(comparison, true, shown);
   add_published(comparison, false, shown);
-  for (const std::string& note : capture_notes(comparison, dataset)) words.push_back(note);
+  for (const std::string& note : capture_notes(comparison, dataset)) words.emplace_back(note);
 
   plot::Picture picture;
   picture.name = fmt::format("capture-models-{}", comparison.dataset + 1);
   picture.title = fmt::format("Capture velocity against diameter, {}", dataset.id);
   picture.height = 430;
   picture.plots = {std::move(shown)};
-  return figure_of(
-      std::move(picture),
-      fmt::format("{}, with the {} band of the fit. {}.", dataset.id,
-                  percent(analysis.uncertainty.options.level), fmt::join(words, "; ")));
+  return figure_of(std::move(picture),
+                   say("{}, with the {} band of the fit. {}.", dataset.id,
+                       percent(analysis.uncertainty.options.level), join(words, "; ")));
 }
 
 }  // namespace

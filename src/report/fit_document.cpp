@@ -104,15 +104,15 @@ Sentence calibration_words(const Analysis& a) {
   return words + ".";
 }
 
-List list_of_sentences(const std::vector<std::string>& sentences) {
+List list_of_sentences(const std::vector<Sentence>& sentences) {
   List list;
-  for (const std::string& sentence : sentences) list.entries.push_back(as_sentence(sentence));
+  for (const Sentence& sentence : sentences) list.entries.push_back(as_sentence(sentence));
   return list;
 }
 
-void add_paragraphs(std::vector<Block>& blocks, const std::vector<std::string>& sentences) {
-  for (const std::string& sentence : sentences) {
-    if (!sentence.empty()) blocks.emplace_back(Paragraph{as_sentence(Sentence(sentence))});
+void add_paragraphs(std::vector<Block>& blocks, const std::vector<Sentence>& sentences) {
+  for (const Sentence& sentence : sentences) {
+    if (!sentence.empty()) blocks.emplace_back(Paragraph{as_sentence(sentence)});
   }
 }
 
@@ -173,7 +173,7 @@ Section model_section(const Analysis& a) {
     section.blocks.emplace_back(contact_table(a, k));
   }
   List contradictions;
-  for (const std::string& sentence : all_contradictions(a)) {
+  for (const Sentence& sentence : all_contradictions(a)) {
     contradictions.entries.push_back(say("contradiction: {}", sentence));
   }
   section.blocks.emplace_back(contradictions);
@@ -236,7 +236,7 @@ Section two_point_section(const Analysis& a, bool with_pairs) {
     add_paragraphs(section.blocks, {held_out_words(comparison)});
     for (const PairStudy& study : a.uncertainty.pairs) {
       if (!with_pairs || study.dataset != comparison.dataset) continue;
-      for (const std::string& words : pair_words(a, study)) {
+      for (const Sentence& words : pair_words(a, study)) {
         section.blocks.emplace_back(Paragraph{words});
       }
     }
@@ -263,7 +263,7 @@ Section identifiability_section(const Analysis& a) {
   if (found.assessed()) {
     section.blocks = {
         Paragraph{strong(plain_text(as_sentence(words_of(to_string(found.verdict))))) + " " +
-                  as_sentence(Sentence(identifiability_words(a.fitted, a.uncertainty)))}};
+                  as_sentence(identifiability_words(a.fitted, a.uncertainty))}};
   }
   return section;
 }
@@ -272,8 +272,7 @@ Section identifiability_section(const Analysis& a) {
 std::vector<Block> pair_paragraphs(const Analysis& a) {
   std::vector<Block> blocks;
   for (const PairStudy& study : a.uncertainty.pairs) {
-    blocks.emplace_back(
-        Paragraph{Sentence(fmt::format("{}", fmt::join(pair_words(a, study), " ")))});
+    blocks.emplace_back(Paragraph{join(pair_words(a, study), " ")});
   }
   return blocks;
 }
@@ -411,7 +410,8 @@ Glossary glossary(const Analysis& a) {
 }
 
 Section validity_section(const Analysis& a, const char* title) {
-  return {"validity", title, {}, {list_of_sentences(passed_limits(a.validity, a.datasets))}};
+  const std::vector<std::string> passed = passed_limits(a.validity, a.datasets);
+  return {"validity", title, {}, {list_of_sentences({passed.begin(), passed.end()})}};
 }
 
 std::vector<Section> fit_sections(const Analysis& a) {

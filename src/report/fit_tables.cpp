@@ -182,8 +182,7 @@ List parameter_remarks(const Analysis& a) {
           as_sentence(say("{} has no interval: {}", name, missing_words(interval))));
     }
     if (interval.note) {
-      remarks.entries.push_back(
-          as_sentence(say("{}: {}", name, note_words(interval, slot.label()))));
+      remarks.entries.push_back(as_sentence(say("{}: {}", name, note_words(interval, name))));
     }
   }
   return remarks;

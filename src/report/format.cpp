@@ -15,8 +15,8 @@
 namespace recoil {
 namespace {
 
-void add_new(std::vector<std::string>& list, const std::vector<std::string>& more) {
-  for (const std::string& item : more) {
+void add_new(std::vector<Sentence>& list, const std::vector<Sentence>& more) {
+  for (const Sentence& item : more) {
     if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
   }
 }
@@ -72,6 +72,11 @@ std::string diameter_words(double diameter) {
                          : fmt::format("{:.3g} mm", diameter / 1e-3);
 }
 
+Sentence diameter_sentence(double diameter) {
+  return diameter < 1e-3 ? say("{:.3g} {um}", diameter / units::um)
+                         : say("{:.3g} mm", diameter / 1e-3);
+}
+
 std::string as_sentence(std::string words) {
   if (words.empty()) return words;
   if (words[0] >= 'a' && words[0] <= 'z' && !words.starts_with("f0")) {
@@ -92,8 +97,8 @@ IntervalSet intervals_of(const Analysis& analysis, std::size_t slot) {
   return set;
 }
 
-std::vector<std::string> recommendations(const Analysis& analysis) {
-  std::vector<std::string> sentences;
+std::vector<Sentence> recommendations(const Analysis& analysis) {
+  std::vector<Sentence> sentences;
   for (std::size_t slot = 0; slot < analysis.fitted.model.slots.size(); ++slot) {
     const IntervalSet set = intervals_of(analysis, slot);
     if (!recommended_interval(set).available()) continue;
@@ -103,8 +108,8 @@ std::vector<std::string> recommendations(const Analysis& analysis) {
   return sentences;
 }
 
-std::vector<std::string> disagreements(const Analysis& analysis) {
-  std::vector<std::string> sentences;
+std::vector<Sentence> disagreements(const Analysis& analysis) {
+  std::vector<Sentence> sentences;
   for (std::size_t slot = 0; slot < analysis.uncertainty.intervals.size(); ++slot) {
     const IntervalSet& set = analysis.uncertainty.intervals[slot];
     if (!set.disagreement) continue;
@@ -138,8 +143,8 @@ std::vector<std::pair<std::string, std::string>> provenances(const std::vector<D
   return list;
 }
 
-std::vector<std::string> all_warnings(const Analysis& analysis) {
-  std::vector<std::string> warnings;
+std::vector<Sentence> all_warnings(const Analysis& analysis) {
+  std::vector<Sentence> warnings;
   for (const Dataset& dataset : analysis.datasets) {
     for (const DatasetWarning& warning : dataset.warnings) {
       add_new(warnings, {warning_sentence(warning)});
@@ -149,19 +154,19 @@ std::vector<std::string> all_warnings(const Analysis& analysis) {
   for (const TwoPointComparison& comparison : analysis.uncertainty.two_point) {
     if (comparison.result.status == TwoPointStatus::converged) continue;
     add_new(warnings,
-            {fmt::format("two-point iteration on {}: {}", analysis.datasets[comparison.dataset].id,
-                         two_point_words(analysis.fitted, comparison.dataset, comparison.result))});
+            {say("two-point iteration on {}: {}", analysis.datasets[comparison.dataset].id,
+                 two_point_words(analysis.fitted, comparison.dataset, comparison.result))});
   }
   add_new(warnings, uncertainty_warnings(analysis.uncertainty, analysis.fitted.data));
   return warnings;
 }
 
-std::vector<std::string> all_contradictions(const Analysis& analysis) {
-  std::vector<std::string> sentences;
+std::vector<Sentence> all_contradictions(const Analysis& analysis) {
+  std::vector<Sentence> sentences;
   const auto& contacts = analysis.fitted.model.contacts;
   for (std::size_t k = 0; k < contacts.size() && k < analysis.datasets.size(); ++k) {
     for (const std::string& sentence : contacts[k].contradictions) {
-      sentences.push_back(fmt::format("{}: {}", analysis.datasets[k].id, sentence));
+      sentences.push_back(say("{}: {}", code(analysis.datasets[k].id), sentence));
     }
   }
   return sentences;

@@ -41,6 +41,8 @@ std::string size_text(double diameter, const SizeUnit& unit);
 std::string diameter_label(double diameter);
 /// "4.9 um", "42 mm"
 std::string diameter_words(double diameter);
+/// The same, the unit marked as one.
+Sentence diameter_sentence(double diameter);
 
 /// `words` with a capital at the start and a full stop at the end; empty stays empty.
 std::string as_sentence(std::string words);
@@ -49,10 +51,10 @@ std::string as_sentence(std::string words);
 IntervalSet intervals_of(const Analysis& analysis, std::size_t slot);
 
 /// Which interval is recommended and why, one sentence per kind.
-std::vector<std::string> recommendations(const Analysis& analysis);
+std::vector<Sentence> recommendations(const Analysis& analysis);
 
 /// Why the intervals of a parameter differ, one sentence per parameter of which they do.
-std::vector<std::string> disagreements(const Analysis& analysis);
+std::vector<Sentence> disagreements(const Analysis& analysis);
 
 /// Correlation of two slots from the covariance; 0 when either has no variance.
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b);
@@ -65,10 +67,10 @@ std::vector<std::pair<std::string, std::string>> provenances(const std::vector<D
 
 /// Warnings of every stage in pipeline order, without repetition. The contradictions of the contact
 /// are not among them.
-std::vector<std::string> all_warnings(const Analysis& analysis);
+std::vector<Sentence> all_warnings(const Analysis& analysis);
 
 /// What disagrees among the stated inputs, "dataset: sentence".
-std::vector<std::string> all_contradictions(const Analysis& analysis);
+std::vector<Sentence> all_contradictions(const Analysis& analysis);
 
 /// The two-point comparison of `dataset`, or null.
 const TwoPointComparison* two_point_of(const Analysis& analysis, std::size_t dataset);

@@ -60,7 +60,7 @@ void put_pairs(Json& out, const Analysis& a, std::size_t dataset) {
                             {"failed", study.full_failed},
                             {"held_out_rmse", held_out_json(study.held_out)},
                             {"measured_rmse", held_out_json(study.measured_held_out)}}},
-                          {"text", pair_words(a, study)}};
+                          {"text", plain_texts(pair_words(a, study))}};
   }
   if (out["pairs"].empty()) out["pairs_why"] = "no choice of two points was studied";
 }

@@ -293,7 +293,7 @@ Json information_json(const Analysis& a) {
   for (const InformationDirection& direction : information.directions) {
     directions.push_back({{"exponents", by_parameter(direction.exponents)},
                           {"relative_sd", number_or_null(direction.relative_sd)},
-                          {"words", direction_words(a.fitted, direction)}});
+                          {"words", plain_text(direction_words(a.fitted, direction))}});
   }
   Json plans = Json::array();
   constexpr std::size_t most_plans = 3;
@@ -319,7 +319,7 @@ Json identifiability_json(const Analysis& a) {
     parameters[a.fitted.model.slots[s].label()] = found.parameter[s].identifiable;
   }
   return {{"verdict", found.assessed() ? Json(to_string(found.verdict)) : Json(nullptr)},
-          {"text", identifiability_words(a.fitted, a.uncertainty)},
+          {"text", plain_text(identifiability_words(a.fitted, a.uncertainty))},
           {"parameters", parameters},
           {"information", information_json(a)}};
 }
@@ -359,9 +359,9 @@ std::string json_report(const Analysis& analysis) {
   out["posterior"] = posterior_json(analysis);
   put_two_point(out, analysis);
   out["starts"] = starts_json(analysis);
-  std::vector<std::string> warnings = all_warnings(analysis);
-  for (const std::string& sentence : all_contradictions(analysis)) warnings.push_back(sentence);
-  out["warnings"] = warnings;
+  std::vector<Sentence> warnings = all_warnings(analysis);
+  for (const Sentence& sentence : all_contradictions(analysis)) warnings.push_back(sentence);
+  out["warnings"] = plain_texts(warnings);
   out["curve"] = curve_json(analysis);
   out["residuals"] = residuals_json(analysis);
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

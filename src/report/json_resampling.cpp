@@ -21,17 +21,18 @@ Json mc_error_json(const Interval& interval) {
 
 void put_resampling(Json& parameter, const Analysis& analysis, std::size_t slot) {
   const IntervalSet set = intervals_of(analysis, slot);
-  const std::string label = analysis.fitted.model.slots[slot].label();
+  const Sentence label = symbol(analysis.fitted.model.slots[slot].label());
   Json errors = Json::object();
   Json notes = Json::object();
   for (const IntervalKind kind : values_of<IntervalKind>()) {
     errors[to_string(kind)] = mc_error_json(set[kind]);
-    if (set[kind].note) notes[to_string(kind)] = note_words(set[kind], label);
+    if (set[kind].note) notes[to_string(kind)] = plain_text(note_words(set[kind], label));
   }
   parameter["intervals_mc_error"] = errors;
   parameter["intervals_note"] = notes;
   parameter["intervals_differ"] =
-      set.disagreement ? Json(disagreement_words(analysis.fitted, slot, set)) : Json(nullptr);
+      set.disagreement ? Json(plain_text(disagreement_words(analysis.fitted, slot, set)))
+                       : Json(nullptr);
   parameter["bca_constants"] = nullptr;
   if (set.bca_constants) {
     parameter["bca_constants"] = {

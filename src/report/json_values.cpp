@@ -63,7 +63,7 @@ Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
   const bool answered = two.status != TwoPointStatus::too_few_points;
   Json out;
   out["status"] = to_string(two.status);
-  const std::string words = two_point_words(a.fitted, comparison.dataset, two);
+  const std::string words = plain_text(two_point_words(a.fitted, comparison.dataset, two));
   out["text"] = words;
   out["iterations"] = two.iterations;
   out["diameter_um"] = number_or_null(two.diameter / units::um);

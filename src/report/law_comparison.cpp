@@ -86,10 +86,10 @@ Section laws_section(const std::vector<ComparedFit>& laws) {
   for (Section& part : comparison_sections(laws)) {
     for (Block& block : part.blocks) section.blocks.push_back(std::move(block));
   }
-  section.blocks.emplace_back(Paragraph{
-      "The same points under other laws. The intervals extend by 1.96 standard errors to "
-      "either side, to first order, and stop at the bounds. Under another law C_A and C_H act on "
-      "another force: that their intervals overlap does not make them one quantity."});
+  section.blocks.emplace_back(Paragraph{say(
+      "The same points under other laws. The intervals extend by 1.96 standard errors to either "
+      "side, to first order, and stop at the bounds. Under another law {C_A} and {C_H} act on "
+      "another force: that their intervals overlap does not make them one quantity.")});
   return section;
 }
 

@@ -50,7 +50,7 @@ Table budget_table(const Analysis& a) {
   // Sources in the order of their largest share.
   std::vector<std::pair<double, std::string>> sources;
   for (const BudgetOf& of : budgets) {
-    table.columns.push_back({symbol(of.quantity)});
+    table.columns.push_back({of.quantity});
     for (const BudgetEntry& entry : of.budget->entries) {
       const std::string name = source_words(entry, a.fitted.model);
       const auto found = std::find_if(sources.begin(), sources.end(),

@@ -27,8 +27,8 @@ std::string velocities(const Analysis& a, const PairQuality& pair) {
                      number(a.fitted.data.points[pair.high_point].velocity, 3));
 }
 
-std::string estimate_words(const char* name, const std::optional<double>& bias,
-                           const std::optional<double>& spread) {
+Sentence estimate_words(const char* name, const std::optional<double>& bias,
+                        const std::optional<double>& spread) {
   constexpr double hardly = 0.01;
   const std::string off = !bias ? std::string("off by an unknown bias")
                           : std::abs(*bias) < hardly
@@ -37,7 +37,7 @@ std::string estimate_words(const char* name, const std::optional<double>& bias,
   const std::string wide =
       spread ? fmt::format("{} times the spread of the full fit", number(*spread, 2))
              : std::string("a spread that cannot be compared");
-  return fmt::format("{} {} with {}", name, off, wide);
+  return say("{} {} with {}", symbol(name), off, wide);
 }
 
 /// "0.021 (full fit: 0.018) at the other points of the series and ... at the other diameters"
@@ -54,27 +54,27 @@ std::string error_words(const HeldOut& two, const HeldOut& full) {
   return words;
 }
 
-std::string paper_sentence(const Analysis& a, const PairStudy& study) {
+Sentence paper_sentence(const Analysis& a, const PairStudy& study) {
   const PairQuality& pair = study.pairs[study.paper];
   const PairFigures figures = figures_of(study, pair);
-  std::string text = fmt::format("{}: in {} data sets simulated from the full fit, ",
-                                 a.datasets[study.dataset].id, study.simulations);
+  Sentence text = say("{}: in {} data sets simulated from the full fit, ",
+                      a.datasets[study.dataset].id, study.simulations);
   const std::string no_answer = fmt::format("{:.0f} %", 100.0 * figures.without_answer);
   if (!pair.C_H.median) {
-    return text + fmt::format("the paper's two points, {}, give no answer in {}.",
-                              velocities(a, pair), no_answer);
+    return text +
+           say("the paper's two points, {}, give no answer in {}.", velocities(a, pair), no_answer);
   }
-  text +=
-      fmt::format("the paper's two points, {}, give {} and {}, and no answer in {}",
-                  velocities(a, pair), estimate_words("C_H", figures.bias_C_H, figures.spread_C_H),
-                  estimate_words("C_A", figures.bias_C_A, figures.spread_C_A), no_answer);
+  text += say("the paper's two points, {}, give {} and {}, and no answer in {}",
+              velocities(a, pair), estimate_words("C_H", figures.bias_C_H, figures.spread_C_H),
+              estimate_words("C_A", figures.bias_C_A, figures.spread_C_A), no_answer);
   const std::string error = error_words(pair.held_out, study.held_out);
-  if (!error.empty())
-    text += fmt::format("; their curve would miss a new measurement of e by {}", error);
+  if (!error.empty()) {
+    text += say("; their curve would miss a new measurement of {e} by {}", error);
+  }
   return text + ".";
 }
 
-std::string others_sentence(const Analysis& a, const PairStudy& study) {
+Sentence others_sentence(const Analysis& a, const PairStudy& study) {
   int often_without = 0;
   std::vector<double> spreads;
   std::vector<double> errors;
@@ -91,7 +91,7 @@ std::string others_sentence(const Analysis& a, const PairStudy& study) {
     if (pair.held_out.series) errors.push_back(*pair.held_out.series);
   }
   const std::size_t count = study.pairs.size();
-  std::string text = fmt::format(
+  Sentence text = say(
       "Of the {} choice{} of two points whose velocities differ by at least half, {} leave{} more "
       "than a tenth of the data sets without an answer",
       count, count == 1 ? "" : "s", often_without, often_without == 1 ? "s" : "");
@@ -101,9 +101,9 @@ std::string others_sentence(const Analysis& a, const PairStudy& study) {
                          number(*std::min_element(values.begin(), values.end()), figures),
                          number(*std::max_element(values.begin(), values.end()), figures));
     };
-    text += fmt::format(
-        "; among the others C_A scatters {} times as much as in the full fit, least with {}",
-        range(spreads, 2), velocities(a, *best));
+    text +=
+        say("; among the others {C_A} scatters {} times as much as in the full fit, least with {}",
+            range(spreads, 2), velocities(a, *best));
     if (!errors.empty()) {
       text += fmt::format(", and a new measurement is missed by {}", range(errors, 2));
     }
@@ -132,7 +132,7 @@ std::optional<double> capture_of(const Analysis& analysis, const PairStudy& stud
   return std::nullopt;
 }
 
-std::vector<std::string> pair_words(const Analysis& analysis, const PairStudy& study) {
+std::vector<Sentence> pair_words(const Analysis& analysis, const PairStudy& study) {
   if (study.pairs.empty()) return {};
   return {paper_sentence(analysis, study), others_sentence(analysis, study)};
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "report/report.hpp"
@@ -22,6 +21,6 @@ PairFigures figures_of(const PairStudy& study, const PairQuality& pair);
 std::optional<double> capture_of(const Analysis& analysis, const PairStudy& study);
 
 /// Two sentences: what the paper's pair costs, and what the choice of another would.
-std::vector<std::string> pair_words(const Analysis& analysis, const PairStudy& study);
+std::vector<Sentence> pair_words(const Analysis& analysis, const PairStudy& study);
 
 }  // namespace recoil

@@ -1,7 +1,6 @@
 #include "report/words_fit.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,7 +9,7 @@
 namespace recoil {
 namespace {
 
-void add_about_data(const Observations& data, std::vector<std::string>& warnings) {
+void add_about_data(const Observations& data, std::vector<Sentence>& warnings) {
   if (data.sd_stated) return;
   if (data.sd_set_aside > 0) {
     warnings.push_back(fmt::format(
@@ -25,12 +24,12 @@ void add_about_data(const Observations& data, std::vector<std::string>& warnings
       "the noise is estimated from the residuals: the fit cannot be tested against it");
 }
 
-void add_about_starts(const FitResult& fitted, std::vector<std::string>& warnings) {
+void add_about_starts(const FitResult& fitted, std::vector<Sentence>& warnings) {
   for (const StartSummary& start : fitted.starts) {
     for (const std::size_t j : start.differing) {
       warnings.push_back(
-          fmt::format("tie: another start ends with the same chi2 at {} = {:.4g} instead of {:.4g}",
-                      fitted.model.slots[j].label(), start.end[j], fitted.best_start().end[j]));
+          say("tie: another start ends with the same chi2 at {} = {:.4g} instead of {:.4g}",
+              symbol(fitted.model.slots[j].label()), start.end[j], fitted.best_start().end[j]));
     }
   }
   const auto count = [&](StartOutcome outcome) {
@@ -60,20 +59,20 @@ void add_about_starts(const FitResult& fitted, std::vector<std::string>& warning
   }
 }
 
-void add_about_bounds(const FitResult& fitted, std::vector<std::string>& warnings) {
+void add_about_bounds(const FitResult& fitted, std::vector<Sentence>& warnings) {
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     if (!fitted.at_bound[j]) continue;
     const ParameterSlot& slot = fitted.model.slots[j];
     const bool low = fitted.theta[j] <= 0.5 * (slot.lower + slot.upper);
-    warnings.push_back(fmt::format(
-        "{} rests on its {} bound {:.4g} {}: it has no symmetric error, and the errors of the "
-        "others are conditional on it",
-        slot.label(), low ? "lower" : "upper", low ? slot.lower : slot.upper,
-        slot.parameter->unit));
+    warnings.push_back(
+        say("{} rests on its {} bound {:.4g} {}: it has no symmetric error, and the errors of the "
+            "others are conditional on it",
+            symbol(slot.label()), low ? "lower" : "upper", low ? slot.lower : slot.upper,
+            unit(slot.parameter->unit)));
   }
 }
 
-void add_about_idle_mechanisms(const ImpactModel& model, std::vector<std::string>& warnings) {
+void add_about_idle_mechanisms(const ImpactModel& model, std::vector<Sentence>& warnings) {
   for (const Mechanism* mechanism : model.chain) {
     const auto idle =
         std::count_if(model.surroundings.begin(), model.surroundings.end(),
@@ -91,8 +90,8 @@ void add_about_idle_mechanisms(const ImpactModel& model, std::vector<std::string
 
 }  // namespace
 
-std::vector<std::string> fit_warnings(const FitResult& fitted) {
-  std::vector<std::string> warnings;
+std::vector<Sentence> fit_warnings(const FitResult& fitted) {
+  std::vector<Sentence> warnings;
   add_about_data(fitted.data, warnings);
   add_about_idle_mechanisms(fitted.model, warnings);
   if (fitted.unused_counts) {
@@ -119,12 +118,13 @@ std::vector<std::string> fit_warnings(const FitResult& fitted) {
         fitted.strained_points, strained_bias));
   }
   if (!fitted.flat.empty()) {
-    std::vector<std::string> names;
-    for (const std::size_t j : fitted.flat) names.push_back(fitted.model.slots[j].label());
-    warnings.push_back(fmt::format(
-        "the fit ended where the points do not depend on {}: such a value means nothing, and there "
-        "are no standard errors; begin elsewhere (initial) or do not fit it (free = false)",
-        fmt::join(names, ", ")));
+    std::vector<Sentence> names;
+    for (const std::size_t j : fitted.flat) names.push_back(symbol(fitted.model.slots[j].label()));
+    warnings.push_back(
+        say("the fit ended where the points do not depend on {}: such a value means nothing, and "
+            "there are no standard errors; begin elsewhere (initial) or do not fit it (free = "
+            "false)",
+            join(names, ", ")));
   } else if (fitted.covariance.empty()) {
     warnings.emplace_back(
         "the points do not determine all free parameters (J'J is singular): no standard errors");

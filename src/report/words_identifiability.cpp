@@ -13,7 +13,7 @@
 namespace recoil {
 namespace {
 
-using Sentences = std::vector<std::string>;
+using Sentences = std::vector<Sentence>;
 
 /// "2.1 %", or "a factor of 3" where percents no longer make sense.
 std::string known_to(double relative_sd) {
@@ -59,10 +59,10 @@ void describe_parameters(const FitResult& fitted, const UncertaintyResult& uncer
     if (!fitted.model.slots[j].free) continue;
     anything_free = true;
     const ParameterIdentifiability& parameter = found.parameter[j];
-    const std::string label = fitted.model.slots[j].label();
+    const Sentence label = symbol(fitted.model.slots[j].label());
     if (parameter.upper_limit) {
-      sentences.push_back(fmt::format(
-          "{} is consistent with zero, and small: read its interval as an upper limit", label));
+      sentences.push_back(
+          say("{} is consistent with zero, and small: read its interval as an upper limit", label));
     }
     if (!parameter.hindrance) continue;
     if (parameter.hindrance == Hindrance::wide_spread) {
@@ -71,12 +71,11 @@ void describe_parameters(const FitResult& fitted, const UncertaintyResult& uncer
       sentences.push_back(undecided_words(label, parameter.noise_factor));
     } else {
       const Interval& interval = recommended_interval(uncertainty.intervals[j]);
-      sentences.push_back(fmt::format("{} {}", label, hindrance_words(parameter, interval)));
+      sentences.push_back(say("{} {}", label, hindrance_words(parameter, interval)));
     }
   }
   if (!not_trusted.empty()) {
-    sentences.push_back(wide_spread_words(fmt::format("{}", fmt::join(not_trusted, " and of ")),
-                                          found.event_spread));
+    sentences.push_back(wide_spread_words(join(not_trusted, " and of "), found.event_spread));
   }
   if (sentences.empty()) {
     sentences.emplace_back(anything_free ? "every free parameter is determined"
@@ -87,17 +86,18 @@ void describe_parameters(const FitResult& fitted, const UncertaintyResult& uncer
 void describe_correlations(const FitResult& fitted, const Identifiability& found,
                            Sentences& sentences) {
   for (const auto& [one, other, correlation] : found.correlated) {
-    sentences.push_back(fmt::format(
-        "{} and {} can hardly be told from each other (correlation {:.3f}): quote "
-        "their intervals together",
-        fitted.model.slots[one].label(), fitted.model.slots[other].label(), correlation));
+    sentences.push_back(
+        say("{} and {} can hardly be told from each other (correlation {:.3f}): quote "
+            "their intervals together",
+            symbol(fitted.model.slots[one].label()), symbol(fitted.model.slots[other].label()),
+            correlation));
   }
   const auto& directions = found.information.directions;
   if (found.correlated.empty() || directions.size() < 2) return;
-  sentences.push_back(fmt::format(
-      "the points determine {} to {}, but {} only to {}",
-      direction_words(fitted, directions.front()), known_to(directions.front().relative_sd),
-      direction_words(fitted, directions.back()), known_to(directions.back().relative_sd)));
+  sentences.push_back(
+      say("the points determine {} to {}, but {} only to {}",
+          direction_words(fitted, directions.front()), known_to(directions.front().relative_sd),
+          direction_words(fitted, directions.back()), known_to(directions.back().relative_sd)));
 }
 
 /// How far the points reach down to the capture velocity, and what more of them would do.
@@ -110,8 +110,8 @@ void describe_reach(const FitResult& fitted, const Identifiability& found, Sente
   if (!found.more_points || fitted.covariance.empty()) return;
   Sentences gains;
   for (const auto& [slot, now, then] : worthwhile_gains(found.information)) {
-    gains.push_back(fmt::format("{} to {} instead of {}", fitted.model.slots[slot].label(),
-                                known_to(then), known_to(now)));
+    gains.push_back(say("{} to {} instead of {}", symbol(fitted.model.slots[slot].label()),
+                        known_to(then), known_to(now)));
   }
   if (gains.empty()) return;
   const PlannedPoints& plan = found.information.plans.front();
@@ -119,56 +119,56 @@ void describe_reach(const FitResult& fitted, const Identifiability& found, Sente
                                 ? fmt::format(" ({:.3g} times the capture velocity)",
                                               plan.velocity / plan.capture_velocity)
                                 : std::string();
-  sentences.push_back(fmt::format("{} more points of {} at {:.3g} m/s{} would determine {}",
-                                  plan.points, diameter_words(plan.diameter), plan.velocity, above,
-                                  fmt::join(gains, ", ")));
+  sentences.push_back(say("{} more points of {} at {:.3g} m/s{} would determine {}", plan.points,
+                          diameter_sentence(plan.diameter), plan.velocity, above,
+                          join(gains, ", ")));
 }
 
-const char* words_of(Combination combination) {
+Sentence words_of(Combination combination) {
   switch (combination) {
     case Combination::capture_velocity:
-      return "the capture velocity: V*^2 ~ V_a^3 (C_A + 2 C_H)";
+      return say("the capture velocity: {V*}{} ~ {V_a}{} ({C_A} + 2 {C_H})", exponent("2"),
+                 exponent("3"));
     case Combination::adhesion_loss:
-      return "the loss to adhesion far above capture, C_A f0";
+      return say("the loss to adhesion far above capture, {C_A} {f0}");
     case Combination::plateau_loss:
-      return "the loss of the fastest impacts, C_H";
+      return say("the loss of the fastest impacts, {C_H}");
   }
-  return "";
+  return {};
 }
 
 }  // namespace
 
-std::string direction_words(const FitResult& fitted, const InformationDirection& direction) {
+Sentence direction_words(const FitResult& fitted, const InformationDirection& direction) {
   constexpr double negligible = 0.05;
-  std::string product;
+  Sentence product;
   for (std::size_t j = 0; j < direction.exponents.size(); ++j) {
-    const double exponent = direction.exponents[j];
-    if (std::abs(exponent) < negligible) continue;
+    const double power = direction.exponents[j];
+    if (std::abs(power) < negligible) continue;
     if (!product.empty()) product += " ";
-    product += std::abs(exponent - 1.0) < 0.005
-                   ? fitted.model.slots[j].label()
-                   : fmt::format("{}^{:.2f}", fitted.model.slots[j].label(), exponent);
+    product += symbol(fitted.model.slots[j].label());
+    if (std::abs(power - 1.0) >= 0.005) product += exponent(fmt::format("{:.2f}", power));
   }
-  if (direction.meaning) product += fmt::format(" ({})", words_of(*direction.meaning));
+  if (direction.meaning) product += say(" ({})", words_of(*direction.meaning));
   return product;
 }
 
-std::string identifiability_words(const FitResult& fitted, const UncertaintyResult& uncertainty) {
+Sentence identifiability_words(const FitResult& fitted, const UncertaintyResult& uncertainty) {
   const Identifiability& found = uncertainty.identifiability;
-  if (!found.assessed()) return "";
+  if (!found.assessed()) return {};
   Sentences sentences;
   describe_parameters(fitted, uncertainty, sentences);
   describe_correlations(fitted, found, sentences);
   describe_reach(fitted, found, sentences);
-  return fmt::format("{}.", fmt::join(sentences, "; "));
+  return join(sentences, "; ") + ".";
 }
 
-std::vector<std::string> uncertainty_warnings(const UncertaintyResult& uncertainty,
-                                              const Observations& data) {
+std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
+                                           const Observations& data) {
   Sentences warnings;
   const BootstrapResult& boot = uncertainty.bootstrap;
   if (boot.failed_often()) {
-    warnings.push_back(
+    warnings.emplace_back(
         failures_words(boot, data) +
         (boot.withheld() ? "; more than a tenth: the intervals from replicates are withheld" : ""));
   }
@@ -180,13 +180,13 @@ std::vector<std::string> uncertainty_warnings(const UncertaintyResult& uncertain
         boot.replicates, 100.0 * *boot.relative_error, 100.0 * options.wanted_error));
   }
   for (const CaptureEstimate& capture : uncertainty.capture) {
-    const std::string size = diameter_words(capture.diameter);
+    const Sentence size = diameter_sentence(capture.diameter);
     if (!capture.found) {
       warnings.push_back(
-          fmt::format("no capture velocity at d = {}: {}", size, missing_words(capture.interval)));
+          say("no capture velocity at {d} = {}: {}", size, missing_words(capture.interval)));
     } else if (capture.interval.note) {
       warnings.push_back(
-          fmt::format("d = {}: {}", size, note_words(capture.interval, "the capture velocity")));
+          say("{d} = {}: {}", size, note_words(capture.interval, "the capture velocity")));
     }
   }
   return warnings;

@@ -1,21 +1,21 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "document/sentence.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/uncertainty_result.hpp"
 
 namespace recoil {
 
 /// "f0^0.97 C_A^0.25 (the capture velocity: ...)": the product that a direction stands for.
-std::string direction_words(const FitResult& fitted, const InformationDirection& direction);
+Sentence direction_words(const FitResult& fitted, const InformationDirection& direction);
 
 /// Which parameter cannot be told, why, and what to measure.
-std::string identifiability_words(const FitResult& fitted, const UncertaintyResult& uncertainty);
+Sentence identifiability_words(const FitResult& fitted, const UncertaintyResult& uncertainty);
 
 /// What has to be known of the whole assessment, one sentence each.
-std::vector<std::string> uncertainty_warnings(const UncertaintyResult& uncertainty,
-                                              const Observations& data);
+std::vector<Sentence> uncertainty_warnings(const UncertaintyResult& uncertainty,
+                                           const Observations& data);
 
 }  // namespace recoil

@@ -11,18 +11,17 @@
 namespace recoil {
 namespace {
 
-std::string bound_words(const Disagreement& found, const FitResult& fitted, std::size_t slot) {
+Sentence bound_words(const Disagreement& found, const FitResult& fitted, std::size_t slot) {
   if (found.estimate_at_bound) {
     return "the estimate rests on its bound, where the likelihood is not a parabola and a standard "
            "error says nothing";
   }
-  if (!found.on_bound) return "";
+  if (!found.on_bound) return {};
   const auto& [other, share, correlation] = *found.on_bound;
-  if (other == slot)
-    return fmt::format("{:.0f} % of the replicates rest on a bound", 100.0 * share);
-  return fmt::format(
+  if (other == slot) return say("{:.0f} % of the replicates rest on a bound", 100.0 * share);
+  return say(
       "{:.0f} % of the replicates have {} on its bound, with which it is correlated ({:.2f})",
-      100.0 * share, fitted.model.slots[other].label(), correlation);
+      100.0 * share, symbol(fitted.model.slots[other].label()), correlation);
 }
 
 std::string skew_words(const Disagreement& found) {
@@ -123,27 +122,27 @@ std::string missing_words(const Interval& interval) {
   return "";
 }
 
-std::string note_words(const Interval& interval, const std::string& what) {
-  if (!interval.note) return "";
+Sentence note_words(const Interval& interval, const Sentence& what) {
+  if (!interval.note) return {};
   const double value = interval.note->value;
   switch (interval.note->caution) {
     case Caution::spans_both_bounds:
       return "it spans both bounds: the data do not limit this parameter";
     case Caution::begins_at_bound:
-      return fmt::format("its lower end is the bound {:g}: read it as an upper limit", value);
+      return say("its lower end is the bound {:g}: read it as an upper limit", value);
     case Caution::ends_at_bound:
-      return fmt::format("its upper end is the bound {:g}: read it as a lower limit", value);
+      return say("its upper end is the bound {:g}: read it as a lower limit", value);
     case Caution::undecided_noise:
       return undecided_words(what, value);
     case Caution::wide_spread:
       return wide_spread_words(what, value);
     case Caution::mixed_sizes:
-      return fmt::format(
+      return say(
           "take the interval of {} as too narrow: every point averages over spheres of many sizes, "
           "and of such intervals {:.0f} % contained the truth in a simulation where 95 % should",
           what, 100.0 * value);
   }
-  return "";
+  return {};
 }
 
 std::string recommended_words(const IntervalSet& set) {
@@ -184,25 +183,25 @@ std::string recommended_words(const CaptureEstimate& capture) {
   return "";
 }
 
-std::string disagreement_words(const FitResult& fitted, std::size_t slot, const IntervalSet& set) {
-  if (!set.disagreement) return "";
+Sentence disagreement_words(const FitResult& fitted, std::size_t slot, const IntervalSet& set) {
+  if (!set.disagreement) return {};
   const Disagreement& found = *set.disagreement;
   std::vector<std::string> differing;
   for (const auto& [kind, by] : found.differing) {
     differing.push_back(fmt::format("{} by {:.0f} %", words_of(kind), 100.0 * by));
   }
-  std::vector<std::string> reasons;
-  if (std::string bound = bound_words(found, fitted, slot); !bound.empty()) {
+  std::vector<Sentence> reasons;
+  if (Sentence bound = bound_words(found, fitted, slot); !bound.empty()) {
     reasons.push_back(std::move(bound));
   }
   if (found.ridge) {
-    reasons.push_back(fmt::format("it trades along a ridge against {} (correlation {:.3f})",
-                                  fitted.model.slots[found.ridge->partner].label(),
-                                  found.ridge->correlation));
+    reasons.push_back(say("it trades along a ridge against {} (correlation {:.3f})",
+                          symbol(fitted.model.slots[found.ridge->partner].label()),
+                          found.ridge->correlation));
   }
-  if (found.skewed()) reasons.push_back(skew_words(found));
+  if (found.skewed()) reasons.emplace_back(skew_words(found));
   if (found.few_points) {
-    reasons.push_back(fmt::format(
+    reasons.push_back(say(
         "with {} degrees of freedom the noise itself is uncertain, which only the Wald, profile "
         "and studentized intervals allow for (a factor of {:.2f})",
         found.few_points->dof, found.few_points->factor));
@@ -211,13 +210,13 @@ std::string disagreement_words(const FitResult& fitted, std::size_t slot, const 
     reasons.emplace_back(
         "no bound, ridge, skew or lack of points explains it; look at the residuals");
   }
-  return fmt::format("{}: intervals differ from the {} one ({} of its width): {}",
-                     fitted.model.slots[slot].label(), words_of(set.recommended),
-                     fmt::join(differing, ", "), fmt::join(reasons, "; "));
+  return say("{}: intervals differ from the {} one ({} of its width): {}",
+             symbol(fitted.model.slots[slot].label()), words_of(set.recommended),
+             fmt::format("{}", fmt::join(differing, ", ")), join(reasons, "; "));
 }
 
-std::string undecided_words(const std::string& what, double factor) {
-  return fmt::format(
+Sentence undecided_words(const Sentence& what, double factor) {
+  return say(
       "the error of {} differs by a factor of {:.1f} between ways in which the scatter may grow "
       "towards capture, and the points cannot tell which is right, so that its interval may be too "
       "narrow or too wide: state standard deviations, or measure more points",
@@ -232,8 +231,8 @@ static std::string_view mechanism_of_sizes() {
   return "";
 }
 
-std::string wide_spread_words(const std::string& what, double event_spread) {
-  return fmt::format(
+Sentence wide_spread_words(const Sentence& what, double event_spread) {
+  return say(
       "the interval of {} is not to be trusted: from impact to impact the capture velocity "
       "scatters by {:.0f} %, and what is assumed of the survivors is good up to {:.0f} %; if one "
       "point averages over spheres of several sizes, sort them into size classes (recoil pair "

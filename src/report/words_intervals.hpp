@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "document/sentence.hpp"
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap_result.hpp"
 #include "uncertainty/capture_estimate.hpp"
@@ -20,20 +21,20 @@ std::string missing_words(const Interval& interval);
 
 /// What has to be known beside the interval of `what` ("C_A", "the capture velocity"); empty when
 /// nothing.
-std::string note_words(const Interval& interval, const std::string& what);
+Sentence note_words(const Interval& interval, const Sentence& what);
 
 /// Why the recommended interval is the one to quote.
 std::string recommended_words(const IntervalSet& set);
 std::string recommended_words(const CaptureEstimate& capture);
 
 /// Why the intervals of a slot differ; empty when they agree.
-std::string disagreement_words(const FitResult& fitted, std::size_t slot, const IntervalSet& set);
+Sentence disagreement_words(const FitResult& fitted, std::size_t slot, const IntervalSet& set);
 
 /// By how much the error of `what` depends on the variance function.
-std::string undecided_words(const std::string& what, double factor);
+Sentence undecided_words(const Sentence& what, double factor);
 
 /// That the impacts differ too much for the interval of `what`.
-std::string wide_spread_words(const std::string& what, double event_spread);
+Sentence wide_spread_words(const Sentence& what, double event_spread);
 
 /// Why the scheme was used, and what it does.
 std::string scheme_words(const BootstrapResult& bootstrap);

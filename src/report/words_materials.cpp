@@ -14,23 +14,22 @@ std::string label_of(const ImpactModel& model, std::size_t constant) {
   return model.slots[model.first_constant() + constant].label();
 }
 
-std::string better_words(const BudgetOf& of, const ImpactModel& model) {
+Sentence better_words(const BudgetOf& of, const ImpactModel& model) {
   const ErrorBudget& budget = *of.budget;
   const BudgetEntry& first = budget.entries.front();
   const std::string share = fmt::format("{:.0f} %", 100.0 * first.share);
-  std::string words;
+  Sentence words;
   if (first.source != BudgetSource::constant) {
-    words = fmt::format("{}: most of the variance ({}) comes from {}", of.quantity, share,
-                        source_words(first, model));
+    words = say("{}: most of the variance ({}) comes from {}", of.quantity, share,
+                source_words(first, model));
     words += first.source == BudgetSource::scatter ? ", which more points reduce" : "";
   } else {
-    words = fmt::format("{}: measure {} first, which accounts for {} of the variance", of.quantity,
-                        label_of(model, first.constant), share);
+    words = say("{}: measure {} first, which accounts for {} of the variance", of.quantity,
+                label_of(model, first.constant), share);
     if (budget.sd_without_first_constant) {
-      words += fmt::format(
-          "; if it were known exactly, the standard error would be {:.2g} instead of {:.2g}{}",
-          *budget.sd_without_first_constant, budget.sd,
-          of.unit == "1" ? std::string() : " " + of.unit);
+      words +=
+          say("; if it were known exactly, the standard error would be {:.2g} instead of {:.2g}{}",
+              *budget.sd_without_first_constant, budget.sd, unit_after_number(of.unit));
     }
   }
   if (!budget.linear) {
@@ -67,20 +66,20 @@ std::vector<BudgetOf> all_budgets(const Analysis& a) {
   for (std::size_t j = 0; j < a.uncertainty.budgets.size(); ++j) {
     const ErrorBudget& budget = a.uncertainty.budgets[j];
     if (!budget.available()) continue;
-    all.push_back({slots[j].label(), std::string(slots[j].parameter->unit), &budget});
+    all.push_back({symbol(slots[j].label()), std::string(slots[j].parameter->unit), &budget});
   }
   for (std::size_t k = 0; k < a.uncertainty.capture_budgets.size(); ++k) {
     const ErrorBudget& budget = a.uncertainty.capture_budgets[k];
     if (!budget.available()) continue;
     const CaptureEstimate& at = a.uncertainty.capture[k];
     const std::string where = a.datasets.size() > 1 ? ", " + a.datasets[at.dataset].id : "";
-    all.push_back({fmt::format("V*({:.4g} um{})", at.diameter / units::um, where), "m/s", &budget});
+    all.push_back({say("{V*}({:.4g} {um}{})", at.diameter / units::um, where), "m/s", &budget});
   }
   return all;
 }
 
-std::vector<std::string> budget_sentences(const Analysis& a) {
-  std::vector<std::string> sentences;
+std::vector<Sentence> budget_sentences(const Analysis& a) {
+  std::vector<Sentence> sentences;
   if (a.fitted.model.constants.empty()) return sentences;
   for (const BudgetOf& of : all_budgets(a)) {
     sentences.push_back(better_words(of, a.fitted.model));
@@ -88,16 +87,15 @@ std::vector<std::string> budget_sentences(const Analysis& a) {
   return sentences;
 }
 
-std::string moved_words(const Analysis& a) {
-  std::string moved;
+Sentence moved_words(const Analysis& a) {
+  Sentence moved;
   for (std::size_t k = 0; k < a.fitted.constants_moved.size(); ++k) {
     const double by = a.fitted.constants_moved[k];
     if (std::abs(by) < 1.0) continue;
-    moved +=
-        fmt::format("{}{} by {:+.1f}", moved.empty() ? "" : ", ", label_of(a.fitted.model, k), by);
+    moved += say("{}{} by {:+.1f}", moved.empty() ? "" : ", ", label_of(a.fitted.model, k), by);
   }
   if (moved.empty()) return moved;
-  return fmt::format(
+  return say(
       "the points pull constants of the materials away from what is stated ({} standard "
       "deviations): either these are their true values, or they make up for something that the "
       "model lacks",

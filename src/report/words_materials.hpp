@@ -13,7 +13,7 @@ std::string source_words(const BudgetEntry& entry, const ImpactModel& model);
 
 /// A quantity with a budget: "C_A", "V*(4.9 um)".
 struct BudgetOf {
-  std::string quantity;
+  Sentence quantity;
   std::string unit;
   const ErrorBudget* budget = nullptr;
 };
@@ -22,11 +22,11 @@ struct BudgetOf {
 std::vector<BudgetOf> all_budgets(const Analysis& analysis);
 
 /// What to measure better first and what that would gain, one sentence for each budget.
-std::vector<std::string> budget_sentences(const Analysis& analysis);
+std::vector<Sentence> budget_sentences(const Analysis& analysis);
 
 /// Constants that the points moved by more than one standard deviation, and what that means; empty
 /// when there is none.
-std::string moved_words(const Analysis& analysis);
+Sentence moved_words(const Analysis& analysis);
 
 /// Which of the two intervals is which.
 std::string conditional_words(const Analysis& analysis);

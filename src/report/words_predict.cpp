@@ -34,22 +34,23 @@ std::string words_of(CaptureModel model) {
   return "";
 }
 
-std::string rests_on_words(const CaptureComparison& comparison, CaptureModel model) {
-  if (model == CaptureModel::fit) return "with its parameters, f0 of other sizes by eq. 12";
-  const std::string constants =
-      fmt::format("W_A = {:.3g} J/m2 and K = {:.4g} GPa", comparison.adhesion_energy,
-                  comparison.stiffness / units::GPa);
+Sentence rests_on_words(const CaptureComparison& comparison, CaptureModel model) {
+  if (model == CaptureModel::fit) {
+    return say("with its parameters, {f0} of other sizes by eq. 12");
+  }
+  const Sentence constants = say("{W_A} = {:.3g} {J/m2} and {K} = {:.4g} GPa",
+                                 comparison.adhesion_energy, comparison.stiffness / units::GPa);
   if (model == CaptureModel::jkr) {
     return constants +
            ", nothing fitted; the elastic sphere of Thornton & Ning sticks at the same velocity";
   }
   if (model == CaptureModel::thornton_ning) {
     const PublishedYield yield = comparison.yield.value_or(PublishedYield{});
-    return fmt::format("{}, yield pressure {:.3g} MPa ({}); adhesion helps the sphere to yield",
-                       constants, yield.pressure / 1e6, yield.source);
+    return say("{}, yield pressure {:.3g} MPa ({}); adhesion helps the sphere to yield", constants,
+               yield.pressure / 1e6, yield.source);
   }
-  return fmt::format("{}, e = {:.3g} (the largest of the fitted curve), the bond that of JKR",
-                     constants, comparison.restitution);
+  return say("{}, {e} = {:.3g} (the largest of the fitted curve), the bond that of JKR", constants,
+             comparison.restitution);
 }
 
 std::vector<std::string> capture_notes(const CaptureComparison& comparison,

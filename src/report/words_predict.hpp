@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "document/sentence.hpp"
 #include "predict/capture_comparison.hpp"
 #include "predict/polydisperse.hpp"
 
@@ -16,7 +17,7 @@ std::string words_of(CaptureConvention convention);
 std::string words_of(CaptureModel model);
 
 /// What went into the curve of a model.
-std::string rests_on_words(const CaptureComparison& comparison, CaptureModel model);
+Sentence rests_on_words(const CaptureComparison& comparison, CaptureModel model);
 
 /// What could not be drawn, and why.
 std::vector<std::string> capture_notes(const CaptureComparison& comparison, const Dataset& dataset);

@@ -18,6 +18,7 @@ TEST(Html, SetsSymbolsAndUnits) {
   EXPECT_EQ(html_of(say("{+/-} 1 {um}, {J/m2}, {kg/m3}, {uN}")), "± 1 µm, J/m², kg/m³, µN");
   EXPECT_EQ(html_of(unit("m/s") + unit("um/s")), "m/sµm/s");
   EXPECT_EQ(html_of(symbol("C_A[a<b]")), "<i>C</i><sub>A</sub> <small>(a&lt;b)</small>");
+  EXPECT_EQ(html_of(say("{d}{}", exponent("-0.83"))), "<i>d</i><sup>-0.83</sup>");
   EXPECT_EQ(html_of(Sentence("C_H um +/-")), "C_H um +/-") << "plain text is left alone";
 }
 

@@ -51,6 +51,7 @@ TEST(Sentence, JoinsAndSaysUnits) {
   EXPECT_TRUE(unit_after_number("").empty());
   EXPECT_EQ(plain_text(unit_after_number("m/s")), " m/s");
   EXPECT_EQ(words_of("no_adhesion_damping"), "no adhesion damping");
+  EXPECT_EQ(plain_text(say("{V*} ~ {d}{}", exponent("-0.83"))), "V* ~ d^-0.83");
 }
 
 }  // namespace

@@ -15,6 +15,10 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
+std::vector<std::string> sentences(const Analysis& analysis, const PairStudy& study) {
+  return plain_texts(pair_words(analysis, study));
+}
+
 TEST(PairWords, SayWhatThePapersPairCosts) {
   const Analysis analysis = sample::four_diameters();
   PairStudy study = analysis.uncertainty.pairs[0];
@@ -23,7 +27,7 @@ TEST(PairWords, SayWhatThePapersPairCosts) {
   paper.C_A = {0.8 * study.truth_C_A, 9e-3};   // and 2e-3
   paper.ended = {150, 25, 25, 0, 0};
   paper.held_out = {0.041, 0.052};
-  const std::vector<std::string> words = pair_words(analysis, study);
+  const std::vector<std::string> words = sentences(analysis, study);
   ASSERT_EQ(words.size(), 2U);
   EXPECT_THAT(words[0], HasSubstr("C_H off by +25 % with 1.5 times the spread of the full fit"));
   EXPECT_THAT(words[0], HasSubstr("C_A off by -20 % with 4.5 times the spread of the full fit"));
@@ -32,21 +36,21 @@ TEST(PairWords, SayWhatThePapersPairCosts) {
               HasSubstr("by 0.041 at the other points of this diameter (full fit: 0.031)"));
   EXPECT_THAT(words[0], HasSubstr("0.052 at the other diameters (full fit: 0.033)"));
   paper.C_A.median = study.truth_C_A * 0.996;
-  EXPECT_THAT(pair_words(analysis, study)[0], HasSubstr("C_A off by less than 1 %"));
+  EXPECT_THAT(sentences(analysis, study)[0], HasSubstr("C_A off by less than 1 %"));
 }
 
 TEST(PairWords, CountThePairsAndNameTheBest) {
   const Analysis analysis = sample::four_diameters();
   const PairStudy& study = analysis.uncertainty.pairs[0];
   // Without an answer: int(16 w) of 199 with w = 1, 1.5, 2, ...: only w = 1 stays below a tenth.
-  const std::string words = pair_words(analysis, study)[1];
+  const std::string words = sentences(analysis, study)[1];
   EXPECT_THAT(words, HasSubstr("Of the 12 choices of two points"));
   EXPECT_THAT(words, HasSubstr("11 leave more than a tenth"));
   EXPECT_THAT(words, HasSubstr("C_A scatters 2.5 to 2.5 times as much"));
   EXPECT_THAT(words, Not(HasSubstr("were tried")));
   PairStudy thinned = study;
   thinned.points = 40;
-  EXPECT_THAT(pair_words(analysis, thinned)[1], HasSubstr("8 of the 40 points were tried"));
+  EXPECT_THAT(sentences(analysis, thinned)[1], HasSubstr("8 of the 40 points were tried"));
 }
 
 TEST(PairWords, SurviveAPairWithoutAnyAnswerAndAFitAtItsBound) {
@@ -58,13 +62,13 @@ TEST(PairWords, SurviveAPairWithoutAnyAnswerAndAFitAtItsBound) {
   EXPECT_FALSE(figures.bias_C_H.has_value());
   EXPECT_FALSE(figures.spread_C_H.has_value());
   EXPECT_TRUE(figures.bias_C_A.has_value());
-  EXPECT_THAT(pair_words(analysis, study)[0], HasSubstr("unknown bias"));
+  EXPECT_THAT(sentences(analysis, study)[0], HasSubstr("unknown bias"));
   for (PairQuality& pair : study.pairs) {
     pair.C_H = pair.C_A = {};
     pair.held_out = {};
     pair.ended = {0, 100, 99, 0, 0};
   }
-  const std::vector<std::string> words = pair_words(analysis, study);
+  const std::vector<std::string> words = sentences(analysis, study);
   EXPECT_THAT(words[0], HasSubstr("give no answer in 100 %"));
   EXPECT_THAT(words[1], HasSubstr("12 leave"));
   for (const std::string& sentence : words) EXPECT_THAT(sentence, Not(HasSubstr("nan")));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "estimate/fit.hpp"
@@ -78,7 +79,7 @@ TEST(FitWarnings, NameTheParametersThatMeanNothing) {
   FitResult fitted = sound();
   fitted.covariance.clear();
   fitted.flat = {0, 1};
-  const std::vector<std::string> warnings = fit_warnings(fitted);
+  const std::vector<std::string> warnings = plain_texts(fit_warnings(fitted));
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("do not depend on C_H, C_A:"), std::string::npos) << warnings[0];
   // Where the fit is on flat ground, it is no news that starts are.
@@ -87,12 +88,23 @@ TEST(FitWarnings, NameTheParametersThatMeanNothing) {
   EXPECT_EQ(fit_warnings(fitted).size(), 1U);
 }
 
+TEST(FitWarnings, SetParametersAsSymbolsAndUnitsAsUnits) {
+  FitResult fitted = sound();
+  fitted.at_bound[0] = true;
+  const std::vector<Sentence> warnings = fit_warnings(fitted);
+  ASSERT_EQ(warnings.size(), 1U);
+  const std::vector<recoil::Run>& runs = warnings[0].runs();
+  EXPECT_EQ(runs.front(), (recoil::Run{RunKind::symbol, "C_H"}));
+  EXPECT_NE(std::find(runs.begin(), runs.end(), recoil::Run{RunKind::unit, "s/m"}), runs.end())
+      << plain_text(warnings[0]);
+}
+
 TEST(FitWarnings, TellOfStartsWhoseIterationsRanOut) {
   FitResult fitted = sound();
   fitted.starts.push_back(fitted.starts.front());
   fitted.starts.back().outcome = StartOutcome::not_converged;
   fitted.starts.back().ending = DescentEnd::limit;
-  const std::vector<std::string> warnings = fit_warnings(fitted);
+  const std::vector<std::string> warnings = plain_texts(fit_warnings(fitted));
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("iterations ran out"), std::string::npos) << warnings[0];
 }
@@ -131,7 +143,7 @@ TEST(TwoPointWords, EveryEndHasItsOwn) {
   std::set<std::string> words;
   for (const TwoPointStatus status : values_of<TwoPointStatus>()) {
     result.status = status;
-    words.insert(two_point_words(analysis.fitted, 0, result));
+    words.insert(plain_text(two_point_words(analysis.fitted, 0, result)));
   }
   EXPECT_EQ(words.size(), count_of<TwoPointStatus>);
 }

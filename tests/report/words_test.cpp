@@ -29,7 +29,7 @@ TEST(Words, EveryFactHasItsOwn) {
   expect_words_for_all<Caution>([](Caution caution) {
     Interval interval;
     interval.note = IntervalNote{caution, 1.0};
-    return note_words(interval, "C_A");
+    return plain_text(note_words(interval, "C_A"));
   });
   expect_words_for_all<RecommendedBecause>([](RecommendedBecause because) {
     IntervalSet set;
@@ -87,10 +87,10 @@ TEST(Words, EveryHindranceIsTold) {
   Analysis analysis = sample::four_diameters();
   expect_words_for_all<Hindrance>([&](Hindrance hindrance) {
     analysis.uncertainty.identifiability.parameter[0] = {false, hindrance, 0.4, 2.0, false};
-    return identifiability_words(analysis.fitted, analysis.uncertainty);
+    return plain_text(identifiability_words(analysis.fitted, analysis.uncertainty));
   });
   analysis.uncertainty.identifiability.parameter.clear();
-  EXPECT_EQ(identifiability_words(analysis.fitted, analysis.uncertainty), "");
+  EXPECT_TRUE(identifiability_words(analysis.fitted, analysis.uncertainty).empty());
 }
 
 TEST(Words, WarnWhereRefitsFailed) {
@@ -115,10 +115,10 @@ TEST(Words, SayWhoseBoundTheReplicatesRestOn) {
   IntervalSet set;
   set.disagreement = Disagreement{};
   set.disagreement->on_bound = Disagreement::OnBound{0, 0.3, 0.0};
-  const std::string own = disagreement_words(analysis.fitted, 0, set);
+  const std::string own = plain_text(disagreement_words(analysis.fitted, 0, set));
   EXPECT_NE(own.find("30 % of the replicates rest on a bound"), std::string::npos) << own;
   set.disagreement->on_bound = Disagreement::OnBound{1, 0.3, -0.8};
-  const std::string others = disagreement_words(analysis.fitted, 0, set);
+  const std::string others = plain_text(disagreement_words(analysis.fitted, 0, set));
   EXPECT_NE(others.find("30 % of the replicates have " + other + " on its bound"),
             std::string::npos)
       << others;
