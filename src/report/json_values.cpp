@@ -11,11 +11,6 @@
 
 namespace recoil {
 
-Json number_or_null(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return value == 0.0 ? 0.0 : value;  // no minus zero
-}
-
 void put(Json& object, const std::string& key, std::optional<double> value,
          const std::string& why) {
   object[key] = number_or_null(value.value_or(NAN));

@@ -14,9 +14,6 @@ namespace recoil {
 /// its meaning, not when one is added.
 inline constexpr int format_version = 1;
 
-/// A number, or null: JSON has no NaN and no infinity.
-Json number_or_null(double value);
-
 /// `object[key]` and, when there is no number, the reason as `object[key_why]`.
 void put(Json& object, const std::string& key, std::optional<double> value, const std::string& why);
 
