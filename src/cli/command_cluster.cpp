@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "cli/cluster_scripts.hpp"
 #include "cli/commands.hpp"
 #include "core/error.hpp"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/coverage_words.hpp"

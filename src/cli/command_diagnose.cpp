@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/recipe_words.hpp"

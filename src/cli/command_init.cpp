@@ -5,7 +5,7 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/fitted_values.hpp"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/write_or_print.hpp"

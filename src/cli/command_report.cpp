@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "cli/at_once.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -15,6 +15,7 @@
 #include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/program.hpp"
 #include "core/row_file.hpp"
 #include "data/folder_names.hpp"
 #include "diagnosis/diagnose.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/fitted_values.hpp"

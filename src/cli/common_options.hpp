@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 
 namespace recoil {
 

@@ -1,5 +1,6 @@
 #include "cli/json_coverage.hpp"
 
+#include "core/program.hpp"
 #include "core/statistics.hpp"
 #include "report/json_values.hpp"
 

@@ -5,6 +5,7 @@
 #include "core/arithmetic.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/program.hpp"
 #include "report/words_intervals.hpp"
 
 namespace recoil {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "core/parts.hpp"
 #include "report/words_parts.hpp"
 

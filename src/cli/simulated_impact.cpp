@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "estimate/predictor.hpp"
 #include "impact/reference_solver.hpp"

@@ -7,13 +7,14 @@
 
 #include <memory>
 
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "cli/fitted_values.hpp"
 #include "cli/json_coverage.hpp"
 #include "cli/recipe_words.hpp"
 #include "cli/simulated_impact.hpp"
 #include "core/error.hpp"
 #include "core/gsl_errors.hpp"
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "diagnosis/diagnose.hpp"

@@ -8,6 +8,7 @@
 #include "core/units.hpp"
 #include "data/text.hpp"
 #include "document/terminal.hpp"
+#include "report/format.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/program.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
 #include "plot/csv.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/words_intervals.hpp"

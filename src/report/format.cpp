@@ -23,8 +23,6 @@ void add_new(std::vector<Sentence>& list, const std::vector<Sentence>& more) {
 
 }  // namespace
 
-std::string version() { return RECOIL_VERSION; }
-
 std::string interval_text(const Interval& interval, int count) {
   if (!interval.available()) return "none";
   return fmt::format("[{}, {}]", digits(*interval.lower, count), digits(*interval.upper, count));

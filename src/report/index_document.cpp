@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "core/program.hpp"
 #include "document/html.hpp"
 #include "mechanism/parameter.hpp"
 #include "report/diagnosis_headline.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/program.hpp"
 #include "report/json_values.hpp"
 
 namespace recoil {

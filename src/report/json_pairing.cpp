@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/json_values.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/files.hpp"
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/json_materials.hpp"

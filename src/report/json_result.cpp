@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/program.hpp"
 #include "report/json_values.hpp"
 
 namespace recoil {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
 #include "report/format.hpp"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
 #include "report/json_values.hpp"

@@ -1,36 +1,12 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "analysis/analysis.hpp"
 #include "document/document.hpp"
-#include "estimate/fit.hpp"
-#include "experiment/correction_study.hpp"
-#include "predict/capture_comparison.hpp"
-#include "predict/law_choice.hpp"
-#include "predict/polydisperse.hpp"
-#include "predict/validity.hpp"
-#include "uncertainty/uncertainty_result.hpp"
 
 namespace recoil {
-
-/// All that is known at the end of one fit; the only input of every writer below.
-struct Analysis {
-  FitSpec spec;
-  std::vector<Dataset> datasets;
-  FitResult fitted;
-  std::vector<Validity> validity;  ///< where the model holds, the worst point of each dataset
-  UncertaintyResult uncertainty;
-  std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
-  std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
-  std::vector<LawFit> laws;                  ///< the fit under its own law and others; may be empty
-  std::vector<CorrectionStudy> corrections;  ///< of a reconstruction that goes by way of events
-  bool corrections_outdated = false;         ///< they were made from another fit, dataset or recipe
-};
-
-/// This program's version, "0.2.0".
-std::string version();
 
 /// The block report that `recoil fit` prints: provenance, fit statistics, variables, correlations,
 /// derived quantities, two-point comparison, warnings. At most 100 columns. An unusable fit gets

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/program.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
 #include "report/format.hpp"

@@ -265,19 +265,6 @@ std::string scheme_words(const BootstrapResult& bootstrap) {
   return text;
 }
 
-std::string obstacle_words(SchemeObstacle obstacle) {
-  switch (obstacle) {
-    case SchemeObstacle::no_residuals:
-      return "no point rebounded: there are no residuals to draw from";
-    case SchemeObstacle::single_series:
-      return "all points belong to one series: there is nothing to exchange";
-    case SchemeObstacle::shared_settings:
-      return "points of one setting share an error: single points cannot be exchanged, whole "
-             "settings can (cluster)";
-  }
-  return "";
-}
-
 std::string failure_message(const FailedReplicates& failures) {
   return failures.undetermined ? "its points do not determine all free parameters"
                                : failures.message;

@@ -39,9 +39,6 @@ Sentence wide_spread_words(const Sentence& what, double event_spread);
 /// Why the scheme was used, and what it does.
 std::string scheme_words(const BootstrapResult& bootstrap);
 
-/// Why a scheme cannot be used.
-std::string obstacle_words(SchemeObstacle obstacle);
-
 /// Which refits failed, with which data; empty when none did.
 std::string failures_words(const BootstrapResult& bootstrap, const Observations& data);
 

@@ -6,6 +6,7 @@
 #include "core/arithmetic.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/program.hpp"
 #include "core/row_file.hpp"
 #include "report/report.hpp"
 #include "report/words_parts.hpp"

@@ -101,6 +101,19 @@ std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations&
   return std::nullopt;
 }
 
+std::string obstacle_words(SchemeObstacle obstacle) {
+  switch (obstacle) {
+    case SchemeObstacle::no_residuals:
+      return "no point rebounded: there are no residuals to draw from";
+    case SchemeObstacle::single_series:
+      return "all points belong to one series: there is nothing to exchange";
+    case SchemeObstacle::shared_settings:
+      return "points of one setting share an error: single points cannot be exchanged, whole "
+             "settings can (cluster)";
+  }
+  return "";
+}
+
 ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
   const Observations& data = fitted.data;
   ResamplingPlan plan;

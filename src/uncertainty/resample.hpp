@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/names.hpp"
@@ -52,6 +53,9 @@ struct ResamplingPlan {
 
 /// Why `scheme` cannot be used on `data`; none when it can.
 std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations& data);
+
+/// The same in words, for messages.
+std::string obstacle_words(SchemeObstacle obstacle);
 
 /// Prepares `asked`. `automatic` becomes parametric where every point states its standard
 /// deviation, and wild otherwise: without stated deviations nobody has said that the scatter is the

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/json.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -61,6 +62,8 @@ add_executable(fits fits.cpp)
 target_link_libraries(fits PRIVATE recoil::estimator)
 add_executable(hits hits.cpp)
 target_link_libraries(hits PRIVATE recoil::library)
+add_executable(analyses analyses.cpp)
+target_link_libraries(analyses PRIVATE recoil::library)
 )");
   // a straight line through 1, 3, 5 at 0, 1, 2
   place.write("fits.cpp", R"(#include <cstdio>
@@ -89,6 +92,26 @@ int main() {
   std::printf("%.6f\n", impact.restitution_squared);
 }
 )");
+  place.write("analyses.cpp", R"(#include <cstdio>
+#include "analysis/analysis.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "report/json_diagnosis.hpp"
+#include "report/json_report.hpp"
+int main(int, char** arguments) {
+  recoil::AnalysisOptions options;
+  options.replicates = 0;
+  options.threads = 1;
+  const recoil::Analysis analysis =
+      recoil::analyse(recoil::load_inputs(arguments[1]), options);
+  recoil::DiagnosisOptions within;
+  within.threads = 1;
+  const recoil::Diagnosis diagnosis =
+      recoil::diagnose(analysis.spec, analysis.datasets, analysis.fitted, within,
+                       analysis.uncertainty.intervals);
+  std::printf("[%s,%s]", recoil::json_report(analysis).c_str(),
+              recoil::diagnosis_json(diagnosis).c_str());
+}
+)");
   const Outcome built = run_command(
       {"sh", "-c", "cmake -B build -DCMAKE_PREFIX_PATH=" + prefix + " && cmake --build build"},
       place.path());
@@ -96,6 +119,17 @@ int main() {
   EXPECT_EQ(run_command({place / "build/fits"}, place.path()).out, "1.000000 2.000000\n");
   // C_H V = 0.1: e = 0.9374755799, from 0.1 (1 + e) = ln[1.1 / (1 - 0.1 e)]
   EXPECT_EQ(run_command({place / "build/hits"}, place.path()).out, "0.878860\n");
+  ASSERT_EQ(run_command({prefix + "/bin/recoil", "init", "mine", "--diameter", "5", "--particle",
+                         "material=glass,density=2500,youngs_modulus=70e9,poisson_ratio=0.22",
+                         "--surface", "material=steel,youngs_modulus=200e9,poisson_ratio=0.3"},
+                        place.path())
+                .status,
+            0);
+  const Outcome analysed = run_command({place / "build/analyses", "mine/fit.toml"}, place.path());
+  ASSERT_EQ(analysed.status, 0) << analysed.err;
+  const recoil::Json both = recoil::Json::parse(analysed.out);
+  EXPECT_TRUE(both[0]["parameters"]["C_H"]["value"].is_number());
+  EXPECT_TRUE(both[1]["verdict"].is_string());
 }
 
 TEST(Install, ADebianPackageHoldsTheSame) {

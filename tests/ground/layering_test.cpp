@@ -17,11 +17,10 @@ namespace fs = std::filesystem;
 
 /// The folders of src in pipeline order. The last three are recoil_study, recoil and the Python
 /// module, which does what the commands do.
-const std::vector<std::string> kStages = {"core",     "data",      "experiment", "reconstruction",
-                                          "impact",   "mechanism", "estimate",   "uncertainty",
-                                          "coverage", "predict",   "diagnosis",  "plan",
-                                          "export",   "plot",      "document",   "report",
-                                          "studies",  "cli",       "python"};
+const std::vector<std::string> kStages = {
+    "core",        "data",     "experiment", "reconstruction", "impact", "mechanism", "estimate",
+    "uncertainty", "coverage", "predict",    "diagnosis",      "plan",   "analysis",  "export",
+    "plot",        "document", "report",     "studies",        "cli",    "python"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -

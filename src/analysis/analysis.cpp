@@ -1,11 +1,11 @@
-#include "cli/analysis.hpp"
+#include "analysis/analysis.hpp"
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/program.hpp"
 #include "data/folder_names.hpp"
-#include "report/words_intervals.hpp"
 #include "uncertainty/resample.hpp"
 #include "uncertainty/uncertainty.hpp"
 
@@ -17,11 +17,6 @@ std::filesystem::path replicates_file(const std::filesystem::path& folder) {
 }
 
 }  // namespace
-
-std::string program_stamp() {
-  static const std::string stamp = sha256_of_file("/proc/self/exe");
-  return stamp;
-}
 
 UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options) {
   UncertaintyOptions assess;

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/dataset.hpp"
+#include "estimate/fit.hpp"
+#include "estimate/fit_spec.hpp"
+#include "experiment/correction_study.hpp"
+#include "predict/capture_comparison.hpp"
+#include "predict/law_choice.hpp"
+#include "predict/polydisperse.hpp"
+#include "predict/validity.hpp"
+#include "uncertainty/uncertainty_options.hpp"
+#include "uncertainty/uncertainty_result.hpp"
+
+namespace recoil {
+
+/// The result of one fit with its uncertainty, and the only input of its page, its text and its
+/// JSON.
+struct Analysis {
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+  FitResult fitted;
+  std::vector<Validity> validity;  ///< where the model holds, the worst point of each dataset
+  UncertaintyResult uncertainty;
+  std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
+  std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
+  std::vector<LawFit> laws;                  ///< the fit under its own law and others; may be empty
+  std::vector<CorrectionStudy> corrections;  ///< of a reconstruction that goes by way of events
+  bool corrections_outdated = false;         ///< they were made from another fit, dataset or recipe
+};
+
+/// A fit file and its datasets.
+struct FitInputs {
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+};
+
+/// What a caller may override in a fit file.
+struct AnalysisOptions {
+  std::optional<int> replicates;
+  bool replicates_auto = false;
+  std::optional<Scheme> scheme;
+  std::optional<std::uint64_t> seed;
+  int threads = 0;  ///< 0: all cores. No digit depends on it.
+  Solver solver = Solver::fast;
+  /// Folder in which a stopped run keeps its finished replicates; empty: it keeps none.
+  std::filesystem::path folder;
+};
+
+/// Reads a fit file and every dataset that it names.
+/// @throws InputError
+FitInputs load_inputs(const std::filesystem::path& fit_file);
+std::vector<Dataset> load_datasets(const FitSpec& spec);
+
+/// The whole pipeline for one fit: data, fit, uncertainty.
+/// @throws InputError when the bootstrap's scheme cannot draw from these data.
+/// @throws ComputationError when the fit has no usable answer.
+/// @throws Interrupted when the user stops it; `options.folder` keeps the finished replicates.
+Analysis analyse(FitInputs inputs, const AnalysisOptions& options = {});
+
+/// The pipeline up to the fit: `uncertainty` stays empty.
+/// @throws InputError, ComputationError as `analyse`
+Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options = {});
+
+/// The options of the uncertainty stage: those of the fit file, unless `options` overrides them.
+UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options);
+
+/// @throws InputError when `scheme` cannot draw from these data.
+void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data);
+
+/// Adds what only a report shows: the mixtures of the datasets that come with a size distribution,
+/// and the older capture models.
+void add_predictions(Analysis& analysis);
+
+/// Adds what each correction does to the points and the fit of a reconstruction, where a study of
+/// them lies beside its recipe.
+void add_corrections(Analysis& analysis);
+
+/// Removes the replicates that a stopped run has kept in `folder`. Call it once the results are
+/// written.
+void forget_replicates(const std::filesystem::path& folder);
+
+/// The index of the dataset named `id`; 0 when `id` is empty.
+/// @throws InputError when there is none
+std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id);
+
+}  // namespace recoil
