@@ -9,7 +9,6 @@ enum class RandomPurpose : std::uint32_t {
   bootstrap = 1,
   reconstruction = 2,
   coverage = 3,
-  two_point_pairs = 4,
   diagnosis = 5,
   held_out = 6,
   constants = 7,

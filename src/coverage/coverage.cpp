@@ -9,7 +9,6 @@
 #include "core/progress.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
-#include "uncertainty/calibrated_level.hpp"
 #include "uncertainty/intervals.hpp"
 #include "uncertainty/uncertainty.hpp"
 
@@ -28,14 +27,12 @@ CoverageTrial::Row trial_row(bool identifiable, double deviation, double truth,
   return row;
 }
 
-/// Names of the cells of a row: the recommended interval, then every kind, and what
-/// is sampled or calibrated on demand.
+/// Names of the cells of a row: the recommended interval, every kind, and the posterior.
 template <NamedEnum Kind>
 std::vector<std::string> cell_names() {
   std::vector<std::string> names = {"recommended"};
   for (const Kind kind : values_of<Kind>()) names.emplace_back(name_of(kind));
   names.emplace_back("posterior");
-  names.emplace_back("calibrated");
   return names;
 }
 
@@ -133,11 +130,6 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
     return k < marginals.size() ? &marginals[k].interval : &none;
   };
   const PosteriorResult posterior = result.posterior.value_or(PosteriorResult{});
-  const CalibratedIntervals calibrated =
-      options.calibration > 0
-          ? calibrated_intervals(noise_alternatives(fitted), result.capture,
-                                 {options.calibration, own.level, own.seed, own.threads})
-          : CalibratedIntervals{};
   trial.usable = true;
   trial.refits_failed = result.bootstrap.failed;
   for (std::size_t j = 0; j < fitted.model.slots.size(); ++j) {
@@ -146,7 +138,6 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
     std::vector<const Interval*> intervals = {&recommended_interval(set)};
     for (const IntervalKind kind : values_of<IntervalKind>()) intervals.push_back(&set[kind]);
     intervals.push_back(posterior_of(posterior.parameters, j));
-    intervals.push_back(j < calibrated.parameters.size() ? &calibrated.parameters[j] : &none);
     const ParameterIdentifiability& verdict = result.identifiability.parameter[j];
     const double scale = std::max(std::abs(at.theta[j]), verdict.loss_scale);
     trial.parameters.push_back(trial_row(verdict.identifiable,
@@ -160,7 +151,6 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
       intervals.push_back(&capture[kind]);
     }
     intervals.push_back(posterior_of(posterior.capture, k));
-    intervals.push_back(k < calibrated.capture.size() ? &calibrated.capture[k] : &none);
     // V* has no verdict of its own but what stands beside its interval.
     const double velocity = at.capture[k].velocity;
     trial.capture.push_back(trial_row(

@@ -58,9 +58,6 @@ struct CoverageResult {
 
 struct CoverageOptions {
   int datasets = 100;
-  /// Simulations that calibrate the levels of each data set (`calibrate_levels`): a kind of
-  /// interval that is measured only. 0: not at all.
-  int calibration = 0;
   UncertaintyOptions uncertainty;
 };
 

@@ -159,7 +159,6 @@ std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const Diagnos
   options.curves = false;
   options.capture = false;
   options.two_point = false;
-  options.pair_simulations = 0;
   options.budget = false;
   return assess_uncertainty(fitted, diagnosis.datasets, options).intervals;
 }

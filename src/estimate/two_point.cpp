@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
+#include <span>
 
 namespace recoil {
 namespace {
@@ -17,139 +17,111 @@ struct Excess {
   double slope;  // d value / d damping, negative
 };
 
-/// Searches the damping in [0, upper] at which `excess` (which falls with damping) vanishes: Newton
-/// from `guess`, kept inside a bracket. It asks for one value after the other, so that many
-/// searches can be answered together.
-class DampingSearch {
- public:
-  DampingSearch(double guess, double upper) : damping_(guess), high_(upper), upper_(upper) {}
-
-  /// Where the excess is wanted next.
-  double damping() const { return damping_; }
-  bool done() const { return done_; }
-  /// Nothing when even no damping leaves the excess below zero, the largest leaves it above, or the
-  /// model has no answer.
-  std::optional<double> found() const { return found_; }
-
-  void answer(const Excess& at) {
-    if (!std::isfinite(at.value)) return end(std::nullopt);
-    if (damping_ == 0.0) {
-      if (at.value < 0.0) return end(std::nullopt);
-      zero_allows_it_ = true;
+/// The damping in [0, upper] at which `excess`, which falls with damping, vanishes: Newton from
+/// `guess`, kept inside a bracket. Nullopt when the excess is negative even without damping, when
+/// it is positive under the largest damping, or when the model has no answer.
+template <class ExcessAt>
+std::optional<double> find_damping(const ExcessAt& excess_at, double guess, double upper) {
+  constexpr int most_steps = 200;
+  double damping = guess;
+  double low = 0.0;
+  double high = upper;
+  bool root_above_zero = false;  // excess(0) >= 0
+  for (int step = 0; step < most_steps; ++step) {
+    const Excess at = excess_at(damping);
+    if (!std::isfinite(at.value)) return std::nullopt;
+    if (damping == 0.0) {
+      if (at.value < 0.0) return std::nullopt;
+      root_above_zero = true;
     }
-    if (at.value > 0.0 && damping_ >= upper_) return end(std::nullopt);
-    (at.value > 0.0 ? low_ : high_) = damping_;
-    double next = damping_ - at.value / at.slope;
-    if (next <= 0.0 && !zero_allows_it_) {
+    if (at.value > 0.0 && damping >= upper) return std::nullopt;
+    (at.value > 0.0 ? low : high) = damping;
+    double next = damping - at.value / at.slope;
+    if (next <= 0.0 && !root_above_zero) {
       next = 0.0;
-    } else if (!(next > low_) || !(next < high_)) {
-      // Newton left the bracket: from below a root it may overshoot into the flat or captured
-      // range.
-      next = low_ > 0.0 ? std::min(4.0 * low_, std::sqrt(low_ * high_)) : 0.25 * high_;
-      if (high_ == upper_ && next > 0.5 * upper_) next = upper_;
+    } else if (!(next > low) || !(next < high)) {
+      // From below a root Newton may overshoot into the flat or captured range.
+      next = low > 0.0 ? std::min(4.0 * low, std::sqrt(low * high)) : 0.25 * high;
+      if (high == upper && next > 0.5 * upper) next = upper;
     }
-    if (next > 0.0 && std::abs(next - damping_) <= root_tolerance * next) return end(next);
-    damping_ = next;
-    constexpr int most_steps = 200;
-    if (++steps_ == most_steps) end(damping_);
+    if (next > 0.0 && std::abs(next - damping) <= root_tolerance * next) return next;
+    damping = next;
   }
+  return damping;
+}
 
- private:
-  void end(std::optional<double> found) {
-    found_ = found;
-    done_ = true;
-  }
-
-  double damping_;
-  double low_ = 0.0;
-  double high_;
-  double upper_;
-  bool zero_allows_it_ = false;  // excess(0) >= 0: there is a root above zero
-  int steps_ = 0;
-  bool done_ = false;
-  std::optional<double> found_;
-};
-
-/// The iteration on one pair of points, advanced by one impact at a time.
-class Iteration {
+/// Simulates the impacts of one diameter for given dampings. f0 is that of eq. 12 even when the
+/// full fit frees it.
+class CalibratedSphere {
  public:
-  Iteration(const ImpactModel& model, const TwoPoints& points)
-      : points_(points),
-        upper_hertz_(model.slots[model.slot_C_H[points.dataset]].upper),
-        upper_adhesion_(model.slots[model.slot_C_A[points.dataset]].upper),
-        beta_low_(beta_at(model, points, points.low.velocity)),
-        beta_high_(beta_at(model, points, points.high.velocity)),
-        search_(0.0, upper_hertz_) {
-    run_.iterations = 1;
+  CalibratedSphere(const ImpactModel& model, std::size_t dataset, double diameter)
+      : model_(model), dataset_(dataset), diameter_(diameter), theta_(model.initial()) {
+    theta_[model.slot_adhesion[dataset]] = derived_adhesion(model, dataset);
   }
 
-  bool done() const { return done_; }
-  const TwoPointRun& run() const { return run_; }
-
-  /// The impact whose outcome is wanted next.
-  ImpactGroups query() const {
-    const double hertz = on_high_ ? search_.damping() : run_.C_H;
-    const double adhesion = on_high_ ? run_.C_A : search_.damping();
-    return {hertz * point().velocity, on_high_ ? beta_high_ : beta_low_,
-            adhesion * point().velocity};
+  /// beta at the velocity of `point`.
+  double beta_at(const Observation& point) const {
+    return impact_groups(conditions_at(model_, theta_, dataset_, diameter_, point.velocity)).beta;
   }
 
-  void answer(const ImpactResult& result) {
-    const double target = point().restitution * point().restitution;
-    const double slope = point().velocity * result.gradient[on_high_ ? 0 : 2];
-    search_.answer(result.usable() ? Excess{result.restitution_squared - target, slope}
-                                   : Excess{std::nan(""), 0.0});
-    if (!search_.done()) return;
-    const std::optional<double> found = search_.found();
-    double& damping = on_high_ ? run_.C_H : run_.C_A;
-    const double change = std::abs(found.value_or(0.0) - damping);
-    damping = found.value_or(0.0);
-    const bool moves = change > at_rest * damping;
-    if (on_high_) {
-      hertz_found_ = found.has_value();
-      hertz_moves_ = moves;
-      on_high_ = false;
-      search_ = DampingSearch(run_.C_A, upper_adhesion_);
-      return;
-    }
-    if (!hertz_moves_ && !moves) {
-      run_.status = !hertz_found_        ? TwoPointStatus::no_hertz_damping
-                    : !found.has_value() ? TwoPointStatus::no_adhesion_damping
-                                         : TwoPointStatus::converged;
-      done_ = true;
-    } else if (run_.iterations == most_iterations) {
-      run_.status = TwoPointStatus::not_converging;
-      done_ = true;
-    } else {
-      ++run_.iterations;
-      on_high_ = true;
-      search_ = DampingSearch(run_.C_H, upper_hertz_);
-    }
+  /// e^2 of the model minus that of `point`, and its slope in C_H (`group` 0) or C_A (2).
+  Excess excess(const Observation& point, double beta, double C_H, double C_A, int group) const {
+    const double V = point.velocity;
+    const ImpactGroups groups{C_H * V, beta, C_A * V};
+    ImpactResult result;
+    model_.simulator()(std::span(&groups, 1), model_.impact_options(true), std::span(&result, 1));
+    if (!result.usable()) return {std::nan(""), 0.0};
+    return {result.restitution_squared - point.restitution * point.restitution,
+            V * result.gradient[static_cast<std::size_t>(group)]};
   }
 
  private:
-  /// f0 stays at eq. 12 even when the full fit frees it: the iteration knows no third unknown.
-  static double beta_at(const ImpactModel& model, const TwoPoints& points, double velocity) {
-    std::vector<double> theta = model.initial();
-    theta[model.slot_adhesion[points.dataset]] = derived_adhesion(model, points.dataset);
-    return impact_groups(conditions_at(model, theta, points.dataset, points.diameter, velocity))
-        .beta;
-  }
-
-  const Rebound& point() const { return on_high_ ? points_.high : points_.low; }
-
-  TwoPoints points_;
-  double upper_hertz_;
-  double upper_adhesion_;
-  double beta_low_;
-  double beta_high_;
-  bool on_high_ = true;  // which point is being calibrated
-  bool hertz_found_ = false;
-  bool hertz_moves_ = false;
-  bool done_ = false;
-  TwoPointRun run_;
-  DampingSearch search_;
+  const ImpactModel& model_;
+  std::size_t dataset_;
+  double diameter_;
+  std::vector<double> theta_;
 };
+
+/// Runs the iteration on the two points that `result` names; fills status, theta and iterations.
+void iterate(const ImpactModel& model, const Observations& data, std::size_t dataset,
+             TwoPointResult& result) {
+  const Observation& low = data.points[result.low_point];
+  const Observation& high = data.points[result.high_point];
+  const CalibratedSphere sphere(model, dataset, result.diameter);
+  const double beta_low = sphere.beta_at(low);
+  const double beta_high = sphere.beta_at(high);
+  const double upper_C_H = model.slots[model.slot_C_H[dataset]].upper;
+  const double upper_C_A = model.slots[model.slot_C_A[dataset]].upper;
+  double C_H = 0.0;
+  double C_A = 0.0;
+  const auto replace = [](double& damping, double found) {
+    const double change = std::abs(found - damping);
+    damping = found;
+    return change > at_rest * found;
+  };
+  result.status = TwoPointStatus::not_converging;
+  for (result.iterations = 1;; ++result.iterations) {
+    const std::optional<double> hertz = find_damping(
+        [&](double damping) { return sphere.excess(high, beta_high, damping, C_A, 0); }, C_H,
+        upper_C_H);
+    const bool hertz_moves = replace(C_H, hertz.value_or(0.0));
+    const std::optional<double> adhesion =
+        find_damping([&](double damping) { return sphere.excess(low, beta_low, C_H, damping, 2); },
+                     C_A, upper_C_A);
+    const bool adhesion_moves = replace(C_A, adhesion.value_or(0.0));
+    if (!hertz_moves && !adhesion_moves) {
+      result.status = !hertz      ? TwoPointStatus::no_hertz_damping
+                      : !adhesion ? TwoPointStatus::no_adhesion_damping
+                                  : TwoPointStatus::converged;
+      break;
+    }
+    if (result.iterations == most_iterations) break;
+  }
+  result.theta = model.initial();
+  result.theta[model.slot_adhesion[dataset]] = derived_adhesion(model, dataset);
+  result.theta[model.slot_C_H[dataset]] = C_H;
+  result.theta[model.slot_C_A[dataset]] = C_A;
+}
 
 bool choose_points(const Observations& data, std::size_t dataset, double diameter,
                    TwoPointResult& result) {
@@ -177,51 +149,11 @@ bool choose_points(const Observations& data, std::size_t dataset, double diamete
 
 }  // namespace
 
-std::vector<TwoPointRun> iterate_two_points(const ImpactModel& model,
-                                            std::span<const TwoPoints> pairs) {
-  std::vector<Iteration> iterations;
-  iterations.reserve(pairs.size());
-  for (const TwoPoints& points : pairs) iterations.emplace_back(model, points);
-  std::vector<std::size_t> running(pairs.size());
-  std::iota(running.begin(), running.end(), std::size_t{0});
-  const ImpactOptions options = model.impact_options(true);
-  const SimulateImpacts simulate = model.simulator();
-  std::vector<ImpactGroups> groups;
-  std::vector<ImpactResult> results(pairs.size());
-  while (!running.empty()) {
-    groups.clear();
-    for (const std::size_t i : running) groups.push_back(iterations[i].query());
-    simulate(groups, options, std::span(results).first(groups.size()));
-    for (std::size_t k = 0; k < running.size(); ++k) iterations[running[k]].answer(results[k]);
-    std::erase_if(running, [&](std::size_t i) { return iterations[i].done(); });
-  }
-  std::vector<TwoPointRun> runs;
-  for (const Iteration& iteration : iterations) runs.push_back(iteration.run());
-  return runs;
-}
-
-std::vector<double> two_point_theta(const ImpactModel& model, std::size_t dataset,
-                                    const TwoPointRun& run) {
-  std::vector<double> theta = model.initial();
-  theta[model.slot_adhesion[dataset]] = derived_adhesion(model, dataset);
-  theta[model.slot_C_H[dataset]] = run.C_H;
-  theta[model.slot_C_A[dataset]] = run.C_A;
-  return theta;
-}
-
 TwoPointResult two_point(const ImpactModel& model, const Observations& data, std::size_t dataset,
                          double diameter) {
   TwoPointResult result;
   result.theta = without_mechanisms(model, model.initial());
-  if (!choose_points(data, dataset, diameter, result)) return result;
-  const Observation& low = data.points[result.low_point];
-  const Observation& high = data.points[result.high_point];
-  const TwoPoints pair{
-      dataset, result.diameter, {low.velocity, low.restitution}, {high.velocity, high.restitution}};
-  const TwoPointRun run = iterate_two_points(model, std::span(&pair, 1)).front();
-  result.status = run.status;
-  result.iterations = run.iterations;
-  result.theta = two_point_theta(model, dataset, run);
+  if (choose_points(data, dataset, diameter, result)) iterate(model, data, dataset, result);
   return result;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -23,36 +22,6 @@ struct NamesOf<TwoPointStatus> {
   static constexpr std::array<std::string_view, 5> names = {
       "converged", "no_hertz_damping", "no_adhesion_damping", "not_converging", "too_few_points"};
 };
-
-/// A point at which spheres came back.
-struct Rebound {
-  double velocity = 0.0;     ///< V [m/s]
-  double restitution = 0.0;  ///< e [1]
-};
-
-/// Two points of one diameter, from which C_H and C_A are to be had.
-struct TwoPoints {
-  std::size_t dataset = 0;
-  double diameter = 0.0;  ///< [m]
-  Rebound low, high;
-};
-
-/// How one run of the iteration ended.
-struct TwoPointRun {
-  TwoPointStatus status = TwoPointStatus::not_converging;
-  double C_H = 0.0;  ///< [s/m]; the last iterate when it did not converge
-  double C_A = 0.0;  ///< [s/m]
-  int iterations = 0;
-};
-
-/// Runs the iteration on each pair; their impacts fly together, which makes one of many pairs a
-/// tenth as dear as one alone. f0 is that of eq. 12 throughout.
-std::vector<TwoPointRun> iterate_two_points(const ImpactModel& model,
-                                            std::span<const TwoPoints> pairs);
-
-/// The parameter vector [slots] of a run; what it does not know keeps the model's initial value.
-std::vector<double> two_point_theta(const ImpactModel& model, std::size_t dataset,
-                                    const TwoPointRun& run);
 
 /// The calibration of Li, Dunn & Brach (1999), section 4: the point of the highest velocity gives
 /// C_H with the effects of adhesion neglected (C_A = 0 at first), the point of the lowest gives

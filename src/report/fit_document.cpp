@@ -18,7 +18,6 @@
 #include "report/figures_corner.hpp"
 #include "report/figures_intervals.hpp"
 #include "report/figures_overview.hpp"
-#include "report/figures_pairs.hpp"
 #include "report/figures_physics.hpp"
 #include "report/figures_statistics.hpp"
 #include "report/figures_two_point.hpp"
@@ -26,7 +25,6 @@
 #include "report/format.hpp"
 #include "report/law_comparison.hpp"
 #include "report/materials_tables.hpp"
-#include "report/pair_words.hpp"
 #include "report/posterior_report.hpp"
 #include "report/prediction_document.hpp"
 #include "report/words_dataset.hpp"
@@ -219,10 +217,8 @@ Section posterior_section(const Analysis& a) {
   return section;
 }
 
-/// @param with_pairs what another choice of two points would do, where no picture shows it
-Section two_point_section(const Analysis& a, bool with_pairs) {
-  Section section{"comparison",
-                  with_pairs ? "Two Points Against All" : "Two points against all, in numbers"};
+Section two_point_section(const Analysis& a, std::string title) {
+  Section section{"comparison", std::move(title)};
   for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
     const TwoPointResult& two = comparison.result;
     section.blocks.emplace_back(two_point_table(a, comparison));
@@ -235,12 +231,6 @@ Section two_point_section(const Analysis& a, bool with_pairs) {
                     "diameter only."});
     }
     add_paragraphs(section.blocks, {held_out_words(comparison)});
-    for (const PairStudy& study : a.uncertainty.pairs) {
-      if (!with_pairs || study.dataset != comparison.dataset) continue;
-      for (const Sentence& words : pair_words(a, study)) {
-        section.blocks.emplace_back(Paragraph{words});
-      }
-    }
   }
   return section;
 }
@@ -267,15 +257,6 @@ Section identifiability_section(const Analysis& a) {
                   as_sentence(identifiability_words(a.fitted, a.uncertainty))}};
   }
   return section;
-}
-
-/// One paragraph per pair of points that was studied.
-std::vector<Block> pair_paragraphs(const Analysis& a) {
-  std::vector<Block> blocks;
-  for (const PairStudy& study : a.uncertainty.pairs) {
-    blocks.emplace_back(Paragraph{join(pair_words(a, study), " ")});
-  }
-  return blocks;
 }
 
 Figures together(std::vector<std::vector<Figure>> groups) {
@@ -309,8 +290,7 @@ Section inputs_section(const Analysis& a) {
 std::vector<Section> figure_sections(const Analysis& a, std::vector<Block> diagnosis) {
   Section two_points{"two-points", "Two points against all"};
   if (!a.uncertainty.two_point.empty()) {
-    two_points.blocks = {together({two_point_figures(a), pair_figures(a)})};
-    append(two_points.blocks, pair_paragraphs(a));
+    two_points.blocks = {together({two_point_figures(a)})};
   }
   return {{"restitution", "Restitution against velocity", {}, {together({restitution_figures(a)})}},
           {"residuals",
@@ -424,7 +404,7 @@ std::vector<Section> fit_sections(const Analysis& a) {
     if (a.uncertainty.posterior) sections.push_back(posterior_section(a));
     sections.push_back({"correlations", "Correlations", {}, {correlations_table(a)}});
     sections.push_back({"capture", "Capture Velocity", {}, {capture_table(a)}});
-    sections.push_back(two_point_section(a, true));
+    sections.push_back(two_point_section(a, "Two Points Against All"));
     sections.push_back(bootstrap_section(a));
     sections.push_back(identifiability_section(a));
     sections.push_back(validity_section(a, "Limits of the Model"));
@@ -476,7 +456,7 @@ Document fit_document(const Analysis& a, std::vector<Block> diagnosis) {
   page.sections.push_back(identifiability_section(a));
   page.sections.push_back(
       validity_section(a, "Where the points are outside the limits of the model"));
-  page.sections.push_back(two_point_section(a, false));
+  page.sections.push_back(two_point_section(a, "Two points against all, in numbers"));
   page.sections.push_back(bootstrap_section(a));
   page.sections.push_back(inputs_section(a));
   page.sections.push_back({"contradictions",

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "report/json_pairs.hpp"
 #include "report/words_intervals.hpp"
 #include "report/words_two_point.hpp"
 
@@ -77,7 +76,6 @@ Json two_point_json(const Analysis& a, const TwoPointComparison& comparison) {
   put(out, "rmse", answered ? comparison.rmse : NAN, words);
   put(out, "held_out_rmse", comparison.held_out_rmse, held_out_why(comparison));
   out["failed"] = comparison.failed;
-  put_pairs(out, a, comparison.dataset);
   return out;
 }
 

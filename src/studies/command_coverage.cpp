@@ -19,7 +19,6 @@ struct CoverageRun {
   std::vector<std::string> designs;
   bool exact_materials = false;
   bool posterior = false;
-  int calibration = 0;
   StudyRun run;
 };
 
@@ -39,7 +38,6 @@ CoverageOptions coverage_options(const CoverageRun& options, const FitSpec& spec
   coverage.uncertainty.threads = options.run.threads;
   // Of one interval among many: its ends need no more digits than a count of intervals sees.
   coverage.uncertainty.posterior = options.posterior;
-  coverage.calibration = options.calibration;
   coverage.uncertainty.sampling.ensembles = 2;
   coverage.uncertainty.sampling.fewest_steps = 500;
   coverage.uncertainty.sampling.largest_r_hat = 1.03;
@@ -91,8 +89,6 @@ CLI::App* add_command(CLI::App& program, const char* name, const char* what,
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
   command->add_flag("--posterior", options->posterior, "sample the posterior of each, too");
-  command->add_option("--calibration", options->calibration,
-                      "simulated data sets that calibrate the levels of each");
   add_run_options(*command, options->run);
   add_shard_option(*command, options->run);
   return command;

@@ -14,8 +14,8 @@
 namespace recoil {
 namespace {
 
-constexpr std::array<const char*, 8> other_intervals = {
-    "profile", "studentized", "bca", "percentile", "wald", "delta", "posterior", "calibrated"};
+constexpr std::array<const char*, 7> other_intervals = {
+    "profile", "studentized", "bca", "percentile", "wald", "delta", "posterior"};
 
 Cell percent_cell(const std::optional<double>& share) {
   return share ? Cell(Sentence(fmt::format("{:.1f}", 100.0 * *share))) : Cell();

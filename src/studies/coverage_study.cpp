@@ -143,9 +143,9 @@ CoverageResult kept_or_measured(const std::filesystem::path& folder, const std::
 }
 
 std::string key_of(const FitSpec& spec, const CoverageOptions& options) {
-  return fmt::format("{} {} {} {} {} {} {} {}", spec.sha256, options.datasets,
+  return fmt::format("{} {} {} {} {} {} {}", spec.sha256, options.datasets,
                      options.uncertainty.replicates, options.uncertainty.seed,
-                     options.uncertainty.level, options.uncertainty.posterior, options.calibration,
+                     options.uncertainty.level, options.uncertainty.posterior,
                      spec.uncertainty.materials);
 }
 
@@ -170,7 +170,7 @@ void add_result(CoverageStudy& study, const std::string& design, const CoverageR
                           {}};
     for (const CoverageCell& cell : from.cells) {
       // A method that no data set was asked for has no column.
-      if (cell.offered == 0 && (cell.interval == "posterior" || cell.interval == "calibrated")) {
+      if (cell.offered == 0 && cell.interval == "posterior") {
         continue;
       }
       std::optional<double> width;

@@ -236,14 +236,4 @@ std::vector<double> sandwich_covariance(std::span<const double> residuals,
   return sandwich;
 }
 
-std::vector<double> sandwich_errors(std::span<const double> residuals,
-                                    std::span<const double> jacobian,
-                                    std::span<const double> covariance) {
-  const std::size_t p = residuals.empty() ? 0 : jacobian.size() / residuals.size();
-  const std::vector<double> sandwich = sandwich_covariance(residuals, jacobian, covariance);
-  std::vector<double> errors(p);
-  for (std::size_t j = 0; j < p; ++j) errors[j] = std::sqrt(sandwich[j * p + j]);
-  return errors;
-}
-
 }  // namespace recoil

@@ -80,16 +80,12 @@ double averaged_wald_level(std::span<const WaldTerm> terms, double value);
 
 /// A covariance that holds where the points scatter unequally, without any noise model:
 /// C J' diag(r^2 / (1 - h)^2) J C with C = (J'J)^-1, "HC3" (MacKinnon & White 1985, J. Econometrics
-/// 29, 305-325) [p x p]. Arguments as below.
+/// 29, 305-325) [p x p].
+/// @param residuals r [n]
+/// @param jacobian J [n x p, row major]
+/// @param covariance C [p x p]; zero rows for parameters that do not move
 std::vector<double> sandwich_covariance(std::span<const double> residuals,
                                         std::span<const double> jacobian,
                                         std::span<const double> covariance);
-
-/// The roots of its diagonal [p].
-/// @param jacobian [n x p, row major]
-/// @param covariance C [p x p]; zero rows for parameters that do not move, which get 0
-std::vector<double> sandwich_errors(std::span<const double> residuals,
-                                    std::span<const double> jacobian,
-                                    std::span<const double> covariance);
 
 }  // namespace recoil

@@ -233,14 +233,6 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   }
   bootstrap_two_point(boot.plan(), two_points, options, result.bootstrap);
   add_spread(result, fitted.theta.size());
-  std::vector<PairSeries> series;
-  for (const TwoPointComparison& comparison : result.two_point) {
-    series.push_back({comparison.dataset, comparison.result.diameter});
-  }
-  result.pairs =
-      study_two_point_pairs(fitted, series,
-                            {std::min(options.pair_simulations, result.bootstrap.replicates),
-                             options.seed, options.threads});
   result.identifiability =
       judge_identifiability(fitted, result.intervals, result.capture, alternatives);
   if (options.posterior) {

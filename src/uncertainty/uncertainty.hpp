@@ -13,7 +13,6 @@
 #include "uncertainty/information.hpp"
 #include "uncertainty/intervals.hpp"
 #include "uncertainty/replicate_table.hpp"
-#include "uncertainty/two_point_pairs.hpp"
 #include "uncertainty/uncertainty_result.hpp"
 
 namespace recoil {

@@ -28,9 +28,6 @@ struct UncertaintyOptions {
   PosteriorOptions sampling;  ///< how; level, seed and threads are those below and above
   bool budget = true;     ///< what the errors come from, and what they were with exact materials
   bool two_point = true;  ///< compare with the paper's calibration; without it the list is empty
-  /// Simulated data sets on which every pair of points is tried
-  /// (`study_two_point_pairs`), at most as many as replicates; none without `two_point`.
-  int pair_simulations = 199;
   /// Where finished replicates are kept when the user stops the run, and looked for by the next run
   /// of the same fit; empty: nowhere. The file is left behind; whoever has written the results
   /// removes it.

@@ -11,7 +11,6 @@
 #include "uncertainty/interval_set.hpp"
 #include "uncertainty/posterior.hpp"
 #include "uncertainty/two_point_comparison.hpp"
-#include "uncertainty/two_point_pairs.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
@@ -30,7 +29,6 @@ struct UncertaintyResult {
   std::vector<CaptureEstimate> capture;
   std::vector<RestitutionCurve> curves;
   std::vector<TwoPointComparison> two_point;  ///< one per dataset, unless it was not asked for
-  std::vector<PairStudy> pairs;  ///< one per dataset with a pair of points, unless not asked for
   Identifiability identifiability;
   std::optional<PosteriorResult> posterior;   ///< where it was asked for
   std::vector<ErrorBudget> budgets;           ///< [slots]; empty unless asked for

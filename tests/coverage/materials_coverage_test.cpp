@@ -54,7 +54,6 @@ CoverageResult coverage_of(bool fit_knows, int datasets, int replicates) {
   CoverageOptions options;
   options.datasets = datasets;
   options.uncertainty.replicates = replicates;
-  options.uncertainty.pair_simulations = 0;
   if (fit_knows) return measure_coverage(spec, truth, options);
   spec.uncertainty.materials = false;
   return measure_coverage(spec, truth, options);

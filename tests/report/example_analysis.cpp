@@ -162,40 +162,6 @@ void add_two_point(Analysis& a, std::size_t k, double C_H, double C_A) {
   a.uncertainty.two_point.push_back(comparison);
 }
 
-/// Twelve pairs of the points of the third diameter, with numbers that grow as they should.
-void add_pairs(Analysis& a, std::size_t k) {
-  PairStudy study;
-  study.dataset = k;
-  study.diameter = 4.9e-6;
-  study.simulations = 199;
-  study.points = 8;
-  study.taken = 8;
-  study.truth_C_H = a.fitted.theta[a.fitted.model.slot_C_H[k]];
-  study.truth_C_A = a.fitted.theta[a.fitted.model.slot_C_A[k]];
-  study.C_H = {study.truth_C_H, 2e-4};
-  study.C_A = {study.truth_C_A, 2e-3};
-  study.held_out = {0.031, 0.033};
-  study.measured_held_out = {0.029, 0.030};
-  for (std::size_t low = 0; low < 4; ++low) {
-    for (std::size_t high = 5; high < 8; ++high) {
-      PairQuality pair;
-      pair.low_point = 32 * k + 16 + low;
-      pair.high_point = 32 * k + 16 + high;
-      const double worse = 1.0 + 0.5 * static_cast<double>(low + 7 - high);
-      pair.C_H = {study.truth_C_H * (0.9 + 0.1 * worse), 6e-4 * worse};
-      pair.C_A = {study.truth_C_A * (1.0 - 0.04 * worse), 5e-3 * worse};
-      pair.ended = {199 - static_cast<int>(16.0 * worse), static_cast<int>(16.0 * worse), 0, 0, 0};
-      pair.held_out = {0.034 * worse, 0.036 * worse};
-      pair.measured = {TwoPointStatus::converged, *pair.C_H.median, *pair.C_A.median, 9};
-      pair.measured_held_out = {0.035, std::nullopt};
-      if (low == 3 && high == 5) pair.C_H = pair.C_A = {};
-      study.pairs.push_back(pair);
-    }
-  }
-  study.paper = 2;
-  a.uncertainty.pairs.push_back(study);
-}
-
 /// The profile of a normal likelihood.
 std::vector<ProfilePoint> parabola(double estimate, double error) {
   std::vector<ProfilePoint> curve;
@@ -282,7 +248,6 @@ Analysis four_diameters() {
   add_dataset(a, 0, {0.00312, 0.0487, f0}, {0.0046, 0.062}, false);
   add_statistics(a, {0.00021, 0.0023, 0.0});
   add_two_point(a, 0, 0.0046, 0.062);
-  add_pairs(a, 0);
   return a;
 }
 
@@ -317,9 +282,7 @@ Analysis two_datasets() {
   a.fitted.noise_scale = noise;
   a.fitted.noise_verdict = NoiseVerdict::estimated;
   add_two_point(a, 0, 0.0046, 0.062);
-  add_pairs(a, 0);
   add_two_point(a, 1, 0.0041, 0.055);
-  add_pairs(a, 1);
   a.uncertainty.two_point[1].result.status = TwoPointStatus::no_adhesion_damping;
   return a;
 }

@@ -14,7 +14,6 @@
 #include "report/figures_corrections.hpp"
 #include "report/figures_diagnosis.hpp"
 #include "report/figures_intervals.hpp"
-#include "report/figures_pairs.hpp"
 #include "report/figures_physics.hpp"
 #include "report/figures_statistics.hpp"
 
@@ -229,22 +228,6 @@ TEST(ForceHistoryFigures, TheSumIsThatOfTheFourForces) {
     EXPECT_NEAR(lines[4].y[i], sum, 1e-9 * (1.0 + std::abs(sum)));
     EXPECT_TRUE(inside(lines[0].x[i], plot_of(figure).x));
   }
-}
-
-TEST(PairFigures, DrawTheFullFitWhereItsOwnSpreadIsOne) {
-  const std::vector<Figure> figures = pair_figures(sample::four_diameters());
-  int spreads = 0;
-  for (const plot::Plot& panel : figures.front().picture.plots) {
-    if (panel.y.label.find("spread") == std::string::npos &&
-        panel.heading.find("spread") == std::string::npos) {
-      continue;
-    }
-    const auto rules = layers_of<plot::Rule>(panel);
-    ASSERT_EQ(rules.size(), 1U);
-    EXPECT_EQ(rules[0].at, 1.0);
-    ++spreads;
-  }
-  EXPECT_EQ(spreads, 2);
 }
 
 CandidateResult candidate(const std::string& id, double delta_aicc) {

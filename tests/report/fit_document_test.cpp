@@ -96,7 +96,7 @@ TEST(FitDocument, HoldsEveryFigureOfOneDataset) {
               ElementsAre("restitution-1", "restitution-2", "restitution-3", "restitution-4",
                           "residual-velocity-1", "residual-diameter-1", "intervals-1",
                           "intervals-2", "bootstrap-1", "bootstrap-2", "corner-1", "two-point-1",
-                          "pairs-1", "adhesion-force-1", "force-history-1"));
+                          "adhesion-force-1", "force-history-1"));
   const std::string html = html_page(page);
   expect_self_contained(html);
   EXPECT_LT(html.find("<figure"), html.find("<table")) << "pictures come first";
@@ -109,7 +109,7 @@ TEST(FitDocument, HoldsEveryFigureOfAJointFit) {
   EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
   for (const char* id :
        {"restitution-8", "residual-velocity-2", "residual-diameter-2", "intervals-4", "bootstrap-4",
-        "corner-1", "two-point-2", "pairs-2", "adhesion-force-1", "force-history-2"}) {
+        "corner-1", "two-point-2", "adhesion-force-1", "force-history-2"}) {
     EXPECT_THAT(ids, Contains(id));
   }
 }
@@ -429,12 +429,6 @@ TEST(FitFigures, ShowReplicatesOfPairsOnlyWhereThereAreAny) {
   analysis = sample::four_diameters();
   for (auto& replicate : analysis.uncertainty.bootstrap.theta) replicate[0] = 0.0;  // at a bound
   EXPECT_NE(figure_named(fit_document(analysis), "corner-1"), nullptr);
-}
-
-TEST(FitFigures, LeavePairsOutWhereTheyWereNotStudied) {
-  Analysis analysis = sample::four_diameters();
-  analysis.uncertainty.pairs.clear();
-  EXPECT_EQ(figure_named(fit_document(analysis), "pairs-1"), nullptr);
 }
 
 TEST(FitDocument, SaysWhatEachCorrectionDoes) {

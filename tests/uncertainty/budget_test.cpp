@@ -112,7 +112,6 @@ TEST(Budget, TheConditionalFitIsThatOfExactMaterials) {
   const FitResult fitted = fit(make_model(synthetic::spec(), {data}), gather({data}));
   UncertaintyOptions options = synthetic::small(1);
   options.curves = false;
-  options.pair_simulations = 0;
   const UncertaintyResult result = assess_uncertainty(fitted, {data}, options);
   ASSERT_TRUE(result.conditional);
   for (std::size_t j = 0; j < exact.theta.size(); ++j) {

@@ -127,10 +127,10 @@ TEST(ProfileQuantile, HoldsEveryTruthNearTheBoundAtItsLevel) {
 TEST(Sandwich, OfAMeanByHand) {
   // r_i = t - y_i: J = 1, C = 1/3, h = 1/3, residuals 1, -2, 1: each r / (1 - h) = 1.5 r, and
   // var = (1/9) 2.25 (1 + 4 + 1) = 1.5.
-  const std::vector<double> errors = sandwich_errors(
+  const std::vector<double> covariance = sandwich_covariance(
       std::vector<double>{1, -2, 1}, std::vector<double>{1, 1, 1}, std::vector<double>{1.0 / 3.0});
-  ASSERT_EQ(errors.size(), 1U);
-  EXPECT_NEAR(errors[0], std::sqrt(1.5), 1e-12);
+  ASSERT_EQ(covariance.size(), 1U);
+  EXPECT_NEAR(covariance[0], 1.5, 1e-12);
 }
 
 TEST(Leverage, OfAStraightLine) {
@@ -144,7 +144,7 @@ TEST(Leverage, OfAStraightLine) {
 
 TEST(SandwichErrors, APointThatTheFitPassesThroughCountsALittle) {
   const std::vector<double> one = {1};
-  EXPECT_NEAR(sandwich_errors(one, one, one)[0], 100.0, 1e-9);  // 1 / (1 - 0.99)
+  EXPECT_NEAR(sandwich_covariance(one, one, one)[0], 1e4, 1e-7);  // 1 / (1 - 0.99)
 }
 
 }  // namespace

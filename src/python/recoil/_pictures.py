@@ -88,10 +88,6 @@ class FitPictures(_Pictures):
         """Two points against all under resampling, of one dataset."""
         return self._draw("two-point", which, ax)
 
-    def plot_pairs(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """What two points cost, by which two are taken, of one dataset."""
-        return self._draw("pairs", which, ax)
-
     def plot_adhesion_force(self, which: int = 1, ax: "On" = None) -> "Drawn":
         """Adhesion force per length against radius."""
         return self._draw("adhesion-force", which, ax)
