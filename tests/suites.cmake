@@ -1,0 +1,37 @@
+# Writes ctest entries for one GoogleTest program: one entry per suite, and one entry per test for
+# the suites in APART, whose tests are long and run beside each other. Where ONLY names suites, the
+# others have no entry.
+#   cmake -DPROGRAM=path -DNAME=cli_test -DAPART="Suite Other" -DONLY="" -DPROPERTIES="..." -DOUT=file
+#         -P suites.cmake
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed
+                COMMAND_ERROR_IS_FATAL ANY TIMEOUT 60)
+string(REPLACE ";" "\\;" listed "${listed}")
+string(REPLACE "\n" ";" lines "${listed}")
+separate_arguments(apart UNIX_COMMAND "${APART}")
+separate_arguments(only UNIX_COMMAND "${ONLY}")
+set(script "")
+
+function(add_entry name filter cost)
+  string(APPEND script "add_test([==[${NAME}/${name}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${filter}]==] --gtest_brief=0)\n"
+    "set_tests_properties([==[${NAME}/${name}]==] PROPERTIES COST ${cost} ${PROPERTIES})\n")
+  set(script "${script}" PARENT_SCOPE)
+endfunction()
+
+foreach(line ${lines})
+  string(REGEX REPLACE " *#.*" "" line "${line}") # the value of a parameter
+  if(line MATCHES "^([^ ]+)\\.$")
+    set(suite ${CMAKE_MATCH_1})
+    string(REGEX REPLACE "^.*/([A-Za-z_]+)(/[0-9]+)?$|^([A-Za-z_]+)(/[0-9]+)?$" "\\1\\3" plain ${suite})
+    set(split OFF)
+    if(only AND NOT plain IN_LIST only)
+      continue()
+    elseif(plain IN_LIST apart)
+      set(split ON)
+    else()
+      add_entry(${suite} "${suite}.*" 1)
+    endif()
+  elseif(line MATCHES "^  ([^ ]+)$" AND split)
+    add_entry(${suite}.${CMAKE_MATCH_1} "${suite}.${CMAKE_MATCH_1}" 10)
+  endif()
+endforeach()
+file(WRITE ${OUT} "${script}")
