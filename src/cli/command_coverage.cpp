@@ -141,9 +141,9 @@ void add_coverage(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("coverage", "measure how often the intervals contain the truth");
   command->footer(
-      "Simulates the design of the fit again and again from a known truth (the recipe's, or the\n"
-      "fit's own estimate), fits each data set as you would, and counts how often the intervals\n"
-      "contain the truth. Prints Markdown. With --out Ctrl-C keeps what is finished, and the same\n"
+      "Simulates the design of the fit again and again with the fitted values as the truth, fits\n"
+      "each data set as you would, and counts how often the intervals contain the truth. Prints "
+      "Markdown. With --out Ctrl-C keeps what is finished, and the same\n"
       "command goes on from there.\n\n"
       "  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md\n\n"
       "Grids of designs, tables of several fits and their summary are studies of recoil's\n"

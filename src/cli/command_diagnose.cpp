@@ -8,7 +8,6 @@
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/recipe_words.hpp"
 #include "cli/shard_flags.hpp"
 #include "cli/unless_stopped.hpp"
 #include "cli/write_or_print.hpp"
@@ -93,7 +92,7 @@ void run_diagnosis(const DiagnoseFlags& flags) {
   if (flags.shards.merging()) take_merged_calibration(flags, inputs, *options.kept);
   Diagnosis diagnosis = unless_stopped(
       *options.kept, [&] { return diagnose(inputs.spec, inputs.datasets, options); });
-  diagnosis.remarks = recipe_remarks(diagnosis.datasets);
+  diagnosis.remarks = reconstruction_remarks(diagnosis.datasets);
   const std::string result = diagnosis_json(diagnosis);
   const std::string printed = flags.json ? result : diagnosis_text(diagnosis);
   if (!flags.out.empty()) {

@@ -8,7 +8,6 @@
 #include "cli/at_once.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/recipe_words.hpp"
 #include "cli/shard_flags.hpp"
 #include "cli/unless_stopped.hpp"
 #include "core/arithmetic.hpp"
@@ -100,7 +99,7 @@ Diagnosis diagnose_for_report(Analysis& analysis, const AnalysisFlags& flags,
         });
     return result;
   });
-  diagnosis.remarks = recipe_remarks(diagnosis.datasets);
+  diagnosis.remarks = reconstruction_remarks(diagnosis.datasets);
   return diagnosis;
 }
 

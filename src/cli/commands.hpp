@@ -11,7 +11,6 @@ void add_simulate(CLI::App& program);
 void add_fit(CLI::App& program);
 void add_diagnose(CLI::App& program);
 void add_coverage(CLI::App& program);
-void add_reconstruct(CLI::App& program);
 void add_init(CLI::App& program);
 void add_import(CLI::App& program);
 void add_predict(CLI::App& program);

@@ -79,7 +79,6 @@ int main(int argc, char** argv) {
   recoil::add_fit(program);
   recoil::add_diagnose(program);
   recoil::add_coverage(program);
-  recoil::add_reconstruct(program);
   recoil::add_init(program);
   recoil::add_import(program);
   recoil::add_predict(program);

@@ -8,14 +8,15 @@
 
 namespace recoil {
 
-TrueCurve::TrueCurve(const Truth& truth, double diameter, double capture, double fastest)
+TrueCurve::TrueCurve(const std::function<double(double)>& restitution, double capture,
+                     double fastest)
     : capture_(capture), fastest_(fastest) {
   constexpr std::size_t nodes = 400;
   std::vector<double> x, y;
   for (std::size_t i = 0; i < nodes; ++i) {
     const double part = static_cast<double>(i) / (nodes - 1.0);
     const double v = capture * std::pow(fastest / capture, part * part);  // denser near capture
-    const double back = i == 0 ? 0.0 : v * true_restitution(truth, diameter, v);
+    const double back = i == 0 ? 0.0 : v * restitution(v);
     x.push_back(v * v);
     y.push_back(back * back);
   }
@@ -31,8 +32,8 @@ double TrueCurve::operator()(double v) const {
   return std::sqrt(std::max(0.0, gsl_spline_eval(spline_.get(), v * v, nullptr))) / v;
 }
 
-TrueMixture::TrueMixture(const Truth& truth, const MeasuredSizes& sizes, double mean,
-                         double velocity) {
+TrueMixture::TrueMixture(const std::function<double(double)>& restitution,
+                         const MeasuredSizes& sizes, double mean, double velocity) {
   constexpr int parts = 5;  // of a bin
   const double slowest = std::sqrt(2.0 * standard_gravity * sizes.probe_height.value_or(0.0));
   const double scale = mean / sizes.mean_diameter();
@@ -40,7 +41,7 @@ TrueMixture::TrueMixture(const Truth& truth, const MeasuredSizes& sizes, double 
   for (const SizeBin& bin : spread_within_bins(sizes.bins, parts)) {
     below += bin.weight / sizes.total();
     below_.push_back(below);
-    const double e = true_restitution(truth, scale * bin.diameter, velocity);
+    const double e = restitution(scale * bin.diameter);
     restitution_.push_back(e * velocity > slowest ? e : 0.0);
   }
 }

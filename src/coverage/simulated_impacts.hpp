@@ -8,7 +8,6 @@
 
 #include "core/random.hpp"
 #include "data/measured_sizes.hpp"
-#include "reconstruction/truth.hpp"
 
 namespace recoil {
 
@@ -16,9 +15,11 @@ namespace recoil {
 /// Steffen's monotone cubic is good to 1e-5 here.
 class TrueCurve {
  public:
+  /// @param restitution e [1] at a velocity [m/s]; 0 when captured
   /// @param capture the capture velocity [m/s]
-  /// @param fastest up to which it is asked [m/s]; faster impacts return as this one does
-  TrueCurve(const Truth& truth, double diameter, double capture, double fastest);
+  /// @param fastest the end of the table [m/s]; faster impacts get the e of this one
+  TrueCurve(const std::function<double(double velocity)>& restitution, double capture,
+            double fastest);
 
   /// e at `v` [m/s]; 0 when captured.
   double operator()(double v) const;
@@ -32,9 +33,11 @@ class TrueCurve {
 /// e of the truth for spheres of mixed sizes at one velocity.
 class TrueMixture {
  public:
+  /// @param restitution e [1] of a sphere of a diameter [m]; 0 when captured
   /// @param mean diameter of the spheres of this point [m], to which `sizes` are scaled
   /// @param velocity of all of them [m/s]
-  TrueMixture(const Truth& truth, const MeasuredSizes& sizes, double mean, double velocity);
+  TrueMixture(const std::function<double(double diameter)>& restitution, const MeasuredSizes& sizes,
+              double mean, double velocity);
 
   /// e of one sphere; 0 when it is captured, or too slow to climb back to the measuring plane.
   double draw(RandomStream& random) const;

@@ -91,4 +91,16 @@ Dataset load_dataset(const std::filesystem::path& folder) {
   return dataset;
 }
 
+std::vector<std::string> reconstruction_remarks(const std::vector<Dataset>& datasets) {
+  std::vector<std::string> remarks;
+  for (const Dataset& dataset : datasets) {
+    if (dataset.provenance != Provenance::reconstruction) continue;
+    remarks.push_back(dataset.id +
+                      " is a reconstruction: a committed recipe (recipe.toml) made its points. "
+                      "Whatever a diagnosis finds in them, the recipe put there: it shows that the "
+                      "method works, and says nothing about the experiment.");
+  }
+  return remarks;
+}
+
 }  // namespace recoil

@@ -99,4 +99,8 @@ Dataset load_dataset(const std::filesystem::path& folder);
 Dataset parse_dataset(const std::string& datapackage_text, const std::string& csv_text,
                       const std::filesystem::path& folder);
 
+/// A sentence for each reconstruction among `datasets`: its recipe made the points, and what is
+/// found in them was put there.
+std::vector<std::string> reconstruction_remarks(const std::vector<Dataset>& datasets);
+
 }  // namespace recoil

@@ -10,7 +10,6 @@
 #include "analysis/analysis.hpp"
 #include "cli/fitted_values.hpp"
 #include "cli/json_coverage.hpp"
-#include "cli/recipe_words.hpp"
 #include "cli/simulated_impact.hpp"
 #include "core/error.hpp"
 #include "core/gsl_errors.hpp"
@@ -172,7 +171,7 @@ Diagnosis diagnosis_of(const Analysis& analysis, std::optional<std::uint64_t> se
   options.threads = threads;
   options.seed = seed.value_or(analysis.spec.uncertainty.seed);
   Diagnosis diagnosis = diagnose(analysis.spec, analysis.datasets, options);
-  diagnosis.remarks = recipe_remarks(diagnosis.datasets);
+  diagnosis.remarks = reconstruction_remarks(diagnosis.datasets);
   return diagnosis;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "estimate/fit.hpp"
-#include "reconstruction/truth.hpp"
+#include "validation/truth/truth.hpp"
 
 namespace recoil::bench {
 

@@ -265,7 +265,6 @@ const std::vector<LineMistake>& line_mistakes() {
       {"diameter_zero", simulate("2", "0"), {"--diameter"}},
       {"diameter_missing", {"simulate", "fit.toml", "--velocity", "2"}, {"--diameter"}},
       {"coverage_none", {"coverage", "fit.toml", "--datasets", "0"}, {"--datasets"}},
-      {"reconstruct_without_recipe", {"reconstruct", "data"}, {"recipe.toml"}},
   };
   return mistakes;
 }

@@ -253,8 +253,8 @@ TEST(Help, TeachesEveryCommand) {
   const Workplace place;
   const Outcome help = place.run({"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"check", "simulate", "fit", "diagnose", "coverage", "reconstruct",
-                              "pair", "import", "predict", "report"}) {
+  for (const char* command : {"check", "simulate", "fit", "diagnose", "coverage", "pair", "import",
+                              "predict", "report"}) {
     EXPECT_NE(help.out.find(command), std::string::npos) << command;
     const Outcome one = place.run({command, "--help"});
     EXPECT_EQ(one.status, 0);

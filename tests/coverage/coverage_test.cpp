@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "coverage/coverage_truth.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
-#include "studies/coverage_grid.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/profile.hpp"
 #include "uncertainty/replicate_errors.hpp"
+#include "validation/studies/coverage_grid.hpp"
+#include "validation/studies/independent_coverage.hpp"
 
 namespace recoil {
 namespace {
@@ -26,7 +26,7 @@ TEST(Coverage, DahnekeTruthLiesInTheStatedIntervals) {
   options.datasets = 10;
   options.uncertainty.replicates = 199;
   const CoverageResult result =
-      measure_coverage(spec, coverage_truth(spec, datasets, 20260101), options);
+      measure_coverage(spec, independent_truth(spec, datasets, 20260101), options);
   EXPECT_EQ(result.failed, 0);
   ASSERT_GE(result.rows.size(), 2U);
   int identifiable = 0;
@@ -93,7 +93,7 @@ TEST(Coverage, SimulatedCountsAndMeansBelongToTheSameImpacts) {
   const std::string root = RECOIL_SOURCE_DIR;
   const FitSpec spec = load_fit(root + "/fits/li1999-sst65-silicon.toml");
   const std::vector<Dataset> measured = {load_dataset(spec.datasets.front())};
-  const CoverageTruth truth = coverage_truth(spec, measured, 5);
+  const CoverageTruth truth = independent_truth(spec, measured, 5);
   constexpr int sets = 60;
   std::vector<double> captured(measured[0].points.size(), 0.0);
   std::vector<double> restitution(captured.size(), 0.0);
@@ -119,7 +119,7 @@ TEST(Coverage, RefusesMechanismsThatItsTruthDoesNotHave) {
   FitSpec spec = load_fit(root + "/fits/dahneke1975-quartz.toml");
   spec.mechanisms = {"gas_film"};
   const std::vector<Dataset> datasets = {load_dataset(spec.datasets.front())};
-  EXPECT_THROW(coverage_truth(spec, datasets, 1), InputError);
+  EXPECT_THROW(independent_truth(spec, datasets, 1), InputError);
 }
 
 }  // namespace

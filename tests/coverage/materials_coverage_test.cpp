@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "coverage/coverage.hpp"
-#include "coverage/coverage_truth.hpp"
 #include "support/synthetic.hpp"
+#include "validation/studies/independent_coverage.hpp"
 
 namespace recoil {
 namespace {
@@ -50,7 +50,7 @@ const CoverageCell& cell_of(const CoverageRow& row, const std::string& interval)
 CoverageResult coverage_of(bool fit_knows, int datasets, int replicates) {
   const std::vector<Dataset> data = {uncertain_materials()};
   FitSpec spec = synthetic::spec();
-  const CoverageTruth truth = coverage_truth(spec, data, 20260101);
+  const CoverageTruth truth = independent_truth(spec, data, 20260101);
   CoverageOptions options;
   options.datasets = datasets;
   options.uncertainty.replicates = replicates;

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "coverage/coverage_truth.hpp"
 #include "estimate/fit.hpp"
-#include "reconstruction/reconstruction.hpp"
 #include "uncertainty/profile.hpp"
+#include "validation/recipe/reconstruction.hpp"
+#include "validation/studies/independent_coverage.hpp"
 
 namespace recoil {
 namespace {
@@ -58,7 +58,7 @@ TEST(MixedSizes, TakenAsOneSizeTheFitMissesTheTruth) {
 
 TEST(MixedSizes, SimulatedTruthsLieInTheIntervals) {
   const Shipped own = shipped("li1999-sst65-silicon");
-  const CoverageTruth truth = coverage_truth(own.spec, own.datasets, 7);
+  const CoverageTruth truth = independent_truth(own.spec, own.datasets, 7);
   constexpr int sets = 100;
   int held_H = 0;
   int held_A = 0;

@@ -12,9 +12,9 @@
 #include "estimate/fit.hpp"
 #include "estimate/predictor.hpp"
 #include "mechanism/catalogue.hpp"
-#include "reconstruction/elastoplastic_truth.hpp"
 #include "support/independent_impact.hpp"
 #include "support/synthetic.hpp"
+#include "validation/truth/elastoplastic_truth.hpp"
 
 namespace recoil {
 namespace {

@@ -9,8 +9,8 @@
 #include "data/dataset.hpp"
 #include "experiment/histogram.hpp"
 #include "experiment/pairing_files.hpp"
-#include "studies/pairing_score.hpp"
-#include "studies/synthetic/event_stream.hpp"
+#include "validation/studies/pairing_score.hpp"
+#include "validation/synthetic/event_stream.hpp"
 
 namespace {
 

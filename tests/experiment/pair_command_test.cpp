@@ -7,8 +7,8 @@
 
 #include "core/files.hpp"
 #include "data/measured_sizes.hpp"
-#include "studies/synthetic/event_stream.hpp"
 #include "support/workplace.hpp"
+#include "validation/synthetic/event_stream.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "experiment/flight.hpp"
-#include "studies/pairing_score.hpp"
-#include "studies/synthetic/event_stream.hpp"
+#include "validation/studies/pairing_score.hpp"
+#include "validation/synthetic/event_stream.hpp"
 
 namespace {
 

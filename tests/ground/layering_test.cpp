@@ -15,48 +15,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folders of src in pipeline order. The last three are recoil_study, recoil and the Python
-/// module, which does what the commands do.
+/// The folders of src in pipeline order. The last two are recoil and the Python module, which does
+/// what the commands do.
 const std::vector<std::string> kStages = {
-    "core",        "data",     "experiment", "reconstruction", "impact", "mechanism", "estimate",
-    "uncertainty", "coverage", "predict",    "diagnosis",      "plan",   "analysis",  "export",
-    "plot",        "document", "report",     "studies",        "cli",    "python"};
+    "core",        "data",     "experiment", "impact",    "mechanism", "estimate",
+    "uncertainty", "coverage", "predict",    "diagnosis", "plan",      "export",
+    "plot",        "document", "report",     "cli",       "python"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -
                                   kStages.begin());
 }
 
-/// The files of src/reconstruction that bring a truth and what is tried on it together: the points
-/// of a recipe may go by way of simulated passages and the tool's own pairing.
-bool pairs_passages(const std::string& file) {
-  return file.starts_with("reconstruction/paired_points.") ||
-         file == "reconstruction/reconstruction.cpp";
-}
-
-bool uses_all(const std::string& stage) {
-  return stage == "studies" || stage == "cli" || stage == "python";
-}
-
 /// May `from` include `target`? Both are paths from src.
 bool may_include(const std::string& from, const std::string& target) {
   const std::string stage = fs::path(from).begin()->string();
   const std::string to = fs::path(target).begin()->string();
-  if (position(to) > position(stage)) return false;
-  // Truth is made by code that the fitter does not use, so that neither can hide the other's
-  // mistakes: that of the reconstructions, and that of data with an effect hidden in them.
-  if (from.starts_with("studies/synthetic/")) {
-    return to == "core" || target.starts_with("studies/synthetic/");
-  }
-  if (stage == "reconstruction") {
-    if (target == "data/contact.hpp") return false;  // a recipe derives its contact by itself
-    return to == "core" || to == "data" || to == stage ||
-           (to == "experiment" && pairs_passages(from));
-  }
-  // What is measured with a truth brings both together; the product does not know the studies.
-  if (to == "reconstruction") return stage == "coverage" || uses_all(stage);
-  if (to == "coverage") return stage == to || uses_all(stage);
-  return to != "studies" || stage == to;
+  return position(to) < kStages.size() && position(to) <= position(stage);
+}
+
+/// The files of the recipes that bring a truth and the tool's pairing together: the points of a
+/// recipe may come from simulated passages.
+bool pairs_passages(const std::string& file) {
+  return file.starts_with("recipe/paired_points.") || file == "recipe/reconstruction.cpp";
+}
+
+/// May `from`, a path from tests/validation, include `target`, a path from src or from tests? Truth
+/// is made by code that the fitter does not use, so that neither can hide the other's mistakes.
+bool may_validation_include(const std::string& from, const std::string& target) {
+  const std::string folder = fs::path(from).begin()->string();
+  const std::string to = fs::path(target).begin()->string();
+  if (folder == "studies") return true;
+  if (folder == "synthetic") return to == "core" || target.starts_with("validation/synthetic/");
+  if (target == "data/contact.hpp") return false;  // a recipe derives its contact by itself
+  if (to == "core" || to == "data" || target.starts_with("validation/truth/")) return true;
+  return folder == "recipe" &&
+         (target.starts_with("validation/recipe/") || (to == "experiment" && pairs_passages(from)));
 }
 
 struct Include {
@@ -92,11 +86,11 @@ class RawStrings {
   std::string closing_;  // of the string that is open
 };
 
-/// Every #include "..." below src.
-std::vector<Include> quoted_includes() {
+/// Every #include "..." below `folder`.
+std::vector<Include> quoted_includes(const fs::path& folder = tree::root() / "src") {
   static const std::regex pattern(R"re(^\s*#\s*include\s*"([^"]+)")re");
   std::vector<Include> includes;
-  for (const fs::path& file : tree::cpp_files(tree::root() / "src")) {
+  for (const fs::path& file : tree::cpp_files(folder)) {
     const std::vector<std::string> lines = tree::lines_of(tree::text_of(file));
     RawStrings strings;
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -125,24 +119,26 @@ TEST(Layering, RawStringsAreNoIncludes) {
 TEST(Layering, TheRuleItself) {
   EXPECT_TRUE(may_include("impact/a.cpp", "core/b.hpp"));
   EXPECT_FALSE(may_include("core/a.cpp", "impact/b.hpp"));
-  EXPECT_FALSE(may_include("impact/a.cpp", "reconstruction/b.hpp"));
-  EXPECT_FALSE(may_include("estimate/a.cpp", "reconstruction/b.hpp"));
-  EXPECT_FALSE(may_include("uncertainty/a.cpp", "reconstruction/b.hpp"));
-  EXPECT_FALSE(may_include("report/a.cpp", "reconstruction/b.hpp"));
-  EXPECT_TRUE(may_include("coverage/a.cpp", "reconstruction/b.hpp"));
-  EXPECT_TRUE(may_include("cli/a.cpp", "reconstruction/b.hpp"));
-  EXPECT_FALSE(may_include("reconstruction/a.cpp", "impact/b.hpp"));
-  EXPECT_TRUE(may_include("reconstruction/a.cpp", "data/material.hpp"));
-  EXPECT_FALSE(may_include("reconstruction/a.cpp", "data/contact.hpp"));
-  EXPECT_FALSE(may_include("reconstruction/passages.cpp", "experiment/b.hpp"));
-  EXPECT_TRUE(may_include("reconstruction/paired_points.cpp", "experiment/b.hpp"));
-  EXPECT_FALSE(may_include("reconstruction/paired_points.cpp", "impact/b.hpp"));
-  EXPECT_FALSE(may_include("cli/a.cpp", "studies/b.hpp"));
-  EXPECT_FALSE(may_include("report/a.cpp", "studies/b.hpp"));
-  EXPECT_TRUE(may_include("studies/a.cpp", "report/b.hpp"));
-  EXPECT_TRUE(may_include("studies/a.cpp", "studies/synthetic/b.hpp"));
-  EXPECT_FALSE(may_include("studies/synthetic/a.cpp", "studies/b.hpp"));
-  EXPECT_FALSE(may_include("studies/synthetic/a.cpp", "impact/b.hpp"));
+  EXPECT_FALSE(may_include("cli/a.cpp", "validation/truth/b.hpp"));
+  EXPECT_FALSE(may_validation_include("truth/a.cpp", "impact/b.hpp"));
+  EXPECT_FALSE(may_validation_include("recipe/a.cpp", "data/contact.hpp"));
+  EXPECT_FALSE(may_validation_include("recipe/passages.cpp", "experiment/b.hpp"));
+  EXPECT_TRUE(may_validation_include("recipe/paired_points.cpp", "experiment/b.hpp"));
+  EXPECT_FALSE(may_validation_include("recipe/paired_points.cpp", "impact/b.hpp"));
+  EXPECT_FALSE(may_validation_include("synthetic/a.cpp", "impact/b.hpp"));
+  EXPECT_FALSE(may_validation_include("synthetic/a.cpp", "validation/studies/b.hpp"));
+  EXPECT_TRUE(may_validation_include("studies/a.cpp", "report/b.hpp"));
+}
+
+TEST(Layering, TruthSharesNothingWithTheFitter) {
+  const fs::path folder = tree::root() / "tests/validation";
+  const std::vector<Include> includes = quoted_includes(folder);
+  ASSERT_GT(includes.size(), 20U) << "the search itself seems broken";
+  for (const Include& include : includes) {
+    EXPECT_TRUE(
+        may_validation_include(fs::relative(include.file, folder).generic_string(), include.target))
+        << include.file << ":" << include.line << " must not include " << include.target;
+  }
 }
 
 TEST(Layering, EveryFolderIsAStage) {

@@ -11,7 +11,7 @@
 #include "mechanism/catalogue.hpp"
 #include "mechanism/half_space.hpp"
 #include "one_point.hpp"
-#include "reconstruction/elastoplastic_truth.hpp"
+#include "validation/truth/elastoplastic_truth.hpp"
 
 namespace recoil {
 namespace {

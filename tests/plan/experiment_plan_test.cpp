@@ -80,8 +80,9 @@ class Laboratory {
   explicit Laboratory(const ExperimentPlan& plan) : plan_(plan) {
     const recoil::RingAdhesionTruth truth = recoil::synthetic::truth_of(Design{});
     for (const double diameter : plan.options.diameters) {
-      curves_.try_emplace(diameter, truth, diameter, recoil::true_capture_velocity(truth, diameter),
-                          200.0);
+      curves_.try_emplace(
+          diameter, [&](double v) { return recoil::true_restitution(truth, diameter, v); },
+          recoil::true_capture_velocity(truth, diameter), 200.0);
     }
   }
 

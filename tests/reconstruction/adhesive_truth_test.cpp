@@ -1,5 +1,5 @@
 // The truth by JKR and DMT: closed forms, and the fitter's solver, which shares nothing with it.
-#include "reconstruction/adhesive_truth.hpp"
+#include "validation/truth/adhesive_truth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "data/contact.hpp"
 #include "impact/reference_solver.hpp"
-#include "reconstruction/truth.hpp"
+#include "validation/truth/truth.hpp"
 
 namespace recoil {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "core/error.hpp"
 #include "recipe_folder.hpp"
-#include "reconstruction/paired_points.hpp"
-#include "reconstruction/plan.hpp"
-#include "reconstruction/reconstruction.hpp"
+#include "validation/recipe/paired_points.hpp"
+#include "validation/recipe/plan.hpp"
+#include "validation/recipe/reconstruction.hpp"
 
 namespace recoil {
 namespace {

@@ -1,5 +1,5 @@
 // The truth of yield and adhesion against its known limits, and against integrals done numerically.
-#include "reconstruction/elastoplastic_truth.hpp"
+#include "validation/truth/elastoplastic_truth.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "reconstruction/truth.hpp"
+#include "validation/truth/truth.hpp"
 
 namespace recoil {
 namespace {

@@ -1,5 +1,5 @@
 // The events behind a reconstruction: what is in them, and that the pairing finds it.
-#include "reconstruction/passages.hpp"
+#include "validation/recipe/passages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Mistakes in a recipe: one line with file, line and column, and what to do.
-#include "reconstruction/recipe.hpp"
+#include "validation/recipe/recipe.hpp"
 
 #include <gtest/gtest.h>
 
 #include <ostream>
 
 #include "recipe_folder.hpp"
-#include "reconstruction/reconstruction.hpp"
 #include "support/mistake.hpp"
+#include "validation/recipe/reconstruction.hpp"
 
 namespace recoil {
 namespace {

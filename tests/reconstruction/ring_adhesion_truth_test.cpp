@@ -1,6 +1,6 @@
 // The truth simulator of the ring-adhesion model against closed forms and expansions that it does
 // not use.
-#include "reconstruction/ring_adhesion_truth.hpp"
+#include "validation/truth/ring_adhesion_truth.hpp"
 
 #include <gsl/gsl_sf_lambert.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reconstruction/truth.hpp"
+#include "validation/truth/truth.hpp"
 
 namespace recoil {
 namespace {

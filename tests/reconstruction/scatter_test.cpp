@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "recipe_folder.hpp"
-#include "reconstruction/plan.hpp"
-#include "reconstruction/reconstruction.hpp"
+#include "validation/recipe/plan.hpp"
+#include "validation/recipe/reconstruction.hpp"
 
 namespace recoil {
 namespace {

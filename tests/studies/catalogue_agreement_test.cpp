@@ -10,10 +10,10 @@
 
 #include "core/files.hpp"
 #include "mechanism/catalogue.hpp"
-#include "studies/program_run.hpp"
-#include "studies/synthetic/case.hpp"
-#include "studies/synthetic/case_files.hpp"
-#include "studies/synthetic/hidden_effect.hpp"
+#include "validation/studies/program_run.hpp"
+#include "validation/synthetic/case.hpp"
+#include "validation/synthetic/case_files.hpp"
+#include "validation/synthetic/hidden_effect.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // What leaving a correction out does, on events made by hand: the shift of e by formula, the count
 // of the captured, the place of second impacts.
-#include "studies/corrections.hpp"
+#include "validation/studies/corrections.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "studies/coverage_grid.hpp"
+#include "validation/studies/coverage_grid.hpp"
 
 #include <gtest/gtest.h>
 

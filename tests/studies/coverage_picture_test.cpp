@@ -1,5 +1,5 @@
 // The picture of the coverage study: colours against hand-worked values, cells against the results.
-#include "studies/coverage_picture.hpp"
+#include "validation/studies/coverage_picture.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

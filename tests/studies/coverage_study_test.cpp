@@ -1,12 +1,12 @@
 // Rows, verdicts and the summary of the coverage study, from facts made up by hand.
-#include "studies/coverage_study.hpp"
+#include "validation/studies/coverage_study.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "studies/coverage_page.hpp"
+#include "validation/studies/coverage_page.hpp"
 
 namespace recoil {
 namespace {

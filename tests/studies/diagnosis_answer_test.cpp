@@ -1,10 +1,10 @@
 // What is asked of the command besides a diagnosis, with a stand-in for it.
-#include "studies/diagnosis_answer.hpp"
+#include "validation/studies/diagnosis_answer.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "studies/program_run.hpp"
+#include "validation/studies/program_run.hpp"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <set>
 #include <sstream>
 
-#include "studies/nearest_rival.hpp"
-#include "studies/program_run.hpp"
-#include "studies/synthetic/case_files.hpp"
-#include "studies/synthetic/further_impacts.hpp"
+#include "validation/studies/nearest_rival.hpp"
+#include "validation/studies/program_run.hpp"
+#include "validation/synthetic/case_files.hpp"
+#include "validation/synthetic/further_impacts.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // What is counted of answers to hidden effects, from answers made up by hand.
-#include "studies/hidden_effects_tally.hpp"
+#include "validation/studies/hidden_effects_tally.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

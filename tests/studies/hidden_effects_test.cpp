@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "studies/diagnosis_answer.hpp"
+#include "validation/studies/diagnosis_answer.hpp"
 
 namespace {
 

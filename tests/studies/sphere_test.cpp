@@ -1,13 +1,13 @@
 // The generator's physics against closed forms.
-#include "studies/synthetic/sphere.hpp"
+#include "validation/synthetic/sphere.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "studies/synthetic/effects.hpp"
-#include "studies/synthetic/other_laws.hpp"
+#include "validation/synthetic/effects.hpp"
+#include "validation/synthetic/other_laws.hpp"
 
 namespace {
 

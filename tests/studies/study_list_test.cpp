@@ -1,5 +1,5 @@
 // Which studies are current, and that their committed pages say what their results say.
-#include "studies/study_list.hpp"
+#include "validation/studies/study_list.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "studies/study_pages.hpp"
+#include "validation/studies/study_pages.hpp"
 
 namespace recoil {
 namespace {
@@ -62,7 +62,8 @@ TEST_F(Tree, TheKeyChangesWithEveryFolderThatDecidesNumbers) {
 // sources includes, directly or by way of another.
 TEST_F(Tree, TheKeyOfCoverageLeavesOutOnlyWhatItsSourcesDoNotInclude) {
   const std::string command = "coverage-grid fits/a.toml";
-  std::vector<fs::path> left = {"studies/coverage_study.cpp", "studies/coverage_grid.cpp"};
+  std::vector<fs::path> left = {"validation/studies/coverage_study.cpp",
+                                "studies/coverage_grid.cpp"};
   std::set<fs::path> seen(left.begin(), left.end());
   while (!left.empty()) {
     const fs::path file = left.back();
@@ -83,10 +84,10 @@ TEST_F(Tree, TheKeyOfCoverageLeavesOutOnlyWhatItsSourcesDoNotInclude) {
   }
   EXPECT_GT(seen.size(), 100u);
   EXPECT_FALSE(decides(command, "diagnosis/search.cpp"));
-  EXPECT_FALSE(decides(command, "studies/hidden_effects_plan.cpp"));
-  EXPECT_FALSE(decides(command, "studies/coverage_picture.cpp"));
-  EXPECT_FALSE(decides("hidden-effects", "studies/hidden_effects_page.cpp"));
-  EXPECT_TRUE(decides("hidden-effects", "studies/hidden_effects_tally.cpp"));
+  EXPECT_FALSE(decides(command, "validation/studies/hidden_effects_plan.cpp"));
+  EXPECT_FALSE(decides(command, "validation/studies/coverage_picture.cpp"));
+  EXPECT_FALSE(decides("hidden-effects", "validation/studies/hidden_effects_page.cpp"));
+  EXPECT_TRUE(decides("hidden-effects", "validation/studies/hidden_effects_tally.cpp"));
 }
 
 TEST_F(Tree, TheKeyChangesWithFitsDataAndTheCommandButNotWithResults) {

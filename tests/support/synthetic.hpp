@@ -7,7 +7,7 @@
 
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
-#include "reconstruction/truth.hpp"
+#include "validation/truth/truth.hpp"
 
 namespace recoil::synthetic {
 

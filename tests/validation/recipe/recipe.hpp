@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "data/folder_names.hpp"
+#include "validation/truth/truth.hpp"
+
+namespace recoil {
+
+/// One series of the design: a size and the velocities at which it was thrown.
+struct RecipeSeries {
+  std::string name;
+  double diameter = 0.0;           ///< as written into the points [m]; the d10 of mixed sizes
+  std::vector<double> velocities;  ///< [m/s], ascending
+};
+
+/// What one observed impact adds to the truth, and how many make a point.
+struct ImpactNoise {
+  double relative = 0.0;  ///< standard deviation of one event's e, as a part of e [1]
+  double floor = 0.0;     ///< a constant one, added in quadrature [1]
+  int events = 0;         ///< events that rebounded, per point
+  int decimals = 3;       ///< of e in points.csv; its standard deviation carries one more
+};
+
+/// Sizes drawn anew for every impact: a log-normal distribution, cut at both ends, on whole
+/// micrometres. Only impacts that rebound, fast enough to climb back to the measuring plane, count.
+struct SizeDistribution {
+  double lower = 0.0;             ///< [m]
+  double upper = 0.0;             ///< [m]
+  double median = 0.0;            ///< of the uncut distribution [m]
+  double log_sd = 0.0;            ///< standard deviation of ln d [1]
+  double probe_height = 0.0;      ///< of the measuring plane above the surface [m]
+  std::vector<double> diameters;  ///< the whole micrometres [m]
+  std::vector<double> weights;    ///< their probabilities, sum 1
+
+  double mean() const;  ///< d10 [m]
+  /// Slowest rebound that is seen: sqrt(2 g h) [m/s].
+  double slowest_seen() const;
+};
+
+/// What an instrument records of each impact, see `draw_passages`.
+struct PassageDesign {
+  double rate = 0.0;         ///< spheres released per second, at random times
+  double velocity_sd = 0.0;  ///< of one passage, relative [1]
+  double diameter_sd = 0.0;  ///< of one passage, relative [1]
+  double volume_sd = 0.0;    ///< of the height at which a passage is timed [m]
+  double angle_sd = 0.0;     ///< of the incidence to the normal [rad]
+  double seen = 1.0;         ///< part of the passages that is recorded [1]
+  double return_time = 0.0;  ///< a rebound comes back through the volume with exp(-t / this) [s]
+};
+
+/// How points are made from these passages, as `recoil pair` understands it.
+struct PairingDesign {
+  double height = 0.0;  ///< first estimate of the measuring plane's height [m]
+  double angle = 0.0;   ///< rebounds within this of the normal are used [rad]
+  int per_bin = 0;      ///< impacts of one point, about
+};
+
+/// A published fact that the reconstruction has to show, with the numbers that decide.
+struct FactSpec {
+  std::string id;  ///< which check of `check_facts` decides
+  std::string statement;
+  std::string source;
+  std::map<std::string, double> limits;  ///< thresholds, SI
+  Location where;
+};
+
+/// One point of the design with its noiseless truth; what regenerating costs is only the noise.
+struct PlannedPoint {
+  std::size_t series = 0;
+  double diameter = 0.0;        ///< [m]
+  double velocity = 0.0;        ///< [m/s]
+  double restitution = 0.0;     ///< what the mean of the events tends to [1]
+  double restitution_sd = 0.0;  ///< standard error of that mean [1]
+  double seen = 1.0;            ///< part of the impacts that is seen to rebound [1]
+  std::vector<double> by_size;  ///< e of each size of the distribution; empty for one size
+};
+
+/// recipe.toml, validated, with the noiseless truth of every point.
+struct Recipe {
+  std::filesystem::path folder;
+  std::filesystem::path file;
+  std::string id;  ///< the folder's name
+  std::uint64_t seed = 0;
+  Material particle;
+  Material surface;
+  Truth truth;
+  std::vector<RecipeSeries> series;
+  ImpactNoise noise;
+  std::optional<SizeDistribution> sizes;
+  std::optional<PassageDesign> passages;
+  std::optional<PairingDesign> pairing;  ///< points come from the passages; else means are drawn
+  std::vector<FactSpec> facts;
+  std::vector<std::string> assumptions;  ///< what is ours and not published, a sentence each
+  std::vector<std::string> siblings;     ///< ids of recipes beside this one, for shared facts
+  std::vector<PlannedPoint> plan;        ///< in the order of points.csv
+};
+
+/// Reads `folder`/`name` and computes the truth of its points. Unknown keys are errors.
+/// @throws InputError with file, line and column.
+Recipe load_recipe(const std::filesystem::path& folder, const std::string& name = recipe_name);
+
+}  // namespace recoil

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "document/markdown.hpp"
+#include "validation/studies/commands.hpp"
+#include "validation/studies/study_list.hpp"
+#include "validation/studies/study_pages.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string words_of(StudyState state) {
+  switch (state) {
+    case StudyState::missing:
+      return "missing";
+    case StudyState::stale:
+      return "stale";
+    case StudyState::current:
+      return "current";
+  }
+  return "";
+}
+
+void list() {
+  fmt::print(
+      "Stale studies were made from other sources, fits or data than those that are here.\n");
+  for (const Study& study : all_studies()) {
+    fmt::print("  {:8}{:38}{}\n", words_of(state_of(".", study)), study.name, study.result);
+  }
+}
+
+void make_one(const Study& study) {
+  if (state_of(".", study) == StudyState::current) {
+    fmt::print("  current {}\n", study.result);
+    return;
+  }
+  std::istringstream split(study.command);
+  std::vector<std::string> words;
+  for (std::string word; split >> word;) words.push_back(word);
+  const std::string key = study_key(".", study.command);
+  words.insert(words.end(), {"--out", study.result, "--keep", "build/studies/" + key});
+  if (const int status = run_study_program(words); status != 0) {
+    throw ComputationError(fmt::format("{} ended with status {}", study.name, status));
+  }
+  fmt::print("  wrote   {}\n", study.result);
+}
+
+}  // namespace
+
+StudyStamp StudyRun::stamp() const {
+  const std::string study = out.empty() ? "" : fs::path(out).stem().string();
+  return {study, "recoil_study " + command, study_key(".", command), ""};
+}
+
+void add_run_options(CLI::App& command, StudyRun& run) {
+  command.add_option("--out", run.out, "write the result here (JSON), its page beside it");
+  command.add_option("--keep", run.keep,
+                     "a folder for what is finished, from which a stopped study goes on");
+  command.add_option("--threads", run.threads, "threads to use (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+}
+
+void publish(const StudyRun& run, const std::string& json, const Document& page) {
+  if (run.out.empty()) {
+    fmt::print("{}", markdown_page(page));
+    return;
+  }
+  write_whole_file(run.out, json);
+  render_study(run.out);
+}
+
+void add_list(CLI::App& program) {
+  program.add_subcommand("list", "the committed studies, and which are current")->callback(list);
+}
+
+void add_make(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("make", "make those that are stale or missing, and all pages");
+  const auto names = std::make_shared<std::vector<std::string>>();
+  command->add_option("STUDY", *names, "only these");
+  command->callback([names] {
+    std::vector<const Study*> wanted;
+    for (const std::string& name : *names) wanted.push_back(&study_named(name));
+    if (wanted.empty()) {
+      for (const Study& study : all_studies()) wanted.push_back(&study);
+    }
+    for (const Study* study : wanted) make_one(*study);
+    write_coverage_summary("reports");
+  });
+}
+
+void add_render(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("render", "make page and picture of results again");
+  const auto files = std::make_shared<std::vector<std::string>>();
+  command->add_option("RESULT", *files, "reports/NAME.json")->required();
+  command->callback([files] {
+    for (const std::string& file : *files) render_study(file);
+  });
+}
+
+}  // namespace recoil

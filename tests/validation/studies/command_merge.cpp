@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <sstream>
+
+#include "core/arithmetic.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/program.hpp"
+#include "core/row_file.hpp"
+#include "report/report.hpp"
+#include "report/words_parts.hpp"
+#include "validation/studies/commands.hpp"
+#include "validation/studies/study_list.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyMerge {
+  std::string folder;
+  std::string out;
+  bool missing = false;
+  int threads = 0;
+};
+
+/// A shard is one piece: its designs or cases are files of their own in the same folder.
+Origin origin_of_study(const std::string& command, std::size_t shards) {
+  std::istringstream split(command);
+  Origin origin;
+  for (std::string word; split >> word;) origin.command.push_back(word);
+  origin.folder = fs::current_path().string();
+  origin.version = version();
+  origin.program = sha256_of_file("/proc/self/exe");
+  origin.inputs = study_key(".", command);
+  origin.pieces = shards;
+  origin.arithmetic = arithmetic_fingerprint();
+  return origin;
+}
+
+void merge_study(const StudyMerge& flags) {
+  const std::vector<PartFile> parts = parts_of_one_origin(flags.folder);
+  const MissingShards missing = missing_in(parts, arithmetic_fingerprint());
+  if (flags.missing) {
+    if (!missing.numbers.empty()) fmt::print("--array={}\n", array_list(missing.numbers));
+    return;
+  }
+  std::string command;
+  for (const std::string& word : parts.front().origin.command) {
+    command += (command.empty() ? "" : " ") + word;
+  }
+  parts_of(origin_of_study(command, parts.front().origin.pieces), flags.folder);
+  std::vector<std::string> words = parts.front().origin.command;
+  words.insert(words.end(), {"--keep", flags.folder});
+  if (!flags.out.empty()) words.insert(words.end(), {"--out", flags.out});
+  if (flags.threads > 0) words.insert(words.end(), {"--threads", fmt::format("{}", flags.threads)});
+  if (const int status = run_study_program(words); status != 0) {
+    throw ComputationError(fmt::format("the study ended with status {}", status));
+  }
+}
+
+}  // namespace
+
+bool StudyRun::owns(std::size_t piece) const {
+  return shard_named(shard).value_or(Shard{}).owns(piece);
+}
+
+void add_shard_option(CLI::App& command, StudyRun& run) {
+  command
+      .add_option("--shard", run.shard,
+                  "make only the K-th of N shares and keep it (--keep), for recoil_study merge")
+      ->type_name("K/N")
+      ->needs(command.get_option("--keep"))
+      ->check([](const std::string& text) -> std::string {
+        return shard_named(text) ? "" : text + " is not K/N with K from 1 to N";
+      });
+}
+
+bool wrote_part(const StudyRun& run) {
+  if (run.shard.empty()) return false;
+  const Shard shard = *shard_named(run.shard);
+  const Origin origin = origin_of_study(run.command, shard.of);
+  const fs::path file = part_path(run.keep, origin, shard);
+  write_rows(file, part_head(origin, shard), {Json::array({shard.number - 1})});
+  fmt::print("{}: written\n", file.string());
+  return true;
+}
+
+void add_study_merge(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "merge", "put the shards of a study together, as if one process had made it");
+  const auto flags = std::make_shared<StudyMerge>();
+  command->add_option("DIR", flags->folder, "the folder that the shards keep (--keep)")->required();
+  command->add_option("--out", flags->out, "write the result here (JSON), its page beside it");
+  command->add_flag("--missing", flags->missing,
+                    "only print which shards are missing, as --array=3,7-9");
+  command->add_option("--threads", flags->threads, "threads to use (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  command->callback([flags] { merge_study(*flags); });
+}
+
+}  // namespace recoil

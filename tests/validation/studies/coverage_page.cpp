@@ -1,0 +1,339 @@
+#include "validation/studies/coverage_page.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "report/corrections_document.hpp"
+#include "report/words_dataset.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::array<const char*, 7> other_intervals = {
+    "profile", "studentized", "bca", "percentile", "wald", "delta", "posterior"};
+
+Cell percent_cell(const std::optional<double>& share) {
+  return share ? Cell(Sentence(fmt::format("{:.1f}", 100.0 * *share))) : Cell();
+}
+
+/// "V*" of "V*(4.9 um)".
+std::string family(const ParameterCoverage& row) {
+  return row.parameter.substr(0, row.parameter.find('('));
+}
+
+Sentence truth_words(TruthOrigin origin) {
+  return origin == TruthOrigin::recipe
+             ? "truth and noise from the recipe, another seed for each data set"
+             : "the fit's own estimate as truth, simulated independently of the fitter";
+}
+
+Table table_of(const std::vector<ParameterCoverage>& rows) {
+  Table table;
+  table.columns = {{"design", {}, true}, {"parameter", {}, true}, {"identifiable, %"},
+                   {"actual error, %"},  {"recommended, %"},      {"where identifiable, %"}};
+  for (const char* kind : other_intervals) table.columns.push_back({kind});
+  table.columns.push_back({"width / truth"});
+  table.columns.push_back({"verdict", {}, true});
+  for (const ParameterCoverage& row : rows) {
+    std::vector<Cell> cells = {Sentence(row.design),
+                               symbol(row.parameter),
+                               percent_cell(row.share_identifiable()),
+                               percent_cell(row.actual_error),
+                               percent_cell(row.recommended().share()),
+                               percent_cell(row.recommended().share_identifiable())};
+    for (const char* kind : other_intervals) {
+      const IntervalCoverage* at = row.find(kind);
+      cells.push_back(at == nullptr ? Cell(Sentence()) : percent_cell(at->share()));
+    }
+    Cell width;
+    if (row.relative_width) width = Number{*row.relative_width, significant(3)};
+    cells.push_back(std::move(width));
+    cells.push_back(Sentence(to_string(verdict_of(row))));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+/// Median widths of every kind of interval over the truth; nothing where no row has more than that
+/// of the recommended one.
+std::optional<Table> widths_of(const std::vector<ParameterCoverage>& rows) {
+  Table table;
+  table.columns = {{"width / truth", {}, true}, {"parameter", {}, true}, {"recommended"}};
+  for (const char* kind : other_intervals) table.columns.push_back({kind});
+  bool any = false;
+  for (const ParameterCoverage& row : rows) {
+    const auto width = [](const std::optional<double>& value) {
+      return value ? Cell(Number{*value, significant(3)}) : Cell();
+    };
+    std::vector<Cell> cells = {Sentence(row.design), symbol(row.parameter),
+                               width(row.relative_width)};
+    for (const char* kind : other_intervals) {
+      const IntervalCoverage* at = row.find(kind);
+      any = any || (at != nullptr && at->relative_width);
+      cells.push_back(at == nullptr ? Cell(Sentence()) : width(at->relative_width));
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  if (!any) return std::nullopt;
+  return table;
+}
+
+Sentence tally_words(const CoverageTally& tally) {
+  return say(
+      "of {} rows {} are nominal, in {} more the verdict warns, {} are too narrow and {} too "
+      "wide",
+      tally.rows, tally.nominal(), tally.of[CoverageVerdict::warned],
+      tally.of[CoverageVerdict::too_narrow], tally.of[CoverageVerdict::too_wide]);
+}
+
+Sentence meaning_of_nominal() {
+  return say(
+      "Nominal: the interval contains the truth in {:.0f} to {:.0f} % of the data sets. Warned: "
+      "the verdict called the parameter not identifiable in at least {:.0f} % of them. Where "
+      "identifiable: of those in which it did not, which are those with a small estimate of the "
+      "error; the level of an interval is that over all.",
+      100.0 * least_nominal, 100.0 * most_nominal, 100.0 * least_warned);
+}
+
+/// Of the verdict's own coverage: none where no row has it.
+std::optional<Sentence> verdict_words(const std::vector<ParameterCoverage>& rows) {
+  int judged = 0;
+  int misled = 0;
+  double most = 0.0;
+  for (const ParameterCoverage& row : rows) {
+    if (!scatters_too_much(row)) continue;
+    ++judged;
+    misled += misleads(row) ? 1 : 0;
+    most = std::max(most, row.share_identifiable());
+  }
+  if (judged == 0) return std::nullopt;
+  return say(
+      "The verdict has a coverage of its own: of {} parameters whose estimates scatter by more "
+      "than a tenth of their scale (actual error), {} were called identifiable in more than {:.0f} "
+      "% of the data sets, in {:.1f} % at most.",
+      judged, misled, 100.0 * most_misled, 100.0 * most);
+}
+
+/// What a heading adds where constants are uncertain elsewhere.
+Sentence with_materials(const CoverageStudy& study) {
+  return study.exact_materials ? Sentence(", constants of the materials taken as exact")
+                               : Sentence();
+}
+
+Sentence study_words(const CoverageStudy& study) {
+  Sentence words = say(
+      "{} simulated data sets per design, {} bootstrap replicates each, seed {}, "
+      "level {:.0f} %.",
+      study.datasets, study.replicates, static_cast<long long>(study.seed), 100.0 * study.level);
+  words += Sentence(study.exact_materials
+                        ? " The constants of the materials are exact."
+                        : " The constants of the materials are drawn anew for every data set from "
+                          "what is stated of their errors, and the fits know these errors.");
+  if (!study.grid_of.empty()) {
+    words +=
+        say(" The estimate for {} as truth, simulated independently of the fitter. One "
+            "diameter, n points evenly in log V from 1.05 (with captures 0.85) to 50 times "
+            "the capture velocity. Scatter: equal (0.02), near-capture (0.01 far above "
+            "capture, five times that at it), 10 % of e; its size is stated with the points "
+            "or has to be estimated.",
+            code(study.grid_of));
+  }
+  words += say(" One standard error of a coverage of {:.0f} % is {:.1f} %.", 100.0 * study.level,
+               100.0 * std::sqrt(study.level * (1.0 - study.level) / std::max(1, study.datasets)));
+  return words;
+}
+
+Sentence failures_words(const CoverageStudy::Design& design) {
+  Sentence words = code(design.id) + Sentence(": ") + truth_words(design.truth);
+  if (design.fits_failed && design.refits_failed) {
+    words += say("; {} fits and {} refits failed", *design.fits_failed, *design.refits_failed);
+  }
+  return words;
+}
+
+/// How far a row is from the middle of what is wanted.
+double distance(const ParameterCoverage& row) {
+  constexpr double wanted = 0.5 * (least_nominal + most_nominal);
+  return std::abs(row.recommended().share().value_or(0.0) - wanted);
+}
+
+bool is_warned(CoverageVerdict verdict) {
+  return verdict == CoverageVerdict::warned || verdict == CoverageVerdict::nominal_warned;
+}
+bool is_miss(CoverageVerdict verdict) {
+  return verdict == CoverageVerdict::too_narrow || verdict == CoverageVerdict::too_wide;
+}
+
+bool worse(const ParameterCoverage& a, const ParameterCoverage& b) {
+  const CoverageVerdict left = verdict_of(a);
+  const CoverageVerdict right = verdict_of(b);
+  if (is_miss(left) != is_miss(right)) return is_miss(left);
+  if (is_warned(left) != is_warned(right)) return !is_warned(left);
+  constexpr double no_difference = 1e-9;  // shares of so many data sets differ by more
+  return distance(a) > distance(b) + no_difference;
+}
+
+Cell words_or_dash(const std::vector<std::string>& words) {
+  return words.empty() ? Cell() : Cell(Sentence(fmt::format("{}", fmt::join(words, ", "))));
+}
+
+std::vector<Cell> grid_row(const GridDesign& design, int datasets,
+                           const std::vector<const ParameterCoverage*>& rows) {
+  const ParameterCoverage& worst = worst_of(rows);
+  std::vector<std::string> warnings;
+  std::vector<std::string> misses;
+  for (const ParameterCoverage* row : rows) {
+    const CoverageVerdict verdict = verdict_of(*row);
+    if (is_warned(verdict)) warnings.push_back(family(*row));
+    if (is_miss(verdict)) misses.push_back(family(*row) + " " + to_string(verdict));
+  }
+  const auto percent_words = [](const std::optional<double>& share) {
+    return share ? fmt::format("{:.1f}", 100.0 * *share) : std::string("-");
+  };
+  return {Sentence(fmt::format("{}", design.points)),
+          Sentence(to_string(design.noise)),
+          Sentence(design.sd_stated ? "stated" : "estimated"),
+          Sentence(design.adhesion_free ? "free" : "fixed"),
+          design.captures ? Cell(Sentence("with")) : Cell(),
+          Sentence(fmt::format("{}", datasets)),
+          symbol(family(worst)) + say(": {}", Sentence(percent_words(worst.recommended().share()))),
+          Sentence(fmt::format("{:.0f}", 100.0 * (1.0 - worst.share_identifiable()))),
+          words_or_dash(warnings),
+          misses.empty() ? Cell(Sentence("nominal")) : words_or_dash(misses)};
+}
+
+Sentence link_to(const CoverageStudy& study) {
+  return link(study.stamp.study + ".md", study.stamp.study + ".md");
+}
+
+Section grid_section(const std::vector<const CoverageStudy*>& studies, const std::string& picture) {
+  List tallies;
+  CoverageTally all;
+  std::map<std::string, std::pair<int, std::vector<const ParameterCoverage*>>> designs;
+  for (const CoverageStudy* study : studies) {
+    tallies.entries.push_back(link_to(*study) + say(": {} data sets per design; {}.",
+                                                    study->datasets,
+                                                    tally_words(tally_of(study->rows))));
+    for (const ParameterCoverage& row : study->rows) {
+      designs[row.design].first = study->datasets;
+      designs[row.design].second.push_back(&row);
+      all.add(row);
+    }
+  }
+  Table table;
+  table.columns = {{"n"},
+                   {"scatter", {}, true},
+                   {"its size", {}, true},
+                   {"f0", {}, true},
+                   {"captures", {}, true},
+                   {"data sets"},
+                   {"worst parameter: truth contained, %", {}, true},
+                   {"warned, %"},
+                   {"warned of", {}, true},
+                   {"verdict", {}, true}};
+  for (const GridDesign& design : coverage_grid()) {
+    const auto found = designs.find(design.name());
+    if (found == designs.end()) continue;
+    table.rows.push_back(grid_row(design, found->second.first, found->second.second));
+  }
+  Section section{"grid", "Other kinds of data"};
+  section.blocks = {
+      Paragraph{"One diameter, n points evenly in log V from just above the capture velocity (with "
+                "captures below it) to 50 times that; the tables of every parameter and interval:"},
+      tallies,
+      Paragraph{say("Together, {}. Below, one row per design: its worst parameter with the share "
+                    "of the data sets whose recommended interval contains the truth, how often the "
+                    "verdict warned of that parameter, and the parameters of which it warned in "
+                    "nine of ten.",
+                    tally_words(all))}};
+  if (!picture.empty()) {
+    section.blocks.emplace_back(
+        Figures{{{picture, "Coverage", "Coverage of the recommended intervals", "-"}}});
+  }
+  section.blocks.emplace_back(std::move(table));
+  return section;
+}
+
+}  // namespace
+
+void CoverageTally::add(const ParameterCoverage& row) {
+  ++rows;
+  ++of[verdict_of(row)];
+}
+
+int CoverageTally::nominal() const {
+  return of[CoverageVerdict::nominal] + of[CoverageVerdict::nominal_warned];
+}
+
+CoverageTally tally_of(const std::vector<ParameterCoverage>& rows) {
+  CoverageTally tally;
+  for (const ParameterCoverage& row : rows) tally.add(row);
+  return tally;
+}
+
+const ParameterCoverage& worst_of(const std::vector<const ParameterCoverage*>& rows) {
+  return **std::min_element(rows.begin(), rows.end(),
+                            [](const auto* a, const auto* b) { return worse(*a, *b); });
+}
+
+Document coverage_page(const CoverageStudy& study, const std::string& picture) {
+  Document page;
+  page.heading = study.grid_of.empty()
+                     ? Sentence("Coverage for the designs of the fits") + with_materials(study)
+                     : Sentence("Coverage by kind of data: ") + code(study.grid_of);
+  page.foreword.emplace_back(Paragraph{study_words(study)});
+  page.foreword.emplace_back(
+      Paragraph{as_sentence(tally_words(tally_of(study.rows))) + " " + meaning_of_nominal()});
+  if (const auto words = verdict_words(study.rows)) {
+    page.foreword.emplace_back(Paragraph{*words});
+  }
+  if (study.grid_of.empty()) {
+    List designs;
+    for (const CoverageStudy::Design& design : study.designs) {
+      designs.entries.push_back(failures_words(design));
+    }
+    page.foreword.emplace_back(std::move(designs));
+  }
+  if (!picture.empty()) {
+    page.foreword.emplace_back(Figures{{{picture, "Coverage", "Coverage by kind of data", "-"}}});
+  }
+  page.foreword.emplace_back(table_of(study.rows));
+  if (auto widths = widths_of(study.rows)) page.foreword.emplace_back(std::move(*widths));
+  List sources;
+  for (const CoverageStudy::Source& source : study.sources) {
+    sources.entries.push_back(code(source.id) +
+                              Sentence(": " + provenance_sentence(source.provenance)));
+  }
+  page.foreword.emplace_back(std::move(sources));
+  append(page.foreword, stamp_blocks(study.stamp));
+  return page;
+}
+
+Document coverage_summary(const std::vector<CoverageStudy>& studies, const std::string& picture) {
+  Document page;
+  page.heading = "Coverage of the intervals";
+  page.foreword.emplace_back(Paragraph{meaning_of_nominal()});
+  std::vector<const CoverageStudy*> grids;
+  for (const CoverageStudy& study : studies) {
+    if (!study.grid_of.empty()) {
+      grids.push_back(&study);
+      continue;
+    }
+    Section section{study.exact_materials ? "designs-exact" : "designs",
+                    Sentence("The shipped designs") + with_materials(study)};
+    section.blocks = {Paragraph{say("{} data sets each (", study.datasets) +
+                                link("how they were made", study.stamp.study + ".md") +
+                                say("); {}.", tally_words(tally_of(study.rows)))},
+                      table_of(study.rows)};
+    page.sections.push_back(std::move(section));
+  }
+  if (!grids.empty()) page.sections.push_back(grid_section(grids, picture));
+  return page;
+}
+
+}  // namespace recoil

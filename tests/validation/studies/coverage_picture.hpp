@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plot/plot.hpp"
+#include "validation/studies/coverage_study.hpp"
+
+namespace recoil {
+
+/// The rows of a grid as one picture: a row per design in the order of the grid,
+/// for each parameter the share of data sets whose verdict calls it identifiable and a column per
+/// kind of interval. Cells have the measured coverage in percent and are white within two percent
+/// of the level, orange below and blue above, deeper the further away; pale where the verdict
+/// warned in nine data sets of ten.
+/// @param level of the intervals [1]
+/// @param remark stands under the picture: where the design comes from
+plot::Picture coverage_picture(const std::vector<ParameterCoverage>& rows, double level,
+                               const std::string& title, const std::string& remark);
+
+/// That of one study of a grid.
+plot::Picture coverage_picture(const CoverageStudy& study);
+
+/// The colour of a cell [#rrggbb]: `share` and `level` in [0, 1].
+std::string coverage_colour(double share, double level);
+
+}  // namespace recoil

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "coverage/coverage.hpp"
+#include "data/dataset.hpp"
+#include "validation/studies/coverage_grid.hpp"
+#include "validation/studies/study_stamp.hpp"
+
+namespace recoil {
+
+/// How often one kind of interval of one parameter in one design contained the truth. Counts are
+/// missing where an older table kept only the share.
+struct IntervalCoverage {
+  std::string interval;                     ///< "recommended", "profile", ...
+  std::optional<int> offered;               ///< data sets in which there was such an interval
+  std::optional<int> contained;             ///< of those
+  std::optional<int> offered_identifiable;  ///< the same where the verdict called it identifiable
+  std::optional<int> contained_identifiable;
+  std::optional<double> stated_share;         ///< where the counts are missing
+  std::optional<double> relative_width = {};  ///< median width over the truth
+
+  std::optional<double> share() const;
+  std::optional<double> share_identifiable() const;
+};
+
+/// One row of the study: one parameter in one design.
+struct ParameterCoverage {
+  std::string design;     ///< "n20 equal stated f0-fixed captures", or the id of a fit
+  std::string parameter;  ///< "C_A", "V*(4.9 um)"
+  std::string unit;
+  std::optional<double> truth;           ///< [unit]
+  int usable = 0;                        ///< data sets whose fit gave an answer
+  int identifiable = 0;                  ///< of those, where the verdict called it identifiable
+  std::optional<double> relative_width;  ///< median width of the recommended interval over truth
+  std::optional<double> actual_error;    ///< of the estimate over its scale, see CoverageRow
+  std::vector<IntervalCoverage> intervals;
+
+  const IntervalCoverage* find(std::string_view interval) const;
+  /// @pre there is one, as in every row that a study makes
+  const IntervalCoverage& recommended() const;
+  double share_identifiable() const;  ///< of the usable data sets
+};
+
+/// How a row stands to what a 95 % interval promises, over all data sets.
+enum class CoverageVerdict {
+  nominal,         ///< within `least_nominal` and `most_nominal`
+  nominal_warned,  ///< so, and the verdict warned in most data sets
+  warned,          ///< not so, but the verdict warned in most data sets
+  too_narrow,
+  too_wide
+};
+template <>
+struct NamesOf<CoverageVerdict> {
+  static constexpr std::array<std::string_view, 5> names = {"nominal", "nominal, warned", "warned",
+                                                            "too narrow", "too wide"};
+};
+inline constexpr double least_nominal = 0.93, most_nominal = 0.97;
+inline constexpr double least_warned = 0.90;  ///< share of the data sets
+
+CoverageVerdict verdict_of(const ParameterCoverage& row);
+
+/// Do the estimates of a parameter scatter by more than those of an identifiable one may
+/// (`widest_error`)? Not asked of a capture velocity, which has no such verdict.
+bool scatters_too_much(const ParameterCoverage& row);
+
+/// Is such a parameter called identifiable in more than `most_misled` of the data sets?
+bool misleads(const ParameterCoverage& row);
+inline constexpr double most_misled = 0.05;
+
+/// Many designs, of the grid or of fits.
+struct CoverageStudy {
+  struct Design {
+    std::string id;
+    TruthOrigin truth = TruthOrigin::estimate;
+    std::optional<int> fits_failed;
+    std::optional<int> refits_failed;
+  };
+  struct Source {
+    std::string id;
+    Provenance provenance = Provenance::reconstruction;
+  };
+  StudyStamp stamp;
+  std::string grid_of;  ///< the fit whose system a grid has; empty: the designs are those of fits
+  /// Are the constants of the materials those that are stated, for the truth and for the fits?
+  /// Otherwise every data set has its own, drawn from their errors, and the fits know the errors.
+  bool exact_materials = false;
+  int datasets = 0;  ///< per design
+  int replicates = 0;
+  std::uint64_t seed = 0;
+  double level = 0.0;
+  std::vector<Design> designs;
+  std::vector<Source> sources;  ///< datasets that the designs are made from
+  std::vector<ParameterCoverage> rows;
+};
+
+std::string coverage_study_json(const CoverageStudy& study);
+/// @throws InputError when `file` is not the JSON of such a study
+CoverageStudy read_coverage_study(const std::filesystem::path& file);
+
+/// Measures every design in turn. A finished one is kept as a file in `kept` (unless that is empty)
+/// and taken from there by the next run, so that a stopped study goes on.
+CoverageStudy measure_grid(const FitSpec& spec, const Dataset& base,
+                           const std::vector<GridDesign>& designs, const CoverageOptions& options,
+                           const std::filesystem::path& kept);
+
+/// The design of one fit, with which a study of several begins or goes on; kept as those of a grid.
+void add_design(CoverageStudy& study, const FitSpec& spec, const std::vector<Dataset>& datasets,
+                const CoverageOptions& options, const std::filesystem::path& kept);
+
+}  // namespace recoil

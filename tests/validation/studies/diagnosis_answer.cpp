@@ -1,0 +1,283 @@
+#include "validation/studies/diagnosis_answer.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "core/files.hpp"
+#include "core/json.hpp"
+#include "validation/studies/hidden_effects_plan.hpp"
+#include "validation/studies/program_run.hpp"
+#include "validation/synthetic/case_files.hpp"
+
+namespace hidden {
+namespace {
+
+using recoil::Json;
+
+namespace fs = std::filesystem;
+
+fs::path kept_file(const CaseOrder& order, const fs::path& keep) {
+  return keep / (neutral_name(order) + ".json");
+}
+
+/// Of `candidates` (the best first), the first that explains the data and those behind it that are
+/// possible.
+std::vector<Contender> contenders_of(const Json& candidates) {
+  constexpr double far_behind = 30.0;
+  std::vector<Contender> found;
+  double best = 0.0;
+  for (const Json& c : candidates) {
+    const double criterion = c.at("delta_aicc");
+    const bool possible = c.at("plausible") && c.at("kind") != "description" && criterion < 0.0;
+    if (found.empty() && c.at("aside").is_null()) best = criterion;
+    if (found.empty() ? c.at("aside").is_null() : possible && criterion < best + far_behind) {
+      found.push_back({c.at("id"), criterion - best});
+    }
+  }
+  return found;
+}
+
+/// The first of what the answer advises to do next; of no events where it advises nothing.
+FurtherImpacts advice_of(const Json& answer) {
+  FurtherImpacts further;
+  const Json& all = answer.at("next_experiment");
+  if (all.empty()) return further;
+  const Json& first = all.front();
+  further.diameter = 1e-6 * first.at("diameter_um").get<double>();
+  further.velocity = first.at("incident_velocity");
+  further.events = first.at("events");
+  if (first.at("kind") == "condition") {
+    further.changed = {first.at("condition"), first.at("value")};
+  } else if (first.at("kind") == "target") {
+    const Json& target = first.at("target");
+    further.target = {target.at("material"), target.at("youngs_modulus"),
+                      target.at("poisson_ratio"), target.at("density")};
+    for (const Json& place : first.at("points")) {
+      further.places.push_back({1e-6 * place.at("diameter_um").get<double>(),
+                                place.at("incident_velocity"), place.at("events")});
+    }
+  }
+  return further;
+}
+
+void count_odd_points(const Case& made, const Json& answer, Answered& a) {
+  std::set<std::size_t> aside;
+  for (const Json& point : answer.at("outlying_points")) {
+    aside.insert(point.at("row").get<std::size_t>() -
+                 2);  // lines count from 1, the first is a header
+  }
+  a.odd = a.odd_found = a.right = a.accused = 0;
+  for (std::size_t i = 0; i < made.odd.size(); ++i) {
+    const int listed = aside.contains(i) ? 1 : 0;
+    (made.odd[i] ? a.odd : a.right) += 1;
+    (made.odd[i] ? a.odd_found : a.accused) += listed;
+  }
+}
+
+/// @return what the answer advises to do next
+FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
+  const ScratchFolder scratch;
+  const fs::path fit = write_case(made, scratch.path());
+  const fs::path out = scratch.path() / "answer";
+  const ProgramRun run = run_program({binary.string(), "diagnose", fit.string(), "--out",
+                                      out.string(), "--threads", "1", "--seed", "20260101"});
+  a.status = run.status;
+  a.seconds += run.seconds;
+  if (run.status != 0) {
+    a.complaint = run.complaint.substr(0, 400);
+    return {};
+  }
+  std::ifstream in(out / "diagnosis.json");
+  const Json answer = Json::parse(in);
+  a.verdict = answer.at("verdict");
+  a.p_value = answer.at("misfit").at("p_value");
+  a.named = answer.at("named").get<std::vector<std::string>>();
+  a.rivals = answer.at("rivals").get<std::vector<std::string>>();
+  a.resembles = answer.at("resembles").get<std::vector<std::string>>();
+  a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
+  a.shared_cause = answer.at("shared_cause").is_string() ? answer["shared_cause"] : "";
+  a.errors_told = false;
+  for (const auto& errors : answer.at("unstated_errors")) {
+    a.errors_told = a.errors_told || errors.at("rival").get<bool>();
+  }
+  count_odd_points(made, answer, a);
+  a.contenders = contenders_of(answer.at("candidates"));
+  return advice_of(answer);
+}
+
+/// Asks, and does what is advised, until a cause is certain or nothing is advised.
+void diagnose_in_rounds(Case made, const fs::path& binary, Answered& a) {
+  FurtherImpacts further = diagnose(made, binary, a);
+  while (a.rounds < a.order.rounds && a.verdict == "not_separable" && a.shared_cause.empty() &&
+         further.events > 0) {
+    take_further(made, further, static_cast<std::uint64_t>(a.rounds));
+    ++a.rounds;
+    a.events += further.events;
+    a.taken.push_back(further);
+    further = diagnose(made, binary, a);
+  }
+}
+
+}  // namespace
+
+Json json_of(const Answered& a) {
+  Json taken = Json::array();
+  for (const FurtherImpacts& f : a.taken) {
+    taken.push_back({{"diameter_um", 1e6 * f.diameter},
+                     {"incident_velocity", f.velocity},
+                     {"events", f.events},
+                     {"changed", f.changed.name},
+                     {"target", f.target.material}});
+  }
+  Json contenders = Json::array();
+  for (const Contender& c : a.contenders) contenders.push_back({c.id, c.behind});
+  return {{"key", a.order.key()},
+          {"design", a.order.design},
+          {"effects", a.order.effects},
+          {"wanted_signal_to_noise", a.order.signal_to_noise},
+          {"index", a.order.index},
+          {"seed", a.order.seed},
+          {"law_bend", a.order.law_bend},
+          {"base_bend", a.order.base_bend},
+          {"beyond", a.order.beyond},
+          {"other_law", a.order.other_law},
+          {"circumstances", recoil::to_string(a.order.circumstances)},
+          {"most_rounds", a.order.rounds},
+          {"readout", recoil::to_string(a.order.readout)},
+          {"rounds", a.rounds},
+          {"events", a.events},
+          {"taken", taken},
+          {"reached", a.reached},
+          {"signal_to_noise", a.signal_to_noise},
+          {"status", a.status},
+          {"complaint", a.complaint},
+          {"seconds", a.seconds},
+          {"verdict", a.verdict},
+          {"p_value", a.p_value},
+          {"named", a.named},
+          {"rivals", a.rivals},
+          {"resembles", a.resembles},
+          {"certain", a.certain},
+          {"shared_cause", a.shared_cause},
+          {"errors_told", a.errors_told},
+          {"odd_points", {a.odd, a.odd_found, a.right, a.accused}},
+          {"contenders", contenders},
+          {"nearest_rival", a.nearest_rival.id},
+          {"nearest_rival_misfit", a.nearest_rival.misfit}};
+}
+
+Answered answered_of(const Json& json) {
+  Answered a;
+  a.order = {json.at("design"),
+             json.at("effects").get<std::vector<std::string>>(),
+             json.at("wanted_signal_to_noise"),
+             json.at("index"),
+             json.at("seed"),
+             json.at("law_bend"),
+             json.at("base_bend"),
+             json.at("beyond"),
+             recoil::value_named<Circumstances>(json.value("circumstances", "unstated"))
+                 .value_or(Circumstances::unstated),
+             json.value("other_law", false),
+             json.value("most_rounds", 0),
+             recoil::value_named<Readout>(json.value("readout", "exact")).value_or(Readout::exact)};
+  a.rounds = json.value("rounds", 0);
+  a.events = json.value("events", 0LL);
+  for (const Json& f : json.value("taken", Json::array())) {
+    a.taken.push_back({1e-6 * f.at("diameter_um").get<double>(),
+                       f.at("incident_velocity"),
+                       f.at("events"),
+                       {f.at("changed"), 0.0},
+                       {f.value("target", ""), 0.0, 0.0, 0.0},
+                       {}});
+  }
+  a.reached = json.at("reached");
+  a.signal_to_noise = json.at("signal_to_noise");
+  a.status = json.at("status");
+  a.complaint = json.at("complaint");
+  a.seconds = json.at("seconds");
+  a.verdict = json.at("verdict");
+  a.p_value = json.at("p_value");
+  a.named = json.at("named").get<std::vector<std::string>>();
+  a.rivals = json.at("rivals").get<std::vector<std::string>>();
+  a.resembles = json.at("resembles").get<std::vector<std::string>>();
+  a.certain = json.at("certain").get<std::vector<std::string>>();
+  a.shared_cause = json.at("shared_cause");
+  a.errors_told = json.at("errors_told");
+  const auto odd = json.value("odd_points", std::vector<int>(4, 0));
+  a.odd = odd.at(0);
+  a.odd_found = odd.at(1);
+  a.right = odd.at(2);
+  a.accused = odd.at(3);
+  for (const Json& c : json.at("contenders")) a.contenders.push_back({c.at(0), c.at(1)});
+  a.nearest_rival = {json.at("nearest_rival"), json.at("nearest_rival_misfit")};
+  return a;
+}
+
+Mark mark_of(const Answered& a) {
+  if (a.status != 0) return Mark::failed;
+  if (a.verdict == "adequate") return Mark::nothing;
+  const std::set<std::string> truth(a.order.effects.begin(), a.order.effects.end());
+  if (a.verdict == "unexplained") {
+    const bool recognised = std::any_of(a.resembles.begin(), a.resembles.end(),
+                                        [&](const auto& id) { return truth.contains(id); });
+    return recognised ? Mark::resembled : Mark::unexplained;
+  }
+  const std::set<std::string> named(a.named.begin(), a.named.end());
+  std::set<std::string> listed = named;
+  listed.insert(a.rivals.begin(), a.rivals.end());
+  const auto within = [](const std::set<std::string>& part, const std::set<std::string>& whole) {
+    return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
+  };
+  if (a.verdict == "not_separable") {
+    return !truth.empty() && within(truth, listed) ? Mark::inside : Mark::outside;
+  }
+  if (named == truth) return Mark::named;
+  return within(named, truth) ? Mark::part : Mark::wrong;
+}
+
+Mark mark_with_margin(const Answered& answered, double margin) {
+  if (answered.contenders.empty()) return mark_of(answered);
+  Answered other = answered;
+  other.named.clear();
+  other.rivals.clear();
+  for (const Contender& c : answered.contenders) {
+    if (c.behind <= margin) other.rivals.push_back(c.id);
+  }
+  other.verdict = other.rivals.size() == 1 ? "cause_named" : "not_separable";
+  if (other.rivals.size() == 1) std::swap(other.named, other.rivals);
+  return mark_of(other);
+}
+
+std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep) {
+  if (keep.empty()) return {};
+  std::ifstream in(kept_file(order, keep));
+  const Json kept = in ? Json::parse(in, nullptr, false) : Json();
+  if (!kept.is_object() || kept.value("key", "") != order.key() ||
+      kept.value("seed", std::uint64_t{0}) != order.seed) {
+    return {};
+  }
+  return answered_of(kept);
+}
+
+Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep) {
+  if (const std::optional<Answered> kept = kept_answer(order, keep)) return *kept;
+  Answered a;
+  a.order = order;
+  const Case made = make_case(order);
+  a.reached = made.reached;
+  a.signal_to_noise = made.refit.signal_to_noise;
+  if (made.reached) diagnose_in_rounds(made, binary, a);
+  if (made.reached && arm_of(order) == Arm::effect && order.signal_to_noise >= visible) {
+    a.nearest_rival = nearest_rival(made, binary);
+  }
+  // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
+  const bool answered = a.status >= 0 && a.status < 128;
+  if (!keep.empty() && answered) {
+    recoil::write_whole_file(kept_file(order, keep), json_of(a).dump(2) + "\n");
+  }
+  return a;
+}
+
+}  // namespace hidden

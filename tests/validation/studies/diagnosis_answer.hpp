@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/names.hpp"
+#include "validation/studies/nearest_rival.hpp"
+#include "validation/synthetic/further_impacts.hpp"
+
+namespace hidden {
+
+/// A single mechanism that could be the answer.
+struct Contender {
+  std::string id;
+  double behind = 0.0;  ///< the best explanation, in AICc
+};
+
+/// What the diagnosis of one case answered, beside what is true.
+struct Answered {
+  CaseOrder order;
+  bool reached = false;  ///< the wanted strength exists in nature; if not, nothing was asked
+  double signal_to_noise = 0.0;  ///< of all effects together; the largest possible if not reached
+  int status = 0;                ///< of the command
+  std::string complaint;         ///< when that is not 0
+  double seconds = 0.0;
+  int rounds = 0;        ///< of further impacts that were taken
+  long long events = 0;  ///< how many those were
+  std::vector<FurtherImpacts> taken;
+  std::string verdict;
+  double p_value = 1.0;
+  std::vector<std::string> named;
+  std::vector<std::string> rivals;
+  std::vector<std::string> resembles;  ///< what fits best and cannot be true
+  std::vector<std::string> certain;    ///< of the rivals, those in every explanation
+  std::string shared_cause;            ///< of which all rivals are laws
+  int odd = 0;               ///< points that are misread by more than 5 standard deviations,
+  int odd_found = 0;         ///< of these, set aside by the answer,
+  int right = 0;             ///< the others,
+  int accused = 0;           ///< and of them
+  bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
+  /// The best explanation by one mechanism and what comes within 30 of it; empty without one.
+  std::vector<Contender> contenders;
+  NearestRival
+      nearest_rival;  ///< for one visible effect of the catalogue in a design of several diameters
+};
+
+nlohmann::ordered_json json_of(const Answered& answered);
+/// @throws nlohmann::json::exception when something is missing
+Answered answered_of(const nlohmann::ordered_json& json);
+
+/// How an answer stands to the truth.
+enum class Mark {
+  nothing,      ///< `adequate`
+  unexplained,  ///< `unexplained`
+  resembled,    ///< the same, but the shape of what is hidden is recognised
+  named,        ///< all that is hidden is named, and nothing else
+  part,         ///< one of several is named, and nothing else
+  wrong,        ///< something is named that is not there
+  inside,       ///< `not_separable`, and all that is hidden is among what is listed
+  outside,      ///< `not_separable`, but what is hidden is not listed
+  failed,       ///< the command gave no answer
+};
+Mark mark_of(const Answered& answered);
+
+/// The same had the diagnosis taken all causes within `margin` of the best for its rivals: for one
+/// hidden effect in a design of several diameters.
+Mark mark_with_margin(const Answered& answered, double margin);
+
+/// The answer that an earlier run left in `keep`.
+std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesystem::path& keep);
+
+/// Makes the case in a scratch folder, lets `binary` diagnose it on one thread, and keeps the
+/// answer in `keep` (when not empty), where the next run finds it.
+Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
+             const std::filesystem::path& keep);
+
+}  // namespace hidden
+
+template <>
+struct recoil::NamesOf<hidden::Mark> {
+  static constexpr std::array<std::string_view, 9> names = {"adequate",
+                                                            "unexplained",
+                                                            "unexplained, shape recognised",
+                                                            "named",
+                                                            "one of several named",
+                                                            "wrong cause named",
+                                                            "not separable, listed",
+                                                            "not separable, not listed",
+                                                            "no answer"};
+};

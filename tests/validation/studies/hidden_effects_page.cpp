@@ -1,0 +1,448 @@
+#include "validation/studies/hidden_effects_page.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/statistics.hpp"
+
+namespace hidden {
+namespace {
+
+using recoil::Block;
+using recoil::Cell;
+using recoil::code;
+using recoil::List;
+using recoil::Paragraph;
+using recoil::say;
+using recoil::Section;
+using recoil::Sentence;
+using recoil::strong;
+using recoil::Table;
+
+/// "83 % (73 to 91), 58 of 70": with the 95 % limits of the share.
+Sentence share(const Count& count) {
+  if (count.n == 0) return "none";
+  const recoil::ShareLimits limits = recoil::share_limits(count.k, count.n);
+  return fmt::format("{:.0f} % ({:.0f} to {:.0f}), {} of {}", 100.0 * count.k / count.n,
+                     100.0 * limits.lower, 100.0 * limits.upper, count.k, count.n);
+}
+
+Sentence bar_words(Bar bar) {
+  switch (bar) {
+    case Bar::named:
+      return "visible effect named outright";
+    case Bar::separable_named:
+      return say("the same, where the nearest other cause leaves a misfit of {:g} or more",
+                 separable);
+    case Bar::named_or_law:
+      return "visible effect named, or the cause of which it and all its rivals are laws";
+    case Bar::listed:
+      return "visible effect among named and rivals";
+    case Bar::wrong:
+      return "wrong cause named, or one shared by laws among which it is not";
+    case Bar::false_alarm:
+      return "false alarms, nothing hidden";
+    case Bar::outside_unexplained:
+      return "outside effect called unexplained";
+    case Bar::unstated_named:
+      return "errors that nobody stated: a cause named";
+    case Bar::unstated_told:
+      return "the same, where structure is seen: told that such errors would explain it";
+    case Bar::single_diameter:
+      return "one diameter: answered by not_separable";
+    case Bar::unseen:
+      return "visible effect called adequate";
+    case Bar::bent_listed:
+      return "law bent by 10 %: among named and rivals, or its shape recognised";
+    case Bar::bent_wrong:
+      return "law bent by 10 %: wrong cause named";
+    case Bar::bent_unexplained:
+      return "law bent by 10 %: unexplained";
+    case Bar::other_listed:
+      return "made by another published law: among named and rivals, or its shape recognised";
+    case Bar::other_wrong:
+      return "made by another published law, dry ones beside adhesion included: wrong cause named";
+    case Bar::other_unexplained:
+      return "made by another published law: unexplained";
+    case Bar::other_unseen:
+      return "made by another published law: called adequate";
+    case Bar::base_alarm:
+      return "nothing hidden, losses of the base model bent by 3 %: alarms";
+    case Bar::impossible_named:
+      return "effect of impossible size: a cause named";
+    case Bar::loop_named:
+      return "after doing what the answer advises, three times at most: named, or the cause told";
+    case Bar::loop_wrong:
+      return "the same: a wrong cause named or told";
+    case Bar::dropped_listed:
+      return "drops of spheres of millimetres: among named and rivals";
+    case Bar::dropped_wrong:
+      return "the same: wrong cause named";
+    case Bar::settings_named:
+      return "heights set wrong: a cause named";
+    case Bar::rounded_named:
+      return "drops read to a finite step, nothing hidden: a cause named";
+    case Bar::rounded_listed:
+      return "the same with an effect: among named and rivals, or its shape recognised";
+    case Bar::rounded_wrong:
+      return "the same: wrong cause named";
+    case Bar::odd_named:
+      return "a few points misread: a cause named";
+    case Bar::odd_found:
+      return "points misread by more than 5 standard deviations: set aside";
+    case Bar::odd_accused:
+      return "the points beside them: set aside";
+  }
+  return "";
+}
+
+Table bars_table(const StudyTally& tally) {
+  Table table;
+  table.columns = {
+      {"bar", {}, true}, {"wanted"}, {"found (95 % interval)", {}, true}, {"verdict", {}, true}};
+  for (const auto& [bar, count] : tally.bars) {
+    const Wanted wanted = wanted_of(bar);
+    const double part = count.n == 0 ? 0.0 : static_cast<double>(count.k) / count.n;
+    const bool reached = wanted.at_least ? part >= wanted.share : part <= wanted.share;
+    table.rows.push_back(
+        {bar_words(bar),
+         Sentence(fmt::format("{} {:.0f} %", wanted.at_least ? "≥" : "≤", 100.0 * wanted.share)),
+         share(count),
+         count.n == 0 ? Sentence("not studied")
+         : reached    ? Sentence("reached")
+                      : strong("missed")});
+  }
+  return table;
+}
+
+std::string listed(const std::map<std::string, int>& counts) {
+  std::string words;
+  for (const auto& [name, n] : counts) {
+    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", name, n);
+  }
+  return words;
+}
+
+using MarkColumn = std::pair<const char*, Mark>;
+constexpr std::array<MarkColumn, 9> mark_columns = {{{"named", Mark::named},
+                                                     {"one of several", Mark::part},
+                                                     {"listed", Mark::inside},
+                                                     {"wrong", Mark::wrong},
+                                                     {"not listed", Mark::outside},
+                                                     {"unexplained", Mark::unexplained},
+                                                     {"resembles", Mark::resembled},
+                                                     {"adequate", Mark::nothing},
+                                                     {"no answer", Mark::failed}}};
+
+/// All effects of an arm together: shares of the data sets of one strength.
+Table strength_table(const StudyTally& tally, Arm arm) {
+  std::map<double, std::map<Mark, int>> sums;
+  std::map<double, int> counts;
+  for (const PowerRow& row : tally.powers) {
+    if (row.arm != arm) continue;
+    for (const auto& [mark, count] : row.marks) sums[row.signal_to_noise][mark] += count;
+    counts[row.signal_to_noise] += row.n;
+  }
+  Table table;
+  table.columns = {{"snr"}};
+  for (const MarkColumn& column : mark_columns) table.columns.push_back({column.first});
+  table.columns.push_back({"n"});
+  for (auto& [strength, sum] : sums) {
+    std::vector<Cell> cells = {Sentence(fmt::format("{:g}", strength))};
+    for (const MarkColumn& column : mark_columns) {
+      cells.push_back(
+          Sentence(fmt::format("{:.0f} %", 100.0 * sum[column.second] / counts[strength])));
+    }
+    cells.push_back(Sentence(std::to_string(counts[strength])));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+Table power_table(const StudyTally& tally, Arm arm) {
+  Table table;
+  table.columns = {{"hidden", {}, true}, {"designs", {}, true}, {"snr"}};
+  for (const MarkColumn& column : mark_columns) table.columns.push_back({column.first});
+  table.columns.push_back({"n"});
+  for (const PowerRow& row : tally.powers) {
+    if (row.arm != arm) continue;
+    std::vector<Cell> cells = {Sentence(row.hidden), Sentence(listed(row.designs)),
+                               Sentence(fmt::format("{:g}", row.signal_to_noise))};
+    for (const MarkColumn& column : mark_columns) {
+      const auto found = row.marks.find(column.second);
+      cells.push_back(found == row.marks.end() || found->second == 0
+                          ? Cell(Sentence())
+                          : Cell(Sentence(std::to_string(found->second))));
+    }
+    cells.push_back(Sentence(std::to_string(row.n)));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+Table rivals_table(const StudyTally& tally) {
+  Table table;
+  table.columns = {{"hidden", {}, true},
+                   {"snr"},
+                   {"nearest other cause", {}, true},
+                   {"misfit it leaves: least, median"}};
+  for (const RivalRow& row : tally.rivals) {
+    table.rows.push_back({Sentence(row.hidden), Sentence(fmt::format("{:g}", row.signal_to_noise)),
+                          Sentence(listed(row.rivals)),
+                          Sentence(fmt::format("{:.1f}, {:.1f}", row.least, row.median))});
+  }
+  return table;
+}
+
+std::vector<Block> margins_blocks(const StudyTally& tally) {
+  Table table;
+  table.columns = {{"rivals within"},
+                   {"named outright", {}, true},
+                   {"wrong cause named", {}, true},
+                   {"among named and rivals", {}, true}};
+  std::vector<std::string> both;
+  for (const MarginRow& row : tally.margins) {
+    table.rows.push_back({Sentence(fmt::format("{:g}", row.margin)), share({row.named, row.n}),
+                          share({row.wrong, row.n}), share({row.listed, row.n})});
+    if (row.named >= 0.8 * row.n && row.wrong <= 0.05 * row.n) {
+      both.push_back(fmt::format("{:g}", row.margin));
+    }
+  }
+  return {
+      Paragraph{"Causes whose criteria (AICc) differ by less than 4 are called rivals. The same "
+                "answers under other rules, visible effects in designs of several diameters; at 0 "
+                "the best explanation is always named. Here the limits of what is possible are "
+                "taken as sharp; the bars above are those of the diagnosis, where a candidate just "
+                "beyond them prevents a name:"},
+      table,
+      Paragraph{both.empty() ? Sentence("No threshold names 80 % outright with at most 5 % wrong.")
+                             : say("80 % named outright with at most 5 % wrong: at {}.",
+                                   fmt::format("{}", fmt::join(both, ", ")))}};
+}
+
+Table confusion_table(const Confusion& confusion) {
+  Table table;
+  table.columns = {{"hidden \\ answered", {}, true}};
+  for (const std::string& column : confusion.columns) table.columns.push_back({column});
+  for (std::size_t r = 0; r < confusion.rows.size(); ++r) {
+    std::vector<Cell> cells = {Sentence(confusion.rows[r])};
+    for (const int n : confusion.counts[r]) {
+      cells.push_back(Sentence(n == 0 ? std::string() : std::to_string(n)));
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+Table alarms_table(const StudyTally& tally) {
+  Table table;
+  table.columns = {
+      {"design", {}, true}, {"verdict other than adequate", {}, true}, {"p below 5 %", {}, true}};
+  for (const AlarmRow& row : tally.alarms) {
+    table.rows.push_back({Sentence(row.design), share(row.alarms), share(row.low_p)});
+  }
+  return table;
+}
+
+Table unreached_table(const StudyTally& tally) {
+  Table table;
+  table.columns = {{"effect", {}, true},
+                   {"design", {}, true},
+                   {"data sets not made, by wanted snr", {}, true},
+                   {"largest snr met"}};
+  for (const UnreachedRow& row : tally.unreached) {
+    std::string list;
+    for (const auto& [strength, n] : row.not_made) {
+      list += fmt::format("{}{:g}: {}", list.empty() ? "" : ", ", strength, n);
+    }
+    table.rows.push_back({Sentence(row.hidden), Sentence(row.design), Sentence(list),
+                          Sentence(fmt::format("{:.1f}", row.largest))});
+  }
+  return table;
+}
+
+Sentence careless_words(const StudyTally& tally) {
+  const auto told = tally.bars.find(Bar::unstated_told);
+  return say(
+      "Nothing hidden, but the printed velocities are 3 % off, each by itself ({}), or the stated "
+      "standard deviations are two thirds of the true ones ({}). To name a cause would be wrong; "
+      "{} with a remark on such errors is right. The remark was there in {} of those in which "
+      "structure was seen; of the visible effects of the catalogue, where it would mislead, in {}.",
+      code("velocities"), code("deviations"), code("unexplained"),
+      share(told == tally.bars.end() ? Count{} : told->second), share(tally.errors_told_astray));
+}
+
+Sentence missed_words(const StudyTally& tally) {
+  return say(
+      "Of the {} visible effects that were not named outright, {} have a neighbour in the "
+      "catalogue that leaves a misfit below {:g} with all its parameters fitted (a table follows); "
+      "in {} of these all that is listed are laws of one cause ({}: JKR's work, hysteresis per "
+      "area and crack rate are adhesion hysteresis; spreads of size and of adhesion are unequal "
+      "impacts averaged in one point), which is then told by name.",
+      tally.not_named, tally.alike, separable, tally.told_by_cause, code("shared_cause"));
+}
+
+std::vector<Block> foreword(const StudyTally& tally) {
+  Sentence made = say("Seed {}; {} data sets, {} of them made.", static_cast<long long>(tally.seed),
+                      tally.tried, tally.made);
+  if (tally.tried < tally.planned) {
+    made += Sentence(" ") + strong(fmt::format("{} were planned", tally.planned)) +
+            Sentence(
+                ": the study was ended before the others were tried. They stood in shuffled "
+                "order, so that those that were tried are a fair sample of all.");
+  }
+  std::vector<Block> blocks = {
+      Paragraph{
+          say("Data in which an effect is hidden, made by separate physics ({}: the contact in "
+              "time with explicit forces, 40 or 100 noisy events per point, values printed as in a "
+              "table's columns), and diagnosed by the built command, which sees the dataset folder "
+              "and a fit file. Strength is the signal-to-noise of the misfit that is left when the "
+              "base model has been refitted, sqrt(sum ((e - e_base) / sd)^2) on data without "
+              "noise; from {:g} on it counts as visible. Designs: {} 4 diameters x 15 velocities, "
+              "{} 4 x 2 batches x 8, {} 4 x 15 steel spheres, and with one diameter {} 1 x 15 and "
+              "{} 1 x 20; {} are 3 x 5 heights x 4 drops. Every strength lies within what nature "
+              "or a careful experimenter has; "
+              "what would need more is not made, and listed at the end.",
+              code("src/studies/synthetic"), visible, code("wall"), code("wall-batches"),
+              code("li"), code("wall-one"), code("dahneke"), code("drops"))},
+      Paragraph{made}};
+  recoil::append(blocks, recoil::stamp_blocks(tally.stamp));
+  return blocks;
+}
+
+Sentence times_words(const std::optional<Times>& times) {
+  if (!times) return "No diagnosis was made.";
+  return say(
+      "One diagnosis on one thread, others at work beside it: median {:.1f} s, nine of ten below "
+      "{:.1f} s, longest {:.1f} s; {} diagnoses.",
+      times->median, times->nine_of_ten, times->longest, times->n);
+}
+
+Sentence loop_words(const StudyTally& tally) {
+  const LoopEffort effort = tally.loop.value_or(LoopEffort{});
+  return say(
+      "Where no cause is certain, the first of {} is done, simulated by the hidden truth with the "
+      "same noise per impact, and all points are diagnosed again. {} were told at once; {} after "
+      "further impacts, {:g} in the median, in {:g} rounds.",
+      code("next_experiment"), effort.at_once, effort.n, effort.median_events,
+      effort.median_rounds);
+}
+
+Block complaints_block(const StudyTally& tally) {
+  if (tally.complaints.empty()) return Paragraph{"Every diagnosis gave an answer."};
+  List list;
+  for (const std::string& complaint : tally.complaints) list.entries.push_back(code(complaint));
+  return list;
+}
+
+}  // namespace
+
+recoil::Document hidden_effects_page(const StudyTally& tally) {
+  recoil::Document page;
+  page.heading = "Hidden effects: what the diagnosis finds";
+  page.foreword = foreword(tally);
+  const auto section = [&page](Sentence title, std::vector<Block> blocks) {
+    Section made;
+    made.title = std::move(title);
+    made.blocks = std::move(blocks);
+    page.sections.push_back(std::move(made));
+  };
+  recoil::Figure figure;
+  figure.id = "hidden-effects";
+  figure.caption = "Power and confusion";
+  section("The bars",
+          {Paragraph{"Designs with several diameters, snr 10 and more, unless said otherwise."},
+           bars_table(tally), Paragraph{missed_words(tally)}, recoil::Figures{{figure}},
+           Paragraph{say(
+               "Whether an effect can be named at all depends on its neighbours in the catalogue: "
+               "{} and {} (a charge that grows as d²) take the same from v² at every velocity and "
+               "size, and no data on one target tell them apart. So the other mechanisms were "
+               "fitted to each visible case without noise; the nearest one leaves the misfit "
+               "stated here, and where that is small an honest answer lists both. (The spreads of "
+               "size and of adhesion, slow to fit, were tried on one another and on what else "
+               "happens near capture.)",
+               code("probe_plane"), code("electrostatic_image"))},
+           rivals_table(tally)});
+  section("The threshold", margins_blocks(tally));
+  // A study of some arms only says nothing of the others.
+  const auto arms_section = [&](Sentence title, std::vector<Block> blocks,
+                                std::initializer_list<Arm> arms) {
+    const std::size_t words = blocks.size();
+    for (const Arm arm : arms) {
+      Table table = power_table(tally, arm);
+      if (!table.rows.empty()) blocks.emplace_back(std::move(table));
+    }
+    if (blocks.size() > words) section(std::move(title), std::move(blocks));
+  };
+  section(
+      "What the errors of the laws cost",
+      {Paragraph{"The losses of the base model are allowed an error of 3 %, and every law one of "
+                 "10 % of its effect, so that a misfit which such errors could make is not "
+                 "reported. All effects together, by strength; the laws were exact here:"},
+       strength_table(tally, Arm::effect)});
+  arms_section("Power against strength, effect by effect", {}, {Arm::effect});
+  arms_section(
+      "Laws that are wrong by some per cent",
+      {Paragraph{"What the effect does to e² is multiplied by a smooth random factor of V and d, "
+                 "first of 10 %, then of 20 %."}},
+      {Arm::bent, Arm::bent_more});
+  arms_section(
+      "Made by another published law",
+      {Paragraph{"Yielding by Jackson, Green & Marghitu (2010), losses in the bulk to second "
+                 "order by Ramirez et al. (1999), the thin plate by Boettcher et al. "
+                 "(2017), the film of gas to leading order by Barnocky & Davis (1988)."}},
+      {Arm::other_law});
+  arms_section(
+      "Laws of dry contacts beside adhesion",
+      {Paragraph{
+          "The same laws of yielding, of the bulk and of the plate, where adhesion holds the "
+          "spheres as well. Dahneke's balance of energies joins the two, which is good far "
+          "above capture only: a test of what is said where no law of the catalogue is near."}},
+      {Arm::other_adhesive});
+  arms_section("Effects of impossible size",
+               {Paragraph{"At three times the largest strength that nature or a careful "
+                          "experimenter still has."}},
+               {Arm::impossible});
+  arms_section("Doing what the answer advises", {Paragraph{loop_words(tally)}}, {Arm::loop});
+  arms_section("A condition is known",
+               {Paragraph{"First what the effect depends on is stated for all points (the pressure "
+                          "of the gas, the thickness of the plate); then nothing of that, but the "
+                          "whole experiment is made again under a change that takes the effect "
+                          "away, which the points state."}},
+               {Arm::stated, Arm::varied});
+  section("Confusion",
+          {Paragraph{say("What was answered (several causes named count once each; {} by whether "
+                         "the truth is listed).",
+                         code("not_separable"))},
+           confusion_table(tally.confusion)});
+  section("Nothing hidden", {alarms_table(tally)});
+  arms_section("Two at once", {Paragraph{"Each as strong as it would be alone."}}, {Arm::pair});
+  arms_section("Effects that are not in the catalogue", {}, {Arm::outside});
+  arms_section("Errors that nobody stated", {Paragraph{careless_words(tally)}}, {Arm::careless});
+  arms_section("Drops of spheres of millimetres",
+               {Paragraph{say("Three diameters of 3 to 12 mm without adhesion, five heights, four "
+                              "drops from each ({}, method stated). First with an effect in them; "
+                              "then with heights that were set wrong by 4 %, each by itself: in "
+                              "every second data set a column names the heights.",
+                              code("drops"))}},
+               {Arm::dropped, Arm::settings});
+  arms_section("Drops that are read to a finite step",
+               {Paragraph{say("Spheres of 3 to 12 mm ({}) and of 12 to 40 mm ({}). Heights of "
+                              "rebounds read to 1 or 5 mm, or times of flight to 1 ms or to frames "
+                              "of a video (240 in a second). The standard deviations of two data "
+                              "sets in four know of the rounding, and in two a column names the "
+                              "settings.",
+                              code("drops"), code("balls"))}},
+               {Arm::rounded});
+  arms_section("A few points are misread",
+               {Paragraph{"Six points in a hundred, by 6 to 15 standard deviations."}}, {Arm::odd});
+  arms_section("One diameter", {}, {Arm::single});
+  section("Time", {Paragraph{times_words(tally.times)}});
+  section("Without an answer", {complaints_block(tally)});
+  section("Too weak in nature to be made", {unreached_table(tally)});
+  return page;
+}
+
+}  // namespace hidden

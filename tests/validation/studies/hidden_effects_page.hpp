@@ -1,0 +1,11 @@
+#pragma once
+
+#include "document/document.hpp"
+#include "plot/plot.hpp"
+#include "validation/studies/hidden_effects_tally.hpp"
+
+namespace hidden {
+
+recoil::Document hidden_effects_page(const StudyTally& tally);
+
+}  // namespace hidden

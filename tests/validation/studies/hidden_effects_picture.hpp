@@ -1,0 +1,11 @@
+#pragma once
+
+#include "plot/plot.hpp"
+#include "validation/studies/hidden_effects_tally.hpp"
+
+namespace hidden {
+
+/// Power against strength, and the confusion matrix, as one picture.
+recoil::plot::Picture hidden_effects_picture(const StudyTally& tally);
+
+}  // namespace hidden

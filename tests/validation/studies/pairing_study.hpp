@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/names.hpp"
+#include "document/document.hpp"
+#include "validation/studies/study_stamp.hpp"
+
+namespace recoil {
+
+enum class PairingTable { crowding, number, instruments };
+template <>
+struct NamesOf<PairingTable> {
+  static constexpr std::array<std::string_view, 3> names = {"crowding", "number", "instruments"};
+};
+
+/// The pairing of one simulated stream beside its truth. Shares in [0, 1], lengths in m.
+struct PairingRow {
+  PairingTable table = PairingTable::crowding;
+  std::string label;         ///< what differs from the usual stream
+  double rate = 0.0;         ///< spheres per second
+  std::size_t events = 0;    ///< rows of the file that can be read
+  std::size_t possible = 0;  ///< first impacts of which both passages are among them
+  std::size_t reported = 0;  ///< pairs
+  double efficiency = 0.0;
+  double purity = 0.0;            ///< both passages of one impact of one sphere
+  double first_purity = 0.0;      ///< and not of a second impact that was not recognised
+  double estimated_purity = 0.0;  ///< as `recoil pair` says itself
+  bool returns_usable = false;    ///< later impacts were recognised
+  double height = 0.0;
+  double height_sd = 0.0;
+  std::optional<double> seconds;  ///< reading and pairing, on one core of some machine
+};
+
+struct PairingStudy {
+  StudyStamp stamp;
+  std::vector<PairingRow> rows;
+};
+
+/// Streams against crowding, against the number of spheres, and with worse instruments.
+PairingStudy study_pairing();
+
+/// What is asked of the pairing at the rates that are taken for the paper's.
+struct PairingBar {
+  static constexpr double highest_rate = 10.0;  ///< [1/s]
+  static constexpr double pure = 0.99;
+  static constexpr double efficient = 0.95;
+  int rows = 0;
+  double worst_purity = 1.0;
+  double worst_first_purity = 1.0;
+  double worst_efficiency = 1.0;
+  std::string least_efficient;
+
+  bool passed() const { return worst_purity >= pure && worst_efficiency >= efficient; }
+};
+PairingBar bar_of(const PairingStudy& study);
+
+std::string pairing_study_json(const PairingStudy& study);
+/// @throws InputError when `file` is not the JSON of such a study
+PairingStudy read_pairing_study(const std::filesystem::path& file);
+Document pairing_page(const PairingStudy& study);
+
+}  // namespace recoil

@@ -1,0 +1,139 @@
+#include "validation/studies/study_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiment/correction_study.hpp"
+#include "validation/studies/study_stamp.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 2> coverage_sources = {"coverage_grid", "coverage_study"};
+
+template <std::size_t N>
+bool contains(const std::array<std::string_view, N>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Study grid_study(const std::string& name, const std::string& designs, int datasets) {
+  return {"coverage-grid-" + name,
+          fmt::format("coverage-grid fits/wall1990-molybdenum.toml --designs {} --datasets {} "
+                      "--replicates 39",
+                      designs, datasets),
+          "reports/coverage-grid-" + name + ".json"};
+}
+
+Study designs_study(const std::string& name, const std::string& options) {
+  return {name,
+          "coverage-designs fits/wall1990-molybdenum.toml fits/wall1990-silicon.toml "
+          "fits/wall1990-mica.toml fits/dahneke1975-quartz.toml fits/li1999-sst65-silicon.toml "
+          "fits/li1999-sst125-silicon.toml --datasets 1000 --replicates 99" +
+              options,
+          "reports/" + name + ".json"};
+}
+
+Study corrections_study(const std::string& dataset) {
+  return {"corrections-" + dataset, fmt::format("corrections fits/{}.toml", dataset),
+          fmt::format("datasets/{}/{}", dataset, correction_studies_name)};
+}
+
+/// The text of a file and its place below `root`, so that neither can change unseen.
+std::string digest(const fs::path& root, const fs::path& file) {
+  return fs::relative(file, root).generic_string() + " " + sha256_hex(read_text_file(file)) + "\n";
+}
+
+template <class Chosen>
+void add_files(std::vector<fs::path>& files, const fs::path& folder, const Chosen& chosen) {
+  if (!fs::is_directory(folder)) return;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && chosen(entry.path())) files.push_back(entry.path());
+  }
+}
+
+}  // namespace
+
+const std::vector<Study>& all_studies() {
+  static const std::vector<Study> studies = {
+      designs_study("coverage-designs", ""),
+      designs_study("coverage-designs-exact", " --exact-materials"),
+      grid_study("n10-stated", "n10,stated", 1000),
+      grid_study("n20-stated", "n20,stated", 1000),
+      grid_study("n60-stated", "n60,stated", 1000),
+      grid_study("n10-estimated", "n10,estimated", 200),
+      grid_study("n20-estimated", "n20,estimated", 200),
+      grid_study("n60-estimated", "n60,estimated", 200),
+      {"hidden-effects",
+       "hidden-effects --datasets 2 --correct 400 --pairs 1 --outside 1 --single 1 --careless 6 "
+       "--impossible 2 --seed 20261123",
+       "reports/hidden-effects.json"},
+      {"pairing", "pairing", "reports/pairing.json"},
+      {"event-chain", "event-chain", "reports/event-chain.json"},
+      corrections_study("li1999-sst65-silicon"),
+      corrections_study("li1999-sst125-silicon"),
+  };
+  return studies;
+}
+
+const Study& study_named(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Study& study : all_studies()) {
+    if (study.name == name) return study;
+    names.push_back(study.name);
+  }
+  const std::string near = nearest_word(name, names);
+  throw InputError({}, fmt::format("no study is called '{}'", name),
+                   "recoil_study list names all of them",
+                   near.empty() ? "take one of these" : fmt::format("did you mean '{}'?", near));
+}
+
+bool shows_results(const fs::path& source) {
+  const std::string stage = source.begin()->string();
+  const std::string name = source.stem().string();
+  constexpr std::array<std::string_view, 4> stages = {"document", "plot", "report", "cli"};
+  return contains(stages, stage) ||
+         (stage == "studies" &&
+          (name.ends_with("_page") || name.ends_with("_pages") || name.ends_with("_picture")));
+}
+
+bool decides(const std::string& command, const fs::path& source) {
+  if (shows_results(source)) return false;
+  if (!command.starts_with("coverage-")) return true;
+  constexpr std::array<std::string_view, 5> later = {"predict", "diagnosis", "plan", "export",
+                                                     "python"};
+  const std::string stage = source.begin()->string();
+  if (stage == "studies") return contains(coverage_sources, source.stem().string());
+  return !contains(later, stage);
+}
+
+std::string study_key(const fs::path& root, const std::string& command) {
+  std::vector<fs::path> files;
+  const fs::path sources = root / "src";
+  add_files(files, sources,
+            [&](const fs::path& file) { return decides(command, fs::relative(file, sources)); });
+  add_files(files, root / "fits", [](const fs::path& file) { return file.extension() == ".toml"; });
+  add_files(files, root / "datasets",
+            [](const fs::path& file) { return file.filename() != correction_studies_name; });
+  std::sort(files.begin(), files.end());
+  std::string text = command + "\n";
+  for (const fs::path& file : files) text += digest(root, file);
+  return sha256_hex(text).substr(0, 16);
+}
+
+StudyState state_of(const fs::path& root, const Study& study) {
+  const fs::path file = root / study.result;
+  if (!fs::exists(file)) return StudyState::missing;
+  const auto json = nlohmann::ordered_json::parse(read_text_file(file), nullptr, false);
+  if (json.is_discarded() || !json.is_object()) return StudyState::stale;
+  return json.value("key", std::string()) == study_key(root, study.command) ? StudyState::current
+                                                                            : StudyState::stale;
+}
+
+}  // namespace recoil

@@ -1,0 +1,90 @@
+#include "validation/studies/study_pages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "document/markdown.hpp"
+#include "plot/draw.hpp"
+#include "validation/studies/coverage_page.hpp"
+#include "validation/studies/coverage_picture.hpp"
+#include "validation/studies/event_chain.hpp"
+#include "validation/studies/hidden_effects_page.hpp"
+#include "validation/studies/hidden_effects_picture.hpp"
+#include "validation/studies/pairing_study.hpp"
+#include "validation/studies/study_stamp.hpp"
+
+namespace recoil {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_page(const fs::path& json, const Document& page,
+                const std::optional<plot::Picture>& picture = {}) {
+  fs::path file = json;
+  write_whole_file(file.replace_extension(".md"), markdown_page(page));
+  if (picture) write_whole_file(file.replace_extension(".svg"), plot::draw_svg(*picture) + "\n");
+}
+
+}  // namespace
+
+void render_study(const fs::path& json) {
+  const std::string name = json.stem().string();
+  if (name.starts_with("coverage-")) {
+    const CoverageStudy study = read_coverage_study(json);
+    const bool grid = !study.grid_of.empty();
+    write_page(json, coverage_page(study, grid ? name : ""),
+               grid ? std::optional(coverage_picture(study)) : std::nullopt);
+  } else if (name == "event-chain") {
+    write_page(json, event_chain_page(read_event_chain(json)));
+  } else if (name == "pairing") {
+    write_page(json, pairing_page(read_pairing_study(json)));
+  } else if (name == "hidden-effects") {
+    const hidden::StudyTally tally = hidden::read_tally(json);
+    write_page(json, hidden::hidden_effects_page(tally), hidden::hidden_effects_picture(tally));
+  } else {
+    throw InputError({json.string()}, "no page is made from this file",
+                     "its name is that of no study with a page",
+                     "name one of reports/*.json as ./run study leaves them");
+  }
+}
+
+void write_coverage_summary(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (fs::is_directory(folder)) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const fs::path& file = entry.path();
+      if (file.extension() == ".json" && file.stem().string().starts_with("coverage-")) {
+        files.push_back(file);
+      }
+    }
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) {
+    throw InputError({folder.string()}, "there are no studies of coverage here",
+                     "they are files named coverage-*.json", "write them with ./run study");
+  }
+  std::vector<CoverageStudy> studies;
+  std::vector<ParameterCoverage> recommended;
+  for (const fs::path& file : files) {
+    studies.push_back(read_coverage_study(file));
+    for (ParameterCoverage row : studies.back().rows) {
+      std::erase_if(row.intervals,
+                    [](const IntervalCoverage& at) { return at.interval != "recommended"; });
+      recommended.push_back(std::move(row));
+    }
+  }
+  const double level = studies.front().level;
+  write_page(folder / "coverage.json", coverage_summary(studies, "coverage"),
+             coverage_picture(recommended, level,
+                              fmt::format("Coverage of the recommended {:g} % intervals by kind of "
+                                          "data",
+                                          100.0 * level),
+                              "made from the studies coverage-*.json"));
+}
+
+}  // namespace recoil

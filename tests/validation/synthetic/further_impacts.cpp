@@ -1,0 +1,136 @@
+#include "validation/synthetic/further_impacts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.hpp"
+#include "validation/synthetic/observed_mean.hpp"
+#include "validation/synthetic/purpose.hpp"
+
+namespace hidden {
+namespace {
+
+struct Seen {
+  int rebounds = 0;
+  int captured = 0;
+  double sum = 0.0;  ///< of the readings
+};
+
+/// Each impact by itself: it comes back, stays, or comes back too slowly to be seen.
+Seen impacts_seen(const Base& base, const Effects& effects, const Scatter& scatter,
+                  const Point& point, recoil::RandomStream& random) {
+  Seen seen;
+  const auto typical = shared_square(base, effects, point.velocity, point.diameter);
+  for (int i = 0; i < point.events; ++i) {
+    const Reading one =
+        read_impact(base, effects, scatter, point.velocity, point.diameter, typical, random);
+    seen.captured += one.captured ? 1 : 0;
+    seen.rebounds += one.seen ? 1 : 0;
+    seen.sum += one.restitution;
+  }
+  return seen;
+}
+
+/// Makes the impacts of `point` and fills in what came of them; false where all were too slow to be
+/// seen.
+bool measure(const Base& base, const Effects& effects, const Scatter& scatter, Point& point,
+             recoil::RandomStream& random) {
+  const Seen seen = impacts_seen(base, effects, scatter, point, random);
+  if (seen.rebounds + seen.captured == 0) return false;
+  point.events = seen.rebounds + seen.captured;
+  point.captured = seen.captured;
+  point.restitution = seen.rebounds > 0 ? seen.sum / seen.rebounds : 0.0;
+  // What an experimenter knows of the scatter: that of the other points.
+  point.sd = scatter.of(std::max(point.restitution, 0.1)) / std::sqrt(std::max(seen.rebounds, 1));
+  return true;
+}
+
+/// What a table says of the point.
+double reading_of(const Effects& effects, const Point& point) {
+  const double e = point.restitution;
+  return e > 0.0 && !effects.series_offset.empty() ? e + effects.series_offset[point.row] : e;
+}
+
+/// Until every row has one; each has an error of its own, if any has.
+void add_batches(Effects& effects, std::size_t rows, recoil::RandomStream& random) {
+  if (effects.series_offset.empty()) return;
+  const double size = size_of_offsets(effects);
+  while (effects.series_offset.size() < rows) {
+    effects.series_offset.push_back(size * random.normal());
+  }
+}
+
+void take_here(Case& made, const FurtherImpacts& further, std::uint64_t round) {
+  recoil::RandomStream random(made.order.experiment_seed() + 7919 * (round + 1), hidden_purpose,
+                              99);
+  Design& design = made.design;
+  const auto row = std::find_if(design.rows.begin(), design.rows.end(), [&](const Row& r) {
+    return std::abs(r.diameter / further.diameter - 1.0) < 1e-6;
+  });
+  Point point;
+  point.row = static_cast<std::size_t>(row - design.rows.begin());
+  if (row == design.rows.end()) {
+    Row added;
+    added.name = fmt::format("{:.3g} um", 1e6 * further.diameter);
+    added.diameter = further.diameter;
+    design.rows.push_back(added);
+    add_batches(made.effects, design.rows.size(), random);
+  }
+  point.diameter = further.diameter;
+  point.velocity = further.velocity;
+  point.events = further.events;
+  point.changed = further.changed;
+  point.setting = 900000 + static_cast<std::size_t>(round);
+  const Effects effects = under(further.changed, made.effects);
+  if (!measure(design.base, effects, design.scatter, point, random)) return;
+  made.points.push_back(point);
+  made.readings.push_back(reading_of(effects, point));
+}
+
+/// The row of this diameter; the nearest where none has it.
+std::size_t row_of(const Design& design, double diameter) {
+  const auto row =
+      std::min_element(design.rows.begin(), design.rows.end(), [&](const Row& a, const Row& b) {
+        return std::abs(std::log(a.diameter / diameter)) <
+               std::abs(std::log(b.diameter / diameter));
+      });
+  return static_cast<std::size_t>(row - design.rows.begin());
+}
+
+void take_there(Case& made, const FurtherImpacts& further, std::uint64_t round) {
+  recoil::RandomStream random(made.order.experiment_seed() + 7919 * (round + 1), hidden_purpose,
+                              98);
+  auto there = std::find_if(made.elsewhere.begin(), made.elsewhere.end(), [&](const Elsewhere& e) {
+    return e.target.material == further.target.material;
+  });
+  if (there == made.elsewhere.end()) {
+    made.elsewhere.push_back(
+        move_to(further.target, made.design.base, made.effects, made.order.experiment_seed()));
+    there = made.elsewhere.end() - 1;
+  }
+  add_batches(there->effects, made.design.rows.size(), random);
+  for (const Place& place : further.places) {
+    Point point;
+    point.row = row_of(made.design, place.diameter);
+    point.diameter = place.diameter;
+    point.velocity = place.velocity;
+    point.events = place.events;
+    if (!measure(there->base, there->effects, made.design.scatter, point, random)) continue;
+    there->points.push_back(point);
+    there->readings.push_back(reading_of(there->effects, point));
+  }
+}
+
+}  // namespace
+
+void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round) {
+  if (further.target.material.empty()) {
+    take_here(made, further, round);
+  } else {
+    take_there(made, further, round);
+  }
+}
+
+}  // namespace hidden
