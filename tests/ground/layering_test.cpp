@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 /// what the commands do.
 const std::vector<std::string> kStages = {
     "core",        "data",     "experiment", "impact",    "mechanism", "estimate",
-    "uncertainty", "coverage", "predict",    "diagnosis", "plan",      "export",
-    "plot",        "document", "report",     "cli",       "python"};
+    "uncertainty", "coverage", "predict",    "diagnosis", "plan",      "analysis",
+    "export",      "plot",     "document",   "report",    "cli",       "python"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -
