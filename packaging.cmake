@@ -33,8 +33,7 @@ install(EXPORT recoil NAMESPACE recoil:: FILE recoil-targets.cmake
         DESTINATION ${recoil_cmake_folder} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/recoil
         COMPONENT development FILES_MATCHING PATTERN *.hpp
-        PATTERN cli EXCLUDE PATTERN python EXCLUDE
-        PATTERN coverage EXCLUDE)
+        PATTERN cli EXCLUDE PATTERN python EXCLUDE)
 configure_file(${PROJECT_SOURCE_DIR}/packaging_config.cmake.in
                ${PROJECT_BINARY_DIR}/recoil-config.cmake COPYONLY)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/recoil-config-version.cmake
