@@ -6,8 +6,11 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "data/folder_names.hpp"
+#include "uncertainty/bootstrap.hpp"
+#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/resample.hpp"
-#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -111,9 +114,45 @@ FitInputs load_inputs(const std::filesystem::path& fit_file) {
 
 Analysis analyse(FitInputs inputs, const AnalysisOptions& options) {
   Analysis analysis = analyse_fit(std::move(inputs), options);
-  const UncertaintyOptions assess = uncertainty_options(analysis.spec, options);
-  analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
+  analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets,
+                                            uncertainty_options(analysis.spec, options));
   return analysis;
+}
+
+UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<Dataset>& datasets,
+                                     const UncertaintyOptions& options) {
+  const auto [level, threads] = std::pair(options.level, options.threads);
+  const std::vector<NoiseAlternative> alternatives = noise_alternatives(fitted);
+  UncertaintyResult result;
+  result.options = options;
+  result.intervals = likelihood_intervals(alternatives, level, threads);
+  add_profile_curves(fitted, level, threads, result.intervals);
+  result.capture = capture_estimates(alternatives, level, datasets);
+  result.bootstrap = bootstrap(fitted, result.capture, options);
+  add_resampled_intervals(fitted, result.bootstrap, level, threads, result.intervals);
+  add_resampled_captures(fitted, result.bootstrap, level, result.capture);
+  result.two_point = compare_two_points(fitted);
+  bootstrap_two_points(fitted, options, result.two_point, result.bootstrap);
+  result.identifiability =
+      judge_identifiability(fitted, result.intervals, result.capture, alternatives);
+  if (options.posterior) {
+    result.posterior = sample_posterior(alternatives, result.capture, sampling_options(options));
+  }
+  result.budgets = parameter_budgets(fitted);
+  result.capture_budgets = capture_budgets(fitted, result.capture);
+  result.conditional = conditional_fit(fitted, level, threads);
+  result.curves = restitution_curves(fitted, datasets, result.capture, result.two_point,
+                                     {result.bootstrap.theta, level, threads});
+  return result;
+}
+
+UncertaintyResult bootstrap_only(const FitResult& fitted, const std::vector<Dataset>& datasets,
+                                 const UncertaintyOptions& options) {
+  UncertaintyResult result;
+  result.options = options;
+  result.capture = capture_estimates(noise_alternatives(fitted), options.level, datasets);
+  result.bootstrap = bootstrap(fitted, result.capture, options);
+  return result;
 }
 
 Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {

@@ -67,6 +67,16 @@ Analysis analyse(FitInputs inputs, const AnalysisOptions& options = {});
 /// @throws InputError, ComputationError as `analyse`
 Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options = {});
 
+/// Intervals, bootstrap, capture velocities, two points against all, identifiability, posterior,
+/// budgets and curves of a fit.
+UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<Dataset>& datasets,
+                                     const UncertaintyOptions& options);
+
+/// The bootstrap only, for bands of predictions: everything but `bootstrap`, `capture` and
+/// `options` stays empty.
+UncertaintyResult bootstrap_only(const FitResult& fitted, const std::vector<Dataset>& datasets,
+                                 const UncertaintyOptions& options);
+
 /// The options of the uncertainty stage: those of the fit file, unless `options` overrides them.
 UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options);
 

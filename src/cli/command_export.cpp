@@ -20,7 +20,6 @@
 #include "export/table.hpp"
 #include "export/yade.hpp"
 #include "report/words_export.hpp"
-#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -52,10 +51,9 @@ Fitted fitted_now(const ExportOptions& options, bool bands) {
   Analysis analysis = analyse_fit(load_inputs(options.fit_file), resolved);
   Fitted out;
   if (bands) {
-    UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
-    assess.profile = assess.curves = assess.two_point = false;
+    const UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
     out.level = assess.level;
-    out.replicates = assess_uncertainty(analysis.fitted, analysis.datasets, assess).bootstrap.theta;
+    out.replicates = bootstrap_only(analysis.fitted, analysis.datasets, assess).bootstrap.theta;
   }
   out.model = analysis.fitted.model;
   out.theta = analysis.fitted.theta;

@@ -14,7 +14,8 @@
 #include "report/json_report.hpp"
 #include "report/posterior_report.hpp"
 #include "uncertainty/bootstrap.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {
 namespace {
@@ -45,7 +46,10 @@ void run_shard_of_fit(const FitFlags& flags) {
   if (part_is_there(flags.out, origin, shard)) return;
   assess.shard = shard;
   assess.keep = unfinished_path(flags.out, origin, shard);
-  const ReplicateTable table = shard_of_bootstrap(analysis.fitted, analysis.datasets, assess);
+  const ReplicateTable table = shard_of_bootstrap(
+      analysis.fitted,
+      capture_estimates(noise_alternatives(analysis.fitted), assess.level, analysis.datasets),
+      assess);
   save_replicates(part_path(flags.out, origin, shard), key_of_bootstrap(analysis.fitted, assess),
                   table, part_head(origin, shard));
   std::error_code ignored;

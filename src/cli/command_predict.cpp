@@ -13,7 +13,6 @@
 #include "report/figures_mixture.hpp"
 #include "report/prediction_document.hpp"
 #include "report/prediction_files.hpp"
-#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -36,13 +35,8 @@ void predict_sizes(const PredictOptions& options) {
   const AnalysisOptions resolved = options.analysis.resolved();
   Analysis analysis = analyse_fit(load_inputs(options.fit_file), resolved);
   const std::size_t dataset = choose_dataset(analysis.datasets, options.dataset);
-  UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
-  assess.profile = false;
-  assess.curves = false;
-  assess.two_point = false;
-  assess.budget = false;
-  assess.posterior = false;
-  analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
+  const UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
+  analysis.uncertainty = bootstrap_only(analysis.fitted, analysis.datasets, assess);
 
   PolydisperseOptions mix;
   mix.level = assess.level;

@@ -9,8 +9,13 @@
 #include "core/progress.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
+#include "uncertainty/bootstrap.hpp"
+#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/identifiability.hpp"
 #include "uncertainty/intervals.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/parameter_intervals.hpp"
+#include "uncertainty/posterior.hpp"
 
 namespace recoil {
 namespace {
@@ -119,33 +124,38 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
   UncertaintyOptions own = options.uncertainty;
   own.seed = options.uncertainty.seed + index;
   own.threads = 1;  // the data sets themselves run in parallel
-  own.curves = false;
-  own.budget = false;
-  own.two_point = false;
-  const UncertaintyResult result = assess_uncertainty(fitted, datasets, own);
+  const std::vector<NoiseAlternative> alternatives = noise_alternatives(fitted);
+  std::vector<IntervalSet> sets = likelihood_intervals(alternatives, own.level, own.threads);
+  std::vector<CaptureEstimate> captures = capture_estimates(alternatives, own.level, datasets);
+  const BootstrapResult replicates = bootstrap(fitted, captures, own);
+  add_resampled_intervals(fitted, replicates, own.level, own.threads, sets);
+  add_resampled_captures(fitted, replicates, own.level, captures);
+  const Identifiability identifiability =
+      judge_identifiability(fitted, sets, captures, alternatives);
+  PosteriorResult posterior;
+  if (own.posterior) posterior = sample_posterior(alternatives, captures, sampling_options(own));
   const CoverageTruth::At at =
       truth.at ? truth.at(index) : CoverageTruth::At{truth.theta, truth.capture};
-  const Interval none = no_interval(NoInterval::not_asked_for);
+  const Interval none = no_interval(NoInterval::not_assessed);
   const auto posterior_of = [&](const auto& marginals, std::size_t k) {
     return k < marginals.size() ? &marginals[k].interval : &none;
   };
-  const PosteriorResult posterior = result.posterior.value_or(PosteriorResult{});
   trial.usable = true;
-  trial.refits_failed = result.bootstrap.failed;
+  trial.refits_failed = replicates.failed;
   for (std::size_t j = 0; j < fitted.model.slots.size(); ++j) {
     if (!fitted.model.slots[j].free) continue;
-    const IntervalSet& set = result.intervals[j];
+    const IntervalSet& set = sets[j];
     std::vector<const Interval*> intervals = {&recommended_interval(set)};
     for (const IntervalKind kind : values_of<IntervalKind>()) intervals.push_back(&set[kind]);
     intervals.push_back(posterior_of(posterior.parameters, j));
-    const ParameterIdentifiability& verdict = result.identifiability.parameter[j];
+    const ParameterIdentifiability& verdict = identifiability.parameter[j];
     const double scale = std::max(std::abs(at.theta[j]), verdict.loss_scale);
     trial.parameters.push_back(trial_row(verdict.identifiable,
                                          std::abs(fitted.theta[j] - at.theta[j]) / scale,
                                          at.theta[j], intervals));
   }
   for (std::size_t k = 0; k < truth.capture.size(); ++k) {
-    const CaptureEstimate& capture = result.capture[k];
+    const CaptureEstimate& capture = captures[k];
     std::vector<const Interval*> intervals = {&capture.interval};
     for (const CaptureIntervalKind kind : values_of<CaptureIntervalKind>()) {
       intervals.push_back(&capture[kind]);

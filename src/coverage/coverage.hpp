@@ -12,7 +12,6 @@
 #include "core/names.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit.hpp"
-#include "uncertainty/uncertainty.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
@@ -69,11 +68,11 @@ struct CoverageTruth {
   };
   struct At {
     std::vector<double> theta;     ///< [slots]
-    std::vector<Capture> capture;  ///< in the order of UncertaintyResult::capture
+    std::vector<Capture> capture;  ///< in the order of `capture_estimates`
   };
   TruthOrigin origin = TruthOrigin::estimate;
   std::vector<double> theta;     ///< [slots]; the constants of the materials as stated
-  std::vector<Capture> capture;  ///< in the order of UncertaintyResult::capture
+  std::vector<Capture> capture;  ///< in the order of `capture_estimates`
   /// Where constants of the materials are uncertain every simulation has a truth of its own, drawn
   /// from their errors: that of simulation number `index`. Empty: all have the one above.
   std::function<At(std::uint64_t index)> at;
@@ -96,7 +95,7 @@ struct CoverageTrial {
   bool usable = false;  ///< else its fit gave no answer, and the rest is empty
   int refits_failed = 0;
   std::vector<Row> parameters;  ///< those that are free
-  std::vector<Row> capture;     ///< in the order of UncertaintyResult::capture
+  std::vector<Row> capture;     ///< in the order of `capture_estimates`
 };
 
 /// Simulation number `index`, fitted as a user would: a pure function of it.

@@ -21,7 +21,9 @@
 #include "diagnosis/unstated_errors.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "mechanism/catalogue.hpp"
-#include "uncertainty/uncertainty.hpp"
+#include "uncertainty/bootstrap.hpp"
+#include "uncertainty/noise_alternatives.hpp"
+#include "uncertainty/parameter_intervals.hpp"
 
 namespace recoil {
 namespace {
@@ -156,11 +158,11 @@ std::vector<IntervalSet> intervals_of_fit(const FitResult& fitted, const Diagnos
   options.level = diagnosis.spec.uncertainty.level;
   options.seed = diagnosis.options.seed;
   options.threads = diagnosis.options.threads;
-  options.curves = false;
-  options.capture = false;
-  options.two_point = false;
-  options.budget = false;
-  return assess_uncertainty(fitted, diagnosis.datasets, options).intervals;
+  std::vector<IntervalSet> intervals =
+      likelihood_intervals(noise_alternatives(fitted), options.level, options.threads);
+  add_resampled_intervals(fitted, bootstrap(fitted, {}, options), options.level, options.threads,
+                          intervals);
+  return intervals;
 }
 
 /// The extended model as `fit` would have it, with settled weights.

@@ -91,8 +91,6 @@ std::string missing_words(const Interval& interval) {
       return "no uncertainty was assessed";
     case NoInterval::fixed:
       return "the parameter is fixed";
-    case NoInterval::not_asked_for:
-      return "not asked for";
     case NoInterval::nothing_free:
       return "nothing was free in this fit";
     case NoInterval::no_standard_error:

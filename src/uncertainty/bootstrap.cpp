@@ -17,6 +17,8 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/reweighting.hpp"
+#include "uncertainty/capture_interval.hpp"
+#include "uncertainty/intervals.hpp"
 #include "uncertainty/locate_failures.hpp"
 #include "uncertainty/refit.hpp"
 #include "uncertainty/replicate_errors.hpp"
@@ -43,9 +45,9 @@ std::size_t next_batch(std::size_t size, double seconds) {
 // about 1e-8 of themselves (measured on 60 points, f0 free), where they scatter by percents, and
 // saves a third of the time.
 constexpr double refit_tolerance_factor = 100.0;
-// The two-point iteration costs several refits, and only its spread is wanted, which this many give
-// to 2 %.
-constexpr int most_two_point = 999;
+// `replicates = "auto"` begins with the first number and ends with the last.
+constexpr int fewest_automatic = 999;
+constexpr int most_automatic = 19999;
 // A bootstrap quicker than this is not worth a file.
 constexpr auto worth_keeping = std::chrono::seconds(1);
 
@@ -132,6 +134,42 @@ std::string bootstrap_key(const FitResult& fitted, const ResamplingPlan& plan,
   return sha256_hex(text);
 }
 
+/// The larger Monte-Carlo error of an interval's ends over its width; 0 where nothing is random.
+double relative_error(const Interval& interval) {
+  if (!interval.available()) return 0.0;
+  const double width = *interval.upper - *interval.lower;
+  const double error =
+      std::max(interval.lower_error.value_or(0.0), interval.upper_error.value_or(0.0));
+  return width > 0.0 ? error / width : 0.0;
+}
+
+/// The largest Monte-Carlo error of a percentile interval's ends, or of a capture velocity's quoted
+/// ones, over the width of its interval; 0 where nothing is random.
+double monte_carlo_error(const FitResult& fitted, const BootstrapResult& replicates,
+                         std::vector<CaptureEstimate> captures, double level) {
+  double worst = 0.0;
+  if (replicates.withheld()) return worst;
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    if (!fitted.model.slots[j].free) continue;
+    const std::vector<double> values = finite_column(replicates.theta, j);
+    worst = std::max(worst, relative_error(percentile_interval(values, level)));
+  }
+  add_resampled_captures(fitted, replicates, level, captures);
+  for (const CaptureEstimate& capture : captures) {
+    if (capture.found) worst = std::max(worst, relative_error(capture.interval));
+  }
+  return worst;
+}
+
+/// How many replicates bring a relative error down to what is wanted, the error falling like
+/// 1 / sqrt(B); one less than a multiple of 1000, so that the quantiles fall on replicates.
+int more_replicates(int so_far, double error, double wanted) {
+  const double needed = so_far * std::pow(error / wanted, 2);
+  const double rounded = 1000.0 * std::ceil((needed + 1.0) / 1000.0) - 1.0;
+  return static_cast<int>(
+      std::clamp(rounded, static_cast<double>(so_far) + 1000.0, 1.0 * most_automatic));
+}
+
 }  // namespace
 
 Bootstrap::Bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
@@ -142,7 +180,7 @@ Bootstrap::Bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>
       plan_(plan_resampling(fitted, options.scheme)),
       reference_covariance_(reference_covariance(fitted, plan_)) {
   table_.slots = fitted.theta.size();
-  table_.derived = options.capture ? capture.size() : 0;
+  table_.derived = capture.size();
   if (options.keep.empty() && options.parts.empty()) return;
   key_ = bootstrap_key(fitted, plan_, options);
   load_replicates(options.keep, key_, table_);
@@ -176,11 +214,9 @@ void Bootstrap::extend(int count) {
     if (usable) {
       const auto covariance = replicate_covariance(found, workspace.data(), fitted_, plan_);
       std::vector<double> errors = roots_of_diagonal(covariance, table_.slots);
-      if (options_.capture) {
-        for (const CaptureVelocity& v : capture_velocities(fitted_.model, found.theta, queries)) {
-          capture_velocity_[i].push_back(v.found ? v.value : std::nan(""));
-          errors.push_back(logarithmic_error(v, covariance));
-        }
+      for (const CaptureVelocity& v : capture_velocities(fitted_.model, found.theta, queries)) {
+        capture_velocity_[i].push_back(v.found ? v.value : std::nan(""));
+        errors.push_back(logarithmic_error(v, covariance));
       }
       std::copy(found.theta.begin(), found.theta.end(),
                 table_.theta.begin() + static_cast<std::ptrdiff_t>(i * table_.slots));
@@ -229,7 +265,7 @@ void Bootstrap::extend(int count) {
     pace.keep([this] { keep(); });
   }
 
-  if (!options_.capture) return;
+  if (capture_.empty()) return;
   // Those that an earlier run has left.
   parallel_over(count_, options_.threads, [&](std::size_t i) {
     if (table_.state[i] != State::usable || !capture_velocity_[i].empty()) return;
@@ -263,7 +299,6 @@ BootstrapResult Bootstrap::result() const {
     const double* error = table_.std_error.data() + i * table_.errors();
     result.theta.emplace_back(theta, theta + table_.slots);
     result.std_error.emplace_back(error, error + table_.slots);
-    if (!options_.capture) continue;
     result.capture_velocity.push_back(capture_velocity_[i]);
     result.capture_error.emplace_back(error + table_.slots, error + table_.errors());
   }
@@ -272,46 +307,31 @@ BootstrapResult Bootstrap::result() const {
   return result;
 }
 
-void bootstrap_two_point(const ResamplingPlan& plan, const std::vector<TwoPointResult>& two_point,
-                         const UncertaintyOptions& options, BootstrapResult& result) {
-  const std::size_t count = static_cast<std::size_t>(std::min(result.replicates, most_two_point));
-  result.two_point_replicates = two_point.empty() ? 0 : static_cast<int>(count);
-  result.two_point_theta.resize(two_point.size());
-  result.two_point_failed.assign(two_point.size(), 0);
-  if (two_point.empty()) return;
-  std::vector<std::vector<std::vector<double>>> found(
-      count);  // [replicates][datasets], empty: none
-  tbb::enumerable_thread_specific<Observations> samples;
-  Progress progress("two points", count);
-  parallel_over(count, options.threads, [&](std::size_t i) {
-    Observations& sample = samples.local();
-    resample(plan, options.seed, i, sample);
-    for (std::size_t d = 0; d < two_point.size(); ++d) {
-      TwoPointResult run = recoil::two_point(plan.fitted->model, sample, d, two_point[d].diameter);
-      found[i].push_back(run.status == TwoPointStatus::converged ? std::move(run.theta)
-                                                                 : std::vector<double>{});
+BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
+                          const UncertaintyOptions& options) {
+  Bootstrap run(fitted, capture, options);
+  for (int count = options.replicates_auto ? fewest_automatic : options.replicates;;) {
+    run.extend(count);
+    BootstrapResult result = run.result();
+    const double error = monte_carlo_error(fitted, result, capture, options.level);
+    if (error > 0.0) result.relative_error = error;
+    if (!options.replicates_auto || error <= options.wanted_error || count >= most_automatic) {
+      return result;
     }
-    progress.advance();
-  });
-  for (auto& replicate : found) {
-    for (std::size_t d = 0; d < two_point.size(); ++d) {
-      if (replicate[d].empty()) {
-        ++result.two_point_failed[d];
-      } else {
-        result.two_point_theta[d].push_back(std::move(replicate[d]));
-      }
-    }
+    count = more_replicates(count, error, options.wanted_error);
   }
 }
 
-BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
-                          const std::vector<TwoPointResult>& two_point,
-                          const UncertaintyOptions& options) {
+std::size_t replicates_at_most(const UncertaintyOptions& options) {
+  return static_cast<std::size_t>(options.replicates_auto ? most_automatic : options.replicates);
+}
+
+ReplicateTable shard_of_bootstrap(const FitResult& fitted,
+                                  const std::vector<CaptureEstimate>& capture,
+                                  const UncertaintyOptions& options) {
   Bootstrap run(fitted, capture, options);
-  run.extend(options.replicates);
-  BootstrapResult result = run.result();
-  bootstrap_two_point(run.plan(), two_point, options, result);
-  return result;
+  run.extend(static_cast<int>(replicates_at_most(options)));
+  return run.table();
 }
 
 std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threads) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "estimate/fit.hpp"
-#include "estimate/two_point.hpp"
 #include "uncertainty/bootstrap_result.hpp"
 #include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/replicate_table.hpp"
@@ -57,15 +56,20 @@ class Bootstrap {
 /// The key of the bootstrap of `fitted` (`Bootstrap::key`).
 std::string key_of_bootstrap(const FitResult& fitted, const UncertaintyOptions& options);
 
-/// Runs the paper's two-point iteration on the same resampled data as the replicates of `result`
-/// (the first 999 of them), and adds what came out of it.
-void bootstrap_two_point(const ResamplingPlan& plan, const std::vector<TwoPointResult>& two_point,
-                         const UncertaintyOptions& options, BootstrapResult& result);
-
-/// All of it in one call: `options.replicates` replicates, and the two-point iteration on them.
+/// The bootstrap of `fitted`: `options.replicates` replicates or, with `options.replicates_auto`,
+/// as many as bring the Monte-Carlo error of the intervals' ends down to `options.wanted_error`.
+/// @param capture of `capture_estimates`: every replicate gets its capture velocities, too
 BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
-                          const std::vector<TwoPointResult>& two_point,
                           const UncertaintyOptions& options);
+
+/// The largest number of replicates that `bootstrap` can run under these options.
+std::size_t replicates_at_most(const UncertaintyOptions& options);
+
+/// The replicates of `options.shard` among `replicates_at_most`.
+/// @throws Interrupted as `Bootstrap::extend` does
+ReplicateTable shard_of_bootstrap(const FitResult& fitted,
+                                  const std::vector<CaptureEstimate>& capture,
+                                  const UncertaintyOptions& options);
 
 /// The estimates of all data sets from which one unit (a point, or a series in the cluster scheme)
 /// is left out [units][slots], for the acceleration of BCa. A set whose refit fails gives an empty

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -56,5 +57,15 @@ struct BootstrapResult {
   /// So many that those that did not fail are no fair sample (more than a tenth)?
   bool withheld() const { return failed > 0.10 * replicates; }
 };
+
+/// The finite values of column j of `rows`.
+inline std::vector<double> finite_column(const std::vector<std::vector<double>>& rows,
+                                         std::size_t j) {
+  std::vector<double> values;
+  for (const std::vector<double>& row : rows) {
+    if (j < row.size() && std::isfinite(row[j])) values.push_back(row[j]);
+  }
+  return values;
+}
 
 }  // namespace recoil

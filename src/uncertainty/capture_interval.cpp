@@ -60,6 +60,28 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
   return interval;
 }
 
+/// The studentized interval of V* of the k-th size, on its logarithm.
+Interval studentized_capture(const BootstrapResult& boot, std::size_t k, double value,
+                             double level) {
+  std::vector<double> logarithms;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < boot.capture_velocity.size(); ++i) {
+    const double v = boot.capture_velocity[i][k];
+    if (!(v > 0.0)) continue;
+    logarithms.push_back(std::log(v / value));
+    errors.push_back(boot.capture_error[i][k]);
+  }
+  Interval interval = studentized_interval(logarithms, errors, 0.0, boot.capture_reference_error[k],
+                                           level, -INFINITY, INFINITY);
+  for (auto* end : {&interval.lower, &interval.upper}) {
+    if (*end) *end = value * std::exp(**end);
+  }
+  for (auto* error : {&interval.lower_error, &interval.upper_error}) {
+    if (*error) *error = value * **error;
+  }
+  return interval;
+}
+
 }  // namespace
 
 std::vector<CaptureEstimate> capture_estimates(const std::vector<NoiseAlternative>& alternatives,
@@ -127,6 +149,31 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
                                 : CaptureBecause::noise_estimated;
   // Where there is neither, the reason is that of the percentiles.
   quote(!delta.available() && percentile.missing ? percentile : delta);
+}
+
+void add_resampled_captures(const FitResult& fitted, const BootstrapResult& replicates,
+                            double level, std::vector<CaptureEstimate>& captures) {
+  const auto& slots = fitted.model.slots;
+  const bool nothing_free =
+      std::none_of(slots.begin(), slots.end(), [](const ParameterSlot& slot) { return slot.free; });
+  for (std::size_t k = 0; k < captures.size(); ++k) {
+    CaptureEstimate& capture = captures[k];
+    if (!capture.found) continue;
+    Interval& percentile = capture[CaptureIntervalKind::percentile];
+    Interval& studentized = capture[CaptureIntervalKind::studentized];
+    if (nothing_free) {
+      percentile = no_interval(NoInterval::nothing_free);
+    } else if (replicates.withheld()) {
+      percentile = no_interval(NoInterval::refits_failed);
+    } else {
+      percentile = percentile_interval(finite_column(replicates.capture_velocity, k), level);
+      studentized = studentized_capture(replicates, k, capture.value, level);
+    }
+    if (!studentized.available() && !studentized.missing) {
+      studentized.missing = percentile.missing;
+    }
+    recommend_capture(fitted, fitted.data.sd_stated, capture);
+  }
 }
 
 }  // namespace recoil

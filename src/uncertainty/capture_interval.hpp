@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "uncertainty/bootstrap_result.hpp"
 #include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/noise_alternatives.hpp"
 
@@ -29,5 +30,10 @@ Interval capture_interval(const std::vector<NoiseAlternative>& alternatives,
 /// and is averaged over the variance functions. Where a parameter rests on its bound, of which the
 /// covariance says nothing, the percentiles.
 void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate& capture);
+
+/// Adds percentile and studentized intervals of the capture velocities, and names the one to quote.
+/// @param captures of `capture_estimates`, for which `replicates` have velocities
+void add_resampled_captures(const FitResult& fitted, const BootstrapResult& replicates,
+                            double level, std::vector<CaptureEstimate>& captures);
 
 }  // namespace recoil

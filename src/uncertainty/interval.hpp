@@ -32,7 +32,6 @@ struct NamesOf<ProfileShape> {
 enum class NoInterval {
   not_assessed,              ///< nothing was asked about uncertainty
   fixed,                     ///< the parameter was not fitted
-  not_asked_for,             ///< of this run
   nothing_free,              ///< nothing was fitted
   no_standard_error,         ///< it rests on a bound, or the points do not determine it
   refit_failed,              ///< one along the profile, with the parameter held
@@ -48,21 +47,14 @@ enum class NoInterval {
 };
 template <>
 struct NamesOf<NoInterval> {
-  static constexpr std::array<std::string_view, 15> names = {"not_assessed",
-                                                             "fixed",
-                                                             "not_asked_for",
-                                                             "nothing_free",
-                                                             "no_standard_error",
-                                                             "refit_failed",
-                                                             "few_replicates",
-                                                             "few_delete_one_refits",
-                                                             "one_sided_replicates",
-                                                             "large_acceleration",
-                                                             "replicates_without_error",
-                                                             "refits_failed",
-                                                             "never_rebounds",
-                                                             "never_captured",
-                                                             "no_covariance"};
+  static constexpr std::array<std::string_view, 14> names = {
+      "not_assessed",          "fixed",
+      "nothing_free",          "no_standard_error",
+      "refit_failed",          "few_replicates",
+      "few_delete_one_refits", "one_sided_replicates",
+      "large_acceleration",    "replicates_without_error",
+      "refits_failed",         "never_rebounds",
+      "never_captured",        "no_covariance"};
 };
 
 /// The least number of replicates that have an interval: (B + 1) 0.025 >= 1.

@@ -10,7 +10,7 @@
 #include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/interval.hpp"
 #include "uncertainty/noise_alternatives.hpp"
-#include "uncertainty/posterior_options.hpp"
+#include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
 

@@ -1,7 +1,21 @@
 #include "uncertainty/two_point_comparison.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/parallel.hpp"
+#include "core/progress.hpp"
+#include "uncertainty/resample.hpp"
+
 namespace recoil {
 namespace {
+
+// The two-point iteration costs several refits, and only its spread is wanted, which this many give
+// to 2 %.
+constexpr int most_replicates = 999;
 
 /// Points of `data` that belong to `dataset`, split by whether their diameter is `diameter`.
 struct Split {
@@ -16,8 +30,6 @@ Split split_by_diameter(const Observations& data, std::size_t dataset, double di
   }
   return split;
 }
-
-}  // namespace
 
 TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset) {
   const Observations& data = fitted.data;
@@ -58,6 +70,73 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
     comparison.refit_failure = on_one.failure;
   }
   return comparison;
+}
+
+/// NaN for fewer than two values.
+double standard_deviation(const std::vector<double>& values) {
+  if (values.size() < 2) return std::nan("");
+  double mean = 0.0;
+  for (const double v : values) mean += v / static_cast<double>(values.size());
+  double sum = 0.0;
+  for (const double v : values) sum += (v - mean) * (v - mean);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+}  // namespace
+
+std::vector<TwoPointComparison> compare_two_points(const FitResult& fitted) {
+  const std::size_t datasets = fitted.model.contacts.size();
+  std::vector<TwoPointComparison> comparisons;
+  bool adheres = false;
+  for (std::size_t d = 0; d < datasets; ++d) {
+    adheres = adheres || !without_adhesion(fitted.model, d);
+  }
+  for (std::size_t d = 0; adheres && d < datasets; ++d) {
+    comparisons.push_back(compare_two_point(fitted, d));
+  }
+  return comparisons;
+}
+
+void bootstrap_two_points(const FitResult& fitted, const UncertaintyOptions& options,
+                          std::vector<TwoPointComparison>& comparisons, BootstrapResult& result) {
+  const std::size_t datasets = comparisons.size();
+  const auto count = static_cast<std::size_t>(std::min(result.replicates, most_replicates));
+  result.two_point_replicates = datasets == 0 ? 0 : static_cast<int>(count);
+  result.two_point_theta.resize(datasets);
+  result.two_point_failed.assign(datasets, 0);
+  if (datasets == 0) return;
+  const ResamplingPlan plan = plan_resampling(fitted, result.scheme);
+  // [replicates][datasets]; empty: no answer
+  std::vector<std::vector<std::vector<double>>> found(count);
+  tbb::enumerable_thread_specific<Observations> samples;
+  Progress progress("two points", count);
+  parallel_over(count, options.threads, [&](std::size_t i) {
+    Observations& sample = samples.local();
+    resample(plan, options.seed, i, sample);
+    for (std::size_t d = 0; d < datasets; ++d) {
+      TwoPointResult run = two_point(fitted.model, sample, d, comparisons[d].result.diameter);
+      found[i].push_back(run.status == TwoPointStatus::converged ? std::move(run.theta)
+                                                                 : std::vector<double>{});
+    }
+    progress.advance();
+  });
+  for (auto& replicate : found) {
+    for (std::size_t d = 0; d < datasets; ++d) {
+      if (replicate[d].empty()) {
+        ++result.two_point_failed[d];
+      } else {
+        result.two_point_theta[d].push_back(std::move(replicate[d]));
+      }
+    }
+  }
+  for (std::size_t d = 0; d < datasets; ++d) {
+    TwoPointComparison& comparison = comparisons[d];
+    comparison.failed = result.two_point_failed[d];
+    for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+      comparison.spread.push_back(standard_deviation(finite_column(result.two_point_theta[d], j)));
+      comparison.full_spread.push_back(standard_deviation(finite_column(result.theta, j)));
+    }
+  }
 }
 
 }  // namespace recoil

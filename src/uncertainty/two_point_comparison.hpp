@@ -7,6 +7,8 @@
 #include "core/names.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/two_point.hpp"
+#include "uncertainty/bootstrap_result.hpp"
+#include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
 
@@ -35,8 +37,13 @@ struct TwoPointComparison {
   int failed = 0;                   ///< replicates without a two-point answer
 };
 
-/// Both calibrations at the reference diameter of `dataset`. What resampling tells of them is left
-/// open.
-TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset);
+/// Both calibrations of every dataset, at its reference diameter. Empty without adhesion, where
+/// there is no C_A. The spreads stay empty.
+std::vector<TwoPointComparison> compare_two_points(const FitResult& fitted);
+
+/// Repeats the two-point iteration on the same resampled data as the replicates of `result` (the
+/// first 999 of them), and adds its answers to `result` and both spreads to `comparisons`.
+void bootstrap_two_points(const FitResult& fitted, const UncertaintyOptions& options,
+                          std::vector<TwoPointComparison>& comparisons, BootstrapResult& result);
 
 }  // namespace recoil

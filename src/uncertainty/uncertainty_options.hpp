@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -7,9 +8,20 @@
 
 #include "core/shard.hpp"
 #include "estimate/scheme.hpp"
-#include "uncertainty/posterior_options.hpp"
 
 namespace recoil {
+
+struct PosteriorOptions {
+  double level = 0.95;
+  std::uint64_t seed = 20260101;
+  int threads = 0;                ///< 0: all cores. No digit depends on it.
+  int ensembles = 4;              ///< independent of one another
+  int fewest_steps = 1000;        ///< kept of every walker, after as many that are dropped
+  int most_steps = 8000;          ///< beyond it the sampler gives up
+  double largest_r_hat = 1.01;    ///< of every quantity
+  double least_effective = 1000;  ///< draws of every quantity
+  std::size_t kept = 2000;        ///< joint draws that are handed on
+};
 
 struct UncertaintyOptions {
   int replicates = 1999;
@@ -20,14 +32,9 @@ struct UncertaintyOptions {
   Scheme scheme = Scheme::automatic;
   double level = 0.95;
   std::uint64_t seed = 20260101;
-  int threads = 0;  ///< 0: all cores. No digit depends on it.
-  bool profile = true;
-  bool curves = true;         ///< restitution curves with bands, and those of the profiles
-  bool capture = true;        ///< intervals of the capture velocities
+  int threads = 0;            ///< 0: all cores. No digit depends on it.
   bool posterior = false;     ///< sample it
-  PosteriorOptions sampling;  ///< how; level, seed and threads are those below and above
-  bool budget = true;     ///< what the errors come from, and what they were with exact materials
-  bool two_point = true;  ///< compare with the paper's calibration; without it the list is empty
+  PosteriorOptions sampling;  ///< how; level, seed and threads are those above
   /// Where finished replicates are kept when the user stops the run, and looked for by the next run
   /// of the same fit; empty: nowhere. The file is left behind; whoever has written the results
   /// removes it.
@@ -37,5 +44,14 @@ struct UncertaintyOptions {
   /// Files in which shards have left their replicates, and from which they are taken over.
   std::vector<std::filesystem::path> parts;
 };
+
+/// How to sample the posterior: `options.sampling` with the level, seed and threads of `options`.
+inline PosteriorOptions sampling_options(const UncertaintyOptions& options) {
+  PosteriorOptions sampling = options.sampling;
+  sampling.level = options.level;
+  sampling.seed = options.seed;
+  sampling.threads = options.threads;
+  return sampling;
+}
 
 }  // namespace recoil

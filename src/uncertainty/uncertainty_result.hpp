@@ -9,29 +9,24 @@
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/interval_set.hpp"
+#include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/posterior.hpp"
 #include "uncertainty/two_point_comparison.hpp"
 #include "uncertainty/uncertainty_options.hpp"
 
 namespace recoil {
 
-/// The same fit with the constants of the materials taken as exact.
-struct ConditionalFit {
-  FitResult fitted;
-  std::vector<IntervalSet> intervals;  ///< [its slots]: Wald and profile alone
-};
-
-/// What `assess_uncertainty` finds.
+/// All that is known about the errors of a fit.
 struct UncertaintyResult {
   UncertaintyOptions options;
   std::vector<IntervalSet> intervals;  ///< [slots]
   BootstrapResult bootstrap;
   std::vector<CaptureEstimate> capture;
   std::vector<RestitutionCurve> curves;
-  std::vector<TwoPointComparison> two_point;  ///< one per dataset, unless it was not asked for
+  std::vector<TwoPointComparison> two_point;  ///< one per dataset, empty without adhesion
   Identifiability identifiability;
   std::optional<PosteriorResult> posterior;   ///< where it was asked for
-  std::vector<ErrorBudget> budgets;           ///< [slots]; empty unless asked for
+  std::vector<ErrorBudget> budgets;           ///< [slots]
   std::vector<ErrorBudget> capture_budgets;   ///< in the order of `capture`
   std::optional<ConditionalFit> conditional;  ///< where constants are uncertain
 };

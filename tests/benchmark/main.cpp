@@ -143,7 +143,7 @@ BootstrapResult refit_all(const FitResult& fitted, int threads) {
   UncertaintyOptions options;
   options.replicates = replicates;
   options.threads = threads;
-  return bootstrap(fitted, {}, {}, options);
+  return bootstrap(fitted, {}, options);
 }
 
 std::string bootstrap_name(int threads) { return fmt::format("bootstrap/threads:{}", threads); }

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "analysis/analysis.hpp"
 #include "core/random.hpp"
 #include "support/synthetic.hpp"
-#include "uncertainty/uncertainty.hpp"
 
 namespace recoil::synthetic {
 

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <filesystem>
 
+#include "analysis/analysis.hpp"
 #include "core/files.hpp"
 #include "estimate/impact_problem.hpp"
 #include "support/noisy_case.hpp"
 #include "support/temporary_folder.hpp"
 #include "uncertainty/locate_failures.hpp"
 #include "uncertainty/resample.hpp"
-#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -43,7 +43,7 @@ TEST(Bootstrap, RefitsEndAtTheirMinimum) {
   const ResamplingPlan plan = plan_resampling(made.fitted, Scheme::parametric);
   UncertaintyOptions options = small(2);
   options.scheme = Scheme::parametric;
-  const BootstrapResult run = bootstrap(made.fitted, {}, {}, options);
+  const BootstrapResult run = bootstrap(made.fitted, {}, options);
   ASSERT_EQ(run.failed, 0);
   Observations sample = made.fitted.data;
   for (std::size_t b = 0; b < run.theta.size(); ++b) {
@@ -269,8 +269,6 @@ TEST(Failures, TenPercentWithholdOnePercentWarns) {
   UncertaintyOptions options = small(0);
   options.scheme = Scheme::cases;
   options.replicates = 99;
-  options.curves = false;
-  options.two_point = false;
   const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, options);
   EXPECT_NEAR(result.bootstrap.failed, 49.5, 20.0);  // four standard errors of a fair coin
   EXPECT_TRUE(result.bootstrap.failures.undetermined);
@@ -288,22 +286,17 @@ TEST(Automatic, AddsBatchesUntilTheErrorIsSmall) {
   UncertaintyOptions options = small(0);
   options.replicates_auto = true;
   options.wanted_error = 0.04;
-  options.profile = false;
-  options.capture = false;
-  options.curves = false;
-  options.two_point = false;
-  const UncertaintyResult loose = assess_uncertainty(c.fitted, c.datasets, options);
-  ASSERT_TRUE(loose.bootstrap.relative_error);
-  EXPECT_LE(*loose.bootstrap.relative_error, 0.04);
-  EXPECT_EQ(loose.bootstrap.replicates, 999);  // 2.7 / sqrt(999) / 3.9 = 2.2 % for a normal one
+  const BootstrapResult loose = bootstrap(c.fitted, {}, options);
+  ASSERT_TRUE(loose.relative_error);
+  EXPECT_LE(*loose.relative_error, 0.04);
+  EXPECT_EQ(loose.replicates, 999);  // 2.7 / sqrt(999) / 3.9 = 2.2 % for a normal one
   options.wanted_error = 0.02;
-  const UncertaintyResult tight = assess_uncertainty(c.fitted, c.datasets, options);
-  EXPECT_LE(*tight.bootstrap.relative_error, 0.02);
-  EXPECT_GT(tight.bootstrap.replicates, 999);
-  EXPECT_EQ((tight.bootstrap.replicates + 1) % 1000, 0);
+  const BootstrapResult tight = bootstrap(c.fitted, {}, options);
+  EXPECT_LE(*tight.relative_error, 0.02);
+  EXPECT_GT(tight.replicates, 999);
+  EXPECT_EQ((tight.replicates + 1) % 1000, 0);
   // What was there stays: the first replicates are those of the smaller run.
-  EXPECT_TRUE(std::equal(loose.bootstrap.theta.begin(), loose.bootstrap.theta.end(),
-                         tight.bootstrap.theta.begin()));
+  EXPECT_TRUE(std::equal(loose.theta.begin(), loose.theta.end(), tight.theta.begin()));
 }
 
 }  // namespace

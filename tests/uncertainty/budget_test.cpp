@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/analysis.hpp"
 #include "support/noisy_case.hpp"
-#include "uncertainty/uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -111,7 +111,6 @@ TEST(Budget, TheConditionalFitIsThatOfExactMaterials) {
   data.system.errors = {{Body::particle, Constant::density, 200.0}};
   const FitResult fitted = fit(make_model(synthetic::spec(), {data}), gather({data}));
   UncertaintyOptions options = synthetic::small(1);
-  options.curves = false;
   const UncertaintyResult result = assess_uncertainty(fitted, {data}, options);
   ASSERT_TRUE(result.conditional);
   for (std::size_t j = 0; j < exact.theta.size(); ++j) {

@@ -15,7 +15,6 @@ TEST(Bootstrap, SpreadMatchesTheLinearisedError) {
   const Case c = noisy_case();
   UncertaintyOptions options = small(0);
   options.replicates = 299;
-  options.curves = false;
   const UncertaintyResult result = assess_uncertainty(c.fitted, c.datasets, options);
   EXPECT_EQ(result.bootstrap.failed, 0);
   for (std::size_t j = 0; j < 2; ++j) {

@@ -1,10 +1,9 @@
 // Bootstrap, profile and comparison on a fit with a known answer.
-#include "uncertainty/uncertainty.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "analysis/analysis.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/predictor.hpp"
 #include "support/noisy_case.hpp"
