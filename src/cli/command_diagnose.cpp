@@ -20,7 +20,7 @@
 #include "diagnosis/extended_toml.hpp"
 #include "diagnosis/kept_pieces.hpp"
 #include "report/diagnosis_document.hpp"
-#include "report/json_diagnosis.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 namespace {

@@ -11,8 +11,8 @@
 #include "core/claim.hpp"
 #include "core/files.hpp"
 #include "core/shared_work.hpp"
-#include "report/json_report.hpp"
 #include "report/posterior_report.hpp"
+#include "report/result_json.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/noise_alternatives.hpp"
@@ -72,7 +72,7 @@ void run_fit(const FitFlags& flags) {
         parts_of(origin_of_replicates(flags.shards, analysis, assess), flags.shards.parts);
   }
   analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
-  const std::string result = json_report(analysis);
+  const std::string result = fit_json(analysis);
   const std::string printed = flags.json ? result : text_report(analysis);
   if (!flags.out.empty()) {
     std::vector<WholeFile> files = {{folder / "fit.json", result}};

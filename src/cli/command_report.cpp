@@ -21,9 +21,8 @@
 #include "diagnosis/extended_toml.hpp"
 #include "report/diagnosis_document.hpp"
 #include "report/index_document.hpp"
-#include "report/json_diagnosis.hpp"
-#include "report/json_report.hpp"
 #include "report/law_comparison.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 namespace {
@@ -156,7 +155,7 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
                      {files.laws, laws_json(entry.fit.laws)},
                      {files.picture, entry.picture},
                      {files.picture_data, entry.picture_csv},
-                     {files.json, json_report(analysis)},
+                     {files.json, fit_json(analysis)},
                      {files.stamp, expected}});
   kept->forget();
   forget_replicates(resolved.folder);

@@ -1,34 +1,48 @@
 #include "cli/fitted_values.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "report/json_result.hpp"
+#include "json/fit_file.hpp"
 
 namespace recoil {
 
 namespace {
 
 /// Were these values fitted to `datasets` as they are now?
-void check_data(const Json& json, const std::vector<Dataset>& datasets, const std::string& path) {
-  const Json fitted = json.value("datasets", Json::array());
-  bool same = fitted.size() == datasets.size();
-  std::string ids;
-  for (std::size_t d = 0; d < fitted.size(); ++d) {
-    const std::string id = fitted[d].value("id", "");
-    ids += (ids.empty() ? "" : " + ") + id;
-    same = same && id == datasets[d].id;
-  }
-  if (!same) {
-    throw InputError({path}, fmt::format("these values were fitted to {}", ids),
+void check_data(const FitFile& fit, const std::vector<Dataset>& datasets, const std::string& path) {
+  const auto same_id = [](const DatasetEntry& fitted, const Dataset& now) {
+    return fitted.id == now.id;
+  };
+  if (!std::equal(fit.datasets.begin(), fit.datasets.end(), datasets.begin(), datasets.end(),
+                  same_id)) {
+    std::vector<std::string> ids;
+    for (const DatasetEntry& dataset : fit.datasets) ids.push_back(dataset.id);
+    throw InputError({path}, fmt::format("these values were fitted to {}", fmt::join(ids, " + ")),
                      "the fit file names other data", "use the fit.json of this fit file");
   }
   for (std::size_t d = 0; d < datasets.size(); ++d) {
-    if (fitted[d].value("sha256", "") == datasets[d].sha256) continue;
+    if (fit.datasets[d].sha256 == datasets[d].sha256) continue;
     throw InputError({path}, fmt::format("{} has changed since", datasets[d].id),
                      "these values belong to the files as they were", "run recoil fit again");
   }
+}
+
+std::map<std::string, FittedValue> values_by_name(const FitFile& fit) {
+  std::map<std::string, FittedValue> values;
+  for (const auto& [name, parameter] : fit.parameters) {
+    const auto& value = parameter.value.value;
+    if (value) values[name] = {*value, parameter.std_error.value};
+  }
+  for (const auto& [name, constant] : fit.constants) {
+    if (constant.value) values[name] = {*constant.value, constant.std_error};
+  }
+  return values;
 }
 
 }  // namespace
@@ -36,9 +50,9 @@ void check_data(const Json& json, const std::vector<Dataset>& datasets, const st
 std::vector<FittedValue> take_fitted_values(ImpactModel& model,
                                             const std::vector<Dataset>& datasets,
                                             const std::string& path) {
-  const std::string text = read_text_file(path);
-  const Json json = read_fit_json(path, text, "--parameters");
-  check_data(json, datasets, path);
+  const FitFile fit = read_fit_file(path, read_text_file(path), "--parameters");
+  check_data(fit, datasets, path);
+  const std::map<std::string, FittedValue> fitted = values_by_name(fit);
   std::vector<FittedValue> values;
   for (ParameterSlot& slot : model.slots) {
     // An adhesion that follows the materials does so from what is stated of them.
@@ -46,18 +60,13 @@ std::vector<FittedValue> take_fitted_values(ImpactModel& model,
       values.push_back({slot.initial, std::nullopt});
       continue;
     }
-    const char* const kind = slot.is_constant() ? "constants" : "parameters";
-    const Json table = json.value(kind, Json::object());
-    const auto found = table.find(slot.label());
-    if (found == table.end() || !found->contains("value") || !(*found)["value"].is_number()) {
+    const auto found = fitted.find(slot.label());
+    if (found == fitted.end()) {
       throw InputError({path}, fmt::format("the parameter {} is missing", slot.label()),
                        "this is the result of another fit", "use the fit.json of this fit file");
     }
-    slot.initial = (*found)["value"].get<double>();
-    FittedValue value = {slot.initial, std::nullopt};
-    const auto error = found->find("std_error");
-    if (error != found->end() && error->is_number()) value.std_error = error->get<double>();
-    values.push_back(value);
+    slot.initial = found->second.value;
+    values.push_back(found->second);
   }
   return values;
 }

@@ -1,8 +1,8 @@
 #include "cli/json_coverage.hpp"
 
+#include "core/json.hpp"
 #include "core/program.hpp"
 #include "core/statistics.hpp"
-#include "report/json_values.hpp"
 
 namespace recoil {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "estimate/predictor.hpp"
 #include "impact/reference_solver.hpp"
-#include "report/json_values.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_validity.hpp"
 
@@ -158,7 +158,7 @@ std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>
   }
   Json history = Json::object();
   for (const HistoryColumn& column : history_columns(s)) {
-    history[column.name] = numbers_json(column.values);
+    history[column.name] = as_json(column.values);
   }
   out["history"] = history;
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

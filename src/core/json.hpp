@@ -20,6 +20,10 @@ namespace recoil {
 /// Keys keep the order in which they are written, so that two files compare line by line.
 using Json = nlohmann::ordered_json;
 
+/// `format_version` of every JSON file. It grows when a key is removed or changes its meaning, and
+/// stays when a key is added.
+inline constexpr int format_version = 2;
+
 /// Lists the members of a struct that JSON holds, in their order. The key of a member is its name:
 ///
 ///   struct NumberRange {

@@ -31,10 +31,9 @@
 #include "report/fit_document.hpp"
 #include "report/fit_tables.hpp"
 #include "report/json_comparison.hpp"
-#include "report/json_diagnosis.hpp"
-#include "report/json_report.hpp"
 #include "report/prediction_document.hpp"
 #include "report/prediction_files.hpp"
+#include "report/result_json.hpp"
 
 namespace py = pybind11;
 
@@ -268,7 +267,7 @@ void bind_models(py::module_& module) {
 void bind_results(py::module_& module) {
   using Released = py::call_guard<py::gil_scoped_release>;
   py::class_<Analysis, std::shared_ptr<Analysis>>(module, "Analysis")
-      .def("json", &json_report, Released())
+      .def("json", &fit_json, Released())
       .def("text", &text_report, Released())
       .def(
           "page", [](const Analysis& a) { return html_report(a); }, Released())

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "report/json_values.hpp"
+#include "core/json.hpp"
 
 namespace recoil {
 namespace {
@@ -60,10 +60,10 @@ Json place_json(const plot::Place& place) {
 struct LayerJson {
   Json operator()(const plot::Points& p) const {
     return {{"kind", "points"},
-            {"x", numbers_json(p.x)},
-            {"y", numbers_json(p.y)},
-            {"lower", numbers_json(p.lower)},
-            {"upper", numbers_json(p.upper)},
+            {"x", as_json(p.x)},
+            {"y", as_json(p.y)},
+            {"lower", as_json(p.lower)},
+            {"upper", as_json(p.upper)},
             {"colour", std::string(p.marker.colour)},
             {"mark", mark_name(p.marker.mark)},
             {"size", p.size},
@@ -71,42 +71,36 @@ struct LayerJson {
   }
   Json operator()(const plot::Line& l) const {
     return {{"kind", "line"},
-            {"x", numbers_json(l.x)},
-            {"y", numbers_json(l.y)},
+            {"x", as_json(l.x)},
+            {"y", as_json(l.y)},
             {"stroke", stroke_json(l.stroke)},
             {"mark", optional_mark(l.mark)},
             {"size", l.size}};
   }
   Json operator()(const plot::Band& b) const {
     return {{"kind", "band"},
-            {"x", numbers_json(b.x)},
-            {"lower", numbers_json(b.lower)},
-            {"upper", numbers_json(b.upper)},
+            {"x", as_json(b.x)},
+            {"lower", as_json(b.lower)},
+            {"upper", as_json(b.upper)},
             {"fill", fill_json(b.fill)}};
   }
   Json operator()(const plot::Boxes& b) const {
-    return {{"kind", "boxes"},
-            {"left", numbers_json(b.left)},
-            {"right", numbers_json(b.right)},
-            {"bottom", numbers_json(b.bottom)},
-            {"top", numbers_json(b.top)},
-            {"fill", fill_json(b.fill)},
-            {"colours", b.colours},
-            {"values", numbers_json(b.values)}};
+    return {{"kind", "boxes"},           {"left", as_json(b.left)},
+            {"right", as_json(b.right)}, {"bottom", as_json(b.bottom)},
+            {"top", as_json(b.top)},     {"fill", fill_json(b.fill)},
+            {"colours", b.colours},      {"values", as_json(b.values)}};
   }
   Json operator()(const plot::Spans& s) const {
     return {{"kind", "spans"},
-            {"y", numbers_json(s.y)},
-            {"lower", numbers_json(s.lower)},
-            {"upper", numbers_json(s.upper)},
+            {"y", as_json(s.y)},
+            {"lower", as_json(s.lower)},
+            {"upper", as_json(s.upper)},
             {"stroke", stroke_json(s.stroke)},
             {"stops", s.stops}};
   }
   Json operator()(const plot::Discs& d) const {
-    return {{"kind", "discs"},
-            {"x", numbers_json(d.x)},
-            {"y", numbers_json(d.y)},
-            {"values", numbers_json(d.values)}};
+    return {
+        {"kind", "discs"}, {"x", as_json(d.x)}, {"y", as_json(d.y)}, {"values", as_json(d.values)}};
   }
   Json operator()(const plot::Rule& r) const {
     return {{"kind", "rule"},
@@ -125,10 +119,10 @@ struct LayerJson {
   }
   Json operator()(const plot::Contour& c) const {
     Json rows = Json::array();
-    for (const std::vector<double>& row : c.rows) rows.push_back(numbers_json(row));
+    for (const std::vector<double>& row : c.rows) rows.push_back(as_json(row));
     return {{"kind", "contour"},
-            {"x", numbers_json({c.x.lower, c.x.upper})},
-            {"y", numbers_json({c.y.lower, c.y.upper})},
+            {"x", as_json(std::vector<double>{c.x.lower, c.x.upper})},
+            {"y", as_json(std::vector<double>{c.y.lower, c.y.upper})},
             {"rows", rows},
             {"level", c.level},
             {"stroke", stroke_json(c.stroke)}};

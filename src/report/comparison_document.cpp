@@ -7,52 +7,10 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/json.hpp"
-#include "report/json_result.hpp"
+#include "json/fit_file.hpp"
 
 namespace recoil {
 namespace {
-
-std::optional<NumberRange> range_of(const Json& ends) {
-  if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number()) {
-    return std::nullopt;
-  }
-  return NumberRange{ends[0].get<double>(), ends[1].get<double>()};
-}
-
-std::optional<double> number_of(const Json& value) {
-  return value.is_number() ? std::optional<double>(value.get<double>()) : std::nullopt;
-}
-
-void take_parameters(const Json& parameters, ComparedFit& fit) {
-  for (const auto& [name, parameter] : parameters.items()) {
-    ComparedQuantity quantity;
-    quantity.name = name;
-    quantity.unit = parameter.at("unit").get<std::string>();
-    quantity.free = parameter.at("free").get<bool>();
-    quantity.value = number_of(parameter.at("value")).value_or(NAN);
-    const Json& recommended = parameter.at("recommended");
-    if (quantity.free && recommended.is_object() && recommended.at("interval").is_string()) {
-      const Json& intervals = parameter.at("intervals");
-      quantity.interval =
-          range_of(intervals.value(recommended.at("interval").get<std::string>(), Json()));
-    }
-    fit.free_parameters += quantity.free ? 1 : 0;
-    fit.quantities.push_back(std::move(quantity));
-  }
-}
-
-void take_captures(const Json& captures, bool several, ComparedFit& fit) {
-  for (const Json& capture : captures) {
-    ComparedQuantity quantity;
-    quantity.name = fmt::format("V* at {:.4g} um", capture.at("diameter_um").get<double>());
-    if (several) quantity.name += fmt::format(", {}", capture.at("dataset").get<std::string>());
-    quantity.unit = "m/s";
-    quantity.value = number_of(capture.at("value")).value_or(NAN);
-    quantity.interval = range_of(capture.value("interval", Json()));
-    fit.quantities.push_back(std::move(quantity));
-  }
-}
 
 const ComparedQuantity* quantity_of(const ComparedFit& fit, const std::string& name) {
   const auto found =
@@ -102,7 +60,8 @@ Cell quantity_cell(const ComparedQuantity* quantity) {
   if (!std::isfinite(quantity->value)) return "none";
   if (!quantity->free) return say("{} (not fitted)", number(quantity->value));
   if (!quantity->interval) return Number{quantity->value};
-  return say("{} {}", number(quantity->value), quantity->interval->text());
+  const auto& [lower, upper] = *quantity->interval;
+  return say("{} {}", number(quantity->value), NumberRange{lower, upper}.text());
 }
 
 Table quantity_table(const std::vector<ComparedFit>& fits) {
@@ -173,32 +132,42 @@ std::optional<double> ComparedFit::aicc() const {
 }
 
 ComparedFit compared_fit(const std::string& file, const std::string& fit_json) {
-  const std::string reader = "recoil compare";
-  const Json json = read_fit_json(file, fit_json, reader);
+  const FitFile read = read_fit_file(file, fit_json, "recoil compare");
   ComparedFit fit;
-  try {
-    fit.id = json.at("fit").is_object() ? json.at("fit").at("id").get<std::string>()
-                                        : json.at("fit").get<std::string>();
-    fit.adhesion = json.at("options").value("adhesion", "ring");
-    fit.mechanisms = json.at("options").at("mechanisms").get<std::vector<std::string>>();
-    const Json& datasets = json.at("datasets");
-    for (const Json& dataset : datasets) {
-      fit.data.push_back(dataset.at("id").get<std::string>() + " " +
-                         dataset.at("sha256").get<std::string>());
-      fit.points += dataset.at("points").get<int>();
-    }
-    const Json& goodness = json.at("goodness");
-    fit.chi2 = number_of(goodness.at("chi2")).value_or(NAN);
-    fit.sd_stated = goodness.at("p_value").is_number();
-    fit.rmse = number_of(goodness.at("rmse")).value_or(NAN);
-    fit.held_out_rmse = number_of(json.at("full").value("held_out_rmse", Json()));
-    take_parameters(json.at("parameters"), fit);
-    take_captures(json.at("derived").at("capture_velocity"), datasets.size() > 1, fit);
-  } catch (const Json::exception&) {
-    throw InputError({file}, "this is not the whole fit.json of a fit", reader + " needs all of it",
-                     "make it again with recoil fit FIT --out DIR");
+  fit.id = read.fit.id;
+  fit.adhesion = to_string(read.options.adhesion);
+  fit.mechanisms = read.options.mechanisms;
+  for (const DatasetEntry& dataset : read.datasets) {
+    fit.data.push_back(dataset.id + " " + dataset.sha256);
+    fit.points += static_cast<int>(dataset.points);
+  }
+  fit.chi2 = read.goodness.chi2.value.value_or(NAN);
+  fit.sd_stated = read.goodness.p_value.value.has_value();
+  fit.rmse = read.goodness.rmse.value.value_or(NAN);
+  fit.held_out_rmse = read.full.held_out_rmse.value;
+  for (const auto& [name, parameter] : read.parameters) {
+    fit.quantities.push_back(
+        {.name = name,
+         .unit = parameter.unit,
+         .value = parameter.value.value.value_or(NAN),
+         .free = parameter.free,
+         .interval = parameter.free ? recommended_interval(parameter) : std::nullopt});
+    fit.free_parameters += parameter.free ? 1 : 0;
+  }
+  for (const FitFile::CaptureVelocity& capture : read.derived.capture_velocity) {
+    fit.quantities.push_back({.name = capture_name(capture.diameter_um.value_or(NAN),
+                                                   capture.dataset, read.datasets.size()),
+                              .unit = "m/s",
+                              .value = capture.value.value.value_or(NAN),
+                              .free = true,
+                              .interval = capture.interval});
   }
   return fit;
+}
+
+std::string capture_name(double diameter_um, const std::string& dataset, std::size_t datasets) {
+  const std::string name = fmt::format("V* at {:.4g} um", diameter_um);
+  return datasets > 1 ? name + ", " + dataset : name;
 }
 
 ChoiceDependence choice_dependence(const std::vector<ComparedFit>& fits) {
@@ -211,8 +180,8 @@ ChoiceDependence choice_dependence(const std::vector<ComparedFit>& fits) {
       const ComparedQuantity* const quantity = quantity_of(fit, name);
       if (quantity == nullptr || !quantity->interval) continue;
       ++with_interval;
-      highest_lower = std::max(highest_lower, quantity->interval->lower);
-      lowest_upper = std::min(lowest_upper, quantity->interval->upper);
+      highest_lower = std::max(highest_lower, (*quantity->interval)[0]);
+      lowest_upper = std::min(lowest_upper, (*quantity->interval)[1]);
     }
     if (with_interval < 2) continue;
     (highest_lower > lowest_upper ? found.depends : found.holds).push_back(name);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "document/document.hpp"
+#include "json/fit_file.hpp"
 
 namespace recoil {
 
@@ -14,7 +15,8 @@ struct ComparedQuantity {
   std::string unit;
   double value = 0.0;
   bool free = true;
-  std::optional<NumberRange> interval;  ///< the recommended one
+  std::optional<Ends> interval = {};  ///< the recommended one
+  RECOIL_FIELDS(name, unit, value, free, interval)
 };
 
 /// What a comparison takes from one fit.json.
@@ -31,6 +33,9 @@ struct ComparedFit {
   std::optional<double> held_out_rmse;
   std::vector<ComparedQuantity> quantities;  ///< parameters, then capture velocities
 
+  RECOIL_FIELDS(adhesion, mechanisms, data, points, free_parameters, chi2, sd_stated, rmse,
+                held_out_rmse, quantities)
+
   /// Akaike's criterion for small samples, chi^2 + 2 k + 2 k (k + 1) / (n - k - 1) (Hurvich & Tsai
   /// 1989, Biometrika 76, 297); none where no standard deviations are stated, as every fit then
   /// has its own, or where there are too few points.
@@ -40,6 +45,10 @@ struct ComparedFit {
 /// @param file names it in messages
 /// @throws InputError when `fit_json` is not the fit.json of a fit
 ComparedFit compared_fit(const std::string& file, const std::string& fit_json);
+
+/// The name of a capture velocity among compared quantities: "V* at 4.9 um, DATASET".
+/// @param datasets how many the fits have; of one it is not named
+std::string capture_name(double diameter_um, const std::string& dataset, std::size_t datasets);
 
 /// Every name that any of the fits has, in the order in which they come.
 std::vector<std::string> compared_names(const std::vector<ComparedFit>& fits);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/json_values.hpp"
+#include "core/json.hpp"
 
 namespace recoil {
 namespace {

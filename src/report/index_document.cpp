@@ -5,84 +5,82 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
-#include "core/json.hpp"
 #include "core/program.hpp"
 #include "document/html.hpp"
 #include "mechanism/parameter.hpp"
 #include "report/diagnosis_headline.hpp"
 #include "report/format.hpp"
-#include "report/json_diagnosis.hpp"
 #include "report/law_comparison.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 namespace {
 
-void widen(std::optional<TwoPointRange>& range, double value) {
-  if (!std::isfinite(value)) return;
-  if (!range) range = {value, value};
-  range->lower = std::min(range->lower, value);
-  range->upper = std::max(range->upper, value);
+void widen(std::optional<Ends>& range, std::optional<double> value) {
+  if (!value || !std::isfinite(*value)) return;
+  if (!range) range = {*value, *value};
+  range = {std::min((*range)[0], *value), std::max((*range)[1], *value)};
 }
 
-bool has_answer(const TwoPointComparison& comparison) {
-  return comparison.result.status != TwoPointStatus::too_few_points;
-}
-
-/// fit.json at a JSON pointer; null when it is not there, so that an index never fails on a key
-/// that a later version drops.
-Json at(const Json& json, const Json::json_pointer& path) {
-  return json.contains(path) ? json.at(path) : Json();
-}
-
-Json at(const Json& json, const char* pointer) { return at(json, Json::json_pointer(pointer)); }
-
-std::string text_at(const Json& json, const char* pointer) {
-  const Json value = at(json, pointer);
-  return value.is_string() ? value.get<std::string>() : std::string();
-}
-
-double number_at(const Json& json, const Json::json_pointer& path) {
-  const Json value = at(json, path);
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-}
-
-double number_at(const Json& json, const char* pointer) {
-  return number_at(json, Json::json_pointer(pointer));
-}
-
-std::optional<TwoPointRange> read_range(const Json& fit, const Json::json_pointer& pointer) {
-  std::optional<TwoPointRange> range;
-  const Json comparisons = at(fit, "/two_point_by_dataset");
-  for (const Json& comparison : comparisons) widen(range, number_at(comparison, pointer));
-  return range;
-}
-
-std::optional<NumberRange> read_recommended(const Json& parameter) {
-  const std::string kind = text_at(parameter, "/recommended/interval");
-  if (kind.empty()) return std::nullopt;
-  const Json ends = at(parameter, Json::json_pointer("/intervals") / kind);
-  if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number()) {
-    return std::nullopt;
-  }
-  return NumberRange{ends[0].get<double>(), ends[1].get<double>()};
-}
-
-Json parsed(const std::string& page, const std::string& content, const std::string& file) {
-  const auto refuse = [&](const char* problem) {
-    throw InputError({page}, fmt::format("its {} {}", file, problem), "the index is made from it",
+/// The contents of one file of a page; a key that it does not have keeps its default.
+template <class File>
+File parsed(const std::string& page, const std::string& content, const std::string& file) {
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError({page}, fmt::format("its {}: {}", file, problem), "the index is made from it",
                      "run the fit again");
   };
-  Json json;
+  const Json json = Json::parse(content, nullptr, false);
+  if (json.is_discarded()) refuse("it is not JSON");
+  File read;
   try {
-    json = Json::parse(content);
-  } catch (const Json::exception&) {
-    refuse("is not JSON");
+    read_json(json, read);
+  } catch (const JsonMismatch& mismatch) {
+    refuse(mismatch.what());
   }
-  if (!json.is_object()) refuse("is not an object");
-  return json;
+  return read;
+}
+
+/// What the index shows of a diagnosis.json.
+struct DiagnosisAnswer {
+  std::optional<Verdict> verdict;
+  std::string headline;
+  RECOIL_FIELDS(verdict, headline)
+};
+
+FitSummary summary_of(const FitFile& fit) {
+  FitSummary summary;
+  summary.id = fit.fit.id;
+  if (fit.datasets.size() == 1) summary.title = fit.dataset.title;
+  for (const DatasetEntry& dataset : fit.datasets) {
+    summary.datasets.push_back(dataset.id);
+    const std::pair entry{to_string(dataset.provenance), dataset.provenance_sentence};
+    auto& all = summary.provenances;
+    if (std::find(all.begin(), all.end(), entry) == all.end()) all.push_back(entry);
+  }
+  summary.points = fit.dataset.points;
+  for (const auto& [label, parameter] : fit.parameters) {
+    ParameterSummary& own = summary.parameters.emplace_back();
+    own.label = label;
+    own.unit = parameter.unit;
+    own.value = parameter.value.value.value_or(NAN);
+    own.free = parameter.free;
+    own.interval = recommended_interval(parameter);
+    for (const auto& [id, two_point] : fit.two_point_by_dataset) {
+      for (const auto& [name, damping] : two_point.parameters) {
+        if (name == label) widen(own.two_point, damping.value.value);
+      }
+    }
+  }
+  for (const auto& [id, two_point] : fit.two_point_by_dataset) {
+    widen(summary.two_point_rmse, two_point.rmse.value);
+  }
+  summary.rmse = fit.goodness.rmse.value.value_or(NAN);
+  summary.chi2 = fit.goodness.chi2.value.value_or(NAN);
+  summary.dof = fit.goodness.dof;
+  summary.p_value = fit.goodness.p_value.value;
+  return summary;
 }
 
 /// A sign that says a verdict to those who cannot see its colour.
@@ -109,18 +107,18 @@ bool is_damping(const std::string& label) {
   });
 }
 
-Cell range_cell(const std::optional<TwoPointRange>& range) {
+Cell range_cell(const std::optional<Ends>& range) {
   if (!range) return {};
-  const std::string first = number(range->lower, 3);
-  const std::string last = number(range->upper, 3);
-  if (first == last) return Number{range->lower, significant(3)};
+  const std::string first = number((*range)[0], 3);
+  const std::string last = number((*range)[1], 3);
+  if (first == last) return Number{(*range)[0], significant(3)};
   return say("{} to {}", first, last);
 }
 
 Cell interval_cell(const ParameterSummary& parameter) {
   if (!parameter.free) return "fixed";
   if (!parameter.interval) return {};
-  return NumberRange{parameter.interval->lower, parameter.interval->upper, significant(3)};
+  return NumberRange{(*parameter.interval)[0], (*parameter.interval)[1], significant(3)};
 }
 
 /// The law of adhesion with the lowest AICc, and by how much the others are above it.
@@ -172,40 +170,9 @@ Section card_of(const IndexEntry& entry) {
 
 }  // namespace
 
-FitSummary summary_of(const Analysis& a) {
-  const FitResult& f = a.fitted;
-  FitSummary summary;
-  summary.id = a.spec.id;
-  if (a.datasets.size() == 1) summary.title = a.datasets.front().title;
-  for (const Dataset& dataset : a.datasets) {
-    summary.datasets.push_back(dataset.id);
-    summary.points += dataset.points.size();
-  }
-  summary.provenances = provenances(a.datasets);
-  for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
-    const ParameterSlot& slot = f.model.slots[s];
-    if (slot.is_constant()) continue;
-    ParameterSummary parameter{
-        slot.label(), std::string(slot.parameter->unit), f.theta[s], slot.free, {}, {}};
-    const Interval interval = recommended_interval(intervals_of(a, s));
-    if (interval.available()) parameter.interval = NumberRange{*interval.lower, *interval.upper};
-    for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
-      const bool of_dataset =
-          s == f.model.slot_C_H[comparison.dataset] || s == f.model.slot_C_A[comparison.dataset];
-      if (of_dataset && has_answer(comparison) && s < comparison.result.theta.size()) {
-        widen(parameter.two_point, comparison.result.theta[s]);
-      }
-    }
-    summary.parameters.push_back(std::move(parameter));
-  }
-  summary.rmse = f.rmse;
-  for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
-    if (has_answer(comparison)) widen(summary.two_point_rmse, comparison.rmse);
-  }
-  summary.chi2 = f.chi2;
-  summary.dof = f.dof;
-  if (f.data.sd_stated && f.dof > 0) summary.p_value = f.p_value;
-  summary.laws = compared_laws(a.laws, a.datasets);
+FitSummary summary_of(const Analysis& analysis) {
+  FitSummary summary = summary_of(fit_file(analysis));
+  summary.laws = compared_laws(analysis.laws, analysis.datasets);
   return summary;
 }
 
@@ -218,41 +185,11 @@ FitSummary summary_of(const Analysis& analysis, const Diagnosis& diagnosis) {
 
 FitSummary read_summary(const std::string& page, const std::string& fit_json,
                         const std::string& diagnosis_json) {
-  const Json fit = parsed(page, fit_json, "fit.json");
-  FitSummary summary;
-  summary.id = text_at(fit, "/fit/id");
-  Json datasets = at(fit, "/datasets");
-  if (!datasets.is_array()) datasets = Json::array({at(fit, "/dataset")});
-  for (const Json& dataset : datasets) {
-    summary.datasets.push_back(text_at(dataset, "/id"));
-    const std::pair entry{text_at(dataset, "/provenance"),
-                          text_at(dataset, "/provenance_sentence")};
-    const bool known = std::find(summary.provenances.begin(), summary.provenances.end(), entry) !=
-                       summary.provenances.end();
-    if (!known && !entry.first.empty()) summary.provenances.push_back(entry);
-  }
-  if (datasets.size() == 1) summary.title = text_at(fit, "/dataset/title");
-  const double points = number_at(fit, "/dataset/points");
-  summary.points = points >= 0.0 ? static_cast<std::size_t>(points) : 0;
-  const Json parameters = at(fit, "/parameters");
-  for (const auto& [label, parameter] : parameters.items()) {
-    if (!parameter.is_object()) continue;
-    summary.parameters.push_back(
-        {label, parameter.value("unit", ""), number_at(parameter, "/value"),
-         parameter.value("free", false), read_recommended(parameter),
-         read_range(fit, Json::json_pointer("/parameters") / label / "value")});
-  }
-  summary.rmse = number_at(fit, "/goodness/rmse");
-  summary.two_point_rmse = read_range(fit, Json::json_pointer("/rmse"));
-  summary.chi2 = number_at(fit, "/goodness/chi2");
-  const double dof = number_at(fit, "/goodness/dof");
-  summary.dof = std::isfinite(dof) ? static_cast<int>(dof) : 0;
-  const double p = number_at(fit, "/goodness/p_value");
-  if (std::isfinite(p)) summary.p_value = p;
+  FitSummary summary = summary_of(parsed<FitFile>(page, fit_json, "fit.json"));
   if (diagnosis_json.empty()) return summary;
-  const Json diagnosis = parsed(page, diagnosis_json, "diagnosis.json");
-  summary.verdict = value_named<Verdict>(text_at(diagnosis, "/verdict"));
-  summary.headline = text_at(diagnosis, "/headline");
+  const auto diagnosis = parsed<DiagnosisAnswer>(page, diagnosis_json, "diagnosis.json");
+  summary.verdict = diagnosis.verdict;
+  summary.headline = diagnosis.headline;
   return summary;
 }
 

@@ -11,20 +11,14 @@
 
 namespace recoil {
 
-/// A number by two points: of several datasets the range that theirs span.
-struct TwoPointRange {
-  double lower = 0.0;
-  double upper = 0.0;
-};
-
 /// What the index shows of one parameter.
 struct ParameterSummary {
   std::string label;
   std::string unit;
   double value = 0.0;
   bool free = true;
-  std::optional<NumberRange> interval;  ///< the recommended one
-  std::optional<TwoPointRange> two_point;
+  std::optional<Ends> interval;   ///< the recommended one
+  std::optional<Ends> two_point;  ///< by two points; of several datasets the range of theirs
 };
 
 /// What the index shows of one fit.
@@ -36,7 +30,7 @@ struct FitSummary {
   std::vector<std::pair<std::string, std::string>> provenances;  ///< (label, sentence)
   std::vector<ParameterSummary> parameters;
   double rmse = 0.0;  ///< of e [1]
-  std::optional<TwoPointRange> two_point_rmse;
+  std::optional<Ends> two_point_rmse;
   double chi2 = 0.0;
   int dof = 0;
   std::optional<double> p_value;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/program.hpp"
-#include "report/json_values.hpp"
 
 namespace recoil {
 namespace {
@@ -28,11 +27,9 @@ Json said_of(const ComparedFit& fit, const std::string& name, Json& entry) {
                                   [&](const ComparedQuantity& q) { return q.name == name; });
   if (found == fit.quantities.end()) return nullptr;
   entry["unit"] = found->unit;
-  Json interval = nullptr;
-  if (found->interval) {
-    interval = {number_or_null(found->interval->lower), number_or_null(found->interval->upper)};
-  }
-  return {{"value", number_or_null(found->value)}, {"free", found->free}, {"interval", interval}};
+  return {{"value", number_or_null(found->value)},
+          {"free", found->free},
+          {"interval", as_json(found->interval)}};
 }
 
 }  // namespace

@@ -1,275 +1,223 @@
-#include "report/json_diagnosis.hpp"
-
+// From a Diagnosis to the contents of diagnosis.json.
 #include <algorithm>
 
 #include "core/units.hpp"
-#include "diagnosis/diagnosis_result.hpp"
 #include "report/answer_words.hpp"
 #include "report/diagnosis_headline.hpp"
-#include "report/json_target.hpp"
-#include "report/json_values.hpp"
+#include "report/result_json.hpp"
 #include "report/words_diagnosis.hpp"
 
 namespace recoil {
 namespace {
 
-Json optional_number(const std::optional<double>& value) {
-  return value ? number_or_null(*value) : Json(nullptr);
-}
+using File = DiagnosisFile;
 
-Json structure_json(const Structure& structure) {
-  Json tests = Json::array();
-  for (const StructureTest& test : structure.tests) {
-    tests.push_back({{"id", to_string(test.question)},
-                     {"asks", words_of(test.question)},
-                     {"statistic", number_or_null(test.statistic)},
-                     {"p_value", test.p_value}});
+double um(double metres) { return metres / units::um; }
+
+File::Misfit misfit_of(const Diagnosis& d) {
+  File::Misfit out = {.p_value = d.structure.p_value,
+                      .simulated = d.structure.simulated,
+                      .failed = d.structure.failed,
+                      .tests = {},
+                      .where = {},
+                      .free_form_remaining_p = d.free_form_p};
+  for (const StructureTest& test : d.structure.tests) {
+    out.tests.push_back({.id = test.question,
+                         .asks = words_of(test.question),
+                         .statistic = test.statistic,
+                         .p_value = test.p_value});
   }
-  return {{"p_value", structure.p_value},
-          {"simulated", structure.simulated},
-          {"failed", structure.failed},
-          {"tests", tests}};
-}
-
-Json cell_json(const Diagnosis& d, const MisfitCell& cell) {
-  return {{"dataset", d.datasets[cell.dataset].id},
-          {"diameter_um", cell.diameter / units::um},
-          {"incident_velocity", {cell.slowest, cell.fastest}},
-          {"points", cell.points},
-          {"restitution", number_or_null(cell.restitution)},
-          {"energy_J", number_or_null(cell.energy)},
-          {"standardised", number_or_null(cell.standardised)},
-          {"model_is", cell.restitution > 0.0 ? "too low" : "too high"}};
-}
-
-Json parameters_json(const CandidateResult& candidate) {
-  Json parameters = Json::object();
-  for (const FoundParameter& p : candidate.parameters) {
-    parameters[p.label] = {
-        {"value", number_or_null(p.value)},
-        {"sd", p.sd > 0.0 ? number_or_null(p.sd) : Json(nullptr)},
-        {"unit", p.unit},
-        {"null_value", p.null_value},
-        {"stated_by", p.stated_by ? Json(to_string(*p.stated_by)) : Json(nullptr)},
-        {"plausible", p.plausible()}};
+  for (const MisfitCell& cell : d.where) {
+    out.where.push_back({.dataset = d.datasets[cell.dataset].id,
+                         .diameter_um = um(cell.diameter),
+                         .incident_velocity = {cell.slowest, cell.fastest},
+                         .points = cell.points,
+                         .restitution = cell.restitution,
+                         .energy_J = cell.energy,
+                         .standardised = cell.standardised,
+                         .model_is = cell.restitution > 0.0 ? "too low" : "too high"});
   }
-  return parameters;
-}
-
-Json candidate_json(const CandidateResult& c) {
-  Json out = {{"id", c.candidate.name()},
-              {"kind", to_string(c.kind)},
-              {"parameters", parameters_json(c)},
-              {"p_value", optional_number(c.p_value)},
-              {"delta_aicc", number_or_null(c.delta_aicc)},
-              {"remaining_p", c.remaining_p},
-              {"remaining_part", c.remaining_part},
-              {"held_out_gain", c.gain ? number_or_null(c.gain->relative) : Json(nullptr)},
-              {"held_out_log_score", c.gain ? number_or_null(c.gain->log_score) : Json(nullptr)},
-              {"plausible", c.plausible},
-              {"cost_of_possible", c.cost_of_possible}};
-  out["aside"] = c.explains() ? Json(nullptr) : Json(set_aside_words(c));
   return out;
 }
 
-Json candidates_json(const std::vector<CandidateResult>& candidates, std::size_t most) {
-  Json out = Json::array();
+/// @param most how many are listed
+std::vector<File::Candidate> candidates_of(const std::vector<CandidateResult>& candidates,
+                                           std::size_t most) {
+  std::vector<File::Candidate> list;
   for (const CandidateResult& c : candidates) {
-    if (out.size() < most) out.push_back(candidate_json(c));
+    if (list.size() == most) break;
+    File::Candidate& out = list.emplace_back();
+    out.id = c.candidate.name();
+    out.kind = c.kind;
+    for (const FoundParameter& p : c.parameters) {
+      out.parameters.push_back({p.label,
+                                {.value = p.value,
+                                 .sd = p.sd > 0.0 ? std::optional(p.sd) : std::nullopt,
+                                 .unit = p.unit,
+                                 .null_value = p.null_value,
+                                 .stated_by = p.stated_by,
+                                 .plausible = p.plausible()}});
+    }
+    out.p_value = c.p_value;
+    out.delta_aicc = c.delta_aicc;
+    out.remaining_p = c.remaining_p;
+    out.remaining_part = c.remaining_part;
+    if (c.gain) {
+      out.held_out_gain = c.gain->relative;
+      out.held_out_log_score = c.gain->log_score;
+    }
+    out.plausible = c.plausible;
+    out.cost_of_possible = c.cost_of_possible;
+    if (!c.explains()) out.aside = set_aside_words(c);
+  }
+  return list;
+}
+
+std::optional<File::Gain> gain_of(const Diagnosis& d) {
+  if (!d.gain) return std::nullopt;
+  File::Gain out = {.held_out_rmse_base = d.gain->rmse_base,
+                    .held_out_rmse_extended = d.gain->rmse_extended,
+                    .relative = d.gain->relative,
+                    .interval = {},
+                    .log_score = d.gain->log_score,
+                    .folds = {}};
+  if (d.gain->lower && d.gain->upper) out.interval = {*d.gain->lower, *d.gain->upper};
+  for (const HeldOutGain::PerFold& one : d.gain->folds) {
+    out.folds.push_back({.kind = one.fold.kind,
+                         .name = fold_words(one.fold, d.datasets),
+                         .points = one.fold.points.size(),
+                         .rmse_base = one.rmse_base,
+                         .rmse_extended = one.rmse_extended,
+                         .log_score = one.log_score,
+                         .counted = one.counted,
+                         .chosen = one.chosen});
   }
   return out;
 }
 
-Json gain_json(const Diagnosis& d) {
-  if (!d.gain) return nullptr;
-  Json folds = Json::array();
-  for (const HeldOutGain::PerFold& fold : d.gain->folds) {
-    folds.push_back({{"kind", to_string(fold.fold.kind)},
-                     {"name", fold_words(fold.fold, d.datasets)},
-                     {"points", fold.fold.points.size()},
-                     {"rmse_base", number_or_null(fold.rmse_base)},
-                     {"rmse_extended", number_or_null(fold.rmse_extended)},
-                     {"log_score", number_or_null(fold.log_score)},
-                     {"counted", fold.counted},
-                     {"chosen", fold.chosen}});
-  }
-  Json interval = nullptr;
-  if (d.gain->lower && d.gain->upper) interval = {*d.gain->lower, *d.gain->upper};
-  return {{"held_out_rmse_base", number_or_null(d.gain->rmse_base)},
-          {"held_out_rmse_extended", number_or_null(d.gain->rmse_extended)},
-          {"relative", number_or_null(d.gain->relative)},
-          {"interval", interval},
-          {"log_score", number_or_null(d.gain->log_score)},
-          {"folds", folds}};
-}
-
-Json fit_json(const FitResult& fitted, const std::vector<IntervalSet>& intervals) {
-  Json parameters = Json::object();
+File::Fit fit_of(const FitResult& fitted, const std::vector<IntervalSet>& intervals) {
+  File::Fit out = {.parameters = {}, .chi2 = fitted.chi2, .dof = fitted.dof, .rmse = fitted.rmse};
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     if (slot.is_constant()) continue;
-    parameters[slot.label()] = {{"value", number_or_null(fitted.theta[j])},
-                                {"unit", slot.parameter->unit},
-                                {"free", slot.free},
-                                {"std_error", number_or_null(fitted.std_error[j])}};
+    File::FittedParameter& parameter =
+        out.parameters.emplace_back(slot.label(), File::FittedParameter()).second;
+    parameter.value = fitted.theta[j];
+    parameter.unit = slot.parameter->unit;
+    parameter.free = slot.free;
+    parameter.std_error = fitted.std_error[j];
     if (j < intervals.size()) {
-      parameters[slot.label()]["interval"] = interval_json(recommended_interval(intervals[j]));
+      parameter.interval.emplace(ends_of(recommended_interval(intervals[j])));
     }
-  }
-  return {{"parameters", parameters},
-          {"chi2", number_or_null(fitted.chi2)},
-          {"dof", fitted.dof},
-          {"rmse", number_or_null(fitted.rmse)}};
-}
-
-Json next_json(const Diagnosis& d) {
-  Json out = Json::array();
-  for (const NextMeasurement& next : d.next) {
-    out.push_back({{"dataset", d.datasets[next.dataset].id},
-                   {"incident_velocity", next.velocity},
-                   {"diameter_um", next.diameter / units::um},
-                   {"separates", {next.one, next.other}},
-                   {"expected_difference", number_or_null(next.difference)},
-                   {"event_sd", number_or_null(next.event_sd)},
-                   {"events", next.events ? Json(*next.events) : Json(nullptr)}});
   }
   return out;
 }
 
-Json experiments_json(const Diagnosis& d) {
-  Json out = Json::array();
+std::vector<File::Experiment> experiments_of(const Diagnosis& d) {
+  std::vector<File::Experiment> list;
   for (const NextExperiment& next : d.experiments) {
-    Json entry = {{"kind", to_string(next.kind)}};
+    File::Experiment& out = list.emplace_back();
+    out.kind = next.kind;
     if (next.kind == ExperimentKind::condition) {
-      entry["condition"] = to_string(next.condition);
-      entry["value"] = next.value;
-      entry["doing"] = next.doing;
+      out.condition = next.condition;
+      out.value = next.value;
+      out.doing = std::string(next.doing);
     }
-    if (next.kind == ExperimentKind::target) add_target(entry, next.material, next.places);
-    entry["dataset"] = d.datasets[next.dataset].id;
-    entry["series"] = d.datasets[next.dataset].series[next.series];
-    entry["diameter_um"] = next.diameter / units::um;
-    entry["incident_velocity"] = next.velocity;
-    entry["events"] = next.events;
-    entry["separates"] = {next.one, next.other};
-    entry["expected_difference"] = number_or_null(next.difference);
-    entry["expected_log_odds"] = number_or_null(next.log_odds);
-    out.push_back(std::move(entry));
+    out.dataset = d.datasets[next.dataset].id;
+    out.series = d.datasets[next.dataset].series[next.series];
+    out.diameter_um = um(next.diameter);
+    out.incident_velocity = next.velocity;
+    out.events = next.events;
+    out.separates = {next.one, next.other};
+    out.expected_difference = next.difference;
+    out.expected_log_odds = next.log_odds;
   }
-  return out;
+  return list;
 }
 
-Json expected_json(const Diagnosis& d) {
-  Json out = Json::array();
-  for (const ExpectedEffect& effect : d.expected) {
-    out.push_back({{"id", effect.id},
-                   {"dataset", d.datasets[effect.dataset].id},
-                   {"condition", to_string(effect.condition)},
-                   {"value", effect.stated},
-                   {"diameter_um", effect.diameter / units::um},
-                   {"incident_velocity", effect.velocity},
-                   {"change", number_or_null(effect.change)}});
-  }
-  return out;
-}
-
-/// Each with whether it would do in place of the answer, or beside it.
-Json unstated_json(const Diagnosis& d) {
+std::vector<File::Unstated> unstated_of(const Diagnosis& d) {
   const std::vector<UnstatedErrors> rivals = rival_errors(d);
-  Json out = Json::array();
+  std::vector<File::Unstated> list;
   for (const UnstatedErrors& errors : d.unstated) {
     const bool rival = std::any_of(rivals.begin(), rivals.end(), [&](const UnstatedErrors& other) {
       return other.source == errors.source;
     });
-    out.push_back({{"id", to_string(errors.source)},
-                   {"value", errors.value},
-                   {"delta_aicc", errors.delta_aicc},
-                   {"remaining_p", errors.remaining_p},
-                   {"leave_nothing", errors.leave_nothing()},
-                   {"rival", rival}});
+    list.push_back({.id = errors.source,
+                    .value = errors.value,
+                    .delta_aicc = errors.delta_aicc,
+                    .remaining_p = errors.remaining_p,
+                    .leave_nothing = errors.leave_nothing(),
+                    .rival = rival});
   }
-  return out;
-}
-
-/// `row` is the line in the dataset's file of points.
-Json outlying_json(const Diagnosis& d) {
-  Json out = Json::array();
-  for (const OutlyingPoint& point : d.outlying) {
-    out.push_back({{"dataset", d.datasets[point.dataset].id},
-                   {"row", point.line},
-                   {"diameter_um", point.diameter / units::um},
-                   {"incident_velocity", point.velocity},
-                   {"restitution", point.restitution},
-                   {"residual", number_or_null(point.residual)}});
-  }
-  return out;
-}
-
-Json capture_json(const Diagnosis& d) {
-  Json out = Json::array();
-  for (const CaptureChange& change : d.capture) {
-    out.push_back({{"dataset", d.datasets[change.dataset].id},
-                   {"diameter_um", change.diameter / units::um},
-                   {"base", optional_number(change.base)},
-                   {"extended", optional_number(change.extended)}});
-  }
-  return out;
+  return list;
 }
 
 }  // namespace
 
-std::string diagnosis_json(const Diagnosis& d) {
-  Json out;
-  out["format_version"] = format_version;
-  out["fit"] = d.spec.id;
-  Json datasets = Json::array();
+DiagnosisFile diagnosis_file(const Diagnosis& d) {
+  DiagnosisFile out;
+  out.fit = d.spec.id;
   for (const Dataset& dataset : d.datasets) {
-    datasets.push_back({{"id", dataset.id},
-                        {"provenance", to_string(dataset.provenance)},
-                        {"points", dataset.points.size()},
-                        {"sha256", dataset.sha256}});
+    out.datasets.push_back({dataset.id, dataset.provenance, dataset.points.size(), dataset.sha256});
   }
-  out["datasets"] = datasets;
-  out["verdict"] = to_string(d.verdict);
-  out["headline"] = headline(d);
-  out["text"] = answer_words(d);
-  out["misfit"] = structure_json(d.structure);
-  out["misfit"]["where"] = Json::array();
-  for (const MisfitCell& cell : d.where) out["misfit"]["where"].push_back(cell_json(d, cell));
-  out["misfit"]["free_form_remaining_p"] = d.free_form_p;
-  out["outlying_points"] = outlying_json(d);
-  out["with_outlying_points"] = d.for_all ? Json{{"verdict", to_string(d.for_all->verdict)},
-                                                 {"named", d.for_all->named},
-                                                 {"rivals", d.for_all->rivals},
-                                                 {"resembles", d.for_all->resembles}}
-                                          : Json(nullptr);
-  out["law_error"] = d.spec.law_error;
-  out["named"] = d.named;
-  std::vector<std::string> rivals = d.rivals;
-  if (d.materials) rivals.emplace_back("materials_within_errors");
-  out["rivals"] = rivals;
-  out["resembles"] = d.resembles;
-  out["in_every_explanation"] = d.common;
-  out["shared_cause"] = d.shared_cause.empty() ? Json(nullptr) : Json(d.shared_cause);
-  out["candidates"] = candidates_json(d.candidates, d.candidates.size());
+  out.verdict = d.verdict;
+  out.headline = headline(d);
+  out.text = answer_words(d);
+  out.misfit = misfit_of(d);
+  for (const OutlyingPoint& point : d.outlying) {
+    out.outlying_points.push_back({.dataset = d.datasets[point.dataset].id,
+                                   .row = point.line,
+                                   .diameter_um = um(point.diameter),
+                                   .incident_velocity = point.velocity,
+                                   .restitution = point.restitution,
+                                   .residual = point.residual});
+  }
+  if (const auto& all = d.for_all) {
+    out.with_outlying_points = {all->verdict, all->named, all->rivals, all->resembles};
+  }
+  out.law_error = d.spec.law_error;
+  out.named = d.named;
+  out.rivals = d.rivals;
+  if (d.materials) out.rivals.emplace_back("materials_within_errors");
+  out.resembles = d.resembles;
+  out.in_every_explanation = d.common;
+  if (!d.shared_cause.empty()) out.shared_cause = d.shared_cause;
+  out.candidates = candidates_of(d.candidates, d.candidates.size());
   constexpr std::size_t most_pairs = 20;
-  out["pairs"] = candidates_json(d.pairs, most_pairs);
-  out["gain"] = gain_json(d);
-  out["base"] = fit_json(d.base, d.base_intervals);
-  out["extended"] =
-      d.extended_fit ? fit_json(*d.extended_fit, d.extended_intervals) : Json(nullptr);
-  out["capture_velocity"] = capture_json(d);
-  out["next_measurement"] = next_json(d);
-  out["next_experiment"] = experiments_json(d);
-  out["expected_effects"] = expected_json(d);
-  out["unstated_errors"] = unstated_json(d);
-  out["settings"] = {
-      {"level", d.options.level},       {"chance", d.options.chance},
-      {"apart", d.options.margin},      {"apart_in_pairs", d.options.margin_in_pairs},
-      {"compared", d.options.compared}, {"seed", d.options.seed}};
-  out["warnings"] = diagnosis_warnings(d);
-  out["remarks"] = d.remarks;
-  return out.dump(2) + "\n";
+  out.pairs = candidates_of(d.pairs, most_pairs);
+  out.gain = gain_of(d);
+  out.base = fit_of(d.base, d.base_intervals);
+  if (d.extended_fit) out.extended = fit_of(*d.extended_fit, d.extended_intervals);
+  for (const CaptureChange& change : d.capture) {
+    out.capture_velocity.push_back({.dataset = d.datasets[change.dataset].id,
+                                    .diameter_um = um(change.diameter),
+                                    .base = change.base,
+                                    .extended = change.extended});
+  }
+  out.next_experiment = experiments_of(d);
+  for (const ExpectedEffect& effect : d.expected) {
+    out.expected_effects.push_back({.id = effect.id,
+                                    .dataset = d.datasets[effect.dataset].id,
+                                    .condition = effect.condition,
+                                    .value = effect.stated,
+                                    .diameter_um = um(effect.diameter),
+                                    .incident_velocity = effect.velocity,
+                                    .change = effect.change});
+  }
+  out.unstated_errors = unstated_of(d);
+  out.settings = {.level = d.options.level,
+                  .chance = d.options.chance,
+                  .apart = d.options.margin,
+                  .apart_in_pairs = d.options.margin_in_pairs,
+                  .compared = d.options.compared,
+                  .seed = d.options.seed};
+  out.warnings = diagnosis_warnings(d);
+  out.remarks = d.remarks;
+  return out;
+}
+
+std::string diagnosis_json(const Diagnosis& diagnosis) {
+  return text_of(diagnosis_file(diagnosis), 2);
 }
 
 }  // namespace recoil

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "core/json.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
-#include "report/json_values.hpp"
 
 namespace recoil {
 namespace {

@@ -7,16 +7,14 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/json.hpp"
 #include "core/units.hpp"
-#include "report/json_values.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr double width = 1.96;  // standard errors of a 95 % interval of a normal estimate
 
-NumberRange around(double value, double error, bool log_scale) {
+Ends around(double value, double error, bool log_scale) {
   if (!log_scale) return {value - width * error, value + width * error};
   const double factor = std::exp(width * error / value);
   return {value / factor, value * factor};
@@ -42,16 +40,16 @@ ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets
                               acting_value(f.model, f.theta, s), slot.free, std::nullopt};
     const double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
     if (slot.free && !f.at_bound[s] && error > 0.0) {
-      const NumberRange ends = around(f.theta[s], error, slot.log_scale);
-      quantity.interval = {std::max(ends.lower, slot.lower), std::min(ends.upper, slot.upper)};
+      const Ends ends = around(f.theta[s], error, slot.log_scale);
+      quantity.interval = {std::max(ends[0], slot.lower), std::min(ends[1], slot.upper)};
     }
     fit.free_parameters += slot.free ? 1 : 0;
     fit.quantities.push_back(std::move(quantity));
   }
   for (const LawCapture& capture : law.captures) {
     ComparedQuantity quantity;
-    quantity.name = fmt::format("V* at {:.4g} um", capture.diameter / units::um);
-    if (datasets.size() > 1) quantity.name += ", " + datasets[capture.dataset].id;
+    quantity.name =
+        capture_name(capture.diameter / units::um, datasets[capture.dataset].id, datasets.size());
     quantity.unit = "m/s";
     quantity.value = capture.value.value_or(NAN);
     if (capture.value && capture.std_error) {
@@ -62,9 +60,11 @@ ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets
   return fit;
 }
 
-Json range_json(const std::optional<NumberRange>& range) {
-  return range ? Json::array({range->lower, range->upper}) : Json();
-}
+/// `laws.json`.
+struct LawsFile {
+  std::vector<ComparedFit> laws;
+  RECOIL_FIELDS(laws)
+};
 
 }  // namespace
 
@@ -93,70 +93,19 @@ Section laws_section(const std::vector<ComparedFit>& laws) {
   return section;
 }
 
-std::string laws_json(const std::vector<ComparedFit>& laws) {
-  Json all = Json::array();
-  for (const ComparedFit& fit : laws) {
-    Json quantities = Json::array();
-    for (const ComparedQuantity& quantity : fit.quantities) {
-      quantities.push_back({{"name", quantity.name},
-                            {"unit", quantity.unit},
-                            {"value", number_or_null(quantity.value)},
-                            {"free", quantity.free},
-                            {"interval", range_json(quantity.interval)}});
-    }
-    all.push_back({{"adhesion", fit.adhesion},
-                   {"mechanisms", fit.mechanisms},
-                   {"data", fit.data},
-                   {"points", fit.points},
-                   {"free_parameters", fit.free_parameters},
-                   {"chi2", number_or_null(fit.chi2)},
-                   {"sd_stated", fit.sd_stated},
-                   {"aicc", fit.aicc() ? Json(*fit.aicc()) : Json()},
-                   {"rmse", number_or_null(fit.rmse)},
-                   {"held_out_rmse", fit.held_out_rmse ? Json(*fit.held_out_rmse) : Json()},
-                   {"quantities", quantities}});
-  }
-  return Json({{"laws", all}}).dump(2) + "\n";
-}
+std::string laws_json(const std::vector<ComparedFit>& laws) { return text_of(LawsFile{laws}); }
 
 std::vector<ComparedFit> read_laws(const std::string& page, const std::string& json) {
-  const auto number = [](const Json& value) {
-    return value.is_number() ? value.get<double>() : NAN;
-  };
-  std::vector<ComparedFit> fits;
+  const Json parsed = Json::parse(json, nullptr, false);
   try {
-    const Json parsed = Json::parse(json);
-    for (const Json& one : parsed.at("laws")) {
-      ComparedFit& fit = fits.emplace_back();
-      fit.adhesion = one.at("adhesion").get<std::string>();
-      fit.id = fit.adhesion;
-      fit.mechanisms = one.at("mechanisms").get<std::vector<std::string>>();
-      fit.data = one.at("data").get<std::vector<std::string>>();
-      fit.points = one.at("points").get<int>();
-      fit.free_parameters = one.at("free_parameters").get<int>();
-      fit.chi2 = number(one.at("chi2"));
-      fit.sd_stated = one.at("sd_stated").get<bool>();
-      fit.rmse = number(one.at("rmse"));
-      if (one.at("held_out_rmse").is_number()) {
-        fit.held_out_rmse = one.at("held_out_rmse").get<double>();
-      }
-      for (const Json& quantity : one.at("quantities")) {
-        ComparedQuantity& next = fit.quantities.emplace_back();
-        next.name = quantity.at("name").get<std::string>();
-        next.unit = quantity.at("unit").get<std::string>();
-        next.value = number(quantity.at("value"));
-        next.free = quantity.at("free").get<bool>();
-        const Json& ends = quantity.at("interval");
-        if (ends.is_array()) {
-          next.interval = NumberRange{ends.at(0).get<double>(), ends.at(1).get<double>()};
-        }
-      }
-    }
-  } catch (const Json::exception&) {
+    if (!parsed.contains("laws")) throw JsonMismatch(parsed, "the fits under several laws");
+    LawsFile file = value_from<LawsFile>(parsed);
+    for (ComparedFit& fit : file.laws) fit.id = fit.adhesion;
+    return file.laws;
+  } catch (const JsonMismatch&) {
     throw InputError({page}, "its laws.json is not what recoil writes", "the index is made from it",
                      "run recoil report --force");
   }
-  return fits;
 }
 
 }  // namespace recoil

@@ -4,15 +4,28 @@
 
 #include <cmath>
 
+#include "core/json.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
 #include "report/format.hpp"
-#include "report/json_target.hpp"
-#include "report/json_values.hpp"
 
 namespace recoil {
 namespace {
+
+void add_target(Json& entry, const TargetMaterial& material,
+                const std::vector<ExperimentPlace>& places) {
+  entry["target"] = {{"material", material.name},
+                     {"youngs_modulus", material.youngs_modulus},
+                     {"poisson_ratio", material.poisson_ratio},
+                     {"density", material.density}};
+  entry["points"] = Json::array();
+  for (const ExperimentPlace& place : places) {
+    entry["points"].push_back({{"diameter_um", place.diameter / units::um},
+                               {"incident_velocity", place.velocity},
+                               {"events", place.events}});
+  }
+}
 
 Json count_or_null(const std::optional<double>& value) {
   return value ? Json(std::ceil(*value)) : Json(nullptr);

@@ -7,20 +7,12 @@
 #include "core/units.hpp"
 #include "report/fit_tables.hpp"
 #include "report/format.hpp"
-#include "report/json_values.hpp"
 
 namespace recoil {
 namespace {
 
 const PosteriorResult* sampled(const Analysis& a) {
   return a.uncertainty.posterior ? &*a.uncertainty.posterior : nullptr;
-}
-
-Json marginal_json(const PosteriorMarginal& marginal) {
-  return {{"mean", number_or_null(marginal.mean)},
-          {"sd", number_or_null(marginal.sd)},
-          {"r_hat", number_or_null(marginal.r_hat)},
-          {"effective_draws", number_or_null(marginal.effective)}};
 }
 
 std::string capture_label(const Analysis& a, const CaptureEstimate& at) {
@@ -70,35 +62,6 @@ Table posterior_table(const Analysis& a) {
     row(Sentence(capture_label(a, a.uncertainty.capture[k]) + " [m/s]"), found->capture[k], false);
   }
   return table;
-}
-
-Json posterior_json(const Analysis& a) {
-  const PosteriorResult* const found = sampled(a);
-  if (found == nullptr) return nullptr;
-  Json out = {{"steps", found->steps},
-              {"walkers", found->walkers},
-              {"acceptance", number_or_null(found->acceptance)},
-              {"draws", found->draws.size()}};
-  out["missing"] = found->available() ? Json(nullptr) : Json(no_posterior_words(*found));
-  Json parameters = Json::object();
-  for (std::size_t j = 0; j < found->parameters.size(); ++j) {
-    const ParameterSlot& slot = a.fitted.model.slots[j];
-    if (slot.moves()) parameters[slot.label()] = marginal_json(found->parameters[j]);
-  }
-  out["parameters"] = std::move(parameters);
-  return out;
-}
-
-void put_posterior(Json& intervals, const Analysis& a, const PosteriorMarginal* marginal) {
-  const PosteriorResult* const found = sampled(a);
-  Json interval = nullptr;
-  std::string why = "it was not asked for ([uncertainty] posterior = true)";
-  if (found != nullptr) {
-    why = found->available() ? "the parameter is fixed" : no_posterior_words(*found);
-    if (marginal != nullptr && found->available()) interval = interval_json(marginal->interval);
-  }
-  if (interval.is_null()) intervals["why"]["posterior"] = why;
-  intervals["posterior"] = std::move(interval);
 }
 
 std::string posterior_csv(const Analysis& a) {

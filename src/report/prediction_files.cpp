@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "core/json.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
-#include "report/json_values.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_predict.hpp"
 
@@ -98,7 +98,7 @@ std::string json_prediction(const Analysis& analysis, const PolydispersePredicti
     sizes.push_back({{"name", to_string(size.size)},
                      {"diameter_um", size.diameter / units::um},
                      {"capture_velocity", number_or_null(size.capture_velocity)},
-                     {"restitution", numbers_json(size.restitution)}});
+                     {"restitution", as_json(size.restitution)}});
   }
   out["size_curves"] = sizes;
   Json rows = Json::array();

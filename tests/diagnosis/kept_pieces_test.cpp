@@ -7,7 +7,7 @@
 #include <set>
 
 #include "diagnosis/diagnose.hpp"
-#include "report/json_diagnosis.hpp"
+#include "report/result_json.hpp"
 #include "support/synthetic.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 /// The folders of src in pipeline order. The last two are recoil and the Python module, which does
 /// what the commands do.
 const std::vector<std::string> kStages = {
-    "core",        "data",     "experiment", "impact",    "mechanism", "estimate",
-    "uncertainty", "coverage", "predict",    "diagnosis", "plan",      "analysis",
-    "export",      "plot",     "document",   "report",    "cli",       "python"};
+    "core",     "data",     "experiment", "impact", "mechanism", "estimate", "uncertainty",
+    "coverage", "predict",  "diagnosis",  "plan",   "analysis",  "json",     "export",
+    "plot",     "document", "report",     "cli",    "python"};
 
 std::size_t position(const std::string& stage) {
   return static_cast<std::size_t>(std::find(kStages.begin(), kStages.end(), stage) -

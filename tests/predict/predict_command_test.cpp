@@ -28,7 +28,7 @@ TEST(Predict, WritesThreeConventionsWithBands) {
   EXPECT_NE(run.out.find("synthetic"), std::string::npos);
   EXPECT_NE(run.out.find("no --height was given; 1 mm"), std::string::npos);
   const auto json = nlohmann::json::parse(place.read("out/predict.json"));
-  EXPECT_EQ(json["format_version"], 1);
+  EXPECT_EQ(json["format_version"], 2);
   EXPECT_NEAR(json["sizes"]["d10_um"].get<double>(), 2.9, 1e-12);
   EXPECT_EQ(json["conventions"].size(), 3U);
   const auto& last = json["curve"].back();

@@ -75,7 +75,7 @@ def test_comparing_what_cannot_be_compared(here):
         recoil.compare(one)
     with pytest.raises(recoil.InputError, match="nowhere.json"):
         recoil.compare(one, "nowhere.json")
-    (here / "old.json").write_text(one.json.replace('"format_version": 1', '"format_version": 0'))
+    (here / "old.json").write_text(one.json.replace('"format_version": 2', '"format_version": 0'))
     with pytest.raises(recoil.InputError, match="format_version 0.*older"):
         recoil.compare(one, "old.json")
     with pytest.raises(recoil.InputError, match="format_version 0.*older"):

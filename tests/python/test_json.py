@@ -96,7 +96,7 @@ def test_stdout_is_valid_json_and_nothing_else(inputs, command, name, words):
     errors = [f"{list(e.absolute_path)}: {e.message[:200]}"
               for e in validator(name).iter_errors(found)]
     assert not errors
-    assert found["format_version"] == 1
+    assert found["format_version"] == 2
     # what else there is to say goes to stderr: of these only one has something
     assert ("note: no --height was given" in done.err) == ("sizes.csv" in words)
     assert done.err.count("\n") == ("sizes.csv" in words)
@@ -154,7 +154,7 @@ def test_a_wrong_file_is_not_valid(inputs, command):
         return not check.is_valid(wrong)
 
     assert not broken(lambda fit: fit["model"].update(separation_m=4e-10))  # only maugis has it
-    assert broken(lambda fit: fit.update(format_version=2))
+    assert broken(lambda fit: fit.update(format_version=3))
     assert broken(lambda fit: fit.pop("parameters"))
     assert broken(lambda fit: fit.update(parametres={}))
     assert broken(lambda fit: fit["parameters"]["C_H"].update(value="0.003"))
@@ -173,7 +173,7 @@ def test_what_is_written_is_what_is_printed(inputs, command, place):
     assert (place / "written/diagnosis.json").read_text() == printed
 
 
-@pytest.mark.parametrize("version, words", [(0, "which is older"), (2, "which is newer"),
+@pytest.mark.parametrize("version, words", [(0, "which is older"), (3, "which is newer"),
                                             (None, "states no format_version")])
 def test_another_format_version_is_said_in_one_line(inputs, command, place, version, words):
     fit = json.loads((place / "one.json").read_text())

@@ -14,7 +14,7 @@ using testing::ElementsAre;
 std::string fit_json(const std::string& id, const std::string& adhesion, double chi2,
                      const std::string& C_A, const std::string& capture,
                      const std::string& sha = "abc") {
-  return R"({"format_version": 1, "fit": {"id": ")" + id + R"("}, "options": {"adhesion": ")" +
+  return R"({"format_version": 2, "fit": {"id": ")" + id + R"("}, "options": {"adhesion": ")" +
          adhesion + R"(", "mechanisms": []}, "datasets": [{"id": "d", "sha256": ")" + sha +
          R"(", "points": 20}], "goodness": {"chi2": )" + std::to_string(chi2) +
          R"(, "p_value": 0.4, "rmse": 0.02}, "full": {"held_out_rmse": 0.03}, "parameters": {
@@ -56,7 +56,7 @@ TEST(Comparison, RefusesOtherDataAndWhatIsNoFit) {
   EXPECT_THROW(comparison_sections(fits), InputError);
   EXPECT_THROW(compared_fit("x.json", "{"), InputError);
   EXPECT_THROW(compared_fit("x.json", R"({"verdict": "adequate"})"), InputError);
-  EXPECT_THROW(compared_fit("x.json", R"({"format_version": 1, "parameters": {}})"), InputError);
+  EXPECT_THROW(compared_fit("x.json", R"({"format_version": 2, "parameters": {}})"), InputError);
 }
 
 }  // namespace

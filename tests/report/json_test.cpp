@@ -7,7 +7,7 @@
 #include <regex>
 
 #include "example_analysis.hpp"
-#include "report/json_report.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 namespace {
@@ -84,7 +84,7 @@ const char* const promised[] = {"/dataset/id",
                                 "/residuals/0/weighted_residual"};
 
 TEST(JsonReport, HoldsEveryPromisedKey) {
-  const std::string text = json_report(sample::four_diameters());
+  const std::string text = fit_json(sample::four_diameters());
   EXPECT_EQ(text.back(), '\n');
   const PlainJson fit = PlainJson::parse(text);
   for (const char* key : promised) EXPECT_TRUE(fit.contains(PlainJson::json_pointer(key))) << key;
@@ -92,7 +92,7 @@ TEST(JsonReport, HoldsEveryPromisedKey) {
 
 TEST(JsonReport, RepeatsTheNumbersExactly) {
   const Analysis analysis = sample::four_diameters();
-  const PlainJson fit = PlainJson::parse(json_report(analysis));
+  const PlainJson fit = PlainJson::parse(fit_json(analysis));
   EXPECT_EQ(fit["parameters"]["C_H"]["value"], 0.00312);
   EXPECT_EQ(fit["parameters"]["C_H"]["intervals"]["bca"][1], 0.00312 + 2.08 * 0.00021);
   EXPECT_EQ(fit["parameters"]["f0"]["free"], false);
@@ -113,7 +113,7 @@ TEST(JsonReport, SaysWhereTheModelHolds) {
   Analysis analysis = sample::four_diameters();
   analysis.validity = {{ValidityQuantity::contact_radius, 0.52, 0.3, 0, 4.9e-6, 100.0},
                        {ValidityQuantity::tabor, 13.4, 5.0, 0, 4.9e-6, 100.0}};
-  const PlainJson validity = PlainJson::parse(json_report(analysis))["validity"];
+  const PlainJson validity = PlainJson::parse(fit_json(analysis))["validity"];
   ASSERT_EQ(validity.size(), 2U);
   EXPECT_EQ(validity[0]["quantity"], "contact_radius_over_sphere_radius");
   EXPECT_EQ(validity[0]["value"], 0.52);
@@ -126,7 +126,7 @@ TEST(JsonReport, SaysWhereTheModelHolds) {
 }
 
 TEST(JsonReport, GivesAReasonForEveryMissingInterval) {
-  const PlainJson fit = PlainJson::parse(json_report(sample::four_diameters()));
+  const PlainJson fit = PlainJson::parse(fit_json(sample::four_diameters()));
   for (const auto& [name, parameter] : fit["parameters"].items()) {
     const PlainJson& intervals = parameter["intervals"];
     for (const char* kind : {"wald", "profile", "percentile", "bca", "studentized"}) {
@@ -166,7 +166,7 @@ TEST(JsonReport, NeverPrintsWhatIsNotANumber) {
   analysis.uncertainty.curves[0].restitution[5] = nan;
   analysis.uncertainty.two_point[0].rmse = nan;
   analysis.uncertainty.two_point[0].result.theta[0] = nan;
-  const std::string text = json_report(analysis);
+  const std::string text = fit_json(analysis);
   EXPECT_FALSE(std::regex_search(text, std::regex("[:\\[, ]-?(nan|inf|NaN|Infinity)\\b")));
   const PlainJson fit = PlainJson::parse(text);
   EXPECT_TRUE(fit["goodness"]["chi2"].is_null());
@@ -177,13 +177,13 @@ TEST(JsonReport, NeverPrintsWhatIsNotANumber) {
 }
 
 TEST(JsonReport, APValueWithoutStatedDeviationsIsNullAndSaysWhy) {
-  const PlainJson fit = PlainJson::parse(json_report(sample::two_datasets()));
+  const PlainJson fit = PlainJson::parse(fit_json(sample::two_datasets()));
   EXPECT_TRUE(fit["goodness"]["p_value"].is_null());
   EXPECT_THAT(fit["goodness"]["p_value_why"].get<std::string>(), HasSubstr("estimated"));
 }
 
 TEST(JsonReport, DescribesAJointFitAsOneAndLists) {
-  const PlainJson fit = PlainJson::parse(json_report(sample::two_datasets()));
+  const PlainJson fit = PlainJson::parse(fit_json(sample::two_datasets()));
   EXPECT_EQ(fit["dataset"]["id"], "example-molybdenum+example-silicon");
   EXPECT_EQ(fit["dataset"]["provenance"], "reconstruction") << "the weaker of the two";
   EXPECT_EQ(fit["dataset"]["points"], 64);
@@ -197,7 +197,7 @@ TEST(JsonReport, DescribesAJointFitAsOneAndLists) {
 }
 
 TEST(JsonReport, HasTheContactOfEveryDataset) {
-  const PlainJson fit = PlainJson::parse(json_report(sample::two_datasets()));
+  const PlainJson fit = PlainJson::parse(fit_json(sample::two_datasets()));
   const PlainJson& contacts = fit["model"]["contacts"];
   ASSERT_EQ(contacts.size(), 2U);
   // By hand: 4/3 over (1 - 0.33^2) / 1.2 GPa + (1 - 0.31^2) / 320 GPa, or 131 GPa.
@@ -210,7 +210,7 @@ TEST(JsonReport, HasTheContactOfEveryDataset) {
 TEST(JsonReport, WithoutABootstrapStaysWhole) {
   Analysis analysis = sample::four_diameters();
   analysis.uncertainty = UncertaintyResult{};
-  const PlainJson fit = PlainJson::parse(json_report(analysis));
+  const PlainJson fit = PlainJson::parse(fit_json(analysis));
   EXPECT_TRUE(fit["two_point"].is_null());
   EXPECT_FALSE(fit["two_point_why"].get<std::string>().empty());
   EXPECT_TRUE(fit["parameters"]["C_H"]["intervals"]["bca"].is_null());
@@ -221,13 +221,13 @@ TEST(JsonReport, WithoutABootstrapStaysWhole) {
 }
 
 TEST(JsonReport, IsTheSameTwice) {
-  EXPECT_EQ(json_report(sample::four_diameters()), json_report(sample::four_diameters()));
+  EXPECT_EQ(fit_json(sample::four_diameters()), fit_json(sample::four_diameters()));
 }
 
 TEST(JsonReport, SurvivesWordsThatAreNotUtf8) {
   Analysis analysis = sample::four_diameters();
   analysis.datasets[0].title = "broken \xff\xfe title \"quoted\"\n";
-  EXPECT_TRUE(PlainJson::accept(json_report(analysis)));
+  EXPECT_TRUE(PlainJson::accept(fit_json(analysis)));
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(LawComparison, AnIntervalIsTwiceOnePointNineSixStandardErrors) {
   const ComparedQuantity& C_A = laws.front().quantities.at(1);
   EXPECT_EQ(C_A.name, "C_A");
   ASSERT_TRUE(C_A.interval.has_value());
-  EXPECT_NEAR(C_A.interval->upper - C_A.interval->lower, 2.0 * 1.96 * ring.fitted->std_error[1],
+  EXPECT_NEAR((*C_A.interval)[1] - (*C_A.interval)[0], 2.0 * 1.96 * ring.fitted->std_error[1],
               1e-9);
 }
 

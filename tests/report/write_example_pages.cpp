@@ -6,7 +6,7 @@
 #include "core/files.hpp"
 #include "example_analysis.hpp"
 #include "report/index_document.hpp"
-#include "report/json_report.hpp"
+#include "report/result_json.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
        {recoil::sample::four_diameters(), recoil::sample::two_datasets()}) {
     const std::string id = analysis.spec.id;
     recoil::write_whole_file(folder / (id + ".html"), recoil::html_report(analysis));
-    recoil::write_whole_file(folder / (id + ".json"), recoil::json_report(analysis));
+    recoil::write_whole_file(folder / (id + ".json"), recoil::fit_json(analysis));
     recoil::write_whole_file(folder / (id + ".txt"), recoil::text_report(analysis));
     entries.push_back({id + ".html", recoil::summary_of(analysis), recoil::thumbnail(analysis)});
   }

@@ -1,0 +1,621 @@
+// From an Analysis to the contents of fit.json.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/files.hpp"
+#include "core/program.hpp"
+#include "core/units.hpp"
+#include "estimate/reweighting.hpp"
+#include "report/format.hpp"
+#include "report/posterior_report.hpp"
+#include "report/result_json.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_identifiability.hpp"
+#include "report/words_intervals.hpp"
+#include "report/words_materials.hpp"
+#include "report/words_noise.hpp"
+#include "report/words_two_point.hpp"
+#include "report/words_validity.hpp"
+
+namespace recoil {
+namespace {
+
+using File = FitFile;
+
+/// nullopt unless `condition` holds.
+std::optional<double> only_if(bool condition, double value) {
+  return condition ? std::optional(value) : std::nullopt;
+}
+
+/// values[i], or nullopt beyond the end.
+std::optional<double> at(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() ? std::optional(values[i]) : std::nullopt;
+}
+
+double um(double metres) { return metres / units::um; }
+
+std::optional<Ends> mc_error(const Interval& interval) {
+  if (!interval.available() || !interval.lower_error || !interval.upper_error) return std::nullopt;
+  return Ends{*interval.lower_error, *interval.upper_error};
+}
+
+/// Why `ends_of` gives nothing.
+std::string why_none(const Interval& interval) {
+  return interval.available() ? "a bound is not finite" : missing_words(interval);
+}
+
+/// The datasets of a joint fit as one: ids joined by "+", the provenance that claims least.
+DatasetEntry joint_entry(const std::vector<Dataset>& datasets) {
+  if (datasets.size() == 1) return dataset_entry(datasets.front());
+  DatasetEntry joint;
+  std::string checksums;
+  for (const Dataset& dataset : datasets) {
+    joint.id += (joint.id.empty() ? "" : "+") + dataset.id;
+    joint.title += (joint.title.empty() ? "" : "; ") + dataset.title;
+    joint.points += dataset.points.size();
+    joint.sources.insert(joint.sources.end(), dataset.sources.begin(), dataset.sources.end());
+    checksums += dataset.sha256;
+  }
+  joint.provenance = weakest_provenance(datasets);
+  joint.provenance_sentence = provenance_sentence(joint.provenance);
+  joint.sha256 = sha256_hex(checksums);
+  return joint;
+}
+
+std::string all_provenance_sentences(const std::vector<Dataset>& datasets) {
+  std::string text;
+  for (const auto& [label, sentence] : provenances(datasets)) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : " ", label, sentence);
+  }
+  return text;
+}
+
+/// The number of threads is left out on purpose: no digit of a result depends on it.
+File::Options options_of(const Analysis& a) {
+  const UncertaintyOptions& options = a.uncertainty.options;
+  File::Options out = {
+      .adhesion = a.fitted.model.adhesion,
+      .adhesion_damping_phase = a.fitted.model.phase,
+      .mechanisms = a.spec.mechanisms,
+      .mixed_sizes = averages_over_sizes(a.fitted.model),
+      .replicates = options.replicates_auto ? Json("auto") : Json(options.replicates),
+      .scheme = options.scheme,
+      .level = options.level,
+      .seed = options.seed,
+      .materials = a.spec.uncertainty.materials,
+      .parameters = {}};
+  for (const ParameterSlot& slot : a.fitted.model.slots) {
+    if (slot.is_constant()) continue;
+    out.parameters.push_back(
+        {slot.label(),
+         {.initial = slot.initial, .free = slot.free, .bounds = {slot.lower, slot.upper}}});
+  }
+  return out;
+}
+
+std::string equation_of(AdhesionLaw law) {
+  switch (law) {
+    case AdhesionLaw::ring:
+      return "Li, Dunn & Brach (1999), eq. 5";
+    case AdhesionLaw::jkr:
+      return "Johnson, Kendall & Roberts (1971), damped";
+    case AdhesionLaw::dmt:
+      return "Derjaguin, Muller & Toporov (1975), damped";
+    case AdhesionLaw::maugis:
+      return "Maugis (1992), damped";
+  }
+  return {};
+}
+
+File::Model model_of(const Analysis& a) {
+  const ImpactModel& model = a.fitted.model;
+  File::Model out;
+  out.equation = equation_of(model.adhesion);
+  out.adhesion = model.adhesion;
+  out.adhesion_damping_phase = model.phase;
+  if (model.adhesion == AdhesionLaw::maugis) out.separation_m = model.separation;
+  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
+    const ContactProperties& contact = model.contacts[k];
+    const ImpactConditions conditions = reference_conditions(a, k, 1.0);
+    const double f0 = conditions.adhesion_force;
+    out.contacts.push_back(
+        {.dataset = a.datasets[k].id,
+         .stiffness_K_Pa = contact.stiffness,
+         .stiffness_K_derived_Pa = contact.stiffness_derived,
+         .adhesion_energy_J_per_m2 = contact.adhesion_energy,
+         .f0_N_per_m = f0,
+         .W_of_f0_J_per_m2 = adhesion_energy_for(f0, conditions.diameter / 2.0, contact.stiffness),
+         .f0_eq12_N_per_m = contact.adhesion_force_derived,
+         .reference_diameter_um = um(contact.reference_diameter),
+         .particle_density_kg_per_m3 = contact.particle_density,
+         .adhesion_velocity_m_per_s = adhesion_velocity(conditions),
+         .contradictions = contact.contradictions});
+  }
+  return out;
+}
+
+File::Intervals intervals_entry(const Analysis& a, std::size_t slot, const IntervalSet& set) {
+  File::Intervals out;
+  out.wald = ends_of(set[IntervalKind::wald]);
+  out.profile = ends_of(set[IntervalKind::profile]);
+  out.percentile = ends_of(set[IntervalKind::percentile]);
+  out.bca = ends_of(set[IntervalKind::bca]);
+  out.studentized = ends_of(set[IntervalKind::studentized]);
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    if (!ends_of(set[kind])) out.why.emplace_back(to_string(kind), why_none(set[kind]));
+  }
+  const Interval& quoted = recommended_interval(set);
+  out.recommended.why = quoted.available() ? recommended_words(set) : why_none(quoted);
+  if (quoted.available()) out.recommended.interval = to_string(set.recommended);
+  const std::optional<PosteriorResult>& posterior = a.uncertainty.posterior;
+  if (posterior && posterior->available()) {
+    out.posterior = ends_of(posterior->parameters[slot].interval);
+  }
+  if (!out.posterior) {
+    out.why.emplace_back("posterior", !posterior
+                                          ? "it was not asked for ([uncertainty] posterior = true)"
+                                      : posterior->available() ? "the parameter is fixed"
+                                                               : no_posterior_words(*posterior));
+  }
+  return out;
+}
+
+/// Sets `budget` and what belongs to it; leaves the keys out where there is no budget.
+template <class Entry>
+void set_budget(Entry& entry, const ErrorBudget& budget, const ImpactModel& model) {
+  if (!budget.available()) return;
+  std::vector<File::BudgetRow>& rows = entry.budget.emplace();
+  for (const BudgetEntry& source : budget.entries) {
+    const bool constant = source.source == BudgetSource::constant;
+    File::BudgetRow& row = rows.emplace_back();
+    row.source = constant ? source_words(source, model) : to_string(source.source);
+    row.sd = source.sd;
+    row.share = source.share;
+    if (source.lower && source.upper) row.move.emplace(Ends{*source.lower, *source.upper});
+  }
+  entry.budget_linear = budget.linear;
+  entry.budget_sd_without_first_constant.emplace(budget.sd_without_first_constant);
+}
+
+File::Parameter parameter_of(const Analysis& a, std::size_t s) {
+  const FitResult& f = a.fitted;
+  const ParameterSlot& slot = f.model.slots[s];
+  const IntervalSet set = intervals_of(a, s);
+  File::Parameter out;
+  out.value = {acting_value(f.model, f.theta, s), "the estimate is not finite"};
+  out.unit = slot.parameter->unit;
+  out.free = slot.free;
+  out.at_bound = s < f.at_bound.size() && f.at_bound[s];
+  const bool follows = s < a.uncertainty.budgets.size() && !slot.free;
+  const double error = follows ? a.uncertainty.budgets[s].sd : at(f.std_error, s).value_or(NAN);
+  out.std_error = {only_if(error > 0.0, error), !slot.free     ? "the parameter is fixed"
+                                                : out.at_bound ? "the estimate rests on a bound"
+                                                               : "the covariance is not available"};
+  out.intervals = intervals_entry(a, s, set);
+  out.recommended = out.intervals.recommended;
+  out.profile_shape = set[IntervalKind::profile].shape;
+  const Sentence label = symbol(slot.label());
+  for (const IntervalKind kind : values_of<IntervalKind>()) {
+    out.intervals_mc_error.emplace_back(to_string(kind), mc_error(set[kind]));
+    if (!set[kind].note) continue;
+    out.intervals_note.emplace_back(to_string(kind), plain_text(note_words(set[kind], label)));
+  }
+  if (set.disagreement) out.intervals_differ = plain_text(disagreement_words(f, s, set));
+  if (const auto& bca = set.bca_constants) out.bca_constants = {bca->bias, bca->acceleration};
+  out.bound_share = set.bound_share;
+  if (s < a.uncertainty.budgets.size()) set_budget(out, a.uncertainty.budgets[s], f.model);
+  if (const auto& exact = a.uncertainty.conditional;
+      exact && s < exact->fitted.theta.size() && exact->fitted.model.slots[s].free) {
+    out.materials_exact.emplace(File::MaterialsExact{
+        .value = exact->fitted.theta[s],
+        .std_error = exact->fitted.std_error[s],
+        .intervals = {{"wald", ends_of(exact->intervals[s][IntervalKind::wald])},
+                      {"profile", ends_of(exact->intervals[s][IntervalKind::profile])}}});
+  }
+  return out;
+}
+
+Named<File::Constant> constants_of(const Analysis& a) {
+  Named<File::Constant> all;
+  const ImpactModel& model = a.fitted.model;
+  if (a.fitted.theta.size() != model.slots.size()) return all;
+  for (std::size_t k = 0; k < model.constants.size(); ++k) {
+    const UncertainConstant& constant = model.constants[k];
+    const std::size_t j = model.first_constant() + k;
+    File::Constant& out = all.emplace_back(model.slots[j].label(), File::Constant()).second;
+    out.value = a.fitted.theta[j];
+    out.unit = model.slots[j].parameter->unit;
+    out.meaning = model.slots[j].parameter->meaning;
+    out.std_error = at(a.fitted.std_error, j).value_or(0.0);
+    out.stated = constant.stated;
+    out.stated_sd = constant.sd;
+    out.distribution = is_positive(constant.constant) ? "lognormal" : "normal";
+    out.moved_sd = a.fitted.constants_moved[k];
+    for (const std::size_t d : constant.datasets) out.datasets.push_back(a.datasets[d].id);
+  }
+  return all;
+}
+
+/// A matrix over the labels of the free parameters; `value(i, j)` is its entry.
+template <class ValueOf>
+std::optional<File::Matrix> matrix_of(const FitResult& f, const ValueOf& value) {
+  const std::vector<ParameterSlot>& slots = f.model.slots;
+  if (f.covariance.size() != slots.size() * slots.size()) return std::nullopt;
+  File::Matrix rows;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (!slots[i].free) continue;
+    auto& row = rows.emplace_back(slots[i].label(), File::Matrix::value_type::second_type()).second;
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+      if (!slots[j].free) continue;
+      const bool known = f.std_error[i] > 0.0 && f.std_error[j] > 0.0;  // neither is at a bound
+      row.emplace_back(slots[j].label(), known ? std::optional(value(i, j)) : std::nullopt);
+    }
+  }
+  return rows;
+}
+
+std::vector<File::CaptureVelocity> captures_of(const Analysis& a) {
+  std::vector<File::CaptureVelocity> list;
+  const std::optional<PosteriorResult>& posterior = a.uncertainty.posterior;
+  for (std::size_t k = 0; k < a.uncertainty.capture.size(); ++k) {
+    const CaptureEstimate& capture = a.uncertainty.capture[k];
+    File::CaptureVelocity& out = list.emplace_back();
+    out.dataset = a.datasets[capture.dataset].id;
+    out.diameter_um = um(capture.diameter);
+    out.unit = "m/s";
+    out.value = {only_if(capture.found, capture.value),
+                 "no velocity at which capture turns into rebound was found"};
+    out.interval = ends_of(capture.interval);
+    out.interval_mc_error = mc_error(capture.interval);
+    out.intervals.delta = ends_of(capture[CaptureIntervalKind::delta]);
+    out.intervals.percentile = ends_of(capture[CaptureIntervalKind::percentile]);
+    out.intervals.studentized = ends_of(capture[CaptureIntervalKind::studentized]);
+    if (posterior && posterior->available()) {
+      out.intervals.posterior.emplace(ends_of(posterior->capture[k].interval));
+    }
+    if (capture.because) out.recommended.interval = to_string(capture.recommended);
+    out.recommended.why = recommended_words(capture);
+    if (!out.interval) out.why = why_none(capture.interval);
+    if (k < a.uncertainty.capture_budgets.size()) {
+      set_budget(out, a.uncertainty.capture_budgets[k], a.fitted.model);
+    }
+  }
+  return list;
+}
+
+File::Goodness goodness_of(const FitResult& f) {
+  const bool stated = f.data.sd_stated;
+  return {.chi2 = {f.chi2, "the sum of squares is not finite"},
+          .dof = f.dof,
+          .p_value = {only_if(stated && f.dof > 0, f.p_value),
+                      stated ? "no degrees of freedom are left"
+                             : "no standard deviations are stated: the noise is estimated from the "
+                               "fit"},
+          .rmse = {f.rmse, "no point rebounded"},
+          .noise_scale = {f.noise_scale, "the noise could not be estimated"},
+          .noise_text = noise_words(f)};
+}
+
+File::Noise noise_of(const FitResult& f) {
+  const Observations& data = f.data;
+  const NoiseModel& noise = data.noise;
+  const auto count_with = [&](double MeasuredPoint::*error) {
+    return static_cast<int>(
+        std::count_if(data.points.begin(), data.points.end(),
+                      [&](const Observation& point) { return point.*error > 0.0; }));
+  };
+  File::Noise out;
+  out.variance = noise.variance;
+  out.chosen = !noise.candidates.empty();
+  out.scale = {only_if(!data.sd_stated, noise.scale), "the standard deviations are stated"};
+  out.scale_text = scale_words(noise.variance, noise.scale);
+  for (const VarianceCandidate& candidate : noise.candidates) {
+    out.candidates.push_back({.variance = candidate.function,
+                              .scale = candidate.scale,
+                              .criterion = candidate.criterion,
+                              .handicap = penalty_of(candidate.function)});
+  }
+  out.margin = {noise.candidates.size() > 1 ? std::optional(choice_margin(noise)) : std::nullopt,
+                "nothing was chosen"};
+  out.points_with_velocity_errors = count_with(&MeasuredPoint::velocity_sd);
+  out.points_with_diameter_errors = count_with(&MeasuredPoint::diameter_sd);
+  out.event_spread = {only_if(noise.event_spread > 0.0, noise.event_spread),
+                      "no point has both rebounds and captures"};
+  out.setting_sd = {only_if(data.shares_settings(), noise.setting_sd),
+                    "the points of one setting are taken to share no error"};
+  out.setting_sd_estimated = data.setting_sd_estimated;
+  out.residuals = noise.student ? "student" : "normal";
+  out.student_dof = {noise.student ? std::optional(noise.student->dof) : std::nullopt,
+                     "normal residuals"};
+  out.efficiency = noise.student ? noise.student->efficiency() : 1.0;
+  out.text = noise_words(f);
+  return out;
+}
+
+File::Identifiable identifiability_of(const Analysis& a) {
+  const Identifiability& found = a.uncertainty.identifiability;
+  const std::vector<ParameterSlot>& slots = a.fitted.model.slots;
+  const auto by_parameter = [&](const std::vector<double>& values) {
+    Named<std::optional<double>> out;
+    for (std::size_t s = 0; s < values.size() && s < slots.size(); ++s) {
+      if (slots[s].free && values[s] != 0.0) out.emplace_back(slots[s].label(), values[s]);
+    }
+    return out;
+  };
+  File::Identifiable out;
+  if (found.assessed()) out.verdict = found.verdict;
+  out.text = plain_text(identifiability_words(a.fitted, a.uncertainty));
+  for (std::size_t s = 0; s < found.parameter.size() && s < slots.size(); ++s) {
+    if (!slots[s].free) continue;
+    out.parameters.emplace_back(slots[s].label(), found.parameter[s].identifiable);
+  }
+  for (const InformationDirection& direction : found.information.directions) {
+    out.information.directions.push_back(
+        {.exponents = by_parameter(direction.exponents),
+         .relative_sd = direction.relative_sd,
+         .words = plain_text(direction_words(a.fitted, direction))});
+  }
+  out.information.relative_sd = by_parameter(found.information.relative_sd);
+  out.information.condition = found.information.condition;
+  constexpr std::size_t most_plans = 3;
+  for (const PlannedPoints& plan : found.information.plans) {
+    if (out.information.more_points.size() == most_plans) break;
+    out.information.more_points.push_back({.dataset = a.datasets[plan.dataset].id,
+                                           .diameter_um = um(plan.diameter),
+                                           .incident_velocity = plan.velocity,
+                                           .points = plan.points,
+                                           .relative_sd = by_parameter(plan.relative_sd)});
+  }
+  return out;
+}
+
+File::Bootstrap bootstrap_of(const Analysis& a) {
+  const BootstrapResult& bootstrap = a.uncertainty.bootstrap;
+  File::Bootstrap out = {.scheme = bootstrap.scheme,
+                         .scheme_why = scheme_words(bootstrap),
+                         .replicates = bootstrap.replicates,
+                         .failed = bootstrap.failed,
+                         .failures = {},
+                         .mc_error_of_width = bootstrap.relative_error,
+                         .seed = bootstrap.seed,
+                         .usable = bootstrap.theta.size(),
+                         .two_point_replicates = bootstrap.two_point_replicates,
+                         .two_point_failed = {}};
+  for (std::size_t k = 0; k < a.datasets.size() && k < bootstrap.two_point_failed.size(); ++k) {
+    out.two_point_failed.emplace_back(a.datasets[k].id, bootstrap.two_point_failed[k]);
+  }
+  const FailedReplicates& failed = bootstrap.failures;
+  if (failed.index.empty()) return out;
+  constexpr std::size_t most_listed = 100;  // failed replicates by their index
+  File::Failures& failures = out.failures.emplace();
+  failures.text = failures_words(bootstrap, a.fitted.data);
+  failures.replicates = failed.index;
+  failures.replicates.resize(std::min(failed.index.size(), most_listed));
+  failures.message = failure_message(failed);
+  for (const FailedReplicates::Suspect& suspect : failed.suspects) {
+    const Observation& point = a.fitted.data.points[suspect.point];
+    failures.suspects.push_back({.point = suspect.point + 1,
+                                 .incident_velocity = point.velocity,
+                                 .diameter_um = um(point.diameter),
+                                 .disturbance_when_failed = suspect.failed,
+                                 .disturbance_otherwise = suspect.usual});
+  }
+  return out;
+}
+
+std::optional<File::Posterior> posterior_of(const Analysis& a) {
+  if (!a.uncertainty.posterior) return std::nullopt;
+  const PosteriorResult& found = *a.uncertainty.posterior;
+  File::Posterior out = {.steps = found.steps,
+                         .walkers = found.walkers,
+                         .acceptance = found.acceptance,
+                         .draws = found.draws.size(),
+                         .missing = {},
+                         .parameters = {}};
+  if (!found.available()) out.missing = no_posterior_words(found);
+  for (std::size_t j = 0; j < found.parameters.size(); ++j) {
+    const PosteriorMarginal& marginal = found.parameters[j];
+    if (!a.fitted.model.slots[j].moves()) continue;
+    out.parameters.push_back({a.fitted.model.slots[j].label(),
+                              {.mean = marginal.mean,
+                               .sd = marginal.sd,
+                               .r_hat = marginal.r_hat,
+                               .effective_draws = marginal.effective}});
+  }
+  return out;
+}
+
+std::string held_out_why(const TwoPointComparison& comparison) {
+  return comparison.nothing_held_out ? held_out_words(comparison)
+                                     : "no other diameter was predicted";
+}
+
+File::TwoPoint two_point_entry(const Analysis& a, const TwoPointComparison& comparison) {
+  const TwoPointResult& two = comparison.result;
+  const ImpactModel& model = a.fitted.model;
+  const bool answered = two.status != TwoPointStatus::too_few_points;
+  const auto point_at = [&](std::size_t index) -> std::optional<File::PaperPoint> {
+    if (!answered || index >= a.fitted.data.points.size()) return std::nullopt;
+    const Observation& point = a.fitted.data.points[index];
+    return File::PaperPoint{point.velocity, point.restitution, um(point.diameter)};
+  };
+  File::TwoPoint out;
+  out.status = two.status;
+  out.text = plain_text(two_point_words(a.fitted, comparison.dataset, two));
+  out.iterations = two.iterations;
+  out.diameter_um = um(two.diameter);
+  out.low_point = point_at(two.low_point);
+  out.high_point = point_at(two.high_point);
+  for (const std::size_t s :
+       {model.slot_C_H[comparison.dataset], model.slot_C_A[comparison.dataset]}) {
+    out.parameters.push_back(
+        {model.slots[s].label(),
+         {.value = {at(two.theta, s), out.text},
+          .unit = std::string(model.slots[s].parameter->unit),
+          .spread = {at(comparison.spread, s), "no replicate has an answer"}}});
+  }
+  out.rmse = {only_if(answered, comparison.rmse), out.text};
+  out.held_out_rmse = {comparison.held_out_rmse, held_out_why(comparison)};
+  out.failed = comparison.failed;
+  return out;
+}
+
+File::Full full_entry(const Analysis& a, const TwoPointComparison& comparison) {
+  const ImpactModel& model = a.fitted.model;
+  File::Full out;
+  out.rmse = {comparison.full_rmse, "no point rebounded"};
+  out.held_out_rmse = {comparison.full_held_out_rmse, held_out_why(comparison)};
+  auto& spread = out.spread.emplace();
+  for (const std::size_t s :
+       {model.slot_C_H[comparison.dataset], model.slot_C_A[comparison.dataset]}) {
+    spread.emplace_back(model.slots[s].label(), at(comparison.full_spread, s));
+  }
+  return out;
+}
+
+/// The keys without a dataset are those of the first dataset.
+void set_two_point(File& out, const Analysis& a) {
+  for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
+    const std::string& id = a.datasets[comparison.dataset].id;
+    out.two_point_by_dataset.emplace_back(id, two_point_entry(a, comparison));
+    out.full_by_dataset.emplace_back(id, full_entry(a, comparison));
+  }
+  if (out.two_point_by_dataset.empty()) {
+    out.two_point.why = "the comparison was not made";
+    out.full.rmse = {a.fitted.rmse, "no point rebounded"};
+    out.full.held_out_rmse.why = out.two_point.why;
+  } else {
+    out.two_point.value = out.two_point_by_dataset.front().second;
+    out.full = out.full_by_dataset.front().second;
+  }
+}
+
+std::vector<File::CurvePoint> curve_of(const Analysis& a) {
+  std::vector<File::CurvePoint> rows;
+  for (const RestitutionCurve& curve : a.uncertainty.curves) {
+    for (std::size_t i = 0; i < curve.velocity.size() && i < curve.restitution.size(); ++i) {
+      const Ends band = {at(curve.lower, i).value_or(NAN), at(curve.upper, i).value_or(NAN)};
+      const bool banded = std::isfinite(band[0]) && std::isfinite(band[1]);
+      rows.push_back({.dataset = a.datasets[curve.dataset].id,
+                      .series = curve.series,
+                      .diameter_um = um(curve.diameter),
+                      .incident_velocity = curve.velocity[i],
+                      .restitution = curve.restitution[i],
+                      .band = banded ? std::optional(band) : std::nullopt,
+                      .two_point = at(curve.two_point, i)});
+    }
+  }
+  return rows;
+}
+
+std::vector<File::Residual> residuals_of(const Analysis& a) {
+  const FitResult& f = a.fitted;
+  std::vector<File::Residual> rows;
+  for (std::size_t i = 0; i < f.data.points.size(); ++i) {
+    const Observation& point = f.data.points[i];
+    const Dataset& dataset = a.datasets[point.dataset];
+    const bool in_series = point.series < dataset.series.size();
+    rows.push_back({.dataset = dataset.id,
+                    .series = in_series ? dataset.series[point.series] : "",
+                    .diameter_um = um(point.diameter),
+                    .incident_velocity = point.velocity,
+                    .restitution = point.restitution,
+                    .restitution_sd = only_if(f.data.sd_stated, point.weights.sd),
+                    .sd_used = point.weights.sd,
+                    .sd_of_e2_from_inputs = point.weights.input_sd,
+                    .captured = point.censored,
+                    .captured_count = point.captured,
+                    .events = point.events,
+                    .predicted = at(f.prediction, i),
+                    .weighted_residual = at(f.residuals, i),
+                    .leverage = at(f.leverage, i)});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::optional<Ends> ends_of(const Interval& interval) {
+  if (!interval.available() || !std::isfinite(*interval.lower) || !std::isfinite(*interval.upper)) {
+    return std::nullopt;
+  }
+  return Ends{*interval.lower, *interval.upper};
+}
+
+DatasetEntry dataset_entry(const Dataset& dataset) {
+  return {.id = dataset.id,
+          .title = dataset.title,
+          .provenance = dataset.provenance,
+          .provenance_sentence = provenance_sentence(dataset.provenance),
+          .points = dataset.points.size(),
+          .sha256 = dataset.sha256,
+          .sources = dataset.sources};
+}
+
+ValidityEntry validity_entry(const Validity& check) {
+  ValidityEntry out;
+  out.quantity = check.quantity;
+  out.value = check.value;
+  out.limit = check.limit;
+  out.limit_is = check.limit_is_least() ? "least" : "largest";
+  out.passed = check.passed();
+  out.text = validity_sentence(check);
+  return out;
+}
+
+FitFile fit_file(const Analysis& a) {
+  const FitResult& f = a.fitted;
+  FitFile out;
+  out.recoil_version = version();
+  out.fit = {a.spec.id, a.spec.sha256};
+  out.provenance_sentence = all_provenance_sentences(a.datasets);
+  out.dataset = joint_entry(a.datasets);
+  for (const Dataset& dataset : a.datasets) out.datasets.push_back(dataset_entry(dataset));
+  out.options = options_of(a);
+  out.model = model_of(a);
+  for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
+    if (f.model.slots[s].is_constant()) continue;
+    out.parameters.emplace_back(f.model.slots[s].label(), parameter_of(a, s));
+  }
+  out.constants = constants_of(a);
+  const std::size_t slots = f.model.slots.size();
+  out.covariance =
+      matrix_of(f, [&](std::size_t i, std::size_t j) { return f.covariance[i * slots + j]; });
+  out.correlation = matrix_of(
+      f, [&](std::size_t i, std::size_t j) { return i == j ? 1.0 : correlation(a, i, j); });
+  out.derived.capture_velocity = captures_of(a);
+  out.solver = {f.model.solver.kind, f.handovers, f.ending};
+  out.goodness = goodness_of(f);
+  out.noise = noise_of(f);
+  out.identifiability = identifiability_of(a);
+  for (const Validity& check : a.validity) {
+    ValidityEntry& entry = out.validity.emplace_back(validity_entry(check));
+    entry.dataset = a.datasets[check.dataset].id;
+    entry.diameter_um = um(check.diameter);
+    entry.incident_velocity = check.velocity;
+  }
+  out.bootstrap = bootstrap_of(a);
+  out.posterior = posterior_of(a);
+  set_two_point(out, a);
+  for (const StartSummary& start : f.starts) {
+    out.starts.push_back({.start = start.start,
+                          .end = start.end,
+                          .chi2 = start.chi2,
+                          .converged = start.converged(),
+                          .ended = start.ending,
+                          .message = start.message});
+  }
+  out.warnings = plain_texts(all_warnings(a));
+  for (std::string& text : plain_texts(all_contradictions(a))) {
+    out.warnings.push_back(std::move(text));
+  }
+  out.curve = curve_of(a);
+  out.residuals = residuals_of(a);
+  return out;
+}
+
+std::string fit_json(const Analysis& analysis) { return text_of(fit_file(analysis), 1); }
+
+}  // namespace recoil

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "diagnosis/diagnosis_result.hpp"
+#include "json/diagnosis_file.hpp"
+#include "json/fit_file.hpp"
+#include "report/report.hpp"
+
+/// The JSON files of results. Numbers that do not exist are null, where possible with a reason.
+namespace recoil {
+
+DatasetEntry dataset_entry(const Dataset& dataset);
+
+/// One check of one impact or fit, without the place of the impact.
+ValidityEntry validity_entry(const Validity& check);
+
+/// The ends of an interval; nullopt unless both exist and are finite.
+std::optional<Ends> ends_of(const Interval& interval);
+
+/// @pre analysis.fitted.usable
+FitFile fit_file(const Analysis& analysis);
+/// The text of `fit.json`.
+std::string fit_json(const Analysis& analysis);
+
+DiagnosisFile diagnosis_file(const Diagnosis& diagnosis);
+/// The text of `diagnosis.json`.
+std::string diagnosis_json(const Diagnosis& diagnosis);
+
+}  // namespace recoil
