@@ -39,7 +39,12 @@ FitFile read_fit_file(const std::string& file, const std::string& text, const st
   }
   require_format(file, json);
   try {
-    return value_from<FitFile>(json);
+    FitFile fit = value_from<FitFile>(json);
+    if (fit.parameters.empty() || fit.datasets.empty()) {
+      throw InputError({file}, "this is not the whole fit.json of a fit", why,
+                       "make it again with recoil fit FIT --out DIR");
+    }
+    return fit;
   } catch (const JsonMismatch& mismatch) {
     throw InputError({file}, mismatch.what(), why, "make it again with recoil fit FIT --out DIR");
   }

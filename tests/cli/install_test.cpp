@@ -95,8 +95,7 @@ int main() {
   place.write("analyses.cpp", R"(#include <cstdio>
 #include "analysis/analysis.hpp"
 #include "diagnosis/diagnose.hpp"
-#include "report/json_diagnosis.hpp"
-#include "report/json_report.hpp"
+#include "report/result_json.hpp"
 int main(int, char** arguments) {
   recoil::AnalysisOptions options;
   options.replicates = 0;
@@ -108,7 +107,7 @@ int main(int, char** arguments) {
   const recoil::Diagnosis diagnosis =
       recoil::diagnose(analysis.spec, analysis.datasets, analysis.fitted, within,
                        analysis.uncertainty.intervals);
-  std::printf("[%s,%s]", recoil::json_report(analysis).c_str(),
+  std::printf("[%s,%s]", recoil::fit_json(analysis).c_str(),
               recoil::diagnosis_json(diagnosis).c_str());
 }
 )");

@@ -47,6 +47,7 @@ std::string answer(std::shared_ptr<KeptRows> kept) {
 
 TEST(KeptPieces, AnyPartOfThemGivesTheSameAnswer) {
   const std::string expected = answer(nullptr);
+  EXPECT_TRUE(text_of(value_from<DiagnosisFile>(Json::parse(expected)), 2) == expected);
   const support::TemporaryFolder folder;
   {
     const auto kept = std::make_shared<KeptRows>(folder / "all", "k");

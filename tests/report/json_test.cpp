@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "core/error.hpp"
 #include "example_analysis.hpp"
 #include "report/result_json.hpp"
 
@@ -218,6 +219,24 @@ TEST(JsonReport, WithoutABootstrapStaysWhole) {
   std::vector<std::string> nulls;
   collect_nulls(fit["goodness"], "", nulls);
   EXPECT_TRUE(nulls.empty());
+}
+
+TEST(JsonReport, IsTheSameAfterItWasRead) {
+  for (const Analysis& analysis : {sample::four_diameters(), sample::two_datasets()}) {
+    const std::string text = fit_json(analysis);
+    EXPECT_EQ(text_of(read_fit_file("fit.json", text, "the test"), 1), text);
+  }
+}
+
+TEST(JsonReport, RefusesAnotherFormatAndWrongTypes) {
+  PlainJson fit = PlainJson::parse(fit_json(sample::four_diameters()));
+  EXPECT_NO_THROW(read_fit_file("fit.json", fit.dump(), "the test"));
+  PlainJson newer = fit;
+  newer["format_version"] = format_version + 1;
+  EXPECT_THROW(read_fit_file("fit.json", newer.dump(), "the test"), InputError);
+  fit["parameters"]["C_H"]["value"] = "large";
+  EXPECT_THROW(read_fit_file("fit.json", fit.dump(), "the test"), InputError);
+  EXPECT_THROW(read_fit_file("fit.json", "{", "the test"), InputError);
 }
 
 TEST(JsonReport, IsTheSameTwice) {
