@@ -304,7 +304,6 @@ class Diagnosis(DiagnosisPictures, _Result):
     misfit: Facts
     candidates: list[Facts]
     gain: Optional[Facts]
-    next_measurement: list[Facts]
     next_experiment: list[Facts]
     warnings: list[str]
 
