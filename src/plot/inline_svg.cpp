@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <optional>
@@ -68,6 +67,17 @@ void drop_unused_definitions(XmlNode& root) {
   }
 }
 
+/// The number that `text` is but for blanks around it, whatever the locale; nullopt for others.
+std::optional<double> number_in(std::string_view text) {
+  const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
 /// Numbers with one decimal, without a zero at the end. What follows a move in a path is a line
 /// without saying so.
 std::string rounded_numbers(std::string_view text) {
@@ -97,8 +107,9 @@ std::string rounded_numbers(std::string_view text) {
            (std::isdigit(static_cast<unsigned char>(text[end])) != 0 || text[end] == '.')) {
       ++end;
     }
-    std::string number =
-        fmt::format("{:.1f}", std::strtod(std::string(text.substr(i, end - i)).c_str(), nullptr));
+    const std::string_view token = text.substr(i, end - i);
+    const std::optional<double> value = number_in(token);
+    std::string number = value ? fmt::format("{:.1f}", *value) : std::string(token);
     if (number.ends_with(".0")) number.resize(number.size() - 2);
     out += number == "-0" ? "0" : number;
     i = end;
@@ -107,16 +118,32 @@ std::string rounded_numbers(std::string_view text) {
   return out;
 }
 
+/// The numbers in "translate(53.94,258.40) scale(4.88)", where its words are `words`:
+/// {"translate(", ",", ") scale(", ")"}. nullopt where it has another form.
+template <std::size_t count>
+std::optional<std::array<double, count - 1>> numbers_between(
+    std::string_view text, const std::array<std::string_view, count>& words) {
+  std::array<double, count - 1> numbers{};
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!text.starts_with(words[k])) return std::nullopt;
+    text.remove_prefix(words[k].size());
+    if (k + 1 == count) break;
+    const std::size_t end = text.find(words[k + 1]);
+    const std::optional<double> number = number_in(text.substr(0, end));
+    if (end == std::string_view::npos || !number) return std::nullopt;
+    numbers[k] = *number;
+    text.remove_prefix(end);
+  }
+  return text.empty() ? std::optional(numbers) : std::nullopt;
+}
+
 /// "rgb( 34,  34,  34)" as "#222222".
 std::string short_colour(const std::string& value) {
-  int red = 0;
-  int green = 0;
-  int blue = 0;
-  int length = 0;
-  const bool all = std::sscanf(value.c_str(), "rgb(%d,%d,%d)%n", &red, &green, &blue, &length) == 3;
-  return all && length == static_cast<int>(value.size())
-             ? fmt::format("#{:02x}{:02x}{:02x}", red, green, blue)
-             : value;
+  const auto parts = numbers_between<4>(value, {"rgb(", ",", ",", ")"});
+  if (!parts) return value;
+  std::string colour = "#";
+  for (const double part : *parts) colour += fmt::format("{:02x}", static_cast<int>(part));
+  return colour;
 }
 
 /// "translate(53.94,258.40) scale(4.88)" with a short place.
@@ -136,7 +163,7 @@ void shorten_values(XmlNode& node) {
     if (key == "d" || key == "points") value = rounded_numbers(value);
     if (key == "transform") value = short_transform(value);
     if (key == "font-size" || key == "stroke-width") {
-      value = fmt::format("{:g}", std::strtod(value.c_str(), nullptr));
+      if (const auto number = number_in(value)) value = fmt::format("{:g}", *number);
     }
   }
   for (XmlNode& child : node.children) shorten_values(child);
@@ -212,6 +239,13 @@ struct Dot {
   double x = 0.0, y = 0.0, scale = 0.0;
 };
 
+/// Reads "translate(X,Y) scale(S)". @return whether `transform` has this form
+bool read_dot(std::string_view transform, Dot& dot) {
+  const auto read = numbers_between<4>(transform, {"translate(", ",", ") scale(", ")"});
+  if (read) dot = {(*read)[0], (*read)[1], (*read)[2]};
+  return read.has_value();
+}
+
 /// A filled circle of radius 1, or what points to one.
 bool is_disc(const std::map<std::string, const XmlNode*>& definitions, const std::string& id) {
   const auto found = definitions.find(id);
@@ -261,8 +295,7 @@ void pack_dots(XmlNode& node, const std::map<std::string, const XmlNode*>& defin
     const std::string* transform = child.attribute("transform");
     const bool disc = child.name == "use" && href != nullptr && transform != nullptr &&
                       child.children.empty() && is_disc(definitions, target_of("href", *href)) &&
-                      std::sscanf(transform->c_str(), "translate(%lf,%lf) scale(%lf)", &dot.x,
-                                  &dot.y, &dot.scale) == 3;
+                      read_dot(*transform, dot);
     const auto same_but_place = [&](const XmlNode& other) {
       if (other.attributes.size() != child.attributes.size()) return false;
       for (const auto& [key, value] : child.attributes) {

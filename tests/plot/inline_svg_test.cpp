@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <clocale>
 #include <map>
 
 #include "core/error.hpp"
@@ -49,6 +50,19 @@ TEST(InlineSvg, WhatIsInheritedIsNotSaidAgain) {
       "<path d='M1,1 L2,2'/><path stroke='blue' d='M3,3 L4,4'/></g></g>");
   EXPECT_THAT(svg, HasSubstr("stroke=\"blue\""));
   EXPECT_EQ(svg.find("stroke=\"red\""), svg.rfind("stroke=\"red\"")) << "said once";
+}
+
+TEST(InlineSvg, ReadsNumbersInAnyLocale) {
+  const std::string inside =
+      "<g stroke='rgb( 34,  34,  34)' stroke-width='1.50'><path d='M1.26,2.04 L-0.01,3'/></g>";
+  const std::string expected = inlined(inside);
+  EXPECT_THAT(expected, HasSubstr("#222222"));
+  EXPECT_THAT(expected, HasSubstr("M1.3,2 0,3"));
+  EXPECT_THAT(expected, HasSubstr("stroke-width=\"1.5\""));
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "de_DE is not installed";
+  const std::string german = inlined(inside);
+  std::setlocale(LC_ALL, "C");
+  EXPECT_EQ(german, expected);
 }
 
 TEST(InlineSvg, AShapeWithoutColoursStaysBlackAndWithoutARim) {
