@@ -3,109 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <pugixml.hpp>
 
 #include "core/error.hpp"
 
 namespace recoil::plot {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+/// White space between elements with a line break or a tab: it only lays out the file.
+bool is_layout(std::string_view text) {
+  return text.find_first_not_of(" \t\r\n") == std::string_view::npos &&
+         text.find_first_of("\t\r\n") != std::string_view::npos;
+}
 
-class Reader {
- public:
-  explicit Reader(std::string_view document) : document_(document) {}
-
-  XmlNode root() {
-    skip_prolog();
-    XmlNode node = element();
-    if (node.is_text()) fail();
-    return node;
+XmlNode node_of(const pugi::xml_node& from) {
+  XmlNode node{from.name(), from.value(), {}, {}};
+  for (const pugi::xml_attribute& attribute : from.attributes()) {
+    node.attributes.emplace_back(attribute.name(), attribute.value());
   }
-
- private:
-  [[noreturn]] void fail() const {
-    throw ComputationError(fmt::format("gnuplot's SVG is not well-formed at byte {}", at_));
+  for (const pugi::xml_node& child : from.children()) {
+    const bool text = child.type() == pugi::node_pcdata;
+    if (!text || !is_layout(child.value())) node.children.push_back(node_of(child));
   }
-
-  bool starts(std::string_view words) const { return document_.substr(at_).starts_with(words); }
-
-  void skip_blanks() { at_ = std::min(document_.find_first_not_of(blanks, at_), document_.size()); }
-
-  void skip_past(std::string_view words) {
-    const std::size_t end = document_.find(words, at_);
-    if (end == std::string_view::npos) fail();
-    at_ = end + words.size();
-  }
-
-  void skip_prolog() {
-    for (skip_blanks(); starts("<?") || starts("<!"); skip_blanks()) {
-      skip_past(starts("<?") ? "?>" : starts("<!--") ? "-->" : ">");
-    }
-  }
-
-  std::string_view word() {
-    const std::size_t end = document_.find_first_of(" \t\r\n=/><", at_);
-    if (end == std::string_view::npos || end == at_) fail();
-    const std::string_view found = document_.substr(at_, end - at_);
-    at_ = end;
-    return found;
-  }
-
-  std::pair<std::string, std::string> attribute() {
-    std::pair<std::string, std::string> found;
-    found.first = word();
-    skip_blanks();
-    if (!starts("=")) fail();
-    ++at_;
-    skip_blanks();
-    if (!starts("'") && !starts("\"")) fail();
-    const std::string_view quote = document_.substr(at_++, 1);
-    const std::size_t begin = at_;
-    skip_past(quote);
-    found.second = document_.substr(begin, at_ - 1 - begin);
-    return found;
-  }
-
-  XmlNode element() {
-    if (!starts("<")) fail();
-    ++at_;
-    XmlNode node;
-    node.name = word();
-    for (skip_blanks(); !starts(">") && !starts("/>"); skip_blanks()) {
-      node.attributes.push_back(attribute());
-    }
-    const bool closed = starts("/>");
-    at_ += closed ? 2 : 1;
-    if (!closed) read_children(node);
-    return node;
-  }
-
-  void read_children(XmlNode& node) {
-    while (!starts("</")) {
-      if (starts("<!--")) {
-        skip_past("-->");
-      } else if (starts("<")) {
-        node.children.push_back(element());
-      } else {
-        const std::size_t end = document_.find('<', at_);
-        if (end == std::string_view::npos) fail();
-        const std::string_view text = document_.substr(at_, end - at_);
-        const bool layout = text.find_first_not_of(blanks) == std::string_view::npos &&
-                            text.find_first_of("\t\r\n") != std::string_view::npos;
-        if (!layout) node.children.push_back({"", std::string(text), {}, {}});
-        at_ = end;
-      }
-    }
-    at_ += 2;
-    if (word() != node.name) fail();
-    skip_blanks();
-    if (!starts(">")) fail();
-    ++at_;
-  }
-
-  std::string_view document_;
-  std::size_t at_ = 0;
-};
+  return node;
+}
 
 void write(const XmlNode& node, std::string& out) {
   if (node.is_text()) {
@@ -149,7 +70,16 @@ void XmlNode::erase_attribute(std::string_view key) {
   std::erase_if(attributes, [&](const auto& pair) { return pair.first == key; });
 }
 
-XmlNode parse_xml(std::string_view document) { return Reader(document).root(); }
+XmlNode parse_xml(std::string_view document) {
+  pugi::xml_document parsed;
+  const pugi::xml_parse_result result = parsed.load_buffer(
+      document.data(), document.size(), pugi::parse_minimal | pugi::parse_ws_pcdata);
+  if (!result) {
+    throw ComputationError(fmt::format("gnuplot's SVG is not well-formed at byte {} ({})",
+                                       result.offset, result.description()));
+  }
+  return node_of(parsed.document_element());
+}
 
 std::string escape_xml(std::string_view text) {
   std::string out;
