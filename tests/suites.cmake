@@ -12,7 +12,7 @@ separate_arguments(only UNIX_COMMAND "${ONLY}")
 set(script "")
 
 function(add_entry name filter cost)
-  string(APPEND script "add_test([==[${NAME}/${name}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${filter}]==] --gtest_brief=0)\n"
+  string(APPEND script "add_test([==[${NAME}/${name}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${filter}]==])\n"
     "set_tests_properties([==[${NAME}/${name}]==] PROPERTIES COST ${cost} ${PROPERTIES})\n")
   set(script "${script}" PARENT_SCOPE)
 endfunction()
