@@ -39,7 +39,6 @@ void publish(const StudyRun& run, const std::string& json, const Document& page)
 void add_coverage_grid(CLI::App& program, const std::string& words);
 void add_coverage_designs(CLI::App& program, const std::string& words);
 void add_coverage_summary(CLI::App& program);
-void add_event_chain(CLI::App& program, const std::string& words);
 void add_hidden_effects(CLI::App& program, const std::string& words);
 void add_pairing(CLI::App& program, const std::string& words);
 void add_pairing_events(CLI::App& program);

@@ -41,7 +41,6 @@ int run_study_program(const std::vector<std::string>& words) {
   add_coverage_designs(program, plain);
   add_coverage_grid(program, plain);
   add_coverage_summary(program);
-  add_event_chain(program, plain);
   add_hidden_effects(program, plain);
   add_pairing(program, plain);
   add_pairing_events(program);

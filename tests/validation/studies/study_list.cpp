@@ -8,20 +8,12 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiment/correction_study.hpp"
 #include "validation/studies/study_stamp.hpp"
 
 namespace recoil {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array<std::string_view, 2> coverage_sources = {"coverage_grid", "coverage_study"};
-
-template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 Study grid_study(const std::string& name, const std::string& designs, int datasets) {
   return {"coverage-grid-" + name,
@@ -38,11 +30,6 @@ Study designs_study(const std::string& name, const std::string& options) {
           "fits/li1999-sst125-silicon.toml --datasets 1000 --replicates 99" +
               options,
           "reports/" + name + ".json"};
-}
-
-Study corrections_study(const std::string& dataset) {
-  return {"corrections-" + dataset, fmt::format("corrections fits/{}.toml", dataset),
-          fmt::format("datasets/{}/{}", dataset, correction_studies_name)};
 }
 
 /// The text of a file and its place below `root`, so that neither can change unseen.
@@ -75,9 +62,6 @@ const std::vector<Study>& all_studies() {
        "--impossible 2 --seed 20261123",
        "reports/hidden-effects.json"},
       {"pairing", "pairing", "reports/pairing.json"},
-      {"event-chain", "event-chain", "reports/event-chain.json"},
-      corrections_study("li1999-sst65-silicon"),
-      corrections_study("li1999-sst125-silicon"),
   };
   return studies;
 }
@@ -95,32 +79,23 @@ const Study& study_named(const std::string& name) {
 }
 
 bool shows_results(const fs::path& source) {
-  const std::string stage = source.begin()->string();
+  const std::string text = source.generic_string();
   const std::string name = source.stem().string();
-  constexpr std::array<std::string_view, 4> stages = {"document", "plot", "report", "cli"};
-  return contains(stages, stage) ||
-         (stage == "studies" &&
-          (name.ends_with("_page") || name.ends_with("_pages") || name.ends_with("_picture")));
-}
-
-bool decides(const std::string& command, const fs::path& source) {
-  if (shows_results(source)) return false;
-  if (!command.starts_with("coverage-")) return true;
-  constexpr std::array<std::string_view, 5> later = {"predict", "diagnosis", "plan", "export",
-                                                     "python"};
-  const std::string stage = source.begin()->string();
-  if (stage == "studies") return contains(coverage_sources, source.stem().string());
-  return !contains(later, stage);
+  constexpr std::array<std::string_view, 4> folders = {"src/document/", "src/plot/", "src/report/",
+                                                       "src/cli/"};
+  return std::any_of(folders.begin(), folders.end(),
+                     [&](std::string_view folder) { return text.starts_with(folder); }) ||
+         name.ends_with("_page") || name.ends_with("_pages") || name.ends_with("_picture");
 }
 
 std::string study_key(const fs::path& root, const std::string& command) {
   std::vector<fs::path> files;
-  const fs::path sources = root / "src";
-  add_files(files, sources,
-            [&](const fs::path& file) { return decides(command, fs::relative(file, sources)); });
+  for (const char* sources : {"src", "tests/validation"}) {
+    add_files(files, root / sources,
+              [&](const fs::path& file) { return !shows_results(fs::relative(file, root)); });
+  }
   add_files(files, root / "fits", [](const fs::path& file) { return file.extension() == ".toml"; });
-  add_files(files, root / "datasets",
-            [](const fs::path& file) { return file.filename() != correction_studies_name; });
+  add_files(files, root / "datasets", [](const fs::path&) { return true; });
   std::sort(files.begin(), files.end());
   std::string text = command + "\n";
   for (const fs::path& file : files) text += digest(root, file);

@@ -19,16 +19,11 @@ const std::vector<Study>& all_studies();
 const Study& study_named(const std::string& name);
 
 /// Changes with everything that a study's numbers depend on: the command, the fits, the data, and
-/// the sources below `root`/src that decide them (`decides`).
+/// all sources below `root`/src and `root`/tests/validation that do not only show results.
 std::string study_key(const std::filesystem::path& root, const std::string& command);
 
-/// Does this folder of src, or this file below it, only show what others computed?
+/// Does this file, a path from the project's folder, only show results that others compute?
 bool shows_results(const std::filesystem::path& source);
-
-/// Can `source`, a file below src, change a number of the study `command`? Not where it only shows
-/// results, nor, for a study of coverage, where it comes later in the pipeline or belongs to
-/// another study.
-bool decides(const std::string& command, const std::filesystem::path& source);
 
 enum class StudyState {
   missing,

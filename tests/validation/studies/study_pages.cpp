@@ -12,7 +12,6 @@
 #include "plot/draw.hpp"
 #include "validation/studies/coverage_page.hpp"
 #include "validation/studies/coverage_picture.hpp"
-#include "validation/studies/event_chain.hpp"
 #include "validation/studies/hidden_effects_page.hpp"
 #include "validation/studies/hidden_effects_picture.hpp"
 #include "validation/studies/pairing_study.hpp"
@@ -39,8 +38,6 @@ void render_study(const fs::path& json) {
     const bool grid = !study.grid_of.empty();
     write_page(json, coverage_page(study, grid ? name : ""),
                grid ? std::optional(coverage_picture(study)) : std::nullopt);
-  } else if (name == "event-chain") {
-    write_page(json, event_chain_page(read_event_chain(json)));
   } else if (name == "pairing") {
     write_page(json, pairing_page(read_pairing_study(json)));
   } else if (name == "hidden-effects") {
