@@ -1,8 +1,9 @@
-// Which solver answers, and how exactly, is no part of an estimate: on every shipped fit.
+// Which solver answers, and how exactly, is no part of an estimate: on a shipped fit of each kind
+// (captures counted, sizes mixed, several sizes).
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <string>
 
 #include "data/dataset.hpp"
 #include "estimate/fit.hpp"
@@ -11,20 +12,10 @@
 namespace recoil {
 namespace {
 
-std::vector<std::string> shipped_fits() {
-  std::vector<std::string> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(RECOIL_SOURCE_DIR) + "/fits")) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 class SolverAgreement : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    const FitSpec spec = load_fit(GetParam());
+    const FitSpec spec = load_fit(std::string(RECOIL_SOURCE_DIR) + "/fits/" + GetParam() + ".toml");
     for (const auto& folder : spec.datasets) datasets_.push_back(load_dataset(folder));
     model_ = make_model(spec, datasets_);
     data_ = gather(datasets_);
@@ -69,10 +60,11 @@ TEST_P(SolverAgreement, AcrossTolerances) {
   expect_the_same(refit(Solver::reference, 100.0));
 }
 
-INSTANTIATE_TEST_SUITE_P(ShippedFits, SolverAgreement, testing::ValuesIn(shipped_fits()),
+INSTANTIATE_TEST_SUITE_P(ShippedFits, SolverAgreement,
+                         testing::Values("dahneke1975-quartz", "li1999-sst125-silicon",
+                                         "wall1990-mica"),
                          [](const auto& parameter) {
-                           std::string name =
-                               std::filesystem::path(parameter.param).stem().string();
+                           std::string name = parameter.param;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
