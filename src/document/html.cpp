@@ -8,7 +8,7 @@
 
 #include "document/html_style.hpp"
 #include "document/save_script.hpp"
-#include "plot/csv.hpp"
+#include "plot/plot.hpp"
 #include "plot/xml.hpp"
 
 namespace recoil {

@@ -1,16 +1,100 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
-
-#include "plot/range.hpp"
-#include "plot/style.hpp"
 
 /// What a picture shows, without a word about how it is drawn (see plot/draw.hpp). Numbers are
 /// those of the axes. Texts are plain; the symbols of the model in them (C_H, f0) are set as such.
 namespace recoil::plot {
+
+// How marks and lines look.
+
+/// "#0072B2"
+using Colour = std::string;
+
+// The palette of Okabe & Ito (2008), "Color Universal Design": distinct for colour-blind readers.
+inline constexpr std::string_view blue = "#0072B2";
+inline constexpr std::string_view vermillion = "#D55E00";
+inline constexpr std::string_view green = "#009E73";
+inline constexpr std::string_view orange = "#E69F00";
+inline constexpr std::string_view purple = "#CC79A7";
+inline constexpr std::string_view sky = "#56B4E9";
+inline constexpr std::string_view ink = "#222222";
+inline constexpr std::string_view grey = "#6b6b6b";
+inline constexpr std::string_view pale = "#c4c4c4";
+
+enum class Mark {
+  dot,  ///< a filled circle
+  circle,
+  square,
+  open_square,
+  triangle,
+  triangle_down,
+  open_triangle_down,
+  diamond,
+  cross
+};
+
+/// A colour and a mark that belong together, so that colour is never the only key.
+struct Marker {
+  std::string_view colour;
+  Mark mark;
+};
+inline constexpr std::array<Marker, 7> markers = {{{blue, Mark::dot},
+                                                   {orange, Mark::square},
+                                                   {green, Mark::triangle},
+                                                   {purple, Mark::diamond},
+                                                   {vermillion, Mark::triangle_down},
+                                                   {sky, Mark::circle},
+                                                   {ink, Mark::open_square}}};
+/// The one for the k-th of several series, from the start again when they run out.
+inline const Marker& marker(std::size_t k) { return markers[k % markers.size()]; }
+
+enum class Dash { solid, long_dashes, dashes, dots, dash_dot };
+
+struct Stroke {
+  std::string_view colour = ink;
+  double width = 2.0;  ///< [px]
+  Dash dash = Dash::solid;
+};
+
+struct Fill {
+  Colour colour = std::string(sky);
+  double opacity = 1.0;
+  bool rim = false;  ///< a thin white one, which keeps neighbours apart
+};
+
+/// From here to there, on an axis.
+struct Range {
+  double lower = 0.0;
+  double upper = 1.0;
+
+  bool holds(double value) const { return value >= lower && value <= upper; }
+  double width() const { return upper - lower; }
+};
+
+/// Holds all finite values, with a margin on both sides (a share of the width); [0, 1] when there
+/// are none.
+Range range_of(const std::vector<double>& values, double margin);
+
+/// The same for a logarithmic axis: the margin is a share of the ratio. Values that are not
+/// positive have no place there.
+Range log_range_of(const std::vector<double>& values, double margin);
+
+/// The range between two quantiles of the finite values.
+Range quantile_range(std::vector<double> values, double lower, double upper);
+
+/// A factor 10^3n that brings numbers of size `magnitude` between 1 and 1000, and the unit that
+/// they then have: "10⁻³ s/m".
+struct Scaling {
+  double factor = 1.0;
+  std::string unit;
+};
+Scaling scaling_for(double magnitude, const std::string& unit);
 
 enum class Direction { horizontal, vertical };
 
@@ -209,5 +293,14 @@ std::vector<DataTable> data_of(const Picture& picture);
 
 /// `text` made fit for `Picture::name`.
 std::string plot_name(std::string_view text);
+
+/// The numbers that a picture shows as one table of comma-separated values (RFC 4180), in five
+/// digits: a column for every column of its layers, named "LAYER: QUANTITY [UNIT]" (before it the
+/// heading of the plot where there are several), pure numbers without a unit. Layers of one plot
+/// that begin with the same quantity share its column, "QUANTITY [UNIT]", and its rows where it has
+/// the same values there; cells in which a layer has nothing are empty. Layers without a name that
+/// show the same quantity are told apart by (2), (3). What an axis calls by a name instead of a
+/// number stands by its name. Empty where the picture shows no data.
+std::string csv_of(const Picture& picture);
 
 }  // namespace recoil::plot

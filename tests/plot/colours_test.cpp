@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "plot/style.hpp"
+#include "plot/plot.hpp"
 
 namespace recoil::plot {
 namespace {

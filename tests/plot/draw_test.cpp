@@ -11,7 +11,6 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "plot/gnuplot.hpp"
 #include "plot/gnuplot_script.hpp"
 #include "plot/xml.hpp"
 

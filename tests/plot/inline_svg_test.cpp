@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "plot/draw.hpp"
-#include "plot/gnuplot.hpp"
 #include "plot/gnuplot_script.hpp"
 #include "plot/xml.hpp"
 

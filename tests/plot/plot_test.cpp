@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "plot/csv.hpp"
 #include "plot/gnuplot_script.hpp"
+#include "plot/plot.hpp"
 
 namespace recoil::plot {
 namespace {
