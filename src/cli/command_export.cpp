@@ -16,7 +16,6 @@
 #include "export/lammps.hpp"
 #include "export/liggghts.hpp"
 #include "export/openfoam.hpp"
-#include "export/simbody.hpp"
 #include "export/table.hpp"
 #include "export/yade.hpp"
 #include "report/words_export.hpp"
@@ -130,8 +129,6 @@ std::vector<ExportedFile> files_for(ExportTarget target, const ExportJob& job) {
       return liggghts_files(job);
     case ExportTarget::yade:
       return yade_files(job);
-    case ExportTarget::simbody:
-      return simbody_files(job);
     case ExportTarget::openfoam:
       return openfoam_files(job);
     case ExportTarget::fluent:
@@ -156,7 +153,7 @@ void require_stock_model(const ExportOptions& options, ExportTarget target) {
   if (!options.stock || !holds_all_sizes(target)) return;
   throw InputError({}, fmt::format("--to {} has no stock model for --stock", options.to),
                    "it gets e(V, d) as a table",
-                   "leave --stock out, or take lammps, yade or simbody");
+                   "leave --stock out, or take lammps or yade");
 }
 
 void print_line(const std::string& words) { fmt::print("{}\n", wrap(words, terminal_columns, 2)); }
@@ -221,7 +218,7 @@ void add_export(CLI::App& program) {
       "export", "a fitted impact as the input of another program, or as a table");
   command->footer(
       "Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. Where the\n"
-      "program can run the force law (lammps, yade, simbody) the export is exact; where it has\n"
+      "program can run the force law (lammps, yade) the export is exact; where it has\n"
       "only contact models of its own (liggghts) it gets the nearest one, with its error; "
       "openfoam,\n"
       "fluent and table get e(V, d) with captures. The file says what is lost.\n\n"
@@ -247,8 +244,7 @@ void add_export(CLI::App& program) {
       ->check(positive_number("velocity", 1e-7, 1e4));
   command->add_flag(
       "--stock", options->stock,
-      "lammps, yade, simbody (liggghts always): write the nearest of the program's own contact "
-      "models, "
+      "lammps, yade (liggghts always): write the nearest of the program's own contact models, "
       "for many spheres, even where it could run the force law");
   command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
       ->type_name("ID");

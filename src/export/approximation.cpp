@@ -11,7 +11,7 @@
 namespace recoil {
 namespace {
 
-constexpr double least_loss = 1e-6;  // of the groups C_H V and kappa, in the search for the best
+constexpr double least_loss = 1e-6;  // bounds of kappa in the search for the best value
 constexpr double most_loss = 1e3;
 constexpr double found_to = 1e-4;  // relative, of the value
 
@@ -47,7 +47,6 @@ ContactForce force_of(const Approximation& approximation, const ExportedImpact& 
   force.adhesion_force = force.adhesion_energy = force.adhesion_damping = 0.0;
   force.hertz_damping = force.dashpot = 0.0;
   if (approximation.model == StockModel::hertz_dashpot) force.dashpot = approximation.value;
-  if (approximation.model == StockModel::hunt_crossley) force.hertz_damping = approximation.value;
   return force;
 }
 
@@ -59,15 +58,12 @@ Approximation nearest(StockModel model, const ExportedImpact& impact) {
     out.value = std::accumulate(e.begin(), e.end(), 0.0) / static_cast<double>(e.size());
   } else {
     const double velocity = std::sqrt(impact.request.slowest * impact.request.fastest);
-    double unit = 1.0 / velocity;  // C_H V = 1
-    if (model == StockModel::hertz_dashpot) {
-      // kappa = D n_c^(3/2) / (m V) = 1, with n_c^(5/2) = m V^2 / (K r^(1/2))
-      const ContactForce& f = impact.force;
-      const double mass = f.mass();
-      const double length =
-          std::pow(mass * velocity * velocity / (f.stiffness * std::sqrt(f.radius)), 0.4);
-      unit = mass * velocity / std::pow(length, 1.5);
-    }
+    // kappa = D n_c^(3/2) / (m V) = 1, with n_c^(5/2) = m V^2 / (K r^(1/2))
+    const ContactForce& f = impact.force;
+    const double mass = f.mass();
+    const double length =
+        std::pow(mass * velocity * velocity / (f.stiffness * std::sqrt(f.radius)), 0.4);
+    const double unit = mass * velocity / std::pow(length, 1.5);
     const auto rms = [&](double logarithm) {
       const Approximation tried = {model, unit * std::exp(logarithm), {}};
       return restitution_error(impact, answers(tried, impact)).rms;
@@ -140,7 +136,6 @@ ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stoc
   switch (target) {
     case ExportTarget::lammps:
     case ExportTarget::yade:
-    case ExportTarget::simbody:
       if (stock) return ExportForm::approximation;
       if (impact.force_is_all) return ExportForm::force;
       // without adhesion there is nothing to begin with
@@ -157,7 +152,6 @@ ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stoc
 
 StockModel stock_model(ExportTarget target) {
   if (target == ExportTarget::lammps) return StockModel::hertz_dashpot;
-  if (target == ExportTarget::simbody) return StockModel::hunt_crossley;
   return StockModel::constant_restitution;
 }
 

@@ -10,14 +10,13 @@ namespace recoil {
 /// to choose, and none of them captures.
 enum class StockModel {
   constant_restitution,  ///< e, whatever the velocity
-  hertz_dashpot,         ///< Hertz with a damping -D n^(1/2) n': 1 - e^2 ~ V^(1/5)
-  hunt_crossley          ///< Hertz with the damping C_H n^(3/2) n': 1 - e^2 ~ V
+  hertz_dashpot          ///< Hertz with a damping -D n^(1/2) n': 1 - e^2 ~ V^(1/5)
 };
 
 template <>
 struct NamesOf<StockModel> {
-  static constexpr std::array<std::string_view, 3> names = {"constant_restitution", "hertz_dashpot",
-                                                            "hunt_crossley"};
+  static constexpr std::array<std::string_view, 2> names = {"constant_restitution",
+                                                            "hertz_dashpot"};
 };
 
 /// How far e(V) of an approximation is from the exported one over the range of velocities, a
@@ -32,7 +31,7 @@ RestitutionError restitution_error(const ExportedImpact& impact, std::span<const
 
 struct Approximation {
   StockModel model = StockModel::constant_restitution;
-  double value = 0.0;  ///< e [1], D [N s m^(-3/2)] or C_H [s/m]
+  double value = 0.0;  ///< e [1] or D [N s m^(-3/2)]
   RestitutionError error;
 };
 

@@ -12,12 +12,12 @@
 namespace recoil {
 
 /// Programs, or kinds of file, to which a fitted impact goes.
-enum class ExportTarget { lammps, liggghts, yade, simbody, openfoam, fluent, table };
+enum class ExportTarget { lammps, liggghts, yade, openfoam, fluent, table };
 
 template <>
 struct NamesOf<ExportTarget> {
-  static constexpr std::array<std::string_view, 7> names = {
-      "lammps", "liggghts", "yade", "simbody", "openfoam", "fluent", "table"};
+  static constexpr std::array<std::string_view, 6> names = {"lammps",   "liggghts", "yade",
+                                                            "openfoam", "fluent",   "table"};
 };
 
 /// A sphere and the force between it and a flat, in SI units: what a program for particles can

@@ -134,7 +134,7 @@ void fly(std::span<const ImpactGroups> groups, const ImpactOptions& options,
     case AdhesionLaw::dmt:
       return fly_by<DmtLaw>(groups, options, results);
     case AdhesionLaw::maugis:
-      return fly_by<MaugisLaw>(groups, options, results);
+      return fly_under<MaugisLaw>(groups, options, results);
   }
 }
 

@@ -111,12 +111,6 @@ struct MaugisContact {
   [[gnu::always_inline]] L adhesive() const {
     return (range * (outer * outer)) * (root * inverse * inverse + angle);
   }
-  /// d a^3 / d s; 0 where there is no contact.
-  [[gnu::always_inline]] L elastic_rate() const {
-    const Q cube = inverse * inverse * inverse;
-    return (3.0 * (root * root * inverse * inverse)) * (at_edge * at_edge) *
-           (at_edge * cube + (2.0 * (share * root)) * half_rate);
-  }
   /// n.
   [[gnu::always_inline]] L approach() const {
     const L edge =

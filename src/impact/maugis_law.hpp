@@ -81,16 +81,6 @@ struct MaugisLaw {
     return strength(g) * maugis_path(g.range).energy_at_rest;
   }
 
-  /// As under JkrLaw.
-  template <class Q, class Alpha, class Strength, class Gamma, class Lambda, class Constant>
-  static auto dashpot_weight(const Q& q, const Alpha&, const Strength&, const Gamma&,
-                             const Lambda& lambda, const Constant& scale, const Constant&,
-                             const Constant&, const Constant&, const Constant& gap) {
-    return MaugisContact<Q, Lambda>(Q(q * scale), lambda, gap).elastic_rate() * scale;
-  }
-  static double dashpot_unit(const ImpactGroups& g) { return g.beta * std::sqrt(g.beta) / 9.0; }
-  static constexpr double dashpot_power = 1.5;
-
   /// n [n_c], dn / dq and the four forces [m V^2 / n_c].
   static double penetration(double q, double, double strength, double, double lambda, double scale,
                             double, double, double, double gap) {

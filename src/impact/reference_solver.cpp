@@ -456,7 +456,7 @@ ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& op
     case AdhesionLaw::jkr:
       return simulate_by<JkrLaw>(groups, options, history);
     case AdhesionLaw::maugis:
-      return simulate_by<MaugisLaw>(groups, options, history);
+      return simulate<MaugisLaw>(groups, options, history);
   }
   return result;
 }

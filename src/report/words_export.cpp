@@ -21,9 +21,6 @@ std::string stock_words(const Approximation& stock) {
     case StockModel::hertz_dashpot:
       return fmt::format("Hertz with the damping -D n^(1/2) n', D = {:.5g} N s m^(-3/2)",
                          stock.value);
-    case StockModel::hunt_crossley:
-      return fmt::format("Hertz with the damping of Hunt & Crossley, C_H = {:.5g} s/m",
-                         stock.value);
   }
   return "";
 }
@@ -77,12 +74,10 @@ std::vector<std::string> export_losses(ExportTarget target, const ExportJob& job
   const bool stock_asked = impact.force_is_all && target != ExportTarget::liggghts;
   if (job.form == ExportForm::force) {
     out.push_back(
-        target == ExportTarget::simbody
-            ? "The force law is the model's own: e differs only by the integrator's error."
-            : fmt::format("The force law is the model's own: e differs only by the error of the "
-                          "time step of {:.2g} ns, which is below 1e-4 from 5 % above capture on "
-                          "and proportional to the step.",
-                          time_step(impact) / units::ns));
+        fmt::format("The force law is the model's own: e differs only by the error of the "
+                    "time step of {:.2g} ns, which is below 1e-4 from 5 % above capture on "
+                    "and proportional to the step.",
+                    time_step(impact) / units::ns));
     out.push_back(
         impact.captures
             ? fmt::format("The capture velocity is kept: V* = {:.4g} m/s.", impact.capture_velocity)
@@ -167,8 +162,6 @@ std::string export_use(ExportTarget target) {
       return "liggghts -in impact.liggghts -var V 2.4";
     case ExportTarget::yade:
       return "yade -n -x impact.py 2.4";
-    case ExportTarget::simbody:
-      return "g++ -O1 impact.cpp -o impact $(pkg-config --cflags --libs simbody) && ./impact 2.4";
     case ExportTarget::openfoam:
       return "wmake in recoilRebound, then libs (\"librecoilRebound.so\"); in controlDict";
     case ExportTarget::fluent:

@@ -45,14 +45,12 @@ TEST(Approximation, TheConstantRestitutionIsTheMeanOverLogVelocity) {
 
 TEST(Approximation, NoOtherValueIsNearer) {
   const ExportedImpact impact = example();
-  for (const StockModel model : {StockModel::hertz_dashpot, StockModel::hunt_crossley}) {
-    const Approximation found = nearest(model, impact);
-    for (const double factor : {0.9, 0.99, 1.01, 1.1}) {
-      Approximation other = found;
-      other.value *= factor;
-      const auto e = restitution_under(force_of(other, impact), impact.velocity);
-      EXPECT_GE(restitution_error(impact, e).rms, found.error.rms - 1e-9) << to_string(model);
-    }
+  const Approximation found = nearest(StockModel::hertz_dashpot, impact);
+  for (const double factor : {0.9, 0.99, 1.01, 1.1}) {
+    Approximation other = found;
+    other.value *= factor;
+    const auto e = restitution_under(force_of(other, impact), impact.velocity);
+    EXPECT_GE(restitution_error(impact, e).rms, found.error.rms - 1e-9) << factor;
   }
 }
 

@@ -98,7 +98,6 @@ TEST(Export, SaysWhatTheNumbersAreInTheFileItself) {
            {"lammps", "impact.lammps"},
            {"liggghts", "impact.liggghts"},
            {"yade", "impact.py"},
-           {"simbody", "impact.cpp"},
            {"openfoam", "recoilRebound/recoilRebound.C"},
            {"fluent", "recoil_rebound.c"}}) {
     const Outcome run = export_to(place, target, {"--parameters", "fitted/fit.json"});
@@ -155,7 +154,7 @@ TEST(Export, SaysWhichSizeItTookWhereItHoldsOneOnly) {
   const Workplace place;  // two sizes
   ASSERT_EQ(place.run({"fit", "fit.toml", "--replicates", "0", "--out", "fitted"}).status, 0);
   for (const auto& [target, one] : std::vector<std::pair<std::string, bool>>{
-           {"lammps", true}, {"simbody", true}, {"table", false}, {"fluent", false}}) {
+           {"lammps", true}, {"yade", true}, {"table", false}, {"fluent", false}}) {
     const Outcome run = export_to(place, target, {"--parameters", "fitted/fit.json"});
     ASSERT_EQ(run.status, 0) << run.err;
     const bool said =

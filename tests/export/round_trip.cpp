@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <regex>
 
 const std::vector<double> RoundTrip::velocities = {0.55, 0.9, 1.2, 1.7, 2.4, 5.0, 12.0, 25.0};
@@ -78,17 +77,6 @@ double RoundTrip::liggghts(const std::string& out, double velocity) const {
   return run({"env", "TMPDIR=" + place_.path().string(), "OMPI_MCA_ess_singleton_isolated=1",
               "liggghts", "-log", "none", "-in", out + "/impact.liggghts", "-var", "V",
               fmt::format("{}", velocity)});
-}
-
-double RoundTrip::simbody(const std::string& out, double velocity) const {
-  const std::filesystem::path program = place_ / out / "impact";
-  if (!std::filesystem::exists(program)) {
-    const support::Outcome built = support::run_command(
-        {"sh", "-c", "g++ -O1 impact.cpp -o impact $(pkg-config --cflags --libs simbody)"},
-        place_ / out);
-    EXPECT_EQ(built.status, 0) << built.err;
-  }
-  return run({program.string(), fmt::format("{}", velocity)});
 }
 
 double number_after(const std::string& text, const std::string& words) {

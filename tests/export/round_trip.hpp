@@ -25,8 +25,6 @@ class RoundTrip {
 
   double lammps(const std::string& out, double velocity, const std::string& dt = "") const;
   double liggghts(const std::string& out, double velocity) const;
-  /// Compiles impact.cpp once.
-  double simbody(const std::string& out, double velocity) const;
 
   const support::Workplace& place() const { return place_; }
 

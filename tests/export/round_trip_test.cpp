@@ -88,39 +88,6 @@ bulk_relaxation = { initial = 1e-10, free = false }
   expect_the_same(trip, 1e-4, [&](double v) { return trip.lammps("out", v); });
 }
 
-TEST(RoundTrip, SimbodyHoldsTheRingAndTheJkrLaw) {
-  const RoundTrip ring(kRing);
-  ring.write("simbody", "out");
-  expect_the_same(ring, 1e-6, [&](double v) { return ring.simbody("out", v); });
-  const RoundTrip jkr(fixed("jkr", "rebound", "0.03", "W = { free = false }"));
-  jkr.write("simbody", "out");
-  expect_the_same(jkr, 1e-6, [&](double v) { return jkr.simbody("out", v); });
-}
-
-TEST(RoundTrip, SimbodysOwnHuntCrossleyForceIsTheLawWithoutAdhesion) {
-  const RoundTrip trip(R"(dataset = "data"
-[parameters]
-C_H = { initial = 4e-3, bounds = [0, 0.02] }
-C_A = { initial = 0, free = false }
-f0 = { free = false }
-)",
-                       false);
-  const std::string said = trip.write("simbody", "out");
-  EXPECT_NE(trip.place().read("out/impact.cpp").find("HuntCrossleyForce contact"),
-            std::string::npos)
-      << said;
-  const double c_h = number_after(trip.place().read("out/impact.cpp"), "double C_H = ");
-  ASSERT_GT(c_h, 1e-4);
-  for (const double v : RoundTrip::velocities) {
-    const double e = trip.simbody("out", v);
-    EXPECT_NEAR(e, trip.expected(v), 1e-6);
-    // From dv/dn = -(K r^(1/2) / m) n^(3/2) (1 + C_H v) / v, integrated from V to 0 and from 0 to
-    // -e V to the same depth: C_H V (1 + e) = ln[(1 + C_H V) / (1 - e C_H V)].
-    const double x = c_h * v;
-    EXPECT_NEAR(x * (1.0 + e), std::log((1.0 + x) / (1.0 - e * x)), 1e-8);
-  }
-}
-
 /// The largest |delta e| that the export printed holds, to what the time step leaves and a wall
 /// that is only nearly touched at the start.
 template <class Engine>
@@ -155,14 +122,12 @@ TEST(RoundTrip, TwoLikeBodiesInLiggghtsAreAsStiffAsTheTwoUnlike) {
   EXPECT_NEAR(E, 2.0 * (1.0 - 0.25 * 0.25) * 2.858707e9, 1e6);
 }
 
-TEST(RoundTrip, StockModelsHaveTheirStatedError) {
+TEST(RoundTrip, TheStockModelOfLammpsHasItsStatedError) {
   const RoundTrip trip(kRing);
   const std::string lammps = trip.write("lammps", "lammps", "0.5,25", {"--stock"});
   EXPECT_NE(trip.place().read("lammps/impact.lammps").find("damping viscoelastic"),
             std::string::npos);
   expect_the_stated_error(trip, lammps, [&](double v) { return trip.lammps("lammps", v); });
-  const std::string simbody = trip.write("simbody", "simbody", "0.5,25", {"--stock"});
-  expect_the_stated_error(trip, simbody, [&](double v) { return trip.simbody("simbody", v); });
 }
 
 TEST(RoundTrip, ARefittedForceHasItsStatedErrorAndCapture) {
