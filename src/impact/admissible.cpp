@@ -28,8 +28,8 @@ bool vanishes(const ImpactGroups& groups, AdhesionLaw law) {
 bool is_admissible(const ImpactGroups& groups, const ImpactOptions& options) {
   const bool base = is_size(groups.alpha) && is_size(groups.beta) && is_size(groups.gamma);
   const bool holds_dashpot = options.adhesion != AdhesionLaw::maugis;
-  const bool dashpot = options.dashpot ? holds_dashpot && is_size(groups.kappa)
-                                       : groups.kappa == 0.0;
+  const bool dashpot =
+      options.dashpot ? holds_dashpot && is_size(groups.kappa) : groups.kappa == 0.0;
   const bool range = options.adhesion != AdhesionLaw::maugis ||
                      (is_size(groups.range) && groups.range <= MaugisLaw::largest_range);
   return base && dashpot && range;

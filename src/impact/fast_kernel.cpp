@@ -10,11 +10,11 @@
 #include <experimental/simd>
 
 #include "impact/dmt_law.hpp"
-#include "impact/flights.hpp"
 #include "impact/force_law.hpp"
 #include "impact/jkr_law.hpp"
 #include "impact/maugis_law.hpp"
-#include "impact/phases.hpp"
+#include "impact/phase_solver.hpp"
+#include "impact/step_solver.hpp"
 #include "impact/with_dashpot.hpp"
 
 namespace recoil::RECOIL_KERNEL {
@@ -26,7 +26,7 @@ using Pack =
 
 constexpr std::size_t batch = 1024;
 
-/// Indices of impacts, without memory of the heap.
+/// Indices of impacts, without heap memory.
 struct Order {
   std::array<std::uint32_t, batch> entries;
   std::size_t size = 0;
@@ -38,103 +38,109 @@ struct Order {
   }
 };
 
-/// The impacts of `order` by Phases; those that are not done go to `others`.
-template <std::size_t nodes, PhaseEnd end, class Solver>
-void try_phases(Solver& solver, std::span<const ImpactGroups> groups, const Order& order,
-                std::span<const typename Solver::Sketch> sketches, std::span<ImpactResult> results,
-                Order& others) {
+/// Solves the impacts of `order` with the nodes for `need`; adds those that fail to `failed`.
+template <class Solver>
+void solve_phases(Solver& solver, PhaseNeed need, std::span<const ImpactGroups> groups,
+                  const Order& order, std::span<const CoarseImpact> coarse,
+                  std::span<ImpactResult> results, Order& failed) {
   for (std::size_t first = 0; first < order.size; first += Solver::lanes) {
     const auto some = order.some(first, Solver::lanes);
-    const auto done = solver.template fly<nodes, end>(groups, some, sketches, results);
+    const auto done = solver.solve(need, groups, some, coarse, results);
     for (std::size_t lane = 0; lane < some.size(); ++lane) {
-      if (!done[lane]) others.add(some[lane]);
+      if (!done[lane]) failed.add(some[lane]);
     }
   }
 }
 
-/// The impacts of `order` by Phases, those that need the same together; who is not done is `left`.
-template <class Solver>
-void fly_phases(Solver solver, std::span<const ImpactGroups> groups, const Order& order,
-                std::span<ImpactResult> results, Order& left) {
-  std::array<typename Solver::Sketch, batch> sketches;
+/// Solves the impacts of `order` phase by phase, those that need the same nodes together; adds
+/// those that fail to `left`.
+template <class Law>
+void solve_phases(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                  const Order& order, std::span<ImpactResult> results, Order& left) {
+  using Solver = PhaseSolver<Law, Pack>;
+  Solver solver(options);
+  std::array<CoarseImpact, batch> coarse;
   for (std::size_t first = 0; first < order.size; first += Solver::lanes) {
-    solver.sketch(groups, order.some(first, Solver::lanes), sketches);
+    solver.solve_coarsely(groups, order.some(first, Solver::lanes), coarse);
   }
-  Order smooth, difficult, captured;
+  Order smooth, fine, captured;
   for (const std::uint32_t entry : order.all()) {
-    switch (sketches[entry].outlook) {
-      case Solver::Outlook::smooth:
+    switch (coarse[entry].need) {
+      case PhaseNeed::smooth:
         smooth.add(entry);
         break;
-      case Solver::Outlook::difficult:
-        difficult.add(entry);
+      case PhaseNeed::fine:
+        fine.add(entry);
         break;
-      case Solver::Outlook::captured:
+      case PhaseNeed::capture:
         captured.add(entry);
         break;
     }
   }
-  try_phases<16, PhaseEnd::release>(solver, groups, smooth, sketches, results, difficult);
-  try_phases<24, PhaseEnd::release>(solver, groups, difficult, sketches, results, left);
-  try_phases<24, PhaseEnd::outer_turning_point>(solver, groups, captured, sketches, results, left);
+  solve_phases(solver, PhaseNeed::smooth, groups, smooth, coarse, results, fine);
+  solve_phases(solver, PhaseNeed::fine, groups, fine, coarse, results, left);
+  solve_phases(solver, PhaseNeed::capture, groups, captured, coarse, results, left);
 }
 
 /// The law decides what a step may err: the path of JKR is longer, out to where the contact parts.
 template <class Law, bool with_gradient>
-void fly_batch(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-               std::span<ImpactResult> results) {
+void solve_steps(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                 const Order& order, std::span<ImpactResult> results) {
+  if (order.size == 0) return;
+  ImpactOptions tighter = options;
+  tighter.fast_tolerance *= Law::tolerance_share;
+  StepSolver<Law, Pack, with_gradient>(groups, order.all(), tighter, results).solve();
+}
+
+template <class Law>
+void solve_batch(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                 std::span<ImpactResult> results) {
   Order all, left;
-  // A dashpot and a seam of the law (LawPath::seam) are for Flights alone; and strong damping where
-  // the law is steep: above 0.5 the slope in beta had errors of 1e-7 and more.
-  constexpr bool by_phases = Law::places.back() != 3;
+  // StepSolver takes impacts with a dashpot or a seam of the law (LawPath::seam); and strong
+  // damping where the law is steep: above 0.5 the slope in beta had errors of 1e-7 and more.
+  constexpr bool by_phases = Law::places.back() != place_of_kappa;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const bool apart =
+    const bool by_steps =
         !by_phases || Law::path_of(groups[i]).seam ||
         (Law::tolerance_share < 1.0 && groups[i].alpha + groups[i].gamma * groups[i].beta > 0.25);
-    (apart ? left : all).add(static_cast<std::uint32_t>(i));
+    (by_steps ? left : all).add(static_cast<std::uint32_t>(i));
   }
-  if constexpr (by_phases) {
-    using Solver = Phases<Law, Pack, with_gradient>;
-    fly_phases(Solver(options.phase, options.fast_tolerance), groups, all, results, left);
-  }
-  if (left.size == 0) return;
-  ImpactOptions flight = options;
-  flight.fast_tolerance *= Law::tolerance_share;
-  Flights<Law, Pack, with_gradient>(groups, left.all(), flight, results).fly();
+  if constexpr (by_phases) solve_phases<Law>(groups, options, all, results, left);
+  const auto solve_left = options.gradient ? solve_steps<Law, true> : solve_steps<Law, false>;
+  solve_left(groups, options, left, results);
 }
 
 template <class Law>
-void fly_under(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-               std::span<ImpactResult> results) {
+void simulate_under(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                    std::span<ImpactResult> results) {
   for (std::size_t first = 0; first < groups.size(); first += batch) {
     const std::size_t count = std::min(batch, groups.size() - first);
-    const auto fly = options.gradient ? fly_batch<Law, true> : fly_batch<Law, false>;
-    fly(groups.subspan(first, count), options, results.subspan(first, count));
+    solve_batch<Law>(groups.subspan(first, count), options, results.subspan(first, count));
   }
 }
 
 template <class Law>
-void fly_by(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-            std::span<ImpactResult> results) {
-  if (options.dashpot) return fly_under<WithDashpot<Law>>(groups, options, results);
-  fly_under<Law>(groups, options, results);
+void simulate_by(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                 std::span<ImpactResult> results) {
+  if (options.dashpot) return simulate_under<WithDashpot<Law>>(groups, options, results);
+  simulate_under<Law>(groups, options, results);
 }
 
 }  // namespace
 
 std::size_t lanes() { return RECOIL_LANES; }
 
-void fly(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-         std::span<ImpactResult> results) {
+void simulate(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+              std::span<ImpactResult> results) {
   switch (options.adhesion) {
     case AdhesionLaw::ring:
-      return fly_by<RingAdhesionLaw>(groups, options, results);
+      return simulate_by<RingAdhesionLaw>(groups, options, results);
     case AdhesionLaw::jkr:
-      return fly_by<JkrLaw>(groups, options, results);
+      return simulate_by<JkrLaw>(groups, options, results);
     case AdhesionLaw::dmt:
-      return fly_by<DmtLaw>(groups, options, results);
+      return simulate_by<DmtLaw>(groups, options, results);
     case AdhesionLaw::maugis:
-      return fly_under<MaugisLaw>(groups, options, results);
+      return simulate_under<MaugisLaw>(groups, options, results);
   }
 }
 

@@ -8,24 +8,24 @@
 
 namespace recoil {
 
-/// Fills outcome, restitution_squared, steps and, when asked for, the gradient of every impact. An
-/// outcome that is not usable() is for the caller to hand over.
-using FlyImpacts = void(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-                        std::span<ImpactResult> results);
+/// Fills outcome, restitution_squared, steps and, when asked for, the gradient of every impact. The
+/// caller hands impacts whose outcome is not usable() over to the reference solver.
+using KernelFunction = void(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                            std::span<ImpactResult> results);
 
 // One per instruction set, all compiled from fast_kernel.cpp; which of the last two there are is
 // decided in CMakeLists.txt.
 namespace baseline {
 std::size_t lanes();
-FlyImpacts fly;
+KernelFunction simulate;
 }  // namespace baseline
 namespace avx2 {
 std::size_t lanes();
-FlyImpacts fly;
+KernelFunction simulate;
 }  // namespace avx2
 namespace avx512 {
 std::size_t lanes();
-FlyImpacts fly;
+KernelFunction simulate;
 }  // namespace avx512
 
 /// The inner loop of the fast solver for one instruction set. All of them give the same digits:
@@ -33,7 +33,7 @@ FlyImpacts fly;
 struct FastKernel {
   const char* name;   ///< "avx512", "avx2", "baseline"
   std::size_t lanes;  ///< impacts at a time
-  FlyImpacts* fly;
+  KernelFunction* simulate;
 };
 
 /// The kernels that this machine can run, the widest first.

@@ -19,8 +19,8 @@ namespace {
 
 std::atomic<long> handovers{0};
 
-/// A rebound, a capture and a strongly damped impact come out as by `baseline`, to the last digit:
-/// a compiler that has its difficulties with wide registers shall not give wrong answers.
+/// Does the kernel give the digits of `baseline` for a rebound, a capture and a strongly damped
+/// impact? Guards against compilers that mistranslate wide registers.
 bool gives_the_digits_of(const FastKernel& baseline, const FastKernel& kernel) {
   std::array<ImpactGroups, 3> impacts = {ImpactGroups{0.01, 0.1, 0.4, 0.0, 0.4},
                                          ImpactGroups{0.02, 3.0, 0.02, 0.0, 2.0},
@@ -33,8 +33,8 @@ bool gives_the_digits_of(const FastKernel& baseline, const FastKernel& kernel) {
   options.gradient = true;
   const auto agrees = [&] {
     std::array<ImpactResult, impacts.size()> expected, found;
-    baseline.fly(impacts, options, expected);
-    kernel.fly(impacts, options, found);
+    baseline.simulate(impacts, options, expected);
+    kernel.simulate(impacts, options, found);
     return std::equal(expected.begin(), expected.end(), found.begin(), same);
   };
   for (const double kappa : {0.0, 0.1}) {
@@ -60,7 +60,7 @@ bool rests_at_once(const ImpactGroups& groups, ImpactResult& result) {
   return true;
 }
 
-/// What is known without flying: true when `result` holds the answer.
+/// True when the answer is known without integration; `result` then holds it.
 bool answer_at_once(const ImpactGroups& groups, const ImpactOptions& options,
                     ImpactResult& result) {
   if (!is_admissible(groups, options)) {
@@ -84,9 +84,9 @@ bool answer_at_once(const ImpactGroups& groups, const ImpactOptions& options,
   return false;
 }
 
-long fly_some(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-              std::span<ImpactResult> results) {
-  fast_kernels().front().fly(groups, options, results);
+long simulate_run(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                  std::span<ImpactResult> results) {
+  fast_kernels().front().simulate(groups, options, results);
   long handed_over = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (results[i].usable() && std::isfinite(results[i].restitution_squared)) continue;
@@ -105,13 +105,13 @@ const std::vector<FastKernel>& fast_kernels() {
 #ifdef RECOIL_AVX512_KERNEL
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
-      list.push_back({"avx512", avx512::lanes(), avx512::fly});
+      list.push_back({"avx512", avx512::lanes(), avx512::simulate});
     }
 #endif
 #ifdef RECOIL_AVX2_KERNEL
-    if (__builtin_cpu_supports("avx2")) list.push_back({"avx2", avx2::lanes(), avx2::fly});
+    if (__builtin_cpu_supports("avx2")) list.push_back({"avx2", avx2::lanes(), avx2::simulate});
 #endif
-    list.push_back({"baseline", baseline::lanes(), baseline::fly});
+    list.push_back({"baseline", baseline::lanes(), baseline::simulate});
     const FastKernel baseline_kernel = list.back();
     std::erase_if(list, [&](const FastKernel& kernel) {
       return !gives_the_digits_of(baseline_kernel, kernel);
@@ -124,7 +124,7 @@ const std::vector<FastKernel>& fast_kernels() {
 long simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOptions& options,
                            std::span<ImpactResult> results) {
   assert(!options.budget && results.size() == groups.size());
-  // Runs of impacts between those that are answered at once fly together.
+  // Runs of impacts between those that are answered at once are simulated together.
   std::size_t begin = 0;
   long handed_over = 0;
   for (std::size_t i = 0; i <= groups.size(); ++i) {
@@ -133,8 +133,8 @@ long simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOpt
       if (!answer_at_once(groups[i], options, results[i])) continue;
     }
     if (i > begin)
-      handed_over +=
-          fly_some(groups.subspan(begin, i - begin), options, results.subspan(begin, i - begin));
+      handed_over += simulate_run(groups.subspan(begin, i - begin), options,
+                                  results.subspan(begin, i - begin));
     begin = i + 1;
   }
   return handed_over;

@@ -7,8 +7,8 @@
 namespace recoil {
 
 /// e^2 and its gradient, several impacts per SIMD register: the two phases as integral equations
-/// (impact/phases.hpp), or where these do not converge by a method of fixed order on the
-/// regularised field (impact/flights.hpp). Hundreds to thousands of times faster than the
+/// (impact/phase_solver.hpp), or where these do not converge by a method of fixed order on the
+/// regularised field (impact/step_solver.hpp). Hundreds to thousands of times faster than the
 /// reference, and never a different answer. Certified against the reference over a wide box, see
 /// tests/impact/fast_solver_test.cpp: e^2 to 1e-9, gradient to 1e-7.
 ///

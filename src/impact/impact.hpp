@@ -54,6 +54,9 @@ struct EnergyBudget {
   double audit() const;
 };
 
+/// Places in ImpactResult::gradient.
+inline constexpr std::size_t place_of_kappa = 3, place_of_range = 4;
+
 /// The result of one dimensionless impact.
 ///
 /// `restitution_squared` is e^2 after a rebound (the text speaks of the ring law; under the others

@@ -10,8 +10,16 @@
 
 namespace recoil {
 
+/// The group of `Law` that is ImpactGroups::range.
+template <class Law>
+inline constexpr unsigned group_of_range = [] {
+  unsigned k = 0;
+  while (Law::places[k] != place_of_range) ++k;
+  return k;
+}();
+
 /// A law of adhesion with its numbers, for one impact in each lane of `Pack`.
-template <class Law, class Pack, bool with_gradient>
+template <class Law, class Pack>
 struct LawLanes {
   static constexpr unsigned parameters = Law::groups;
 
@@ -25,18 +33,22 @@ struct LawLanes {
     for (unsigned c = 0; c < Law::constants; ++c) constants[c][lane] = fixed[c];
   }
 
-  /// du/dsigma with its derivatives: variable 0 is u, variable k + 1 is group k.
-  [[gnu::always_inline]] auto field(const Pack& q, const Pack& u, const Pack& acts) const {
+  /// du/dsigma.
+  [[gnu::always_inline]] Pack field(const Pack& q, const Pack& u, const Pack& acts) const {
     return with_all([&]<unsigned... k>(std::integer_sequence<unsigned, k...>, const auto&... c) {
-      if constexpr (with_gradient) {
-        return Law::acceleration(q, variable<0>(u), acts, variable<k + 1>(groups[k])..., c...);
-      } else {
-        return Partial<Pack, 0U>{Law::acceleration(q, u, acts, groups[k]..., c...), {}};
-      }
+      return Law::acceleration(q, u, acts, groups[k]..., c...);
     });
   }
 
-  /// -d(du/dsigma)/du, which does not depend on u: what the dampings take.
+  /// du/dsigma with its derivatives: variable 0 is u, variable k + 1 is group k.
+  [[gnu::always_inline]] auto field_with_slopes(const Pack& q, const Pack& u,
+                                                const Pack& acts) const {
+    return with_all([&]<unsigned... k>(std::integer_sequence<unsigned, k...>, const auto&... c) {
+      return Law::acceleration(q, variable<0>(u), acts, variable<k + 1>(groups[k])..., c...);
+    });
+  }
+
+  /// -d(du/dsigma)/du, which does not depend on u: the damping.
   [[gnu::always_inline]] Pack damping(const Pack& q, const Pack& acts) const {
     return with_all([&]<unsigned... k>(std::integer_sequence<unsigned, k...>, const auto&... c) {
       return -Law::acceleration(q, variable<0>(Pack(0.0)), acts, groups[k]..., c...)
@@ -45,11 +57,7 @@ struct LawLanes {
   }
 
   /// The slope of the potential energy in q, which is -du/dsigma at rest.
-  [[gnu::always_inline]] Pack slope(const Pack& q) const {
-    return with_all([&]<unsigned... k>(std::integer_sequence<unsigned, k...>, const auto&... c) {
-      return -Law::acceleration(q, Pack(0.0), Pack(0.0), groups[k]..., c...);
-    });
-  }
+  [[gnu::always_inline]] Pack slope(const Pack& q) const { return -field(q, Pack(0.0), Pack(0.0)); }
 
   [[gnu::always_inline]] Pack potential(const Pack& q) const {
     return with_all([&]<unsigned... k>(std::integer_sequence<unsigned, k...>, const auto&... c) {
@@ -57,18 +65,18 @@ struct LawLanes {
     });
   }
 
-  /// With its derivatives, as `field`.
-  [[gnu::always_inline]] auto potential_with_gradient(const Pack& q) const {
+  /// With its derivatives, as `field_with_slopes`.
+  [[gnu::always_inline]] auto potential_with_slopes(const Pack& q) const {
     return with_all([&]<unsigned... k>(std::integer_sequence<unsigned, k...>, const auto&... c) {
       return Law::potential(q, variable<k + 1>(groups[k])..., c...);
     });
   }
 
-  /// e^2 and, when asked for, its gradient at the end of the impact in `lane`, at q and u, where
-  /// area(k) is D of group k there (see Flights).
+  /// e^2 and its gradient at the end of the impact in `lane`, at q and u, where area(k) is D of
+  /// group k there (see StepSolver).
   template <class Area>
-  void write(std::size_t lane, const ImpactGroups& impact, double q, double u, const Area& area,
-             ImpactResult& result) const {
+  void write(std::size_t lane, const ImpactGroups& impact, double q, double u, bool gradient,
+             const Area& area, ImpactResult& result) const {
     [&]<unsigned... k, unsigned... c>(std::integer_sequence<unsigned, k...>,
                                       std::integer_sequence<unsigned, c...>) {
       const Partial<double, (1U << parameters) - 1U> none{};
@@ -76,7 +84,7 @@ struct LawLanes {
                                             double(constants[c][lane])...) +
                              none;
       result.restitution_squared = u * u + 2.0 * potential.value;
-      if constexpr (with_gradient) {
+      if (gradient) {
         result.gradient =
             impact_gradient<Law>(impact, {2.0 * (area(k) + potential.template derivative<k>())...});
       }

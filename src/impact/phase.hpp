@@ -5,9 +5,11 @@
 #include <experimental/simd>
 #include <utility>
 
+#include "impact/phase_rule.hpp"
+
 namespace recoil {
 
-// b where it is larger (smaller), and a where either is not a number.
+// The larger (smaller) of the two; `a` where either is not a number.
 template <class Pack>
 [[gnu::always_inline]] inline Pack pack_larger(const Pack& a, const Pack& b) {
   return std::experimental::max(b, a);
@@ -17,9 +19,15 @@ template <class Pack>
   return std::experimental::min(b, a);
 }
 
-template <class Pack, std::size_t count>
-[[gnu::always_inline]] inline Pack row_times(const std::array<double, count>& row,
-                                             const std::array<Pack, count>& values) {
+/// One number per node of a PhaseRule.
+template <class Pack>
+using Nodes = std::array<Pack, PhaseRule::most>;
+
+/// sum_j row[j] values[j] over an even number of nodes.
+template <class Pack, std::size_t size>
+[[gnu::always_inline]] inline Pack row_times(const double* row,
+                                             const std::array<Pack, size>& values,
+                                             std::size_t count) {
   Pack even = row[0] * values[0], odd = row[1] * values[1];
   for (std::size_t j = 2; j < count; j += 2) {
     even += row[j] * values[j];
@@ -28,14 +36,15 @@ template <class Pack, std::size_t count>
   return even + odd;
 }
 
-/// The two last coefficients of the values.
-template <class Gauss, class Pack, std::size_t count>
-[[gnu::always_inline]] inline Pack defect_of(const Gauss& gauss,
-                                             const std::array<Pack, count>& values) {
-  return abs(row_times(gauss.last, values)) + abs(row_times(gauss.last_but_one, values));
+/// The magnitude of the last two Legendre coefficients of the values: how well the rule resolves
+/// them.
+template <class Pack>
+[[gnu::always_inline]] inline Pack defect_of(const PhaseRule& rule, const Nodes<Pack>& values) {
+  return abs(row_times(rule.last, values, rule.count)) +
+         abs(row_times(rule.last_but_one, values, rule.count));
 }
 
-/// How many nodes are put in together.
+/// Nodes are updated in blocks of this size.
 inline constexpr std::size_t phase_block = 4;
 
 /// act(0), ..., act(phase_block - 1), without a loop.
@@ -45,13 +54,12 @@ template <class Act>
   (std::make_index_sequence<phase_block>{});
 }
 
-/// rows[i] times the values for i = `first`, ..., `first` + phase_block - 1. The values before
-/// them come last, as they have just been put in.
-template <class Pack, std::size_t count>
+/// Rows `first` to `first` + phase_block - 1 of a matrix, times the values. The values of the
+/// earlier blocks come last in the sums, as they have just been computed.
+template <class Pack>
 [[gnu::always_inline]] inline std::array<Pack, phase_block> block_times(
-    const std::array<std::array<double, count>, count>& rows, const std::array<Pack, count>& values,
-    std::size_t first) {
-  static_assert(count % phase_block == 0);
+    const double (*rows)[PhaseRule::most], const Nodes<Pack>& values, std::size_t first,
+    std::size_t count) {
   std::array<Pack, phase_block> sums;
   sums.fill(Pack(0.0));
   const auto add = [&](std::size_t from, std::size_t to) {
@@ -65,83 +73,90 @@ template <class Pack, std::size_t count>
 }
 
 /// Compression or restitution, from the inner turning point to its other end, at the nodes of a
-/// PhaseRule. What is lost up to a node is the integral of the rate D u dq/ds, in which u^2 / 2 is
-/// the energy at the turning point less the potential energy, more (compression) or less
-/// (restitution) what is lost. Putting the losses in again and again converges like M^n / n!,
-/// M = integral of D dsigma. What a block of nodes does to itself is put in at once: a sweep then
-/// leaves 1e-4 to 1e-3 of a change of 1e-5, and left 2e-3 to 1e-2 without (medians to 9 in 10 of
-/// the benchmark's rebounds). Meanwhile u follows by Newton's rule, which needs neither a root nor
+/// PhaseRule. The energy lost up to a node is the integral of the rate D u dq/ds, in which u^2 / 2
+/// is the energy at the turning point less the potential energy, plus (compression) or minus
+/// (restitution) the energy lost. Successive substitution of the losses converges like M^n / n!,
+/// M = integral of D dsigma. Within a block of nodes the coupling is solved implicitly: a sweep
+/// then leaves 1e-4 to 1e-3 of a change of 1e-5, and left 2e-3 to 1e-2 without (median and ninth
+/// decile of the benchmark's rebounds). u follows by Newton's rule, which needs neither a root nor
 /// a quotient.
-template <class Pack, std::size_t count>
+template <class Pack>
 struct Phase {
   using Mask = typename Pack::mask_type;
-  using Nodes = std::array<Pack, count>;
 
-  Pack length;          ///< of the way
-  Nodes place;          ///< q
-  Nodes height;         ///< energy at the inner turning point less the potential energy
-  Nodes damping;        ///< of the loss, per u and s
-  Nodes lost;           ///< from the inner turning point to the node
-  Nodes speed;          ///< u without its sign
-  Nodes slowness;       ///< 1 / u
-  Nodes rates;          ///< of the loss, per s
-  Pack loss;            ///< of the whole phase
-  Pack lowest = 1e300;  ///< u^2 / 2
-  Pack defect;          ///< the two last coefficients of the rates
+  const PhaseRule& rule;
+  Pack length;           ///< of the way
+  Nodes<Pack> place;     ///< q
+  Nodes<Pack> height;    ///< energy at the inner turning point less the potential energy
+  Nodes<Pack> damping;   ///< rate of the loss, per u and s
+  Nodes<Pack> lost;      ///< energy lost between the inner turning point and the node
+  Nodes<Pack> speed;     ///< |u|
+  Nodes<Pack> slowness;  ///< 1 / |u|
+  Nodes<Pack> rates;     ///< of the loss, per s
+  Pack loss;             ///< of the whole phase
+  Pack lowest = 1e300;   ///< smallest u^2 / 2
+  Pack defect;           ///< of the rates
   Pack sweeps = 0.0;
   Mask settled{false};
 
-  /// Where the nodes are, and what the law says there.
-  template <class Rule, class Law>
-  [[gnu::always_inline]] void look(const Rule& rule, const Law& law, const Pack& deepest,
-                                   const Pack& end, const Pack& acts, const Pack& bottom) {
+  explicit Phase(const PhaseRule& of) : rule(of) {}
+
+  /// Places the nodes on the way from `deepest` to `end` and evaluates the law there.
+  template <class Law>
+  [[gnu::always_inline]] void place_nodes(const Law& law, const Pack& deepest, const Pack& end,
+                                          const Pack& acts, const Pack& bottom) {
     length = deepest - end;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < rule.count; ++i) {
       place[i] = deepest - length * rule.part[i];
       height[i] = bottom - law.potential(place[i]);
       damping[i] = (length * rule.rate[i]) * law.damping(place[i], acts);
     }
   }
 
-  /// What the rates at the nodes of a coarse rule say about the losses at those of this one.
-  template <class Rule, std::size_t few>
-  [[gnu::always_inline]] void refine(const Rule& rule, const std::array<Pack, few>& sketched) {
-    for (std::size_t i = 0; i < count; ++i) lost[i] = row_times(rule.from_few[i], sketched);
+  void start_without_losses() {
+    for (std::size_t i = 0; i < rule.count; ++i) lost[i] = 0.0;
+  }
+  /// Starts from the losses that the rates at the nodes of the coarse rule give.
+  template <std::size_t few>
+  void start_from(const std::array<Pack, few>& coarse_rates) {
+    for (std::size_t i = 0; i < rule.count; ++i) {
+      lost[i] = row_times(rule.from_few[i], coarse_rates, few);
+    }
   }
 
   /// The integral of D dsigma.
-  template <class Rule>
-  [[gnu::always_inline]] Pack held(const Rule& rule) const {
-    Nodes values;
-    for (std::size_t i = 0; i < count; ++i) values[i] = damping[i] * slowness[i];
-    return row_times(rule.gauss.weight, values);
+  [[gnu::always_inline]] Pack held() const {
+    Nodes<Pack> values;
+    for (std::size_t i = 0; i < rule.count; ++i) values[i] = damping[i] * slowness[i];
+    return row_times(rule.weight, values, rule.count);
   }
 
-  /// Puts in the losses, block by block, each with what those before it have just become, until
-  /// they change by less than `settle_below` [m V^2]. Lanes that have settled are left as they are.
-  /// @param arrive_below what the energy at the end may miss [m V^2]
-  /// @param missing what the energy at the end misses with this loss
-  /// @param move where the end goes for that; true when it went
-  template <bool compression, class Rule, class Look, class Missing, class Move>
-  [[gnu::always_inline]] void settle(const Rule& rule, double settle_below, double arrive_below,
-                                     const Look& look_again, const Missing& missing,
+  /// Sweeps over the blocks, each with the losses that the earlier blocks have just taken, until
+  /// the losses change by less than `settle_below` [m V^2]. Settled lanes keep their values.
+  /// @param arrive_below tolerance of the energy at the end [m V^2]
+  /// @param place_again places the nodes for the present ends
+  /// @param missing error of the energy at the end for this loss
+  /// @param move moves the end of the lanes of a mask to reduce that error; true if any moved
+  template <bool compression, class PlaceAgain, class Missing, class Move>
+  [[gnu::always_inline]] void settle(double settle_below, double arrive_below,
+                                     const PlaceAgain& place_again, const Missing& missing,
                                      const Move& move) {
     constexpr int most_sweeps = 14;
-    look_again();
-    for (std::size_t i = 0; i < count; ++i) start<compression>(i);
+    place_again();
+    for (std::size_t i = 0; i < rule.count; ++i) start<compression>(i);
     Pack last_change = 0.0;
     for (int sweep = 0; sweep < most_sweeps && !all_of(settled); ++sweep) {
       const Mask moving = !settled;
       Pack change = 0.0;
-      for (std::size_t first = 0; first < count; first += phase_block) {
-        const auto next = next_losses<compression>(rule, first);
+      for (std::size_t first = 0; first < rule.count; first += phase_block) {
+        const auto next = next_losses<compression>(first);
         for_block([&](std::size_t i) {
           change = pack_larger(change, Pack(abs(next[i] - lost[first + i])));
           where(moving, lost[first + i]) = next[i];
         });
         follow_block<compression>(first, moving);
       }
-      const Pack next_loss = row_times(rule.gauss.weight, rates);
+      const Pack next_loss = row_times(rule.weight, rates, rule.count);
       const Pack left_over = abs(missing(next_loss));
       where(moving, sweeps) += 1.0;
       // Changes that shrink by equal factors add up to change^2 / (last_change - change).
@@ -153,15 +168,17 @@ struct Phase {
       settled = settled || (close && arrived);
       const Mask goes = moving && !arrived;
       if (move(goes, next_loss)) {
-        look_again();
-        follow_all<compression>(goes);
+        place_again();
+        for (std::size_t first = 0; first < rule.count; first += phase_block) {
+          follow_block<compression>(first, goes);
+        }
       }
     }
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < rule.count; ++i) {
       lowest = pack_smaller(lowest, half_square<compression>(i));
     }
-    loss = row_times(rule.gauss.weight, rates);
-    defect = defect_of(rule.gauss, rates);
+    loss = row_times(rule.weight, rates, rule.count);
+    defect = defect_of(rule, rates);
   }
 
  private:
@@ -182,20 +199,13 @@ struct Phase {
     slowness[i] = 1.0 / speed[i];
     rates[i] = damping[i] * speed[i];
   }
+  /// The losses at the nodes of a block, the coupling within the block to first order: d(rate) /
+  /// d(loss) = +-D dq/ds / u. Left out where that is steep, for u close to zero, as it is near a
+  /// capture: there it would keep the sweeps from settling.
   template <bool compression>
-  [[gnu::always_inline]] void follow_all(const Mask& moving) {
-    for (std::size_t first = 0; first < count; first += phase_block) {
-      follow_block<compression>(first, moving);
-    }
-  }
-  /// The losses at a block of nodes from the rates, more by what these change of the rates of the
-  /// block: d(rate) / d(loss) = +-D dq/ds / u. Left out where that is steep, for u that all but
-  /// vanishes, as of a sphere that is captured: there it would keep the sweeps from settling.
-  template <bool compression, class Rule>
-  [[gnu::always_inline]] std::array<Pack, phase_block> next_losses(const Rule& rule,
-                                                                   std::size_t first) const {
+  [[gnu::always_inline]] std::array<Pack, phase_block> next_losses(std::size_t first) const {
     constexpr double steepest = 10.0;
-    std::array<Pack, phase_block> next = block_times(rule.losses, rates, first);
+    std::array<Pack, phase_block> next = block_times(rule.losses, rates, first, rule.count);
     std::array<Pack, phase_block> more;
     for_block([&](std::size_t k) {
       const std::size_t i = first + k;
@@ -208,7 +218,7 @@ struct Phase {
     });
     return next;
   }
-  /// u and 1 / u of the lanes that move, by one step of Newton's; anew where that is too long.
+  /// Updates u and 1 / u of the moving lanes by a Newton step, or by a root where the step is long.
   template <bool compression>
   [[gnu::always_inline]] void follow_block(std::size_t first, const Mask& moving) {
     constexpr double longest = 0.02;  // of u; the step errs by half of its square

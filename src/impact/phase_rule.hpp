@@ -1,57 +1,71 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-
-#include "impact/gauss_rule.hpp"
+#include <vector>
 
 namespace recoil {
+
+/// Gauss's nodes s_i on [0, 1], with the rows that integrate the polynomial through values at the
+/// nodes, up to each node and up to 1, and that give its two highest Legendre coefficients.
+struct GaussRule {
+  using Row = std::vector<double>;
+  using Series = std::vector<double>;  ///< coefficients of Legendre polynomials
+
+  explicit GaussRule(std::size_t nodes);
+
+  std::size_t count;
+  Row node;
+  Row weight;                ///< sum_j weight[j] f(s_j) = integral from 0 to 1
+  std::vector<Row> up_to;    ///< sum_j up_to[i][j] f(s_j) = integral from 0 to s_i
+  Row last, last_but_one;    ///< rows that give the coefficients of P_(count - 1) and P_(count - 2)
+  std::vector<Row> of_node;  ///< [node][k]: P_k at the node
+
+  /// sum_j row[j] f(s_j) = integral from 0 to s.
+  Row integral_up_to(double s) const;
+
+  /// Cardinal functions for an f that is s, or with `at_both_ends` s (1 - s), times a polynomial:
+  /// the function j is 1 at node j and 0 at the other nodes. Integrals of such an f have an error
+  /// that vanishes with its slope where f does, so that a quotient of the integral and s^2 keeps
+  /// its digits at the first nodes.
+  std::vector<Series> vanishing(bool at_both_ends) const;
+
+  /// As above, for an f that is a sum of the functions of `vanishing`.
+  Row integral_up_to(double s, const std::vector<Series>& vanishing) const;
+};
 
 /// How the second phase of an impact ends.
 enum class PhaseEnd { release, outer_turning_point };
 
-/// The nodes of a phase: part[i] is how far the i-th lies on the way from the inner turning point
-/// to the other end, rate[i] its derivative in s. Where u vanishes it does so like a root of the
-/// way, so that u is smooth in s: the way is s^2 (1 + c (1 - s^2)), or sin^2(pi s / 2) if u
+/// The nodes of a phase: part[i] is the fraction of the way from the inner turning point to the
+/// other end at node i, rate[i] its derivative in s. Where u vanishes it does so like the root of
+/// the way, so that u is smooth in s: the way is s^2 (1 + c (1 - s^2)), or sin^2(pi s / 2) if u
 /// vanishes at both ends.
-template <class Owner, std::size_t count, PhaseEnd end>
+///
+/// Plain arrays, as the kernels of fast_kernel.cpp must not share an inline function.
 struct PhaseRule {
-  GaussRule<Owner, count> gauss = GaussRule<Owner, count>::made();
-  std::array<double, count> part = {}, rate = {};
-  /// Draws the nodes a little towards the release, where adhesion brings zeros of u close to the
-  /// way. The best for 12 and 16 nodes on the shipped fits, of 0, 0.15, 0.3, 0.45 and 0.6.
-  static constexpr double crowding = 0.15;
-  /// sum_j losses[i][j] f(s_j) = integral up to node i of an f that vanishes where u does.
-  std::array<std::array<double, count>, count> losses = {};
-  /// The same from the nodes of the rule with `few` of them.
-  static constexpr std::size_t few = 8;
-  std::array<std::array<double, few>, count> from_few = {};
+  static constexpr std::size_t most = 24;  ///< nodes
+  static constexpr std::size_t few = 8;    ///< nodes of the coarse rule
 
-  static constexpr PhaseRule made() {
-    PhaseRule rule;
-    constexpr auto coarse = GaussRule<Owner, few>::made();
-    constexpr bool both = end == PhaseEnd::outer_turning_point;
-    constexpr auto of_few = coarse.vanishing(both);
-    const auto of_all = rule.gauss.vanishing(both);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double s = rule.gauss.node[i];
-      if (end == PhaseEnd::release) {
-        rule.part[i] = s * s * (1.0 + crowding * (1.0 - s * s));
-        rule.rate[i] = 2.0 * s * (1.0 + crowding * (1.0 - 2.0 * s * s));
-      } else {
-        constexpr double pi = 3.1415926535897932;
-        const double sine = sine_of_quarters(s);
-        rule.part[i] = sine * sine;
-        rule.rate[i] = pi * sine * sine_of_quarters(1.0 - s);
-      }
-      rule.losses[i] = rule.gauss.integral_up_to(s, of_all);
-      rule.from_few[i] = coarse.integral_up_to(s, of_few);
-    }
-    return rule;
-  }
+  std::size_t count = 0;
+  double part[most] = {}, rate[most] = {};
+  double weight[most] = {}, last[most] = {}, last_but_one[most] = {};  ///< as in GaussRule
+  double up_to[most][most] = {};
+  /// sum_j losses[i][j] f(s_j) = integral up to node i of an f that vanishes where u does.
+  double losses[most][most] = {};
+  /// The same from values at the nodes of the rule with `few` of them.
+  double from_few[most][few] = {};
+
+  PhaseRule(std::size_t nodes, PhaseEnd end);
 };
 
-template <class Owner, std::size_t count, PhaseEnd end>
-inline constexpr auto phase_rule = PhaseRule<Owner, count, end>::made();
+/// The rules that the fast solver uses.
+struct PhaseRules {
+  PhaseRule coarse{PhaseRule::few, PhaseEnd::release};
+  PhaseRule coarse_capture{PhaseRule::few, PhaseEnd::outer_turning_point};
+  PhaseRule smooth{16, PhaseEnd::release};
+  PhaseRule fine{PhaseRule::most, PhaseEnd::release};
+  PhaseRule fine_capture{PhaseRule::most, PhaseEnd::outer_turning_point};
+};
+const PhaseRules& phase_rules();
 
 }  // namespace recoil

@@ -49,10 +49,10 @@ TEST(FastKernel, EveryInstructionSetGivesTheSameDigits) {
       options.adhesion = law;
       options.gradient = gradient;
       std::vector<ImpactResult> baseline(impacts.size());
-      fast_kernels().back().fly(impacts, options, baseline);
+      fast_kernels().back().simulate(impacts, options, baseline);
       for (const FastKernel& kernel : fast_kernels()) {
         std::vector<ImpactResult> results(impacts.size());
-        kernel.fly(impacts, options, results);
+        kernel.simulate(impacts, options, results);
         for (std::size_t i = 0; i < impacts.size(); ++i) {
           expect_same_digits(results[i], baseline[i]);
         }
@@ -72,7 +72,7 @@ TEST(FastKernel, AnImpactDoesNotNoticeItsNeighbours) {
   }
 }
 
-TEST(FastKernel, AnImpactThatNeedsNoFlightLeavesTheOthersInPlace) {
+TEST(FastKernel, AnImpactThatIsAnsweredAtOnceLeavesTheOthersInPlace) {
   std::vector<ImpactGroups> impacts = mixed_impacts(9);
   impacts[0] = {std::nan(""), 0.1, 0.1};
   impacts[4] = {3.0, 1.0, 0.0};  // creeps into the well

@@ -14,13 +14,13 @@
 
 namespace recoil {
 
-/// Several impacts under way at once, one per lane of `Pack`, each with its own step and
-/// its own end; a lane that has landed takes the next impact of the queue.
+/// Integrates several impacts at once, one per lane of `Pack`, each with its own step size and end;
+/// a lane that has finished takes the next impact of the queue.
 ///
 /// Every lane integrates dq/dsigma = u, du/dsigma = f(q, u; p) by DOP853, f from `Law`, from the
 /// law's q at touch to that at the release, where f = 0. Its last step before an event takes u
-/// (turning point) or q (release) as the independent variable and so lands on it exactly (Henon
-/// 1982, Physica D 5, 412-414).
+/// (turning point) or q (release) as the independent variable and so ends on it exactly (Henon
+/// 1982, Physica D 5, 412-414): an event step.
 ///
 /// The gradient uses that a planar flow has only one direction in which neighbouring paths can
 /// part: with F = (u, f), the area D_p = F x (d state / d p) obeys
@@ -32,22 +32,21 @@ namespace recoil {
 /// both ends d(e^2)/dp = 2 D_p + 2 dP/dp at constant q, P = potential energy; at the inner turning
 /// point D_p passes on unchanged, as f does not jump there.
 template <class Law, class Pack, bool with_gradient>
-class Flights {
+class StepSolver {
  public:
-  /// @param order which impacts of `groups` to fly
-  Flights(std::span<const ImpactGroups> groups, std::span<const std::uint32_t> order,
-          const ImpactOptions& options, std::span<ImpactResult> results)
+  /// @param order which impacts of `groups` to integrate
+  StepSolver(std::span<const ImpactGroups> groups, std::span<const std::uint32_t> order,
+             const ImpactOptions& options, std::span<ImpactResult> results)
       : queue_(groups),
         order_(order),
         results_(results),
         phase_(options.phase),
         tolerance_(options.fast_tolerance) {}
 
-  void fly() {
+  void solve() {
     for (std::size_t lane = 0; lane < lanes; ++lane) take_next(lane);
     while (any_of(busy_)) {
-      const Step step = any_of(landing_) ? make_step<true>() : make_step<false>();
-      take(step);
+      take(make_step());
       finish_lanes();
     }
   }
@@ -56,7 +55,6 @@ class Flights {
   static constexpr std::size_t lanes = Pack::size();
   using Mask = typename Pack::mask_type;
   static constexpr unsigned parameters = Law::groups;
-  static constexpr std::size_t place_of_range = 4;  // in ImpactResult::gradient
   /// A law of several hundred operations is better called than copied into each of the stages.
   static constexpr bool is_long = Law::constants > 0;
 
@@ -94,10 +92,10 @@ class Flights {
     return sum;
   }
 
-  /// One Runge-Kutta step of every lane. With `some_land`, lanes that are landing use their own
-  /// clock: u or q instead of the arc length.
-  template <bool some_land>
+  /// One Runge-Kutta step of every lane. Lanes in an event step have their own independent
+  /// variable: u or q instead of the arc length.
   [[gnu::flatten]] Step make_step() const {
+    const bool some_land = any_of(landing_);
     const Pack length =
         some_land
             ? select(landing_, fraction_ * select(to_turning_, -u_, landing_place() - q_), length_)
@@ -116,7 +114,7 @@ class Flights {
       }
       const auto f = field(q, u);
       Pack per_clock = 1.0;
-      if constexpr (some_land) {
+      if (some_land) {
         per_clock = 1.0 / select(landing_, select(to_turning_, f.value, u), Pack(1.0));
       }
       const auto on_clock = [&](const Pack& rate) { return some_land ? rate * per_clock : rate; };
@@ -173,7 +171,11 @@ class Flights {
     return field_here(q, u);
   }
   [[gnu::always_inline]] auto field_here(const Pack& q, const Pack& u) const {
-    return law_.field(q, u, acts_);
+    if constexpr (with_gradient) {
+      return law_.field_with_slopes(q, u, acts_);
+    } else {
+      return Partial<Pack, 0U>{law_.field(q, u, acts_), {}};
+    }
   }
 
   /// Accepts, repeats or turns into a landing the step of every lane.
@@ -283,7 +285,7 @@ class Flights {
     const auto area = [&](unsigned k) {
       return settled_[lane] ? 0.0 : areas_[k][lane] / mu_[lane];
     };
-    law_.write(lane, queue_[impact_[lane]], q, u, area, result);
+    law_.write(lane, queue_[impact_[lane]], q, u, with_gradient, area, result);
   }
 
   /// Puts the next impact of the queue into `lane`; an idle lane flies an impact that counts for
@@ -315,12 +317,7 @@ class Flights {
       settle_below_[lane] = (1.0 - settled_part) * energy(resting_q_, Pack(0.0))[lane];
     }
     if constexpr (with_gradient && Law::constants > 0) {
-      constexpr auto moving = [] {
-        unsigned k = 0;
-        while (Law::places[k] != place_of_range) ++k;
-        return k;
-      }();
-      areas_[moving][lane] = -field(q_, u_).value[lane] * path.range_slope;
+      areas_[group_of_range<Law>][lane] = -field(q_, u_).value[lane] * path.range_slope;
     }
     turned_[lane] = landing_[lane] = to_turning_[lane] = false;
     ended_[lane] = settled_[lane] = lost_[lane] = false;
@@ -334,7 +331,7 @@ class Flights {
   std::size_t next_ = 0;
   std::array<std::size_t, lanes> impact_ = {};  // which one flies in each lane
 
-  LawLanes<Law, Pack, with_gradient> law_;
+  LawLanes<Law, Pack> law_;
   Pack release_ = 0.0;  // its q
   Pack acts_ = 0.0;     // whether the adhesion damping acts: 0 or 1
   Pack q_ = 0.0, u_ = 0.0, mu_ = 0.0;
