@@ -249,7 +249,7 @@ TEST_P(EveryLaw, SameAnswerAtEveryTolerance) {
 }
 
 TEST_P(EveryLaw, AgreesWithTheReferenceWithADashpot) {
-  if (GetParam() == AdhesionLaw::maugis) return;  // no dashpot acts beside it
+  if (GetParam() == AdhesionLaw::maugis) return;  // it has no dashpot
   WideBox box(GetParam());
   for (int i = 0; i < 200; ++i) {
     Draw draw = box.next();

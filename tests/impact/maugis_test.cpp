@@ -8,6 +8,7 @@
 
 #include "data/contact.hpp"
 #include "impact/deepest_contact.hpp"
+#include "impact/fast_solver.hpp"
 #include "impact/impact.hpp"
 #include "impact/reference_solver.hpp"
 
@@ -134,7 +135,6 @@ ImpactResult simulated(const ImpactGroups& groups, AdhesionLaw law = AdhesionLaw
   options.adhesion = law;
   options.phase = phase;
   options.budget = true;
-  options.dashpot = groups.kappa > 0.0;
   options.tolerance = 1e-12;
   return simulate_impact(groups, options);
 }
@@ -197,10 +197,10 @@ TEST(Maugis, PullsByThePublishedCurve) {
   }
 }
 
-TEST(Maugis, BecomesJkrWithEveryDamping) {
+TEST(Maugis, BecomesJkrWithBothDampings) {
   for (const double beta : {0.05, 0.5, 1.2}) {
     for (const auto phase : {AdhesionDampingPhase::rebound, AdhesionDampingPhase::both}) {
-      const ImpactGroups groups{0.03, beta, 0.2, 0.05, 0.0};
+      const ImpactGroups groups{0.03, beta, 0.2, 0.0, 0.0};
       const double jkr = simulated(groups, AdhesionLaw::jkr, phase).restitution_squared;
       const auto away = [&](double lambda) {
         ImpactGroups with_range = groups;
@@ -212,6 +212,14 @@ TEST(Maugis, BecomesJkrWithEveryDamping) {
       EXPECT_LT(away(1e5), 0.1 * away(1e3) + 1e-9) << beta;
     }
   }
+}
+
+TEST(Maugis, HasNoDashpot) {
+  ImpactOptions options;
+  options.adhesion = AdhesionLaw::maugis;
+  options.dashpot = true;
+  EXPECT_FALSE(simulate_impact({0.03, 0.5, 0.2, 0.05, 1.0}, options).usable());
+  EXPECT_FALSE(simulate_impact_fast({0.03, 0.5, 0.2, 0.05, 1.0}, options).usable());
 }
 
 TEST(Maugis, BecomesDmtWithinTheReachOfItsForces) {
