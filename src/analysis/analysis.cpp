@@ -160,8 +160,8 @@ Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {
   analysis.spec = std::move(inputs.spec);
   analysis.datasets = std::move(inputs.datasets);
   Observations gathered = gather(analysis.datasets, analysis.spec);
-  require_scheme(analysis.spec, options.scheme.value_or(analysis.spec.uncertainty.scheme),
-                 gathered);
+  const Scheme scheme = options.scheme.value_or(analysis.spec.uncertainty.scheme);
+  require_scheme(analysis.spec, scheme, gathered);
   ImpactModel model = make_model(analysis.spec, analysis.datasets);
   model.solver.kind = options.solver;
   FitOptions fitting;
@@ -171,6 +171,8 @@ Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {
     throw ComputationError(fmt::format("{}: the fit has no usable answer: {}",
                                        analysis.spec.file.string(), analysis.fitted.failure));
   }
+  // An error that the settings share may be estimated by the fit.
+  require_scheme(analysis.spec, scheme, analysis.fitted.data);
   analysis.validity = fit_validity(analysis.fitted, analysis.datasets);
   return analysis;
 }

@@ -16,6 +16,7 @@
 #include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/posterior.hpp"
+#include "uncertainty/resample.hpp"
 
 namespace recoil {
 namespace {
@@ -121,6 +122,7 @@ CoverageTrial run_coverage_trial(const FitSpec& spec, const CoverageTruth& truth
   const std::vector<Dataset> datasets = truth.simulate(index);
   const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec));
   if (!fitted.usable) return trial;
+  if (scheme_obstacle(options.uncertainty.scheme, fitted.data)) return trial;
   UncertaintyOptions own = options.uncertainty;
   own.seed = options.uncertainty.seed + index;
   own.threads = 1;  // the data sets themselves run in parallel

@@ -92,7 +92,8 @@ struct CoverageTrial {
     double deviation = 0.0;                  ///< of the estimate from the truth over its scale [1]
     std::vector<std::optional<Cell>> cells;  ///< [kinds]; none: no such interval
   };
-  bool usable = false;  ///< else its fit gave no answer, and the rest is empty
+  bool usable = false;  ///< else its fit gave no answer, or the scheme cannot draw from its points,
+                        ///< and the rest is empty
   int refits_failed = 0;
   std::vector<Row> parameters;  ///< those that are free
   std::vector<Row> capture;     ///< in the order of `capture_estimates`

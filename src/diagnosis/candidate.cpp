@@ -24,9 +24,8 @@ LeastSquaresOptions descent() {
   options.function_tolerance = 1e-6;
   options.gradient_tolerance = 1e-10;
   options.parameter_tolerance = 1e-10;
-  options.covariance = false;
   options.finish = false;
-  options.boxed = true;
+  options.strategies = {Strategy::box_descent};
   options.first_radius = 10.0;
   return options;
 }
@@ -34,7 +33,7 @@ LeastSquaresOptions descent() {
 /// Where that one does not end: by Ceres, along each step as far as it leads down.
 LeastSquaresOptions careful_descent() {
   LeastSquaresOptions options = descent();
-  options.boxed = false;
+  options.strategies = {Strategy::trust_region};
   options.max_iterations = 500;
   return options;
 }

@@ -37,12 +37,7 @@ std::vector<std::size_t> indices_of(const Observations& data,
 }
 
 Observations subset(const Observations& data, const std::vector<std::size_t>& points, bool inside) {
-  Observations part = data;
-  part.points.clear();
-  for (const std::size_t i : indices_of(data, points, inside)) {
-    part.points.push_back(data.points[i]);
-  }
-  return part;
+  return data.subset(indices_of(data, points, inside));
 }
 
 /// Takes from the `residuals` of a fold what the residuals `r_seen` of the other points say of it,

@@ -109,10 +109,11 @@ void take_over(FitResult& result, const LeastSquaresResult& run) {
   result.theta = run.theta;
   result.at_bound = run.at_bound;
   result.ending = run.end;
+  result.strategy = run.strategy;
   result.flat = run.flat;
   result.residuals.assign(run.residuals.begin(),
                           run.residuals.begin() + static_cast<std::ptrdiff_t>(n));
-  result.least = run.sum_of_squares;
+  result.objective = run.sum_of_squares;
   result.constants_moved = constant_deviations(result.model, result.data, result.theta);
   record_predictions(result);
   record_leverage(result, run.jacobian, run.covariance);
@@ -225,14 +226,16 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
     return result;
   }
   LeastSquaresOptions minimiser = options.minimiser;
-  minimiser.nearby = search.sampled;
+  if (search.sampled) {
+    minimiser.strategies.insert(minimiser.strategies.begin(), Strategy::gauss_newton);
+  }
   LeastSquaresResult best;
   std::size_t best_start = search.leads.front().start;
   if (result.data.weights_depend_on_fit()) {
     ReweightedFit reweighted = reweighted_fit(model, result.data, search.leads.front().run.theta,
                                               {.minimiser = minimiser});
     if (!reweighted.run.ended()) {
-      result.failure = "no fit together with its weights: " + reweighted.run.message;
+      result.failure = "reweighting did not converge: " + reweighted.run.message;
       return result;
     }
     result.weights_at_rest = reweighted.at_rest;

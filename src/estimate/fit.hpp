@@ -67,9 +67,10 @@ struct FitResult {
   ImpactModel model;
   Observations data;  ///< the points with the weights that belong to this fit: what every refit,
                       ///< profile and simulation starts from
-  std::vector<double> theta;                ///< [slots]
-  std::vector<bool> at_bound;               ///< [slots]
-  DescentEnd ending = DescentEnd::minimum;  ///< of the last descent: minimum, valley or flat
+  std::vector<double> theta;                   ///< [slots]
+  std::vector<bool> at_bound;                  ///< [slots]
+  DescentEnd ending = DescentEnd::minimum;     ///< of the last descent: minimum, valley or flat
+  Strategy strategy = Strategy::trust_region;  ///< that led there
   std::vector<std::size_t>
       flat;  ///< slots on which no point depends there; their values mean nothing
   std::vector<double> covariance;          ///< [slots x slots]; scaled by noise_scale^2
@@ -81,9 +82,9 @@ struct FitResult {
   std::vector<double> leverage;            ///< diagonal of the hat matrix [points]
   double chi2 = 0.0;                       ///< sum of squares under the weights as stated, with the
                                            ///< deviations of uncertain constants
-  double least = 0.0;                      ///< the minimum of the problem that `data` poses now:
-                                           ///< other than chi2 where those have another weight
-  int dof = 0;                             ///< see Misfit
+  double objective = 0.0;  ///< sum of squares at the minimum; differs from chi2 where the constants
+                           ///< have another weight (noise_scale != 1)
+  int dof = 0;             ///< see Misfit
   double p_value = 0.0;  ///< of the misfit; NaN-free: 0 or 1 at the ends; meaningless if !sd_stated
   /// How far the uncertain constants of the materials went from what is stated, in standard
   /// deviations [ImpactModel::constants].

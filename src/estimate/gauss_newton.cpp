@@ -54,9 +54,9 @@ class GaussNewton {
     return true;
   }
 
-  /// Goes from `from` by `d`; nothing where that leads nowhere.
-  std::optional<LeastSquaresResult> gone(const LeastSquaresResult& from,
-                                         const Eigen::VectorXd& d) const {
+  /// The answer at the step `d` from `from`; nullopt if infeasible or if the sum of squares grows.
+  std::optional<LeastSquaresResult> try_step(const LeastSquaresResult& from,
+                                             const Eigen::VectorXd& d) const {
     LeastSquaresResult to = from;
     if (!move(to.theta, d)) return std::nullopt;
     if (!problem_.evaluate(to.theta, to.residuals, to.jacobian)) return std::nullopt;
@@ -206,7 +206,7 @@ std::optional<LeastSquaresResult> gauss_newton_from(const LeastSquaresProblem& p
       break;
     }
     if (!history) history.emplace(step->d);
-    auto next = method.gone(result, history->way(step->d));
+    auto next = method.try_step(result, history->way(step->d));
     if (!next) break;
     auto next_step = method.step_from(*next);
     if (!next_step) return std::nullopt;
@@ -230,7 +230,7 @@ void finish_by_gauss_newton(const LeastSquaresProblem& problem,
   if (!step) return;
   StepHistory history(step->d);
   for (int count = 0; count < most_steps && method.moves(result, step->d) > all_digits; ++count) {
-    auto next = method.gone(result, history.way(step->d));
+    auto next = method.try_step(result, history.way(step->d));
     if (!next) return;
     auto next_step = method.step_from(*next);
     if (!next_step || !(next_step->length < step->length)) return;

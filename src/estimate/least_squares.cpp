@@ -278,12 +278,14 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
                                          const LeastSquaresOptions& options) {
   const std::size_t p = start.size();
   std::vector<bool> held = fixed;
-  LeastSquaresResult result = options.boxed ? descend_in_box(problem, start, fixed, options)
-                                            : solve(problem, start, held, options);
+  const bool by_box = options.strategies.back() == Strategy::box_descent;
+  LeastSquaresResult result = by_box ? descend_in_box(problem, start, fixed, options)
+                                     : solve(problem, start, held, options);
+  result.strategy = options.strategies.back();
   // A projected trust-region step that runs into a bound can end the descent short of the minimum
   // along the others. Hold what rests on a bound, descend along the rest, and let go of whatever
   // the slope pulls back inside, until nothing changes (an active-set iteration).
-  for (std::size_t round = 0; !options.boxed && result.end == DescentEnd::minimum; ++round) {
+  for (std::size_t round = 0; !by_box && result.end == DescentEnd::minimum; ++round) {
     bool changed = false;
     for (std::size_t j = 0; j < p; ++j) {
       if (fixed[j]) continue;
@@ -303,6 +305,7 @@ LeastSquaresResult descend_within_bounds(const LeastSquaresProblem& problem,
     LeastSquaresResult again =
         solve(problem, result.theta, held, options,
               {result.theta, result.residuals, result.jacobian, result.sum_of_squares, true});
+    again.strategy = result.strategy;
     if (again.end == DescentEnd::no_answer ||
         again.sum_of_squares > result.sum_of_squares * (1.0 + 1e-12)) {
       break;
@@ -322,11 +325,12 @@ LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<c
                                  const LeastSquaresOptions& options) {
   LeastSquaresResult result;
   bool finished = false;
-  if (options.nearby) {
+  if (options.strategies.front() == Strategy::gauss_newton) {
     if (auto found = gauss_newton_from(problem, start, fixed, options.finish)) {
       result = std::move(*found);
       result.end = DescentEnd::minimum;
-      result.message = "steps of Gauss and Newton closed in";
+      result.message = "Gauss-Newton converged";
+      result.strategy = Strategy::gauss_newton;
       result.at_bound.assign(start.size(), false);
       finished = true;
     }
@@ -341,18 +345,16 @@ LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<c
   }
   result.converged = true;
   if (moving.empty()) {
-    if (options.covariance) result.covariance.assign(start.size() * start.size(), 0.0);
+    result.covariance.assign(start.size() * start.size(), 0.0);
     return result;
   }
   if (options.finish && !finished) finish_by_gauss_newton(problem, moving, result);
-  if (options.covariance) {
-    const Eigen::MatrixXd rows = linearised_rows(result, moving);
-    const LinearisedResiduals linear(rows.leftCols(rows.cols() - 1));
-    if (linear.singular()) {
-      result.end = DescentEnd::valley;
-    } else {
-      result.covariance = covariance_of(linear, moving, start.size());
-    }
+  const Eigen::MatrixXd rows = linearised_rows(result, moving);
+  const LinearisedResiduals linear(rows.leftCols(rows.cols() - 1));
+  if (linear.singular()) {
+    result.end = DescentEnd::valley;
+  } else {
+    result.covariance = covariance_of(linear, moving, start.size());
   }
   return result;
 }
@@ -363,6 +365,7 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const 
                             const LeastSquaresOptions& options) {
   assert(problem.lower.size() == start.size() && problem.upper.size() == start.size() &&
          problem.log_scale.size() == start.size());
+  assert(!options.strategies.empty() && options.strategies.back() != Strategy::gauss_newton);
   silence_library_log();
   std::vector<bool> fixed = problem.fixed;
   fixed.resize(start.size(), false);

@@ -29,21 +29,31 @@ struct LeastSquaresProblem {
   Evaluate evaluate;
 };
 
+/// Ways to a minimum.
+enum class Strategy {
+  trust_region,  ///< Levenberg-Marquardt of Ceres: the most robust from far away
+  box_descent,   ///< Levenberg-Marquardt by `descend_in_box`: fewer evaluations where steps meet
+                 ///< bounds
+  gauss_newton,  ///< `gauss_newton_from`: a few evaluations from a start near the minimum and away
+                 ///< from the bounds; no answer from elsewhere
+};
+template <>
+struct NamesOf<Strategy> {
+  static constexpr std::array<std::string_view, 3> names = {"trust_region", "box_descent",
+                                                            "gauss_newton"};
+};
+
 struct LeastSquaresOptions {
+  /// Tried in turn until one ends. The last is a descent: trust_region or box_descent.
+  std::vector<Strategy> strategies = {Strategy::trust_region};
   int max_iterations = 2000;
   double function_tolerance = 1e-14;  ///< relative change of the sum of squares
   double gradient_tolerance = 1e-14;
   double parameter_tolerance = 1e-11;  ///< relative change of theta
-  bool covariance = true;
   /// Gauss-Newton steps at the end until no digit of theta moves: the descent alone stops where the
   /// sum of squares does, which knows half as many. One or two Jacobians where the residuals are
   /// nearly linear.
   bool finish = true;
-  /// The start is thought to lie near the minimum, away from the bounds: the steps of Gauss and
-  /// Newton from there, a few evaluations, and the descent only where these do not close in.
-  bool nearby = false;
-  /// Descend by `descend_in_box` instead of Ceres: fewer evaluations where steps meet bounds.
-  bool boxed = false;
   double first_radius = 1e4;  ///< of the trust region, in parameters scaled by the Jacobian
 };
 
@@ -62,6 +72,7 @@ struct NamesOf<DescentEnd> {
 };
 
 struct LeastSquaresResult {
+  Strategy strategy = Strategy::trust_region;  ///< that led here
   DescentEnd end = DescentEnd::no_answer;
   bool converged = false;     ///< at a minimum or in a valley
   std::string message;        ///< the minimiser's own words
@@ -79,9 +90,9 @@ struct LeastSquaresResult {
   bool ended() const { return converged || end == DescentEnd::flat; }
 };
 
-/// Ceres trust-region Levenberg-Marquardt within bounds from `start`. Parameters that rest on a
-/// bound satisfy the Karush-Kuhn-Tucker conditions there. Where it ends on flat ground it tries
-/// once more from the start with short steps. Flat is a parameter that would have to change by 1e8
+/// Minimises `problem` from `start` by the strategies of `options`. Parameters that rest on a bound
+/// satisfy the Karush-Kuhn-Tucker conditions there. A descent that ends on flat ground is repeated
+/// from the start with short steps. Flat is a parameter that would have to change by 1e8
 /// times its own size, its way or its range to move the residuals by as much as they are.
 LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
                             const LeastSquaresOptions& options = {});

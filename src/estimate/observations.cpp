@@ -110,6 +110,13 @@ double Observation::event_sd() const {
   return weights.sd * std::sqrt(static_cast<double>(rebounds() > 0 ? rebounds() : events));
 }
 
+Observations Observations::subset(std::span<const std::size_t> indices) const {
+  Observations part = *this;
+  part.points.clear();
+  for (const std::size_t i : indices) part.points.push_back(points[i]);
+  return part;
+}
+
 std::vector<PointConditions> Observations::conditions() const {
   std::vector<PointConditions> all;
   all.reserve(points.size());

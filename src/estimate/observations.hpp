@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/error.hpp"
@@ -49,6 +51,9 @@ struct Observations {
 
   /// Those of every point.
   std::vector<PointConditions> conditions() const;
+
+  /// The points `indices` in that order, under the same noise, constants and weights.
+  Observations subset(std::span<const std::size_t> indices) const;
 
   /// Is the error that the points of one setting share to be estimated from them? By default where
   /// a dataset names its settings and some have several points.

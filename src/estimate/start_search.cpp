@@ -52,9 +52,8 @@ std::vector<std::vector<double>> starting_points(const ImpactModel& model,
   return starts;
 }
 
-/// Every so-manieth point in the order of dataset, diameter and velocity: as many of every kind as
-/// there are among all.
-std::vector<Observation> spread_part(const std::vector<Observation>& points) {
+/// Every n-th point, sorted by dataset, diameter and velocity.
+std::vector<std::size_t> spread_part(const std::vector<Observation>& points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t i) {
@@ -62,17 +61,16 @@ std::vector<Observation> spread_part(const std::vector<Observation>& points) {
   };
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  std::vector<Observation> part;
+  std::vector<std::size_t> part;
   const std::size_t stride = points.size() / searched_of_many;
-  for (std::size_t k = stride / 2; k < order.size(); k += stride) part.push_back(points[order[k]]);
+  for (std::size_t k = stride / 2; k < order.size(); k += stride) part.push_back(order[k]);
   return part;
 }
 
-/// The points that the starts see, where these are not all of `data`. A mean of survivors lies far
+/// The points that the starts use, where these are not all of `data`. A mean of survivors lies far
 /// above the curve until the scatter of the impacts is known, so points with rebounds and captures
 /// wait for `reweighted_fit`, if the others suffice.
 std::optional<Observations> searched_part(const Observations& data, std::ptrdiff_t free_count) {
-  const auto is_mixed = [](const Observation& point) { return point.mixed(); };
   std::ptrdiff_t rebounds = 0;
   std::ptrdiff_t mixed = 0;
   for (const Observation& point : data.points) {
@@ -80,21 +78,17 @@ std::optional<Observations> searched_part(const Observations& data, std::ptrdiff
     if (!point.mixed() && !point.censored) ++rebounds;
   }
   const bool leave_mixed = mixed > 0 && rebounds > free_count;
-  if (!leave_mixed && data.points.size() <= many_points) return std::nullopt;
-  Observations part;
-  if (data.points.size() <= many_points) {
-    part = data;
+  const bool many = data.points.size() > many_points;
+  if (!leave_mixed && !many) return std::nullopt;
+  std::vector<std::size_t> used;
+  if (many) {
+    used = spread_part(data.points);
   } else {
-    part.points = spread_part(data.points);
-    part.sd_stated = data.sd_stated;
-    part.spec = data.spec;
-    part.noise = data.noise;
-    part.constants = data.constants;
-    part.constants_weight = data.constants_weight;
-    part.setting_sd_estimated = data.setting_sd_estimated;
+    used.resize(data.points.size());
+    std::iota(used.begin(), used.end(), std::size_t{0});
   }
-  if (leave_mixed) std::erase_if(part.points, is_mixed);
-  return part;
+  if (leave_mixed) std::erase_if(used, [&](std::size_t i) { return data.points[i].mixed(); });
+  return data.subset(used);
 }
 
 /// Is the end of `run` another place than that of `best`, in its standard errors?

@@ -122,7 +122,6 @@ RefittedForce refitted_force(const ExportedImpact& impact) {
     start[j] = std::clamp(start[j], 10.0 * problem.lower[j], 0.1 * problem.upper[j]);
   }
   LeastSquaresOptions options;
-  options.covariance = false;
   options.finish = false;
   options.max_iterations = 200;
   const LeastSquaresResult found = minimise(problem, start, options);

@@ -114,11 +114,24 @@ Cell degrees_of_freedom_cell(const FitResult& f) {
              std::max(0, f.dof), silent);
 }
 
+std::string_view strategy_words(Strategy strategy) {
+  switch (strategy) {
+    case Strategy::trust_region:
+      return "trust region within bounds (Ceres)";
+    case Strategy::box_descent:
+      return "Levenberg-Marquardt within bounds";
+    case Strategy::gauss_newton:
+      return "Gauss-Newton";
+  }
+  return "";
+}
+
 Table statistics_table(const Analysis& a) {
   const FitResult& f = a.fitted;
   return items(
-      {{"method", say("{} in {e}^2, trust region within bounds (Ceres)",
-                      f.data.spec.student ? "Student's t likelihood" : "weighted least squares")},
+      {{"method", say("{} in {e}^2, {}",
+                      f.data.spec.student ? "Student's t likelihood" : "weighted least squares",
+                      strategy_words(f.strategy))},
        {"solver", solver_words(f)},
        {"data points", count_cell(f.data.points.size())},
        {"variables", count_cell(free_parameters(f))},

@@ -337,15 +337,17 @@ ReplicateTable shard_of_bootstrap(const FitResult& fitted,
 std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threads) {
   std::vector<std::vector<double>> estimates(plan.units());
   parallel_over(estimates.size(), threads, [&](std::size_t unit) {
-    Observations rest = plan.fitted->data;
+    std::vector<bool> left_out(plan.fitted->data.points.size(), false);
     if (plan.scheme == Scheme::cluster) {
-      const std::vector<std::size_t>& out = plan.clusters[unit];
-      for (auto i = out.rbegin(); i != out.rend(); ++i) {
-        rest.points.erase(rest.points.begin() + static_cast<std::ptrdiff_t>(*i));
-      }
+      for (const std::size_t i : plan.clusters[unit]) left_out[i] = true;
     } else {
-      rest.points.erase(rest.points.begin() + static_cast<std::ptrdiff_t>(unit));
+      left_out[unit] = true;
     }
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < left_out.size(); ++i) {
+      if (!left_out[i]) kept.push_back(i);
+    }
+    const Observations rest = plan.fitted->data.subset(kept);
     const LeastSquaresResult found = refit(plan.fitted->model, rest, plan.fitted->theta);
     if (has_answer(found, *plan.fitted)) estimates[unit] = found.theta;
   });

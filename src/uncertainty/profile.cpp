@@ -24,10 +24,9 @@ class Profile {
       : fitted_(fitted), data_(fitted.data), slot_(slot) {
     problem_ = impact_problem(fitted.model, data_);
     problem_.fixed[slot] = true;
-    options_.covariance = false;
     options_.finish = false;
     options_.function_tolerance = 1e-10;
-    least_ = fitted.least + event_spread_offset(fitted.data);
+    least_ = fitted.objective + event_spread_offset(fitted.data);
   }
 
   /// chi2 minimised over the others (and the spread of the impacts) with the slot at `value`, above

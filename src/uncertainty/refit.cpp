@@ -11,8 +11,7 @@ LeastSquaresOptions refit_options() {
   options.parameter_tolerance = 1e-8;
   options.max_iterations = 100;
   options.finish = false;
-  options.nearby = true;
-  options.boxed = true;
+  options.strategies = {Strategy::gauss_newton, Strategy::box_descent};
   return options;
 }
 

@@ -51,9 +51,7 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
     comparison.held_out_rmse =
         root_mean_square(fitted.model, comparison.result.theta, data, split.unseen);
   }
-  Observations seen = data;
-  seen.points.clear();
-  for (const std::size_t i : split.seen) seen.points.push_back(data.points[i]);
+  const Observations seen = data.subset(split.seen);
   // Parameters of other datasets stay out of this: only what this diameter can tell is refitted.
   ImpactModel alone = fitted.model;
   for (std::size_t j = 0; j < alone.slots.size(); ++j) {

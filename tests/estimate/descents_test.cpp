@@ -15,14 +15,14 @@ namespace {
 
 LeastSquaresOptions nearby() {
   LeastSquaresOptions options;
-  options.nearby = true;
+  options.strategies = {Strategy::gauss_newton, Strategy::trust_region};
   options.finish = false;
   return options;
 }
 
 LeastSquaresOptions boxed() {
   LeastSquaresOptions options;
-  options.boxed = true;
+  options.strategies = {Strategy::box_descent};
   options.finish = false;
   return options;
 }
@@ -98,7 +98,7 @@ TEST(Nearby, AMinimumAtABoundIsFoundThere) {
   problem.upper[0] = 0.5;  // then b = a^2
   for (const bool by_box : {false, true}) {
     LeastSquaresOptions options = nearby();
-    options.boxed = by_box;
+    if (by_box) options.strategies.back() = Strategy::box_descent;
     const LeastSquaresResult result = minimise(problem, std::array{0.45, 0.2}, options);
     ASSERT_TRUE(result.converged) << result.message;
     EXPECT_EQ(result.theta[0], 0.5);
@@ -193,7 +193,7 @@ TEST(ManyRows, KeepTheirSumsAndTheirCovariance) {
   const double slope = m * (m / 2.0) / determinant;
   for (const bool from_nearby : {false, true}) {
     LeastSquaresOptions options;
-    options.nearby = from_nearby;
+    if (from_nearby) options.strategies = {Strategy::gauss_newton, Strategy::trust_region};
     const LeastSquaresResult result = minimise(problem, std::array{0.4, 1.001}, options);
     ASSERT_TRUE(result.converged) << result.message;
     EXPECT_NEAR(result.theta[1], 1.0 + slope, 1e-13);

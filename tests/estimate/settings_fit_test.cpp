@@ -10,6 +10,8 @@
 #include <random>
 #include <string>
 
+#include "analysis/analysis.hpp"
+#include "core/error.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/shared_settings.hpp"
 #include "support/synthetic.hpp"
@@ -101,6 +103,43 @@ TEST(SharedSettings, ADatasetThatNamesNoneSharesNothing) {
   noise.every_setting = true;  // those of equal velocity
   const FitResult asked = fitted(measured({.named = false}, 1), noise);
   EXPECT_EQ(asked.data.noise.setting_sd, fitted(measured({}, 1)).data.noise.setting_sd);
+}
+
+TEST(SharedSettings, SchemesThatExchangePointsAreRefusedOnceTheFitHasFoundTheSharedError) {
+  FitInputs inputs{synthetic::spec(), {measured({}, 1)}};
+  for (const Scheme scheme :
+       {Scheme::residual, Scheme::cases, Scheme::cluster, Scheme::automatic}) {
+    inputs.spec.uncertainty.scheme = scheme;
+    if (scheme == Scheme::residual || scheme == Scheme::cases) {
+      EXPECT_THROW(analyse_fit(inputs), InputError) << to_string(scheme);
+    } else {
+      EXPECT_TRUE(analyse_fit(inputs).fitted.usable) << to_string(scheme);
+    }
+  }
+}
+
+TEST(Observations, ASubsetKeepsEverythingButTheOtherPoints) {
+  NoiseSpec noise;
+  noise.student_dof = 7.0;
+  Observations all = gather({measured({}, 1)}, noise);
+  all.noise.scale = 0.3;
+  all.sd_set_aside = 2;
+  all.sd_missing = 3;
+  all.constants = {1.5};
+  all.constants_weight = 2.5;
+  const std::vector<std::size_t> indices = {5, 1};
+  const Observations part = all.subset(indices);
+  ASSERT_EQ(part.points.size(), 2U);
+  EXPECT_EQ(part.points[0].restitution, all.points[5].restitution);
+  EXPECT_EQ(part.points[1].restitution, all.points[1].restitution);
+  EXPECT_EQ(part.noise.scale, 0.3);
+  EXPECT_EQ(part.spec.student_dof, 7.0);
+  EXPECT_EQ(part.sd_stated, all.sd_stated);
+  EXPECT_EQ(part.sd_set_aside, 2);
+  EXPECT_EQ(part.sd_missing, 3);
+  EXPECT_EQ(part.constants, all.constants);
+  EXPECT_EQ(part.constants_weight, 2.5);
+  EXPECT_EQ(part.setting_sd_estimated, all.setting_sd_estimated);
 }
 
 /// Ten drops from one height are one height's worth: with the shared error known, the fit of all
