@@ -4,7 +4,7 @@
 #include <span>
 
 #include "coverage/coverage.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 
 namespace recoil {
 

@@ -7,7 +7,7 @@
 
 #include "diagnosis/shared_discrepancy.hpp"
 #include "estimate/fit.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "mechanism/plausible_range.hpp"
 
 namespace recoil {

@@ -14,7 +14,7 @@
 #include "diagnosis/outlying_points.hpp"
 #include "diagnosis/structure.hpp"
 #include "diagnosis/unstated_errors.hpp"
-#include "uncertainty/interval_set.hpp"
+#include "uncertainty/interval.hpp"
 
 namespace recoil {
 

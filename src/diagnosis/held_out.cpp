@@ -10,7 +10,7 @@
 #include "core/units.hpp"
 #include "diagnosis/law_errors.hpp"
 #include "estimate/impact_problem.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 

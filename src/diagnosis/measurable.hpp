@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "estimate/fit.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 
 namespace recoil {
 

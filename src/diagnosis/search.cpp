@@ -6,7 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "diagnosis/kept_pieces.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_settings.hpp"
 #include "estimate/simulated_observation.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "diagnosis/trial.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 
 namespace recoil {
 namespace {

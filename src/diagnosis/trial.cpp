@@ -5,7 +5,7 @@
 
 #include "diagnosis/law_errors.hpp"
 #include "diagnosis/plausibility.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 #include "mechanism/catalogue.hpp"
 

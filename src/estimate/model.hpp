@@ -1,22 +1,39 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
 #include "data/contact.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
 #include "estimate/material_constants.hpp"
-#include "estimate/point_conditions.hpp"
-#include "estimate/solver_settings.hpp"
+#include "estimate/observation.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/extended_impacts.hpp"
 #include "mechanism/parameter.hpp"
 
 namespace recoil {
+
+/// Which integrator answers: the fast fixed-order one (which hands over to the reference by itself
+/// outside the region where it is certified) or CVODES throughout.
+enum class Solver { fast, reference };
+
+template <>
+struct NamesOf<Solver> {
+  static constexpr std::array<std::string_view, 2> names = {"fast", "reference"};
+};
+
+/// How the impacts of a model are solved; nothing of it is physics.
+struct SolverSettings {
+  Solver kind = Solver::fast;
+  double tolerance_factor = 1.0;  ///< the solver's tolerance is its own times this
+};
 
 /// One entry of the parameter vector theta: a parameter of the catalogue, as this fit moves it.
 struct ParameterSlot {

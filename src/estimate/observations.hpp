@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "data/dataset.hpp"
 #include "estimate/fit_spec.hpp"
-#include "estimate/noise_spec.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/student.hpp"
 

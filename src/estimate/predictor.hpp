@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "estimate/model.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 
 namespace recoil {
 

@@ -8,10 +8,9 @@
 
 #include "core/json.hpp"
 #include "data/dataset.hpp"
+#include "estimate/fit_spec.hpp"
 #include "estimate/least_squares.hpp"
-#include "estimate/noise_spec.hpp"
-#include "estimate/scheme.hpp"
-#include "estimate/solver_settings.hpp"
+#include "estimate/model.hpp"
 #include "estimate/two_point.hpp"
 #include "impact/impact.hpp"
 #include "predict/validity.hpp"
@@ -201,7 +200,8 @@ struct FitFile {
     Solver name = Solver::fast;
     long handovers = 0;
     DescentEnd ended = DescentEnd::minimum;
-    RECOIL_FIELDS(name, handovers, ended)
+    Strategy strategy = Strategy::trust_region;
+    RECOIL_FIELDS(name, handovers, ended, strategy)
   };
 
   struct Goodness {

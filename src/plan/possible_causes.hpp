@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "estimate/fit_spec.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "mechanism/mechanism.hpp"
 #include "plan/plan_result.hpp"
 #include "plan/possible_points.hpp"

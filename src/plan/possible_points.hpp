@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "estimate/fit_spec.hpp"
 #include "estimate/model.hpp"
-#include "estimate/noise_spec.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "plan/plan_result.hpp"
 #include "plan/point_outlook.hpp"
 

@@ -7,7 +7,7 @@
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "estimate/capture_velocity.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 #include "predict/capture_dahneke.hpp"
 #include "predict/capture_jkr.hpp"

@@ -10,7 +10,7 @@
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "estimate/capture_velocity.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 #include "uncertainty/intervals.hpp"
 

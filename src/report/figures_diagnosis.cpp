@@ -8,7 +8,7 @@
 
 #include "core/units.hpp"
 #include "diagnosis/diagnosis_result.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "report/format.hpp"

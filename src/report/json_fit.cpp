@@ -586,7 +586,7 @@ FitFile fit_file(const Analysis& a) {
   out.correlation = matrix_of(
       f, [&](std::size_t i, std::size_t j) { return i == j ? 1.0 : correlation(a, i, j); });
   out.derived.capture_velocity = captures_of(a);
-  out.solver = {f.model.solver.kind, f.handovers, f.ending};
+  out.solver = {f.model.solver.kind, f.handovers, f.ending, f.strategy};
   out.goodness = goodness_of(f);
   out.noise = noise_of(f);
   out.identifiability = identifiability_of(a);

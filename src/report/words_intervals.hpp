@@ -6,7 +6,7 @@
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap_result.hpp"
 #include "uncertainty/capture_estimate.hpp"
-#include "uncertainty/interval_set.hpp"
+#include "uncertainty/interval.hpp"
 #include "uncertainty/two_point_comparison.hpp"
 
 /// What intervals and bootstrap have to say, in words. None begins with a capital or ends with a

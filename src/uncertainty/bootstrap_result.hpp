@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "estimate/scheme.hpp"
+#include "estimate/fit_spec.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {

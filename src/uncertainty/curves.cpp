@@ -6,7 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 
 namespace recoil {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "estimate/point_conditions.hpp"
+#include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 namespace recoil {
 namespace {

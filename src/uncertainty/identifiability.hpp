@@ -6,7 +6,7 @@
 #include "core/names.hpp"
 #include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/information.hpp"
-#include "uncertainty/interval_set.hpp"
+#include "uncertainty/interval.hpp"
 #include "uncertainty/noise_alternatives.hpp"
 
 namespace recoil {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "estimate/fit.hpp"
-#include "uncertainty/interval_set.hpp"
+#include "uncertainty/interval.hpp"
 
 namespace recoil {
 

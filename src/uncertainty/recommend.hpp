@@ -5,7 +5,7 @@
 
 #include "estimate/fit.hpp"
 #include "uncertainty/bootstrap_result.hpp"
-#include "uncertainty/interval_set.hpp"
+#include "uncertainty/interval.hpp"
 
 namespace recoil {
 

@@ -9,7 +9,7 @@
 #include "core/names.hpp"
 #include "core/random.hpp"
 #include "estimate/fit.hpp"
-#include "estimate/scheme.hpp"
+#include "estimate/fit_spec.hpp"
 
 namespace recoil {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/shard.hpp"
-#include "estimate/scheme.hpp"
+#include "estimate/fit_spec.hpp"
 
 namespace recoil {
 

@@ -8,7 +8,7 @@
 #include "uncertainty/capture_estimate.hpp"
 #include "uncertainty/curves.hpp"
 #include "uncertainty/identifiability.hpp"
-#include "uncertainty/interval_set.hpp"
+#include "uncertainty/interval.hpp"
 #include "uncertainty/parameter_intervals.hpp"
 #include "uncertainty/posterior.hpp"
 #include "uncertainty/two_point_comparison.hpp"
