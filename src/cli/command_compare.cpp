@@ -7,7 +7,7 @@
 #include "core/files.hpp"
 #include "document/terminal.hpp"
 #include "report/comparison_document.hpp"
-#include "report/json_comparison.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 

@@ -19,8 +19,8 @@
 #include "experiment/passages.hpp"
 #include "plot/draw.hpp"
 #include "report/experiment_figures.hpp"
-#include "report/json_pairing.hpp"
 #include "report/pairing_document.hpp"
+#include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {

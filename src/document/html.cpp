@@ -6,8 +6,6 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "document/html_style.hpp"
-#include "document/save_script.hpp"
 #include "plot/plot.hpp"
 #include "plot/xml.hpp"
 

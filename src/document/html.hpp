@@ -22,4 +22,11 @@ std::string html_of(const std::vector<Block>& blocks);
 /// @throws ComputationError when there is a picture to draw and gnuplot cannot be run.
 std::string html_page(Document document);
 
+/// The style sheet of every page: light and dark, screen, phone and paper.
+std::string_view style_sheet();
+
+/// The JavaScript of every page with pictures: beside each of them links that save it as SVG and
+/// its data as CSV. save.js, embedded when the program is built.
+std::string_view save_script();
+
 }  // namespace recoil

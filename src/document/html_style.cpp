@@ -1,4 +1,4 @@
-#include "document/html_style.hpp"
+#include "document/html.hpp"
 
 namespace recoil {
 

@@ -30,7 +30,6 @@
 #include "report/figures_mixture.hpp"
 #include "report/fit_document.hpp"
 #include "report/fit_tables.hpp"
-#include "report/json_comparison.hpp"
 #include "report/prediction_document.hpp"
 #include "report/prediction_files.hpp"
 #include "report/result_json.hpp"

@@ -8,8 +8,8 @@
 #include "experiment/pairing_files.hpp"
 #include "python/picture_json.hpp"
 #include "report/experiment_figures.hpp"
-#include "report/json_pairing.hpp"
 #include "report/pairing_document.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 

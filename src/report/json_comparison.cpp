@@ -1,9 +1,8 @@
-#include "report/json_comparison.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/program.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 namespace {

@@ -1,10 +1,9 @@
-#include "report/json_pairing.hpp"
-
 #include <algorithm>
 
 #include "core/json.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 namespace {

@@ -2,10 +2,15 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "diagnosis/diagnosis_result.hpp"
+#include "experiment/averages.hpp"
+#include "experiment/pairing.hpp"
+#include "experiment/passages.hpp"
 #include "json/diagnosis_file.hpp"
 #include "json/fit_file.hpp"
+#include "report/comparison_document.hpp"
 #include "report/report.hpp"
 
 /// The JSON files of results. Numbers that do not exist are null, where possible with a reason.
@@ -27,5 +32,15 @@ std::string fit_json(const Analysis& analysis);
 DiagnosisFile diagnosis_file(const Diagnosis& diagnosis);
 /// The text of `diagnosis.json`.
 std::string diagnosis_json(const Diagnosis& diagnosis);
+
+/// What `recoil compare --json` prints: `fits[]`, and under `quantities[]` what each fit says of
+/// one quantity, in the order of the fits (null where a fit does not have it).
+/// @throws InputError when the fits are not of the same data. @pre two or more
+std::string comparison_json(const std::vector<ComparedFit>& fits);
+
+/// What `recoil pair --json` prints: the passages that were read, the measuring plane, the impacts,
+/// passages without a rebound, and the points.
+std::string pairing_json(const PassageTable& table, const PairingResult& pairs,
+                         const Averages& averages);
 
 }  // namespace recoil
