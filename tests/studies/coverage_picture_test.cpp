@@ -46,8 +46,9 @@ TEST(CoverageColour, IsOrangeBelowAndBlueAbove) {
   EXPECT_GT(rgb(0.90).blue, rgb(0.85).blue) << "deeper further away";
 }
 
-IntervalCoverage counted(const std::string& interval, int offered, int contained) {
-  return {interval, offered, contained, 0, 0, {}};
+std::pair<std::string, IntervalCoverage> counted(const std::string& interval, int offered,
+                                                 int contained) {
+  return {interval, {offered, contained, 0, 0, {}}};
 }
 
 /// Every design, numbers that can be recognised.
@@ -117,8 +118,8 @@ TEST(CoveragePicture, ShowsTheShareThatContainedAndTheShareThatWasCalledIdentifi
   row.parameter = "f0";
   row.usable = 200;
   row.identifiable = 150;
-  row.intervals = {
-      counted("recommended", 200, 183), counted("wald", 80, 60), {"bca", {}, {}, {}, {}, 0.876}};
+  row.intervals = {counted("recommended", 200, 183), counted("wald", 80, 60),
+                   counted("bca", 1000, 876)};
   const plot::Picture shown = picture({row});
   std::map<std::string, plot::Colour> words = words_of(shown);
   EXPECT_TRUE(words.contains("91.5"));

@@ -200,48 +200,6 @@ TEST(Generator, RoundedReadingsLieOnTheirSteps) {
   EXPECT_NEAR(square / count, 1.0, 0.3);
 }
 
-// The same spheres on another target: what belongs to them and to the instrument stays.
-TEST(Generator, AnotherTargetChangesTheContactOnly) {
-  const Case made = make_case({"wall", {"jkr_hysteresis", "gas_film"}, 8.0, 0});
-  const OtherTarget acrylic = {"acrylic glass", 3.1e9, 0.37, 1190.0};
-  const Base& here = made.design.base;
-  double squares[3] = {};
-  constexpr int draws = 400;
-  for (int i = 0; i < draws; ++i) {
-    const Elsewhere there = move_to(acrylic, here, made.effects, static_cast<std::uint64_t>(i));
-    EXPECT_LT(there.base.stiffness(), here.stiffness());
-    EXPECT_EQ(there.base.density, here.density);
-    EXPECT_EQ(there.effects.gas_pressure, made.effects.gas_pressure);
-    const double f0 = std::log(there.base.adhesion_force / there.expected.adhesion_force);
-    const double work = there.effects.jkr_work / made.effects.jkr_work /
-                        (there.expected.adhesion_energy() / here.adhesion_energy());
-    EXPECT_NEAR(std::log(work), 1.5 * f0, 1e-9);
-    squares[0] += std::pow(std::log(there.base.C_H / here.C_H) / log_sd_of_damping, 2) / draws;
-    squares[1] += std::pow(std::log(there.base.C_A / here.C_A) / log_sd_of_damping, 2) / draws;
-    squares[2] += std::pow(std::log(work) / log_sd_of_work, 2) / draws;
-  }
-  for (const double square : squares) EXPECT_NEAR(square, 1.0, 4.0 * std::sqrt(2.0 / draws));
-}
-
-// It is a table of its own beside the first, and the fit has C_H and C_A for each.
-TEST(Generator, AnotherTargetIsASecondDataset) {
-  Case made = make_case({"wall", {"gas_film"}, 10.0, 0});
-  FurtherImpacts further;
-  further.target = {"acrylic glass", 3.1e9, 0.37, 1190.0};
-  for (const double velocity : {5.0, 20.0, 80.0}) further.places.push_back({4.9e-6, velocity, 50});
-  take_further(made, further, 0);
-  take_further(made, further, 1);
-  ASSERT_EQ(made.elsewhere.size(), 1U);
-  EXPECT_EQ(made.elsewhere[0].points.size(), 6U);
-  const ScratchFolder scratch;
-  const fs::path fit = write_case(made, scratch.path());
-  EXPECT_NE(text_of(fit).find("per = \"dataset\""), std::string::npos);
-  EXPECT_GT(misfit_left(fit, "", RECOIL_BINARY), 0.0);
-  EXPECT_NE(text_of(scratch.path() / (neutral_name(made.order) + "-target-2") / "datapackage.json")
-                .find("acrylic glass"),
-            std::string::npos);
-}
-
 TEST(Generator, WhatNatureDoesNotHaveIsNotReached) {
   // Organic spheres radiate a ten-thousandth of their energy.
   EXPECT_FALSE(make_case({"wall", {"elastic_waves"}, 5.0, 0}).reached);

@@ -57,7 +57,7 @@ void study_grid(const CoverageRun& options) {
                                      coverage_options(options, spec), options.run.keep);
   if (wrote_part(options.run)) return;
   study.stamp = options.run.stamp();
-  publish(options.run, coverage_study_json(study), coverage_page(study, study.stamp.study));
+  publish(options.run, study_json(study), coverage_page(study, study.stamp.study));
 }
 
 /// All files are read before the first design is measured.
@@ -76,7 +76,7 @@ void study_designs(const CoverageRun& options) {
   }
   if (wrote_part(options.run)) return;
   study.stamp = options.run.stamp();
-  publish(options.run, coverage_study_json(study), coverage_page(study, ""));
+  publish(options.run, study_json(study), coverage_page(study, ""));
 }
 
 CLI::App* add_command(CLI::App& program, const char* name, const char* what,

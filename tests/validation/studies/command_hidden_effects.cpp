@@ -75,7 +75,7 @@ void study(const HiddenEffectsRun& options) {
   if (wrote_part(options.run)) return;
   hidden::StudyTally tally = hidden::tally_of(answers, orders.size(), options.size);
   tally.stamp = options.run.stamp();
-  publish(options.run, hidden::tally_json(tally), hidden::hidden_effects_page(tally));
+  publish(options.run, study_json(tally), hidden::hidden_effects_page(tally));
 }
 
 }  // namespace

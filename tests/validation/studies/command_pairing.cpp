@@ -17,7 +17,7 @@ void add_pairing(CLI::App& program, const std::string& words) {
   command->callback([run] {
     PairingStudy study = study_pairing();
     study.stamp = run->stamp();
-    publish(*run, pairing_study_json(study), pairing_page(study));
+    publish(*run, study_json(study), pairing_page(study));
   });
 }
 

@@ -134,14 +134,14 @@ Sentence study_words(const CoverageStudy& study) {
                         ? " The constants of the materials are exact."
                         : " The constants of the materials are drawn anew for every data set from "
                           "what is stated of their errors, and the fits know these errors.");
-  if (!study.grid_of.empty()) {
+  if (study.grid_of.has_value()) {
     words +=
         say(" The estimate for {} as truth, simulated independently of the fitter. One "
             "diameter, n points evenly in log V from 1.05 (with captures 0.85) to 50 times "
             "the capture velocity. Scatter: equal (0.02), near-capture (0.01 far above "
             "capture, five times that at it), 10 % of e; its size is stated with the points "
             "or has to be estimated.",
-            code(study.grid_of));
+            code(*study.grid_of));
   }
   words += say(" One standard error of a coverage of {:.0f} % is {:.1f} %.", 100.0 * study.level,
                100.0 * std::sqrt(study.level * (1.0 - study.level) / std::max(1, study.datasets)));
@@ -150,10 +150,7 @@ Sentence study_words(const CoverageStudy& study) {
 
 Sentence failures_words(const CoverageStudy::Design& design) {
   Sentence words = code(design.id) + Sentence(": ") + truth_words(design.truth);
-  if (design.fits_failed && design.refits_failed) {
-    words += say("; {} fits and {} refits failed", *design.fits_failed, *design.refits_failed);
-  }
-  return words;
+  return words + say("; {} fits and {} refits failed", design.fits_failed, design.refits_failed);
 }
 
 /// How far a row is from the middle of what is wanted.
@@ -283,16 +280,16 @@ const ParameterCoverage& worst_of(const std::vector<const ParameterCoverage*>& r
 
 Document coverage_page(const CoverageStudy& study, const std::string& picture) {
   Document page;
-  page.heading = study.grid_of.empty()
+  page.heading = !study.grid_of
                      ? Sentence("Coverage for the designs of the fits") + with_materials(study)
-                     : Sentence("Coverage by kind of data: ") + code(study.grid_of);
+                     : Sentence("Coverage by kind of data: ") + code(*study.grid_of);
   page.foreword.emplace_back(Paragraph{study_words(study)});
   page.foreword.emplace_back(
       Paragraph{as_sentence(tally_words(tally_of(study.rows))) + " " + meaning_of_nominal()});
   if (const auto words = verdict_words(study.rows)) {
     page.foreword.emplace_back(Paragraph{*words});
   }
-  if (study.grid_of.empty()) {
+  if (!study.grid_of) {
     List designs;
     for (const CoverageStudy::Design& design : study.designs) {
       designs.entries.push_back(failures_words(design));
@@ -320,7 +317,7 @@ Document coverage_summary(const std::vector<CoverageStudy>& studies, const std::
   page.foreword.emplace_back(Paragraph{meaning_of_nominal()});
   std::vector<const CoverageStudy*> grids;
   for (const CoverageStudy& study : studies) {
-    if (!study.grid_of.empty()) {
+    if (study.grid_of.has_value()) {
       grids.push_back(&study);
       continue;
     }

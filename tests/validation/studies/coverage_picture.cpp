@@ -121,8 +121,8 @@ std::vector<Group> groups_of(const std::vector<ParameterCoverage>& rows) {
       group = groups.end() - 1;
     }
     group->judged = group->judged || row.identifiable > 0;
-    for (const IntervalCoverage& at : row.intervals) {
-      if (at.share()) kinds[static_cast<std::size_t>(group - groups.begin())].insert(at.interval);
+    for (const auto& [kind, at] : row.intervals) {
+      if (at.share()) kinds[static_cast<std::size_t>(group - groups.begin())].insert(kind);
     }
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -239,7 +239,7 @@ plot::Picture coverage_picture(const CoverageStudy& study) {
   const std::string title = fmt::format(
       "Coverage of {} intervals by kind of data, {}: {} data sets per design, {} bootstrap "
       "replicates each",
-      percent(study.level), study.grid_of, study.datasets, study.replicates);
+      percent(study.level), study.grid_of.value_or(""), study.datasets, study.replicates);
   const CoverageStudy::Source& source = study.sources.front();
   return coverage_picture(study.rows, study.level, title,
                           source.provenance == Provenance::reconstruction

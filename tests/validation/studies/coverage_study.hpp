@@ -15,17 +15,16 @@
 
 namespace recoil {
 
-/// How often one kind of interval of one parameter in one design contained the truth. Counts are
-/// missing where an older table kept only the share.
+/// How often one kind of interval of one parameter in one design contained the truth.
 struct IntervalCoverage {
-  std::string interval;                     ///< "recommended", "profile", ...
-  std::optional<int> offered;               ///< data sets in which there was such an interval
-  std::optional<int> contained;             ///< of those
-  std::optional<int> offered_identifiable;  ///< the same where the verdict called it identifiable
-  std::optional<int> contained_identifiable;
-  std::optional<double> stated_share;         ///< where the counts are missing
+  int offered = 0;               ///< data sets in which there was such an interval
+  int contained = 0;             ///< of those
+  int offered_identifiable = 0;  ///< the same where the verdict called it identifiable
+  int contained_identifiable = 0;
   std::optional<double> relative_width = {};  ///< median width over the truth
+  RECOIL_FIELDS(offered, contained, offered_identifiable, contained_identifiable, relative_width)
 
+  /// Of the data sets with such an interval; empty where there is none.
   std::optional<double> share() const;
   std::optional<double> share_identifiable() const;
 };
@@ -40,7 +39,9 @@ struct ParameterCoverage {
   int identifiable = 0;                  ///< of those, where the verdict called it identifiable
   std::optional<double> relative_width;  ///< median width of the recommended interval over truth
   std::optional<double> actual_error;    ///< of the estimate over its scale, see CoverageRow
-  std::vector<IntervalCoverage> intervals;
+  Named<IntervalCoverage> intervals;     ///< by kind: "recommended", "profile", ...
+  RECOIL_FIELDS(design, parameter, unit, truth, usable, identifiable, relative_width, actual_error,
+                intervals)
 
   const IntervalCoverage* find(std::string_view interval) const;
   /// @pre there is one, as in every row that a study makes
@@ -79,15 +80,18 @@ struct CoverageStudy {
   struct Design {
     std::string id;
     TruthOrigin truth = TruthOrigin::estimate;
-    std::optional<int> fits_failed;
-    std::optional<int> refits_failed;
+    int fits_failed = 0;
+    int refits_failed = 0;
+    RECOIL_FIELDS(id, truth, fits_failed, refits_failed)
   };
   struct Source {
     std::string id;
     Provenance provenance = Provenance::reconstruction;
+    RECOIL_FIELDS(id, provenance)
   };
   StudyStamp stamp;
-  std::string grid_of;  ///< the fit whose system a grid has; empty: the designs are those of fits
+  OrAbsent<std::string>
+      grid_of;  ///< the fit whose system a grid has; else the designs are those of fits
   /// Are the constants of the materials those that are stated, for the truth and for the fits?
   /// Otherwise every data set has its own, drawn from their errors, and the fits know the errors.
   bool exact_materials = false;
@@ -98,9 +102,9 @@ struct CoverageStudy {
   std::vector<Design> designs;
   std::vector<Source> sources;  ///< datasets that the designs are made from
   std::vector<ParameterCoverage> rows;
+  RECOIL_FIELDS(grid_of, exact_materials, datasets, replicates, seed, level, designs, sources, rows)
 };
 
-std::string coverage_study_json(const CoverageStudy& study);
 /// @throws InputError when `file` is not the JSON of such a study
 CoverageStudy read_coverage_study(const std::filesystem::path& file);
 

@@ -21,42 +21,19 @@ fs::path kept_file(const CaseOrder& order, const fs::path& keep) {
   return keep / (neutral_name(order) + ".json");
 }
 
-/// Of `candidates` (the best first), the first that explains the data and those behind it that are
-/// possible.
-std::vector<Contender> contenders_of(const Json& candidates) {
-  constexpr double far_behind = 30.0;
-  std::vector<Contender> found;
-  double best = 0.0;
-  for (const Json& c : candidates) {
-    const double criterion = c.at("delta_aicc");
-    const bool possible = c.at("plausible") && c.at("kind") != "description" && criterion < 0.0;
-    if (found.empty() && c.at("aside").is_null()) best = criterion;
-    if (found.empty() ? c.at("aside").is_null() : possible && criterion < best + far_behind) {
-      found.push_back({c.at("id"), criterion - best});
-    }
-  }
-  return found;
-}
-
 /// The first of what the answer advises to do next; of no events where it advises nothing.
 FurtherImpacts advice_of(const Json& answer) {
   FurtherImpacts further;
   const Json& all = answer.at("next_experiment");
-  if (all.empty()) return further;
-  const Json& first = all.front();
+  const auto here = std::find_if(all.begin(), all.end(),
+                                 [](const Json& next) { return next.at("kind") != "target"; });
+  if (here == all.end()) return further;
+  const Json& first = *here;
   further.diameter = 1e-6 * first.at("diameter_um").get<double>();
   further.velocity = first.at("incident_velocity");
   further.events = first.at("events");
   if (first.at("kind") == "condition") {
     further.changed = {first.at("condition"), first.at("value")};
-  } else if (first.at("kind") == "target") {
-    const Json& target = first.at("target");
-    further.target = {target.at("material"), target.at("youngs_modulus"),
-                      target.at("poisson_ratio"), target.at("density")};
-    for (const Json& place : first.at("points")) {
-      further.places.push_back({1e-6 * place.at("diameter_um").get<double>(),
-                                place.at("incident_velocity"), place.at("events")});
-    }
   }
   return further;
 }
@@ -102,7 +79,6 @@ FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
     a.errors_told = a.errors_told || errors.at("rival").get<bool>();
   }
   count_odd_points(made, answer, a);
-  a.contenders = contenders_of(answer.at("candidates"));
   return advice_of(answer);
 }
 
@@ -127,11 +103,8 @@ Json json_of(const Answered& a) {
     taken.push_back({{"diameter_um", 1e6 * f.diameter},
                      {"incident_velocity", f.velocity},
                      {"events", f.events},
-                     {"changed", f.changed.name},
-                     {"target", f.target.material}});
+                     {"changed", f.changed.name}});
   }
-  Json contenders = Json::array();
-  for (const Contender& c : a.contenders) contenders.push_back({c.id, c.behind});
   return {{"key", a.order.key()},
           {"design", a.order.design},
           {"effects", a.order.effects},
@@ -162,7 +135,6 @@ Json json_of(const Answered& a) {
           {"shared_cause", a.shared_cause},
           {"errors_told", a.errors_told},
           {"odd_points", {a.odd, a.odd_found, a.right, a.accused}},
-          {"contenders", contenders},
           {"nearest_rival", a.nearest_rival.id},
           {"nearest_rival_misfit", a.nearest_rival.misfit}};
 }
@@ -188,9 +160,7 @@ Answered answered_of(const Json& json) {
     a.taken.push_back({1e-6 * f.at("diameter_um").get<double>(),
                        f.at("incident_velocity"),
                        f.at("events"),
-                       {f.at("changed"), 0.0},
-                       {f.value("target", ""), 0.0, 0.0, 0.0},
-                       {}});
+                       {f.at("changed"), 0.0}});
   }
   a.reached = json.at("reached");
   a.signal_to_noise = json.at("signal_to_noise");
@@ -210,7 +180,6 @@ Answered answered_of(const Json& json) {
   a.odd_found = odd.at(1);
   a.right = odd.at(2);
   a.accused = odd.at(3);
-  for (const Json& c : json.at("contenders")) a.contenders.push_back({c.at(0), c.at(1)});
   a.nearest_rival = {json.at("nearest_rival"), json.at("nearest_rival_misfit")};
   return a;
 }
@@ -235,19 +204,6 @@ Mark mark_of(const Answered& a) {
   }
   if (named == truth) return Mark::named;
   return within(named, truth) ? Mark::part : Mark::wrong;
-}
-
-Mark mark_with_margin(const Answered& answered, double margin) {
-  if (answered.contenders.empty()) return mark_of(answered);
-  Answered other = answered;
-  other.named.clear();
-  other.rivals.clear();
-  for (const Contender& c : answered.contenders) {
-    if (c.behind <= margin) other.rivals.push_back(c.id);
-  }
-  other.verdict = other.rivals.size() == 1 ? "cause_named" : "not_separable";
-  if (other.rivals.size() == 1) std::swap(other.named, other.rivals);
-  return mark_of(other);
 }
 
 std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep) {

@@ -14,12 +14,6 @@
 
 namespace hidden {
 
-/// A single mechanism that could be the answer.
-struct Contender {
-  std::string id;
-  double behind = 0.0;  ///< the best explanation, in AICc
-};
-
 /// What the diagnosis of one case answered, beside what is true.
 struct Answered {
   CaseOrder order;
@@ -43,8 +37,6 @@ struct Answered {
   int right = 0;             ///< the others,
   int accused = 0;           ///< and of them
   bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
-  /// The best explanation by one mechanism and what comes within 30 of it; empty without one.
-  std::vector<Contender> contenders;
   NearestRival
       nearest_rival;  ///< for one visible effect of the catalogue in a design of several diameters
 };
@@ -66,10 +58,6 @@ enum class Mark {
   failed,       ///< the command gave no answer
 };
 Mark mark_of(const Answered& answered);
-
-/// The same had the diagnosis taken all causes within `margin` of the best for its rivals: for one
-/// hidden effect in a design of several diameters.
-Mark mark_with_margin(const Answered& answered, double margin);
 
 /// The answer that an earlier run left in `keep`.
 std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesystem::path& keep);

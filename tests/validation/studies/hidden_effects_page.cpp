@@ -29,86 +29,17 @@ Sentence share(const Count& count) {
                      100.0 * limits.lower, 100.0 * limits.upper, count.k, count.n);
 }
 
-Sentence bar_words(Bar bar) {
-  switch (bar) {
-    case Bar::named:
-      return "visible effect named outright";
-    case Bar::separable_named:
-      return say("the same, where the nearest other cause leaves a misfit of {:g} or more",
-                 separable);
-    case Bar::named_or_law:
-      return "visible effect named, or the cause of which it and all its rivals are laws";
-    case Bar::listed:
-      return "visible effect among named and rivals";
-    case Bar::wrong:
-      return "wrong cause named, or one shared by laws among which it is not";
-    case Bar::false_alarm:
-      return "false alarms, nothing hidden";
-    case Bar::outside_unexplained:
-      return "outside effect called unexplained";
-    case Bar::unstated_named:
-      return "errors that nobody stated: a cause named";
-    case Bar::unstated_told:
-      return "the same, where structure is seen: told that such errors would explain it";
-    case Bar::single_diameter:
-      return "one diameter: answered by not_separable";
-    case Bar::unseen:
-      return "visible effect called adequate";
-    case Bar::bent_listed:
-      return "law bent by 10 %: among named and rivals, or its shape recognised";
-    case Bar::bent_wrong:
-      return "law bent by 10 %: wrong cause named";
-    case Bar::bent_unexplained:
-      return "law bent by 10 %: unexplained";
-    case Bar::other_listed:
-      return "made by another published law: among named and rivals, or its shape recognised";
-    case Bar::other_wrong:
-      return "made by another published law, dry ones beside adhesion included: wrong cause named";
-    case Bar::other_unexplained:
-      return "made by another published law: unexplained";
-    case Bar::other_unseen:
-      return "made by another published law: called adequate";
-    case Bar::base_alarm:
-      return "nothing hidden, losses of the base model bent by 3 %: alarms";
-    case Bar::impossible_named:
-      return "effect of impossible size: a cause named";
-    case Bar::loop_named:
-      return "after doing what the answer advises, three times at most: named, or the cause told";
-    case Bar::loop_wrong:
-      return "the same: a wrong cause named or told";
-    case Bar::dropped_listed:
-      return "drops of spheres of millimetres: among named and rivals";
-    case Bar::dropped_wrong:
-      return "the same: wrong cause named";
-    case Bar::settings_named:
-      return "heights set wrong: a cause named";
-    case Bar::rounded_named:
-      return "drops read to a finite step, nothing hidden: a cause named";
-    case Bar::rounded_listed:
-      return "the same with an effect: among named and rivals, or its shape recognised";
-    case Bar::rounded_wrong:
-      return "the same: wrong cause named";
-    case Bar::odd_named:
-      return "a few points misread: a cause named";
-    case Bar::odd_found:
-      return "points misread by more than 5 standard deviations: set aside";
-    case Bar::odd_accused:
-      return "the points beside them: set aside";
-  }
-  return "";
-}
-
 Table bars_table(const StudyTally& tally) {
   Table table;
   table.columns = {
       {"bar", {}, true}, {"wanted"}, {"found (95 % interval)", {}, true}, {"verdict", {}, true}};
-  for (const auto& [bar, count] : tally.bars) {
-    const Wanted wanted = wanted_of(bar);
+  for (const Bar& bar : study_bars()) {
+    const Count count = tally.bar(bar.id);
     const double part = count.n == 0 ? 0.0 : static_cast<double>(count.k) / count.n;
-    const bool reached = wanted.at_least ? part >= wanted.share : part <= wanted.share;
+    const bool reached = bar.at_least ? part >= bar.share : part <= bar.share;
     table.rows.push_back(
-        {bar_words(bar),
-         Sentence(fmt::format("{} {:.0f} %", wanted.at_least ? "≥" : "≤", 100.0 * wanted.share)),
+        {Sentence(bar.words),
+         Sentence(fmt::format("{} {:.0f} %", bar.at_least ? "≥" : "≤", 100.0 * bar.share)),
          share(count),
          count.n == 0 ? Sentence("not studied")
          : reached    ? Sentence("reached")
@@ -138,7 +69,7 @@ constexpr std::array<MarkColumn, 9> mark_columns = {{{"named", Mark::named},
 
 /// All effects of an arm together: shares of the data sets of one strength.
 Table strength_table(const StudyTally& tally, Arm arm) {
-  std::map<double, std::map<Mark, int>> sums;
+  std::map<double, std::map<std::string, int>> sums;
   std::map<double, int> counts;
   for (const PowerRow& row : tally.powers) {
     if (row.arm != arm) continue;
@@ -152,8 +83,8 @@ Table strength_table(const StudyTally& tally, Arm arm) {
   for (auto& [strength, sum] : sums) {
     std::vector<Cell> cells = {Sentence(fmt::format("{:g}", strength))};
     for (const MarkColumn& column : mark_columns) {
-      cells.push_back(
-          Sentence(fmt::format("{:.0f} %", 100.0 * sum[column.second] / counts[strength])));
+      cells.push_back(Sentence(fmt::format(
+          "{:.0f} %", 100.0 * sum[recoil::to_string(column.second)] / counts[strength])));
     }
     cells.push_back(Sentence(std::to_string(counts[strength])));
     table.rows.push_back(std::move(cells));
@@ -171,10 +102,8 @@ Table power_table(const StudyTally& tally, Arm arm) {
     std::vector<Cell> cells = {Sentence(row.hidden), Sentence(listed(row.designs)),
                                Sentence(fmt::format("{:g}", row.signal_to_noise))};
     for (const MarkColumn& column : mark_columns) {
-      const auto found = row.marks.find(column.second);
-      cells.push_back(found == row.marks.end() || found->second == 0
-                          ? Cell(Sentence())
-                          : Cell(Sentence(std::to_string(found->second))));
+      const int n = row.marked(column.second);
+      cells.push_back(n == 0 ? Cell(Sentence()) : Cell(Sentence(std::to_string(n))));
     }
     cells.push_back(Sentence(std::to_string(row.n)));
     table.rows.push_back(std::move(cells));
@@ -194,32 +123,6 @@ Table rivals_table(const StudyTally& tally) {
                           Sentence(fmt::format("{:.1f}, {:.1f}", row.least, row.median))});
   }
   return table;
-}
-
-std::vector<Block> margins_blocks(const StudyTally& tally) {
-  Table table;
-  table.columns = {{"rivals within"},
-                   {"named outright", {}, true},
-                   {"wrong cause named", {}, true},
-                   {"among named and rivals", {}, true}};
-  std::vector<std::string> both;
-  for (const MarginRow& row : tally.margins) {
-    table.rows.push_back({Sentence(fmt::format("{:g}", row.margin)), share({row.named, row.n}),
-                          share({row.wrong, row.n}), share({row.listed, row.n})});
-    if (row.named >= 0.8 * row.n && row.wrong <= 0.05 * row.n) {
-      both.push_back(fmt::format("{:g}", row.margin));
-    }
-  }
-  return {
-      Paragraph{"Causes whose criteria (AICc) differ by less than 4 are called rivals. The same "
-                "answers under other rules, visible effects in designs of several diameters; at 0 "
-                "the best explanation is always named. Here the limits of what is possible are "
-                "taken as sharp; the bars above are those of the diagnosis, where a candidate just "
-                "beyond them prevents a name:"},
-      table,
-      Paragraph{both.empty() ? Sentence("No threshold names 80 % outright with at most 5 % wrong.")
-                             : say("80 % named outright with at most 5 % wrong: at {}.",
-                                   fmt::format("{}", fmt::join(both, ", ")))}};
 }
 
 Table confusion_table(const Confusion& confusion) {
@@ -264,14 +167,13 @@ Table unreached_table(const StudyTally& tally) {
 }
 
 Sentence careless_words(const StudyTally& tally) {
-  const auto told = tally.bars.find(Bar::unstated_told);
   return say(
       "Nothing hidden, but the printed velocities are 3 % off, each by itself ({}), or the stated "
       "standard deviations are two thirds of the true ones ({}). To name a cause would be wrong; "
       "{} with a remark on such errors is right. The remark was there in {} of those in which "
       "structure was seen; of the visible effects of the catalogue, where it would mislead, in {}.",
       code("velocities"), code("deviations"), code("unexplained"),
-      share(told == tally.bars.end() ? Count{} : told->second), share(tally.errors_told_astray));
+      share(tally.bar("unstated_told")), share(tally.errors_told_astray));
 }
 
 Sentence missed_words(const StudyTally& tally) {
@@ -281,7 +183,8 @@ Sentence missed_words(const StudyTally& tally) {
       "in {} of these all that is listed are laws of one cause ({}: JKR's work, hysteresis per "
       "area and crack rate are adhesion hysteresis; spreads of size and of adhesion are unequal "
       "impacts averaged in one point), which is then told by name.",
-      tally.not_named, tally.alike, separable, tally.told_by_cause, code("shared_cause"));
+      tally.not_named.n, tally.not_named.alike, separable, tally.not_named.told_by_cause,
+      code("shared_cause"));
 }
 
 std::vector<Block> foreword(const StudyTally& tally) {
@@ -305,7 +208,7 @@ std::vector<Block> foreword(const StudyTally& tally) {
               "{} 1 x 20; {} are 3 x 5 heights x 4 drops. Every strength lies within what nature "
               "or a careful experimenter has; "
               "what would need more is not made, and listed at the end.",
-              code("src/studies/synthetic"), visible, code("wall"), code("wall-batches"),
+              code("tests/validation/synthetic"), visible, code("wall"), code("wall-batches"),
               code("li"), code("wall-one"), code("dahneke"), code("drops"))},
       Paragraph{made}};
   recoil::append(blocks, recoil::stamp_blocks(tally.stamp));
@@ -365,7 +268,6 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
                "happens near capture.)",
                code("probe_plane"), code("electrostatic_image"))},
            rivals_table(tally)});
-  section("The threshold", margins_blocks(tally));
   // A study of some arms only says nothing of the others.
   const auto arms_section = [&](Sentence title, std::vector<Block> blocks,
                                 std::initializer_list<Arm> arms) {

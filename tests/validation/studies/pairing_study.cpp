@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/json.hpp"
 #include "core/units.hpp"
 #include "validation/studies/pairing_score.hpp"
 #include "validation/synthetic/event_stream.hpp"
@@ -205,63 +202,6 @@ PairingBar bar_of(const PairingStudy& study) {
     }
   }
   return bar;
-}
-
-std::string pairing_study_json(const PairingStudy& study) {
-  Json json = json_of(study.stamp);
-  json["rows"] = Json::array();
-  for (const PairingRow& row : study.rows) {
-    json["rows"].push_back({{"table", name_of(row.table)},
-                            {"label", row.label},
-                            {"rate", row.rate},
-                            {"events", row.events},
-                            {"possible", row.possible},
-                            {"reported", row.reported},
-                            {"efficiency", row.efficiency},
-                            {"purity", row.purity},
-                            {"first_purity", row.first_purity},
-                            {"estimated_purity", row.estimated_purity},
-                            {"returns_usable", row.returns_usable},
-                            {"height", row.height},
-                            {"height_sd", row.height_sd}});
-    if (row.seconds) json["rows"].back()["seconds"] = *row.seconds;
-  }
-  return json.dump(1) + "\n";
-}
-
-PairingStudy read_pairing_study(const std::filesystem::path& file) {
-  try {
-    const Json json = Json::parse(read_text_file(file));
-    PairingStudy study;
-    study.stamp = stamp_of(json);
-    for (const Json& from : json.at("rows")) {
-      PairingRow row;
-      const std::string table = from.at("table");
-      const std::optional<PairingTable> known = value_named<PairingTable>(table);
-      if (!known) throw std::invalid_argument("no table is called '" + table + "'");
-      row.table = *known;
-      row.label = from.at("label");
-      row.rate = from.at("rate");
-      row.events = from.at("events");
-      row.possible = from.at("possible");
-      row.reported = from.at("reported");
-      row.efficiency = from.at("efficiency");
-      row.purity = from.at("purity");
-      row.first_purity = from.at("first_purity");
-      row.estimated_purity = from.at("estimated_purity");
-      row.returns_usable = from.at("returns_usable");
-      row.height = from.at("height");
-      row.height_sd = from.at("height_sd");
-      if (from.contains("seconds")) row.seconds = from.at("seconds").get<double>();
-      study.rows.push_back(std::move(row));
-    }
-    return study;
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& problem) {
-    throw InputError({file.string()}, "this is no study of the pairing", problem.what(),
-                     "let ./run study pairing write it again");
-  }
 }
 
 Document pairing_page(const PairingStudy& study) {

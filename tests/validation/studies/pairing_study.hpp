@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,12 +31,15 @@ struct PairingRow {
   bool returns_usable = false;    ///< later impacts were recognised
   double height = 0.0;
   double height_sd = 0.0;
-  std::optional<double> seconds;  ///< reading and pairing, on one core of some machine
+  OrAbsent<double> seconds;  ///< reading and pairing, on one core of some machine
+  RECOIL_FIELDS(table, label, rate, events, possible, reported, efficiency, purity, first_purity,
+                estimated_purity, returns_usable, height, height_sd, seconds)
 };
 
 struct PairingStudy {
   StudyStamp stamp;
   std::vector<PairingRow> rows;
+  RECOIL_FIELDS(rows)
 };
 
 /// Streams against crowding, against the number of spheres, and with worse instruments.
@@ -59,9 +60,6 @@ struct PairingBar {
 };
 PairingBar bar_of(const PairingStudy& study);
 
-std::string pairing_study_json(const PairingStudy& study);
-/// @throws InputError when `file` is not the JSON of such a study
-PairingStudy read_pairing_study(const std::filesystem::path& file);
 Document pairing_page(const PairingStudy& study);
 
 }  // namespace recoil

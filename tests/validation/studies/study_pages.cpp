@@ -35,13 +35,14 @@ void render_study(const fs::path& json) {
   const std::string name = json.stem().string();
   if (name.starts_with("coverage-")) {
     const CoverageStudy study = read_coverage_study(json);
-    const bool grid = !study.grid_of.empty();
+    const bool grid = study.grid_of.has_value();
     write_page(json, coverage_page(study, grid ? name : ""),
                grid ? std::optional(coverage_picture(study)) : std::nullopt);
   } else if (name == "pairing") {
-    write_page(json, pairing_page(read_pairing_study(json)));
+    write_page(json, pairing_page(read_study<PairingStudy>(json, "study of the pairing", "rows")));
   } else if (name == "hidden-effects") {
-    const hidden::StudyTally tally = hidden::read_tally(json);
+    const hidden::StudyTally tally =
+        read_study<hidden::StudyTally>(json, "study of hidden effects", "bars");
     write_page(json, hidden::hidden_effects_page(tally), hidden::hidden_effects_picture(tally));
   } else {
     throw InputError({json.string()}, "no page is made from this file",
@@ -70,8 +71,7 @@ void write_coverage_summary(const fs::path& folder) {
   for (const fs::path& file : files) {
     studies.push_back(read_coverage_study(file));
     for (ParameterCoverage row : studies.back().rows) {
-      std::erase_if(row.intervals,
-                    [](const IntervalCoverage& at) { return at.interval != "recommended"; });
+      std::erase_if(row.intervals, [](const auto& at) { return at.first != "recommended"; });
       recommended.push_back(std::move(row));
     }
   }

@@ -1,9 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/json.hpp"
 #include "document/document.hpp"
 
 namespace recoil {
@@ -13,15 +16,44 @@ struct StudyStamp {
   std::string study;    ///< "coverage-designs": the name of its files in reports
   std::string command;  ///< the line that makes it
   std::string key;      ///< of the sources, fits and data that made it, see study_key
-  std::string origin;   ///< of numbers that no run of this program wrote; else empty
+  RECOIL_FIELDS(study, command, key)
 };
-
-nlohmann::ordered_json json_of(const StudyStamp& stamp);
-
-/// @throws nlohmann::json::exception when `json` has no such head
-StudyStamp stamp_of(const nlohmann::ordered_json& json);
 
 /// The last paragraphs of a study's page.
 std::vector<Block> stamp_blocks(const StudyStamp& stamp);
+
+/// The JSON of a study: its stamp, then its fields.
+template <class Result>
+std::string study_json(const Result& result) {
+  Json json = as_json(result.stamp);
+  json.update(as_json(result));
+  return json_text(json, 1);
+}
+
+/// Reads what `study_json` writes.
+/// @param what "study of coverage"
+/// @param required a key that such a study has
+/// @throws InputError when `file` is not such a study
+template <class Result>
+Result read_study(const std::filesystem::path& file, const std::string& what,
+                  const std::string& required) {
+  const std::string text = read_text_file(file);
+  try {
+    const Json json = Json::parse(text);
+    if (!json.is_object() || !json.contains("key") || !json.contains(required)) {
+      throw std::runtime_error("it has no '" + required + "'");
+    }
+    Result result;
+    read_json(json, result.stamp);
+    read_json(json, result);
+    return result;
+  } catch (const std::runtime_error& problem) {
+    throw InputError({file.string()}, "this is no " + what, problem.what(),
+                     "let ./run study write it again");
+  } catch (const Json::exception& problem) {
+    throw InputError({file.string()}, "this is no " + what, problem.what(),
+                     "let ./run study write it again");
+  }
+}
 
 }  // namespace recoil

@@ -7,7 +7,6 @@
 
 #include "core/names.hpp"
 #include "validation/synthetic/hidden_effect.hpp"
-#include "validation/synthetic/other_target.hpp"
 #include "validation/synthetic/strength.hpp"
 
 namespace hidden {
@@ -57,7 +56,6 @@ struct Case {
   Refit refit;                              ///< of the base to them, all effects at work
   std::vector<double> readings;             ///< the mean of the events of each point, with noise
   std::vector<bool> odd;                    ///< misread by more than 5 standard deviations [points]
-  std::vector<Elsewhere> elsewhere;         ///< what was measured on other targets since
 };
 
 /// Nuisances the experiment, tunes every effect by itself to the wanted misfit, and takes the

@@ -28,91 +28,58 @@ Json field(const char* name, const char* type, const char* unit, const char* des
   return f;
 }
 
-/// One dataset: what is stated of the bodies, and the points.
-struct Table {
-  const Case& made;
-  Base stated;
-  std::string surface;
-  double log_sd_of_force = 0.0;  ///< of f0, where it is not known [1]
-  std::vector<StatedCondition> conditions;
-  const std::vector<Point>& points;
-  const std::vector<double>& readings;
-};
-
-Table first_table(const Case& made) {
-  return {made,        made.design.base, made.design.surface, 0.0, made.conditions,
-          made.points, made.readings};
-}
-
-/// A thick, polished block: what it takes away is said.
-Table table_of(const Case& made, const Elsewhere& there) {
-  Table table{made,
-              there.expected,
-              there.target.material,
-              2.0 / 3.0 * log_sd_of_work,
-              made.conditions,
-              there.points,
-              there.readings};
-  std::erase_if(table.conditions, [](const StatedCondition& c) {
-    return c.name == "target_thickness" || c.name == "surface_rms_roughness";
-  });
-  table.conditions.push_back({"target_thickness", 0.05});
-  table.conditions.push_back({"surface_rms_roughness", 5e-10});
-  return table;
-}
-
 /// The conditions that some of the points state.
-std::vector<std::string> changed_conditions(const Table& table) {
+std::vector<std::string> changed_conditions(const Case& made) {
   std::set<std::string> names;
-  for (const Point& p : table.points) {
+  for (const Point& p : made.points) {
     if (!p.changed.name.empty()) names.insert(p.changed.name);
   }
   return {names.begin(), names.end()};
 }
 
 /// Drops are of known heights; in every second data set somebody wrote down which.
-bool names_settings(const Table& table) {
-  const Design& design = table.made.design;
-  return design.dropped && !reads_times(design.readout) && table.made.order.index % 2 == 1;
+bool names_settings(const Case& made) {
+  const Design& design = made.design;
+  return design.dropped && !reads_times(design.readout) && made.order.index % 2 == 1;
 }
 
-bool counts_captures(const Table& table) {
-  return std::any_of(table.points.begin(), table.points.end(),
+bool counts_captures(const Case& made) {
+  return std::any_of(made.points.begin(), made.points.end(),
                      [](const Point& p) { return p.captured > 0; });
 }
 
-Json fields_of(const Table& table) {
+Json fields_of(const Case& made) {
   Json fields = {field("series", "string", "", "one row of the table"),
                  field("diameter", "number", "um", "of the sphere"),
                  field("incident_velocity", "number", "m/s", "before the impact"),
                  field("restitution", "number", "1", "mean of the rebounds"),
                  field("restitution_sd", "number", "1", "standard error of that mean"),
                  field("events", "integer", "1", "rebounds averaged in this point")};
-  if (counts_captures(table)) {
+  if (counts_captures(made)) {
     fields.push_back(
         field("captured", "integer", "1", "of the events; empty where nobody counted"));
   }
-  for (const std::string& condition : changed_conditions(table)) {
+  for (const std::string& condition : changed_conditions(made)) {
     const bool plain = condition == "neutralised" || condition == "relative_humidity" ||
                        condition == "velocities_calibrated" || condition == "sizes_calibrated";
     const char* const unit = plain ? "1" : condition == "ambient_pressure" ? "Pa" : "m";
     fields.push_back(field(condition.c_str(), "number", unit, "of the impacts of this point"));
   }
-  if (names_settings(table)) {
+  if (names_settings(made)) {
     fields.push_back(field("setting", "string", "", "the height from which it was dropped"));
   }
   return fields;
 }
 
-std::string package_text(const Table& table, const std::string& name) {
-  const Design& d = table.made.design;
-  const Base& b = table.stated;
+std::string package_text(const Case& made, const std::string& name) {
+  const Design& d = made.design;
+  const Base& b = d.base;
   Json package;
   package["name"] = name;
-  package["title"] = fmt::format("Synthetic impacts of {} spheres on {}", d.sphere, table.surface);
+  package["title"] = fmt::format("Synthetic impacts of {} spheres on {}", d.sphere, d.surface);
   package["resources"] = Json::array();
   Json resource = {{"name", "points"}, {"path", "points.csv"}};
-  resource["schema"]["fields"] = fields_of(table);
+  resource["schema"]["fields"] = fields_of(made);
   package["resources"].push_back(resource);
   Json& own = package["recoil"];
   own["provenance"] = "synthetic";
@@ -120,42 +87,37 @@ std::string package_text(const Table& table, const std::string& name) {
                      {"density", b.density},
                      {"youngs_modulus", b.youngs_modulus},
                      {"poisson_ratio", b.poisson_ratio}};
-  own["surface"] = {{"material", table.surface},
+  own["surface"] = {{"material", d.surface},
                     {"density", b.surface_density},
                     {"youngs_modulus", b.surface_modulus},
                     {"poisson_ratio", b.surface_ratio}};
   if (b.stated_stiffness > 0.0) own["stiffness_K"] = b.stated_stiffness;
-  for (const StatedCondition& c : table.conditions) own["conditions"][c.name] = c.value;
+  for (const StatedCondition& c : made.conditions) own["conditions"][c.name] = c.value;
   if (d.dropped) {
     own["method"] = reads_times(d.readout) ? "bounce_intervals" : "drop_heights";
     own["adhesion_energy"] = 0;
   } else {
     own["adhesion_force_f0"] = b.adhesion_force;
-    if (table.log_sd_of_force > 0.0) {
-      own["adhesion_force_f0"] = {{"value", b.adhesion_force},
-                                  {"relative_sd", table.log_sd_of_force}};
-    }
     own["reference_diameter"] = b.reference_diameter;
   }
   return package.dump(2) + "\n";
 }
 
-std::string points_text(const Table& table) {
-  const Case& made = table.made;
-  const std::vector<std::string> changed = changed_conditions(table);
+std::string points_text(const Case& made) {
+  const std::vector<std::string> changed = changed_conditions(made);
   std::string text = "series,diameter,incident_velocity,restitution,restitution_sd,events";
-  const bool counts = counts_captures(table);
+  const bool counts = counts_captures(made);
   if (counts) text += ",captured";
   for (const std::string& name : changed) text += "," + name;
-  const bool settings = names_settings(table);
+  const bool settings = names_settings(made);
   if (settings) text += ",setting";
   text += "\n";
-  for (std::size_t i = 0; i < table.points.size(); ++i) {
-    const Point& p = table.points[i];
+  for (std::size_t i = 0; i < made.points.size(); ++i) {
+    const Point& p = made.points[i];
     const std::string& name = made.design.rows[p.row].name;
     const bool quoted = name.find(',') != std::string::npos;
     text += fmt::format("{0}{1}{0},{2:g},{3},{4:.{5}f},{6},{7}", quoted ? "\"" : "", name,
-                        1e6 * p.diameter, printed(p.velocity, 3), table.readings[i],
+                        1e6 * p.diameter, printed(p.velocity, 3), made.readings[i],
                         made.design.decimals + (p.events > 0 ? 2 : 0),
                         printed(p.sd / (1.0 + made.effects.deviations_short), 3),
                         p.events > 0 ? p.events : made.design.events);
@@ -169,44 +131,31 @@ std::string points_text(const Table& table) {
   return text;
 }
 
-/// @param datasets as TOML, one or a list
-std::string fit_text(const Case& made, const std::string& datasets) {
-  const std::string per = made.elsewhere.empty() ? "" : ", per = \"dataset\"";
+std::string fit_text(const Case& made, const std::string& dataset) {
   if (made.design.dropped) {
     return fmt::format(
-        "dataset = {}\n\n[parameters]\nC_H = {{ initial = 3e-2, bounds = [0, 1]{} }}\n\n"
+        "dataset = \"{}\"\n\n[parameters]\nC_H = {{ initial = 3e-2, bounds = [0, 1] }}\n\n"
         "[uncertainty]\nreplicates = 0\nlevel = 0.95\nseed = 20260101\n",
-        datasets, per);
+        dataset);
   }
   const bool steel = made.design.id == "li";
   return fmt::format(
-      "dataset = {0}\n\n[model]\nadhesion_damping_phase = \"rebound\"\n\n[parameters]\n"
-      "C_H = {{ initial = {1}, bounds = [0, 1]{2} }}\n"
-      "C_A = {{ initial = 3e-2, bounds = [0, 10]{2} }}\n"
+      "dataset = \"{}\"\n\n[model]\nadhesion_damping_phase = \"rebound\"\n\n[parameters]\n"
+      "C_H = {{ initial = {}, bounds = [0, 1] }}\n"
+      "C_A = {{ initial = 3e-2, bounds = [0, 10] }}\n"
       "f0 = {{ free = false }}\n\n[uncertainty]\nreplicates = 0\nlevel = 0.95\n"
       "seed = 20260101\n",
-      datasets, steel ? "3e-2" : "3e-3", per);
-}
-
-void write_table(const Table& table, const std::string& name, const std::filesystem::path& folder) {
-  recoil::write_whole_file(folder / name / "datapackage.json", package_text(table, name));
-  recoil::write_whole_file(folder / name / "points.csv", points_text(table));
+      dataset, steel ? "3e-2" : "3e-3");
 }
 
 }  // namespace
 
 std::filesystem::path write_case(const Case& made, const std::filesystem::path& folder) {
   const std::string name = neutral_name(made.order);
-  write_table(first_table(made), name, folder);
-  std::string datasets = fmt::format("\"{}\"", name);
-  for (std::size_t k = 0; k < made.elsewhere.size(); ++k) {
-    const std::string other = fmt::format("{}-target-{}", name, k + 2);
-    write_table(table_of(made, made.elsewhere[k]), other, folder);
-    datasets += fmt::format(", \"{}\"", other);
-  }
-  if (!made.elsewhere.empty()) datasets = "[" + datasets + "]";
+  recoil::write_whole_file(folder / name / "datapackage.json", package_text(made, name));
+  recoil::write_whole_file(folder / name / "points.csv", points_text(made));
   const std::filesystem::path fit = folder / (name + ".toml");
-  recoil::write_whole_file(fit, fit_text(made, datasets));
+  recoil::write_whole_file(fit, fit_text(made, name));
   return fit;
 }
 

@@ -62,7 +62,9 @@ void add_batches(Effects& effects, std::size_t rows, recoil::RandomStream& rando
   }
 }
 
-void take_here(Case& made, const FurtherImpacts& further, std::uint64_t round) {
+}  // namespace
+
+void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round) {
   recoil::RandomStream random(made.order.experiment_seed() + 7919 * (round + 1), hidden_purpose,
                               99);
   Design& design = made.design;
@@ -87,50 +89,6 @@ void take_here(Case& made, const FurtherImpacts& further, std::uint64_t round) {
   if (!measure(design.base, effects, design.scatter, point, random)) return;
   made.points.push_back(point);
   made.readings.push_back(reading_of(effects, point));
-}
-
-/// The row of this diameter; the nearest where none has it.
-std::size_t row_of(const Design& design, double diameter) {
-  const auto row =
-      std::min_element(design.rows.begin(), design.rows.end(), [&](const Row& a, const Row& b) {
-        return std::abs(std::log(a.diameter / diameter)) <
-               std::abs(std::log(b.diameter / diameter));
-      });
-  return static_cast<std::size_t>(row - design.rows.begin());
-}
-
-void take_there(Case& made, const FurtherImpacts& further, std::uint64_t round) {
-  recoil::RandomStream random(made.order.experiment_seed() + 7919 * (round + 1), hidden_purpose,
-                              98);
-  auto there = std::find_if(made.elsewhere.begin(), made.elsewhere.end(), [&](const Elsewhere& e) {
-    return e.target.material == further.target.material;
-  });
-  if (there == made.elsewhere.end()) {
-    made.elsewhere.push_back(
-        move_to(further.target, made.design.base, made.effects, made.order.experiment_seed()));
-    there = made.elsewhere.end() - 1;
-  }
-  add_batches(there->effects, made.design.rows.size(), random);
-  for (const Place& place : further.places) {
-    Point point;
-    point.row = row_of(made.design, place.diameter);
-    point.diameter = place.diameter;
-    point.velocity = place.velocity;
-    point.events = place.events;
-    if (!measure(there->base, there->effects, made.design.scatter, point, random)) continue;
-    there->points.push_back(point);
-    there->readings.push_back(reading_of(there->effects, point));
-  }
-}
-
-}  // namespace
-
-void take_further(Case& made, const FurtherImpacts& further, std::uint64_t round) {
-  if (further.target.material.empty()) {
-    take_here(made, further, round);
-  } else {
-    take_there(made, further, round);
-  }
 }
 
 }  // namespace hidden
