@@ -11,11 +11,10 @@ namespace recoil {
 namespace {
 
 /// Root mean square over the datasets that have other diameters than the reference.
-std::optional<double> held_out(const FitResult& fitted, std::size_t datasets) {
+std::optional<double> held_out(const FitResult& fitted) {
   double sum = 0.0;
   int count = 0;
-  for (std::size_t d = 0; d < datasets; ++d) {
-    const TwoPointComparison comparison = compare_two_point(fitted, d);
+  for (const TwoPointComparison& comparison : compare_two_points(fitted)) {
     if (!comparison.full_held_out_rmse) continue;
     sum += *comparison.full_held_out_rmse * *comparison.full_held_out_rmse;
     ++count;
@@ -108,7 +107,7 @@ std::vector<LawFit> fit_under_every_law(const FitSpec& spec, const std::vector<D
       one.fitted = fit(model, gather(datasets, one.spec));
     }
     if (!one.fitted->usable) continue;
-    one.held_out_rmse = held_out(*one.fitted, datasets.size());
+    one.held_out_rmse = held_out(*one.fitted);
     one.captures = captures_of(*one.fitted, datasets);
   }
   return fits;
