@@ -292,9 +292,9 @@ void read_json(const Json& json, Value& value) {
   } else if constexpr (is_named<Value>) {
     expect(json.is_object(), "an object");
     value.clear();
-    for (const auto& [key, member] : json.items()) {
-      std::pair<std::string, typename Value::value_type::second_type> read{key, {}};
-      read_within([&] { return key; }, [&] { read_json(member, read.second); });
+    for (const auto& entry : json.items()) {
+      std::pair<std::string, typename Value::value_type::second_type> read{entry.key(), {}};
+      read_within([&] { return read.first; }, [&] { read_json(entry.value(), read.second); });
       value.insert(value.end(), std::move(read));
     }
   } else if constexpr (IsTuple<Value>) {
