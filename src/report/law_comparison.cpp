@@ -93,7 +93,13 @@ Section laws_section(const std::vector<ComparedFit>& laws) {
   return section;
 }
 
-std::string laws_json(const std::vector<ComparedFit>& laws) { return text_of(LawsFile{laws}); }
+std::string laws_json(const std::vector<ComparedFit>& laws) {
+  Json json = as_json(LawsFile{laws});
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    json["laws"][k]["aicc"] = as_json(laws[k].aicc());
+  }
+  return json_text(json);
+}
 
 std::vector<ComparedFit> read_laws(const std::string& page, const std::string& json) {
   const Json parsed = Json::parse(json, nullptr, false);
