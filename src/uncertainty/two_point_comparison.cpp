@@ -31,6 +31,18 @@ Split split_by_diameter(const Observations& data, std::size_t dataset, double di
   return split;
 }
 
+/// NaN for fewer than two values.
+double standard_deviation(const std::vector<double>& values) {
+  if (values.size() < 2) return std::nan("");
+  double mean = 0.0;
+  for (const double v : values) mean += v / static_cast<double>(values.size());
+  double sum = 0.0;
+  for (const double v : values) sum += (v - mean) * (v - mean);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+}  // namespace
+
 TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset) {
   const Observations& data = fitted.data;
   TwoPointComparison comparison;
@@ -69,18 +81,6 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
   }
   return comparison;
 }
-
-/// NaN for fewer than two values.
-double standard_deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return std::nan("");
-  double mean = 0.0;
-  for (const double v : values) mean += v / static_cast<double>(values.size());
-  double sum = 0.0;
-  for (const double v : values) sum += (v - mean) * (v - mean);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
-}  // namespace
 
 std::vector<TwoPointComparison> compare_two_points(const FitResult& fitted) {
   const std::size_t datasets = fitted.model.contacts.size();

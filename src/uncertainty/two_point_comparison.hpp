@@ -37,6 +37,9 @@ struct TwoPointComparison {
   int failed = 0;                   ///< replicates without a two-point answer
 };
 
+/// Both calibrations of one dataset, at its reference diameter. The spreads stay empty.
+TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset);
+
 /// Both calibrations of every dataset, at its reference diameter. Empty without adhesion, where
 /// there is no C_A. The spreads stay empty.
 std::vector<TwoPointComparison> compare_two_points(const FitResult& fitted);
