@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "validation/studies/nearest_rival.hpp"
+#include "validation/studies/diagnosis_answer.hpp"
 #include "validation/studies/program_run.hpp"
 #include "validation/synthetic/case_files.hpp"
 #include "validation/synthetic/further_impacts.hpp"

@@ -8,4 +8,7 @@ namespace hidden {
 
 recoil::Document hidden_effects_page(const StudyTally& tally);
 
+/// Power against strength, and the confusion matrix, as one picture.
+recoil::plot::Picture hidden_effects_picture(const StudyTally& tally);
+
 }  // namespace hidden

@@ -13,7 +13,6 @@
 #include "validation/studies/coverage_page.hpp"
 #include "validation/studies/coverage_picture.hpp"
 #include "validation/studies/hidden_effects_page.hpp"
-#include "validation/studies/hidden_effects_picture.hpp"
 #include "validation/studies/pairing_study.hpp"
 #include "validation/studies/study_stamp.hpp"
 
