@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
-#include "data/folder_names.hpp"
+#include "data/dataset.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/capture_interval.hpp"
 #include "uncertainty/noise_alternatives.hpp"

@@ -149,9 +149,9 @@ void add_import(CLI::App& program) {
       ->add_option("--ambient-pressure", r.ambient_pressure,
                    "pressure of the air [Pa], whose drag is taken out of heights and intervals "
                    "(default 101325); 0: vacuum")
-      ->check(CLI::Range(0.0, limits::highest_pressure));
+      ->check(CLI::Range(0.0, limits::pressure.upper));
   command->add_option("--temperature", r.temperature, "temperature of the air [K] (default 293)")
-      ->check(CLI::Range(limits::lowest_temperature, limits::highest_temperature));
+      ->check(CLI::Range(limits::temperature.lower, limits::temperature.upper));
   for (CLI::Option* option : command->get_options()) {
     if (option->get_items_expected_max() > 1)
       option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

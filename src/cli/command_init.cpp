@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
-#include "data/folder_names.hpp"
+#include "data/dataset.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/predictor.hpp"
 #include "experiment/import.hpp"

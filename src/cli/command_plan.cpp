@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
-#include "data/dataset_without_points.hpp"
+#include "data/dataset.hpp"
 #include "plan/datasets_to_plan.hpp"
 #include "plan/experiment_plan.hpp"
 #include "plot/draw.hpp"

@@ -16,7 +16,7 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/row_file.hpp"
-#include "data/folder_names.hpp"
+#include "data/dataset.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/extended_toml.hpp"
 #include "report/diagnosis_document.hpp"

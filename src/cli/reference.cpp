@@ -215,25 +215,20 @@ std::string units_block(const CLI::App&) {
 }
 
 std::string limits_block(const CLI::App&) {
-  struct Row {
-    const char* what;
-    const char* unit;
-    double lower, upper;
-  };
-  const Row rows[] = {
-      {"diameter", "m", limits::smallest_diameter, limits::largest_diameter},
-      {"velocity", "m/s", limits::slowest_velocity, limits::fastest_velocity},
-      {"restitution (above 1: kept, with a warning)", "1", 0.0, limits::largest_restitution},
-      {"density", "kg/m3", limits::lowest_density, limits::highest_density},
-      {"Young's modulus", "Pa", limits::lowest_modulus, limits::highest_modulus},
-      {"surface energy", "J/m2", 0.0, limits::highest_surface_energy},
-      {"adhesion energy", "J/m2", 0.0, limits::highest_adhesion_energy},
-      {"ambient pressure", "Pa", 0.0, limits::highest_pressure},
-      {"stiffness K", "Pa", limits::lowest_stiffness, limits::highest_stiffness},
-      {"adhesion force f0", "N/m", 0.0, limits::highest_adhesion_force}};
+  const std::pair<const char*, Range> rows[] = {
+      {"diameter", limits::diameter},
+      {"velocity", limits::velocity},
+      {"restitution (above 1: kept, with a warning)", limits::restitution},
+      {"density", limits::density},
+      {"Young's modulus", limits::youngs_modulus},
+      {"surface energy", limits::surface_energy},
+      {"adhesion energy", limits::adhesion_energy},
+      {"ambient pressure", limits::pressure},
+      {"stiffness K", limits::stiffness_K},
+      {"adhesion force f0", limits::adhesion_force_f0}};
   std::string out = "| quantity | unit | accepted |\n|---|---|---|\n";
-  for (const Row& row : rows) {
-    out += fmt::format("| {} | {} | {:g} to {:g} |\n", row.what, row.unit, row.lower, row.upper);
+  for (const auto& [what, range] : rows) {
+    out += fmt::format("| {} | {} | {:g} to {:g} |\n", what, range.unit, range.lower, range.upper);
   }
   return out;
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "data/material.hpp"
+#include "data/system.hpp"
 
 namespace recoil {
 

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "data/json_document.hpp"
-#include "data/system.hpp"
+#include "core/files.hpp"
+#include "data/contact.hpp"
+#include "data/dataset.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
@@ -32,23 +33,15 @@ bool read_type(const JsonNode& field, Quantity quantity) {
 
 void read_unit(const JsonNode& field, Column& column) {
   const Dimension dimension = dimension_of(column.quantity);
-  const std::string use = fmt::format("use {}", join(unit_names(dimension)));
   if (!field.find("unit") && is_count(column.quantity)) return;  // counted in no other unit
-  const JsonNode node = field.require("unit", "values are converted by it", use);
+  const JsonNode node = field.require("unit", "values are converted by it",
+                                      fmt::format("use {}", join(unit_names(dimension))));
   column.unit = node.string();
-  if (const auto factor = unit_factor(dimension, column.unit)) {
-    column.factor = *factor;
-    return;
-  }
-  if (const auto other = dimension_of_unit(column.unit)) {
-    node.fail(fmt::format("'{}' in {}", column.name, quote(column.unit)),
-              fmt::format("that is the unit of a {}", name_of(*other)), use);
-  }
-  node.fail(fmt::format("unknown unit {} of '{}'", quote(column.unit), column.name), "", use);
+  column.factor =
+      known_factor(dimension, column.unit, fmt::format("'{}'", column.name), node.where());
 }
 
 Column read_field(const JsonNode& field) {
-  const std::vector<std::string> names = all_names<Quantity>();
   const JsonNode name =
       field.require("name", "it links the field to a column",
                     "known: series, diameter, incident_velocity, restitution, ... "
@@ -58,7 +51,7 @@ Column read_field(const JsonNode& field) {
   const auto quantity = value_named<Quantity>(column.name);
   if (!quantity) {
     name.fail(fmt::format("unknown field {}", quote(column.name)), "its column would be ignored",
-              did_you_mean(column.name, names));
+              did_you_mean(column.name, all_names<Quantity>()));
   }
   column.quantity = *quantity;
   column.integer = read_type(field, *quantity);
@@ -189,39 +182,24 @@ std::vector<std::string> read_sources(const JsonNode& root) {
   return lines;
 }
 
+/// nullopt when a key is unknown or a value is impossible.
+std::optional<ImpactSystem> readable_system(const Json& system) {
+  try {
+    const JsonDocument document(system.dump(-1, ' ', false, Json::error_handler_t::replace), "");
+    return read_system(document.root());
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Dimension dimension_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::series:
-    case Quantity::setting:
-      return Dimension::text;
-    case Quantity::diameter:
-    case Quantity::diameter_sd:
-    case Quantity::target_thickness:
-    case Quantity::probe_height:
-    case Quantity::surface_rms_roughness:
-      return Dimension::length;
-    case Quantity::incident_velocity:
-    case Quantity::rebound_velocity:
-    case Quantity::velocity_sd:
-      return Dimension::velocity;
-    case Quantity::restitution:
-    case Quantity::restitution_sd:
-    case Quantity::relative_humidity:
-      return Dimension::ratio;
-    case Quantity::events:
-    case Quantity::captured:
-    case Quantity::neutralised:
-    case Quantity::velocities_calibrated:
-    case Quantity::sizes_calibrated:
-      return Dimension::count;
-    case Quantity::ambient_pressure:
-      return Dimension::pressure;
-    case Quantity::temperature:
-      return Dimension::temperature;
-  }
-  return Dimension::text;
+  using enum Dimension;
+  static constexpr std::array<Dimension, count_of<Quantity>> dimensions = {
+      text, length,   velocity, ratio,       velocity, ratio,  velocity, length, count, count,
+      text, pressure, ratio,    temperature, length,   length, count,    length, count, count};
+  return dimensions[static_cast<std::size_t>(quantity)];
 }
 
 Quantity quantity_of(Condition condition) {
@@ -276,6 +254,65 @@ Package read_package(const std::string& text, const std::string& file,
   }
   read_resource(root, package);
   return package;
+}
+
+Json package_field(const std::string& name, const std::string& type, const std::string& unit,
+                   const std::string& description) {
+  Json field = {{"name", name}, {"type", type}};
+  if (!unit.empty()) field["unit"] = unit;
+  if (!description.empty()) field["description"] = description;
+  return field;
+}
+
+Json csv_resource(const std::string& name, const std::string& path, const Json& fields) {
+  return {{"name", name},        {"path", path},
+          {"format", "csv"},     {"mediatype", "text/csv"},
+          {"encoding", "utf-8"}, {"schema", {{"fields", fields}}}};
+}
+
+std::string package_text(const Json& package) {
+  return package.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json stated_system(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / package_file_name;
+  const std::string text = read_text_file(file);
+  const JsonDocument document(text, file.string());
+  document.root()
+      .require("recoil", "it holds the materials",
+               "name the folder of a dataset with the same materials")
+      .members();
+  Json system = Json::parse(text)["recoil"];
+  for (const char* own : {"provenance", "conditions", "method", "mixed_sizes"}) system.erase(own);
+  return system;
+}
+
+std::vector<LeftOverride> leave_out_contradictions(Json& system,
+                                                   const std::vector<std::string>& own) {
+  std::vector<LeftOverride> left;
+  std::optional<ImpactSystem> kept = readable_system(system);
+  if (!kept) return left;
+  // No derived value but that of f0 depends on the diameter, and f0 is not stated without one.
+  const double diameter = kept->reference_diameter.value_or(1e-6);
+  const auto leave_out = [&](const char* key, std::optional<double> ImpactSystem::*stated,
+                             double ContactProperties::*derived) {
+    const std::optional<double> value = (*kept).*stated;
+    const double other = derive_contact(*kept, diameter).*derived;
+    if (std::find(own.begin(), own.end(), key) != own.end()) return false;
+    if (!value || *value == 0.0 || !contradicts(*value, other)) return false;
+    left.push_back({key, *value, other});
+    system.erase(key);
+    ((*kept).*stated).reset();
+    return true;
+  };
+  leave_out("stiffness_K", &ImpactSystem::stiffness_K, &ContactProperties::stiffness_derived);
+  leave_out("adhesion_energy", &ImpactSystem::adhesion_energy,
+            &ContactProperties::adhesion_energy_derived);
+  if (leave_out("adhesion_force_f0", &ImpactSystem::adhesion_force_f0,
+                &ContactProperties::adhesion_force_derived)) {
+    system.erase("reference_diameter");
+  }
+  return left;
 }
 
 }  // namespace recoil

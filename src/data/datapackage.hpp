@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,10 +9,11 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/names.hpp"
 #include "core/units.hpp"
-#include "data/dataset.hpp"
 #include "data/json_document.hpp"
+#include "data/system.hpp"
 
 namespace recoil {
 
@@ -39,33 +41,23 @@ enum class Quantity {
   velocities_calibrated,
   sizes_calibrated,
 };
-
-/// Their names in a schema.
 template <>
 struct NamesOf<Quantity> {
-  static constexpr std::array<std::string_view, 20> names = {"series",
-                                                             "diameter",
-                                                             "incident_velocity",
-                                                             "restitution",
-                                                             "rebound_velocity",
-                                                             "restitution_sd",
-                                                             "velocity_sd",
-                                                             "diameter_sd",
-                                                             "events",
-                                                             "captured",
-                                                             "setting",
-                                                             "ambient_pressure",
-                                                             "relative_humidity",
-                                                             "temperature",
-                                                             "target_thickness",
-                                                             "probe_height",
-                                                             "neutralised",
-                                                             "surface_rms_roughness",
-                                                             "velocities_calibrated",
-                                                             "sizes_calibrated"};
+  static constexpr auto names = [] {
+    constexpr std::array<std::string_view, 11> own = {
+        "series",         "diameter",    "incident_velocity", "restitution", "rebound_velocity",
+        "restitution_sd", "velocity_sd", "diameter_sd",       "events",      "captured",
+        "setting"};
+    std::array<std::string_view, own.size() + count_of<Condition>> all{};
+    for (std::size_t i = 0; i < own.size(); ++i) all[i] = own[i];
+    for (const Condition condition : values_of<Condition>()) {
+      all[own.size() + static_cast<std::size_t>(condition)] = name_of(condition);
+    }
+    return all;
+  }();
 };
 
-/// What a quantity measures; a series is a text.
+/// What a quantity measures; a series and a setting are texts.
 Dimension dimension_of(Quantity quantity);
 
 /// The column of a condition.
@@ -75,28 +67,28 @@ Quantity quantity_of(Condition condition);
 struct Column {
   Quantity quantity = Quantity::series;
   std::string name;      ///< as in the header of the CSV file
-  std::string unit;      ///< as the schema states it; may be empty for counts, is for series
+  std::string unit;      ///< as the schema states it; empty for texts, may be empty for counts
   double factor = 1.0;   ///< to SI
   bool integer = false;  ///< the schema says so, or the quantity is a count
 };
 
-/// `datapackage.json` as read and validated, SI inside.
+/// `datapackage.json` (Frictionless Data Package) as read and validated, SI inside.
 ///
-/// The system stands under the key `recoil`: `provenance`, `particle`, `surface`, and directly
-/// beside them the optional overrides `stiffness_K` [Pa], `adhesion_energy` [J/m2],
-/// `adhesion_force_f0` [N/m] and `reference_diameter` [m] (which the force needs), and
-/// `mixed_sizes`, the path of a size distribution over which every point averages. Keys that are
-/// not known are refused there and allowed elsewhere, as Frictionless has it.
+/// The key `recoil` holds the system: `provenance`, `particle`, `surface`, and directly beside them
+/// the optional overrides `stiffness_K` [Pa], `adhesion_energy` [J/m2], `adhesion_force_f0` [N/m]
+/// and `reference_diameter` [m] (which the force needs), and `mixed_sizes`, the path of a size
+/// distribution over which every point averages. Unknown keys are refused there and allowed
+/// elsewhere, as Frictionless has it.
 struct Package {
   std::string id;
   std::string title;
   Provenance provenance = Provenance::measured;
   ImpactSystem system;
-  std::string mixed_sizes;     ///< path of the sizes over which every point averages; else empty
-  Location mixed_sizes_where;  ///< where it stands
+  std::string mixed_sizes;  ///< path of the sizes over which every point averages; else empty
+  Location mixed_sizes_where;
   std::vector<std::string> sources;
   std::string points_path;                  ///< relative, inside the folder
-  Location points_where;                    ///< where the path stands
+  Location points_where;                    ///< place of the path
   char delimiter = ',';                     ///< Frictionless `dialect.delimiter`
   std::vector<std::string> missing_values;  ///< cells that mean "not known"; "" always does
   std::vector<Column> columns;
@@ -114,5 +106,37 @@ std::optional<JsonNode> find_resource(const JsonNode& root, const std::string& p
 
 /// The units that the fields of a resource state: field -> unit.
 std::map<std::string, std::string> field_units(const JsonNode& resource);
+
+/// A field of a schema. @param unit, description are left out when they are empty.
+Json package_field(const std::string& name, const std::string& type, const std::string& unit,
+                   const std::string& description = "");
+
+/// A resource: a CSV file in the folder with a list of fields.
+Json csv_resource(const std::string& name, const std::string& path, const Json& fields);
+
+/// The text of datapackage.json.
+std::string package_text(const Json& package);
+
+/// The object that the dataset in `folder` states under `recoil`, for another dataset with the same
+/// materials: without provenance, conditions, method and sizes. @throws InputError when there is no
+/// data package with that key.
+Json stated_system(const std::filesystem::path& folder);
+
+/// A constant that a dataset states and another one with the same materials does not take over.
+struct LeftOverride {
+  std::string key;       ///< as in datapackage.json: "stiffness_K"
+  double stated = 0.0;   ///< [Pa], [J/m2] or [N/m]
+  double derived = 0.0;  ///< what the materials give, in the same unit
+};
+
+/// Removes from `system`, an object as under the key `recoil`, every override that contradicts its
+/// materials (see `derive_contact`): it is what one paper printed and does not follow from the
+/// materials. f0 is compared with eq. 12 after the other overrides are removed, and is removed
+/// together with its `reference_diameter`. A stated 0 (no adhesion) contradicts nothing. A system
+/// that cannot be read is left as it is: its reader says what is wrong.
+/// @param own keys that are stated anew: they are kept, and the others compared with what follows
+///   from them
+std::vector<LeftOverride> leave_out_contradictions(Json& system,
+                                                   const std::vector<std::string>& own = {});
 
 }  // namespace recoil

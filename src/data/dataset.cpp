@@ -1,33 +1,320 @@
 #include "data/dataset.hpp"
 
-#include <algorithm>
-#include <system_error>
+#include <fmt/format.h>
 
-#include "core/error.hpp"
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <system_error>
+#include <tuple>
+
 #include "core/files.hpp"
+#include "data/csv.hpp"
 #include "data/datapackage.hpp"
-#include "data/dataset_without_points.hpp"
-#include "data/folder_names.hpp"
-#include "data/points.hpp"
+#include "data/text.hpp"
 
 namespace recoil {
 namespace {
 
-Dataset assemble(const Package& package, const std::string& package_text,
-                 const std::string& csv_text, const std::filesystem::path& folder) {
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t largest_package = 16ULL * 1024 * 1024;  ///< [bytes]
+
+/// Reads the rows of the CSV file into the series, points and warnings of a dataset.
+class PointReader {
+ public:
+  PointReader(const std::string& file, const Package& package, Dataset& dataset)
+      : file_(file), package_(package), dataset_(dataset) {}
+
+  void read_row(const CsvRow& row) {
+    if (header_.empty()) {
+      read_header(row);
+      return;
+    }
+    require_width(row, header_.size(), file_);
+    row_ = &row;
+    read_point();
+  }
+
+  void finish() {
+    if (header_.empty()) {
+      throw InputError({file_, 1, 1}, "the file is empty", "",
+                       "give it a header and one line for each point");
+    }
+    if (dataset_.points.empty()) {
+      throw InputError({file_, header_line_, 1}, "there is a header but no point below it", "",
+                       "write one line for each point");
+    }
+    name_series();
+    for (const auto& [remark, warning] : warnings_) dataset_.warnings.push_back(warning);
+  }
+
+ private:
+  [[noreturn]] void fail(const CsvField& cell, const std::string& problem, const std::string& why,
+                         const std::string& suggestion) const {
+    throw InputError(cell.in(file_), problem, why, suggestion);
+  }
+
+  void read_header(const CsvRow& row) {
+    header_line_ = row.front().line;
+    std::vector<std::string> names;
+    for (const Column& column : package_.columns) names.push_back(column.name);
+    for (const CsvField& cell : row) {
+      const auto column = std::find(names.begin(), names.end(), cell.text);
+      if (column == names.end()) {
+        const bool other_delimiter =
+            row.size() == 1 && cell.text.find_first_of(",;\t|") != std::string::npos;
+        fail(cell, fmt::format("the column {} is not in the schema", quote(cell.text)),
+             "so its meaning and unit are not known",
+             other_delimiter ? "state the delimiter under 'dialect' of the resource"
+                             : did_you_mean(cell.text, names));
+      }
+      const Column& known = package_.columns[static_cast<std::size_t>(column - names.begin())];
+      if (!field_of_.emplace(known.quantity, header_.size()).second) {
+        fail(cell, fmt::format("the column '{}' appears twice", cell.text), "",
+             "remove or rename one");
+      }
+      header_.push_back(&known);
+    }
+    for (const Column& column : package_.columns) {
+      if (field_of_.contains(column.quantity)) continue;
+      throw InputError({file_, header_line_, 1},
+                       fmt::format("the column '{}' is missing", column.name),
+                       "the schema in datapackage.json lists it",
+                       "add the column, or remove it from the schema");
+    }
+  }
+
+  const CsvField& field(Quantity quantity) const { return (*row_)[field_of_.at(quantity)]; }
+
+  const Column& column(Quantity quantity) const { return *header_[field_of_.at(quantity)]; }
+
+  /// The cell of a quantity; null without such a column and for a cell that says "not known".
+  const CsvField* cell(Quantity quantity) const {
+    if (!field_of_.contains(quantity)) return nullptr;
+    const CsvField& found = field(quantity);
+    const auto& missing = package_.missing_values;
+    const bool unknown = found.text.empty() ||
+                         std::find(missing.begin(), missing.end(), found.text) != missing.end();
+    return unknown ? nullptr : &found;
+  }
+
+  /// The value in the unit of the file.
+  double stated(const CsvField& cell, const Column& column) const {
+    const double value = number_in(
+        cell, file_,
+        fmt::format("'{}'{}", column.name, column.unit.empty() ? "" : " in " + column.unit));
+    if (column.integer && value != std::trunc(value)) {
+      fail(cell, fmt::format("{} = {} is not a whole number", column.name, printable(cell.text)),
+           "the schema says integer, or it counts impacts", "write 1, 2, 3, ...");
+    }
+    return value;
+  }
+
+  /// A value in SI that has to lie in the range.
+  std::optional<double> value(Quantity quantity, const Range& range) const {
+    const CsvField* const found = cell(quantity);
+    if (found == nullptr) return std::nullopt;
+    const Column& col = column(quantity);
+    const double given = stated(*found, col);
+    const double converted = given * col.factor;
+    if (range.contains(converted)) return converted;
+    const std::string problem = fmt::format("{} = {:g}{}", col.name, given, unit_suffix(col.unit));
+    if (given < 0.0 || (given == 0.0 && range.lower > 0.0)) {
+      const bool optional = quantity == Quantity::restitution_sd ||
+                            quantity == Quantity::velocity_sd || quantity == Quantity::diameter_sd;
+      fail(*found, problem, range.lower > 0.0 ? "it has to be positive" : "it cannot be negative",
+           optional ? "leave the cell empty when it is not known" : "correct it or remove the row");
+    }
+    fail(*found, problem, range.sentence(), range.hint_for(converted));
+  }
+
+  [[noreturn]] void fail_empty(Quantity quantity, const std::string& why) const {
+    fail(field(quantity), fmt::format("'{}' is empty", column(quantity).name), why,
+         "fill it in or remove the row");
+  }
+
+  double needed(Quantity quantity, const Range& range) const {
+    if (const auto known = value(quantity, range)) return *known;
+    fail_empty(quantity, "every point needs it");
+  }
+
+  int count(Quantity quantity, const Range& range, int fallback) const {
+    return static_cast<int>(value(quantity, range).value_or(fallback));
+  }
+
+  Conditions stated_conditions() const {
+    Conditions stated;
+    for (const Condition condition : values_of<Condition>()) {
+      const auto found = value(quantity_of(condition), info_of(condition));
+      if (found) stated.set(condition, *found);
+    }
+    return stated;
+  }
+
+  /// The series of this row: its name together with the conditions that the row states.
+  std::size_t series_index() {
+    const CsvField* const name = cell(Quantity::series);
+    if (name == nullptr) {
+      fail(field(Quantity::series), "'series' is empty", "points are grouped by it",
+           "give the series a name");
+    }
+    if (printable(name->text) != name->text) {
+      fail(*name, "the name of the series has control characters", "",
+           "use letters, digits and blanks");
+    }
+    const Conditions stated = stated_conditions();
+    const auto [known, added] =
+        series_of_.try_emplace(std::pair(name->text, stated), dataset_.series.size());
+    if (added) {
+      dataset_.series.push_back(name->text);
+      dataset_.series_conditions.push_back(stated);
+    }
+    return known->second;
+  }
+
+  /// Gives series of one name in the file names with the conditions in which they differ.
+  void name_series() {
+    std::map<std::string, std::vector<std::size_t>> groups;
+    for (std::size_t s = 0; s < dataset_.series.size(); ++s) {
+      groups[dataset_.series[s]].push_back(s);
+    }
+    for (const auto& [name, members] : groups) {
+      const Conditions& first = dataset_.series_conditions[members.front()];
+      std::vector<Condition> differing;
+      for (const Condition condition : values_of<Condition>()) {
+        if (std::any_of(members.begin(), members.end(), [&](std::size_t s) {
+              return dataset_.series_conditions[s].of(condition) != first.of(condition);
+            })) {
+          differing.push_back(condition);
+        }
+      }
+      if (differing.empty()) continue;
+      for (const std::size_t s : members) {
+        std::vector<std::string> words;
+        for (const Condition condition : differing) {
+          const auto mine = dataset_.series_conditions[s].of(condition);
+          words.push_back(mine ? fmt::format("{} {:g}{}", name_of(condition), *mine,
+                                             unit_suffix(info_of(condition).unit))
+                               : fmt::format("{} not stated", name_of(condition)));
+        }
+        dataset_.series[s] += fmt::format(" ({})", join(words));
+      }
+    }
+  }
+
+  /// e of a point whose `restitution` or `rebound_velocity` may be empty only where all spheres
+  /// were captured.
+  double restitution(const ImpactPoint& point) const {
+    const bool rebound = field_of_.contains(Quantity::rebound_velocity);
+    const Quantity quantity = rebound ? Quantity::rebound_velocity : Quantity::restitution;
+    constexpr double largest = limits::restitution.upper;
+    std::optional<double> known;
+    if (rebound) {
+      known =
+          value(quantity, {0.0, largest * point.incident_velocity, "m/s",
+                           "it is at most 1.2 times the incident velocity: correct one of them, "
+                           "or its unit"});
+      if (known) known = std::min(*known / point.incident_velocity, largest);
+    } else {
+      known = value(quantity, limits::restitution);
+    }
+    if (point.all_captured()) {
+      if (known.value_or(0.0) == 0.0) return 0.0;
+      fail(field(quantity),
+           fmt::format("a rebound of {} although all were captured", quote(field(quantity).text)),
+           "the mean is that of the spheres that rebounded",
+           "write 0 or leave the cell empty, or correct 'captured'");
+    }
+    if (!known) fail_empty(quantity, "not all spheres of this point were captured");
+    return *known;
+  }
+
+  void read_point() {
+    ImpactPoint point;
+    point.line = row_->front().line;
+    point.series = series_index();
+    point.diameter = needed(Quantity::diameter, limits::diameter);
+    point.incident_velocity = needed(Quantity::incident_velocity, limits::velocity);
+    point.events = count(Quantity::events, limits::events, 1);
+    point.captured = count(Quantity::captured,
+                           {0.0, static_cast<double>(point.events), "impacts",
+                            "'captured' is a part of 'events', which is 1 when it is not given"},
+                           0);
+    point.counted = cell(Quantity::captured) != nullptr;
+    point.restitution = restitution(point);
+    point.restitution_sd = value(Quantity::restitution_sd, limits::restitution_sd);
+    point.velocity_sd = value(Quantity::velocity_sd, limits::velocity_sd);
+    point.diameter_sd = value(Quantity::diameter_sd, limits::diameter_sd);
+    if (const CsvField* const setting = cell(Quantity::setting)) point.setting = setting->text;
+    remark(point);
+    dataset_.points.push_back(point);
+  }
+
+  void remark(const ImpactPoint& point) {
+    const auto add = [&](PointRemark remark) {
+      DatasetWarning& warning = warnings_[remark];
+      if (warning.count++ == 0) warning = {remark, 1, point.line};
+    };
+    if (point.restitution > 1.0) add(PointRemark::restitution_above_one);
+    if (point.restitution == 0.0 && !point.all_captured()) add(PointRemark::unmarked_zero);
+    const Method method = package_.system.method;
+    const bool balls = method == Method::drop_heights || method == Method::bounce_intervals;
+    if (point.diameter > limits::unusual_diameter && !balls) add(PointRemark::unusual_diameter);
+    // Repeated drops of one setting may give the same reading.
+    if (!point.setting.empty()) return;
+    if (!seen_.emplace(point.series, point.diameter, point.incident_velocity, point.restitution)
+             .second) {
+      add(PointRemark::repeated);
+    }
+  }
+
+  const std::string& file_;
+  const Package& package_;
+  Dataset& dataset_;
+  const CsvRow* row_ = nullptr;
+  int header_line_ = 1;
+  std::vector<const Column*> header_;  ///< of each field of a row
+  std::map<Quantity, std::size_t> field_of_;
+  std::map<std::pair<std::string, Conditions>, std::size_t> series_of_;
+  std::set<std::tuple<std::size_t, double, double, double>> seen_;
+  std::map<PointRemark, DatasetWarning> warnings_;
+};
+
+/// The statements of `package` without points; the checksum is that of the package alone.
+Dataset without_points(const Package& package, const std::string& package_text,
+                       const fs::path& folder) {
+  Dataset dataset;
+  for (const Column& column : package.columns) {
+    dataset.columns.push_back({column.name, column.unit});
+  }
+  dataset.id = package.id;
+  dataset.title = package.title;
+  dataset.provenance = package.provenance;
+  dataset.system = package.system;
+  dataset.sources = package.sources;
+  dataset.folder = folder;
+  dataset.sha256 = sha256_hex(package_text + "\n");
+  return dataset;
+}
+
+Dataset with_points(const Package& package, const std::string& package_text,
+                    const std::string& csv_text, const fs::path& folder) {
   const std::string file = (folder / package.points_path).string();
-  Dataset dataset = dataset_without_points(package, folder);
-  read_points(csv_text, file, package, dataset);
+  require_text(csv_text, file);
+  Dataset dataset = without_points(package, package_text, folder);
+  PointReader reader(file, package, dataset);
+  read_csv(csv_text, file, package.delimiter, [&](const CsvRow& row) { reader.read_row(row); });
+  reader.finish();
   dataset.sha256 = sha256_hex(package_text + "\n" + csv_text);
   return dataset;
 }
 
-/// What `package` says every point averages over.
-void read_mixed_sizes(const Package& package, const std::filesystem::path& folder,
-                      Dataset& dataset) {
-  const std::filesystem::path file = folder / package.mixed_sizes;
+void read_mixed_sizes(const Package& package, const fs::path& folder, Dataset& dataset) {
+  const fs::path file = folder / package.mixed_sizes;
   std::error_code failed;
-  if (!std::filesystem::exists(file, failed)) {
+  if (!fs::exists(file, failed)) {
     throw InputError(package.mixed_sizes_where, "there is no file '" + package.mixed_sizes + "'",
                      "every point averages over its sizes", "correct the path or add the file");
   }
@@ -35,17 +322,50 @@ void read_mixed_sizes(const Package& package, const std::filesystem::path& folde
   dataset.sha256 = sha256_hex(dataset.sha256 + dataset.mixed_sizes->sha256);
 }
 
-void require_folder(const std::filesystem::path& folder) {
+void require_package(const fs::path& folder) {
   std::error_code failed;
-  const auto status = std::filesystem::status(folder, failed);
-  if (!std::filesystem::exists(status)) {
+  const auto status = fs::status(folder, failed);
+  if (!fs::exists(status)) {
     throw InputError({folder.string()}, "no such folder", "", "check the path");
   }
-  if (!std::filesystem::is_directory(status)) {
+  if (!fs::is_directory(status)) {
     throw InputError({folder.string()}, "this is a file, not a folder",
                      "a dataset is a folder with datapackage.json and its points",
                      "name the folder");
   }
+  if (!fs::exists(folder / package_file_name, failed)) {
+    throw InputError({(folder / package_file_name).string()}, "no such file",
+                     "it describes the dataset", "add it, as in a shipped dataset");
+  }
+}
+
+/// Does `text` have no line but a header?
+bool has_no_point(const std::string& text) {
+  constexpr const char* blank = " \t\r\n";
+  const std::size_t header = text.find_first_not_of(blank);
+  const std::size_t end = header == std::string::npos ? header : text.find('\n', header);
+  return end == std::string::npos || text.find_first_not_of(blank, end) == std::string::npos;
+}
+
+Dataset load(const fs::path& folder, bool may_lack_points) {
+  require_package(folder);
+  const fs::path package_file = folder / package_file_name;
+  const std::string package_text = read_text_file(package_file, largest_package);
+  const Package package = read_package(package_text, package_file.string(), name_of_folder(folder));
+  const fs::path points_file = folder / package.points_path;
+  std::error_code failed;
+  const bool missing = !fs::exists(points_file, failed);
+  if (missing && !may_lack_points) {
+    throw InputError(package.points_where, "there is no file '" + package.points_path + "'", "",
+                     "correct the path or add the file");
+  }
+  const std::string csv_text = missing ? "" : read_text_file(points_file);
+  if (may_lack_points && has_no_point(csv_text)) {
+    return without_points(package, package_text, folder);
+  }
+  Dataset dataset = with_points(package, package_text, csv_text, folder);
+  if (!package.mixed_sizes.empty()) read_mixed_sizes(package, folder, dataset);
+  return dataset;
 }
 
 }  // namespace
@@ -63,33 +383,22 @@ std::vector<double> distinct_diameters(const Dataset& dataset) {
   return diameters;
 }
 
-Dataset parse_dataset(const std::string& datapackage_text, const std::string& csv_text,
-                      const std::filesystem::path& folder) {
-  Package package =
-      read_package(datapackage_text, (folder / package_file_name).string(), name_of_folder(folder));
-  return assemble(package, datapackage_text, csv_text, folder);
+std::string name_of_folder(const fs::path& folder) {
+  const fs::path plain = folder.lexically_normal();
+  const fs::path name = plain.has_filename() ? plain.filename() : plain.parent_path().filename();
+  return name.empty() || name == "." || name == ".." ? "dataset" : name.string();
 }
 
-Dataset load_dataset(const std::filesystem::path& folder) {
-  require_folder(folder);
-  const std::filesystem::path package_file = folder / package_file_name;
-  std::error_code failed;
-  if (!std::filesystem::exists(package_file, failed)) {
-    throw InputError({package_file.string()}, "no such file", "it describes the dataset",
-                     "add it, as in a shipped dataset");
-  }
-  const std::string package_text = read_text_file(package_file, largest_package);
-  Package package = read_package(package_text, package_file.string(), name_of_folder(folder));
-  const std::filesystem::path points_file = folder / package.points_path;
-  if (!std::filesystem::exists(points_file, failed)) {
-    throw InputError(package.points_where, "there is no file '" + package.points_path + "'", "",
-                     "correct the path or add the file");
-  }
-  const std::string csv_text = read_text_file(points_file);
-  Dataset dataset = assemble(package, package_text, csv_text, folder);
-  if (!package.mixed_sizes.empty()) read_mixed_sizes(package, folder, dataset);
-  return dataset;
+Dataset parse_dataset(const std::string& datapackage_text, const std::string& csv_text,
+                      const fs::path& folder) {
+  const Package package =
+      read_package(datapackage_text, (folder / package_file_name).string(), name_of_folder(folder));
+  return with_points(package, datapackage_text, csv_text, folder);
 }
+
+Dataset load_dataset(const fs::path& folder) { return load(folder, false); }
+
+Dataset load_dataset_to_be_measured(const fs::path& folder) { return load(folder, true); }
 
 std::vector<std::string> reconstruction_remarks(const std::vector<Dataset>& datasets) {
   std::vector<std::string> remarks;

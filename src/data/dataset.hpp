@@ -1,27 +1,20 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/names.hpp"
-#include "data/material.hpp"
 #include "data/measured_sizes.hpp"
+#include "data/system.hpp"
 
 namespace recoil {
 
-/// Where points come from. It travels with everything computed from them.
-enum class Provenance { measured, digitised, reconstruction, synthetic };
-
-/// The words used in files and on the screen.
-template <>
-struct NamesOf<Provenance> {
-  static constexpr std::array<std::string_view, 4> names = {"measured", "digitised",
-                                                            "reconstruction", "synthetic"};
-};
+/// The files of a dataset's folder that more than one stage refers to.
+inline constexpr const char* package_file_name = "datapackage.json";
+/// The recipe of a reconstruction, and its name after other points replaced its own.
+inline constexpr const char* recipe_name = "recipe.toml";
+inline constexpr const char* set_aside_recipe_name = "recipe-set-aside.toml";
 
 /// One measured point: the mean restitution of `events` impacts at one velocity and diameter, or a
 /// point at which the spheres were captured.
@@ -35,8 +28,8 @@ struct ImpactPoint {
   std::optional<double> diameter_sd;     ///< one standard deviation of `diameter` [m]
   int events = 1;                        ///< impacts averaged in this point, captured ones included
   int captured = 0;                      ///< how many of them did not rebound
-  bool counted = false;                  ///< `captured` is stated: 0 is a count, not a gap
-  /// Points of one setting of the apparatus share its error. Empty where no column says so: then
+  bool counted = false;                  ///< `captured` is stated: 0 is a count, not unknown
+  /// Points of one setting of the apparatus share its error. Empty without such a column: then
   /// points of one series, diameter and incident velocity have one setting.
   std::string setting;
   int line = 0;  ///< line in points.csv, for messages
@@ -50,7 +43,7 @@ struct DataColumn {
   std::string unit;  ///< "um"; empty for text
 };
 
-/// What is unusual about a point that is kept all the same.
+/// What is unusual about a point that is kept nevertheless.
 enum class PointRemark { restitution_above_one, unmarked_zero, unusual_diameter, repeated };
 
 /// All points of one kind.
@@ -69,30 +62,41 @@ struct Dataset {
   /// Names, in order of appearance. Points of one series in the file that differ in a condition
   /// are of different series here.
   std::vector<std::string> series;
-  std::vector<Conditions> series_conditions;  ///< that the points of each series state themselves
+  std::vector<Conditions> series_conditions;  ///< as the points of each series state them
   std::vector<ImpactPoint> points;            ///< in file order
   std::vector<DataColumn> columns;            ///< as the schema lists them
-  /// Of the spheres over which every point averages, where the dataset says that its points do: a
-  /// point's diameter is then the mean of them.
+  /// The sizes over which every point averages, if the dataset states them: the diameter of a point
+  /// is then their mean.
   std::optional<MeasuredSizes> mixed_sizes;
   std::vector<std::string> sources;      ///< one line each: title and address
-  std::vector<DatasetWarning> warnings;  ///< by remark, those that there are
+  std::vector<DatasetWarning> warnings;  ///< in the order of PointRemark
   std::string sha256;  ///< of datapackage.json, the points and mixed_sizes, as hexadecimal
   std::filesystem::path folder;
 };
 
-/// The conditions of a series: its own, and of what it leaves open those of all points.
+/// The conditions of a series: its own, completed by those of all points.
 Conditions conditions_of(const Dataset& dataset, std::size_t series);
 
 /// The distinct diameters of the points [m], ascending.
 std::vector<double> distinct_diameters(const Dataset& dataset);
 
+/// The folder's own name, also for "datasets/mica/" and "."; "dataset" where it has none.
+std::string name_of_folder(const std::filesystem::path& folder);
+
 /// Reads and validates `folder`: `datapackage.json` (Frictionless Data Package) and the CSV
-/// resource that it names. Units are converted here, once. Every mistake throws.
+/// resource that it names. Units are converted here, once.
+///
+/// The mean restitution of a point is that of the events that rebounded; where all `events` were
+/// captured it is 0 or an empty cell. With `rebound_velocity`, e = rebound / incident.
 /// @throws InputError with file, line and column of the first mistake.
 Dataset load_dataset(const std::filesystem::path& folder);
 
-/// The same from texts instead of files: `datapackage_text` as it would stand in
+/// A dataset folder whose points may not be measured yet: where the CSV resource is missing, or has
+/// no line below its header, the dataset has no points, and its checksum is that of the package.
+/// @throws InputError as `load_dataset` does.
+Dataset load_dataset_to_be_measured(const std::filesystem::path& folder);
+
+/// The same from texts instead of files: `datapackage_text` as it would be in
 /// `folder/datapackage.json`, `csv_text` as in the resource that it names. No file is touched, and
 /// mixed_sizes are left out.
 /// @throws InputError as `load_dataset` does.

@@ -15,122 +15,98 @@ using nlohmann::json;
 
 constexpr int deepest_nesting = 64;
 
-/// Accepts everything and keeps the place of the first syntax error. (The exceptions of the library
-/// carry a place only for some errors, not for a number that overflows.)
-struct SyntaxCheck : nlohmann::json_sax<json> {
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool start_object(std::size_t) override { return true; }
-  bool key(string_t&) override { return true; }
-  bool end_object() override { return true; }
-  bool start_array(std::size_t) override { return true; }
-  bool end_array() override { return true; }
-  bool parse_error(std::size_t position, const std::string& last_token,
-                   const json::exception& error) override {
-    end = position;
-    token = last_token;
-    message = error.what();
-    overflow = dynamic_cast<const json::out_of_range*>(&error) != nullptr;
-    return false;
-  }
-
-  /// Where the token that could not be read begins.
-  std::size_t offset(std::string_view text) const {
-    const std::size_t stop = std::min(end, text.size());
-    if (text.substr(0, stop).ends_with(token)) return stop - token.size();
-    return stop > 0 ? stop - 1 : 0;
-  }
-
-  std::size_t end = 0;
-  std::string token;
-  std::string message;
-  bool overflow = false;
-};
-
-/// What is wrong in "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error
-/// ...; last read: '...'": neither the place, which the location says, nor the text itself, which
-/// may be long.
-std::string syntax_problem(const SyntaxCheck& check) {
-  if (check.overflow) return "this number is too large for double precision";
-  const std::string problem = check.message.substr(0, check.message.find("; last read:"));
-  const std::size_t place = problem.find(": ");
-  return place == std::string::npos ? problem : problem.substr(place + 2);
-}
-
-/// Walks over a text that is known to be JSON and notes where each value begins.
-class PositionScan {
+/// Reads objects and lists with the place of every value. Strings, numbers and words inside of them
+/// are read by the JSON library.
+class Parser {
  public:
-  PositionScan(std::string_view text, const std::string& file) : text_(text), file_(file) {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
-  }
+  Parser(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
-  JsonPositions root() {
-    JsonPositions positions;
-    value(positions, 0);
-    return positions;
+  JsonValue document() {
+    JsonValue root;
+    read_value(root, 0);
+    skip_blanks();
+    if (at_ < text_.size()) fail(at_, "there is text after the end of the JSON value");
+    return root;
   }
 
  private:
   char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
 
-  void skip_blanks() {
-    while (peek() == ' ' || peek() == '\t' || peek() == '\n' || peek() == '\r') ++at_;
-  }
+  void skip_blanks() { at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()); }
 
-  std::string string_token() {
-    const std::size_t start = at_++;
-    while (peek() != '"') at_ += peek() == '\\' ? 2 : 1;
-    ++at_;
-    return json::parse(text_.substr(start, at_ - start)).get<std::string>();
-  }
-
-  void value(JsonPositions& positions, int depth) {
+  void read_value(JsonValue& value, int depth) {
     skip_blanks();
-    positions.value = at_;
+    value.at = at_;
     if (depth > deepest_nesting) {
       throw InputError(locate(text_, at_, file_), "lists or objects are nested too deeply",
                        fmt::format("at most {} levels are read", deepest_nesting),
                        "flatten this part");
     }
     if (peek() == '{' || peek() == '[') {
-      container(positions, depth);
-    } else if (peek() == '"') {
-      string_token();
+      read_container(value, depth);
     } else {
-      at_ = std::min(text_.find_first_of(",]} \t\r\n", at_), text_.size());
+      value.scalar = token();
     }
   }
 
-  void container(JsonPositions& positions, int depth) {
+  void read_container(JsonValue& container, int depth) {
     const bool is_object = peek() == '{';
-    std::set<std::string> seen;
-    do {
-      ++at_;  // past the bracket or the comma
+    const char closing = is_object ? '}' : ']';
+    container.scalar = is_object ? json::object() : json::array();
+    ++at_;
+    skip_blanks();
+    std::set<std::string> keys;
+    for (bool more = peek() != closing; more; more = peek() == ',') {
+      if (!container.children.empty()) ++at_;  // past the comma
+      JsonValue& child = container.children.emplace_back();
+      if (is_object) read_key(child, keys);
+      read_value(child, depth + 1);
       skip_blanks();
-      if (peek() == '}' || peek() == ']') break;
-      JsonPositions& child = positions.children.emplace_back();
-      if (is_object) key(child, seen);
-      value(child, depth + 1);
-      skip_blanks();
-    } while (peek() == ',');
+    }
+    if (peek() != closing) fail(at_, fmt::format("a comma or '{}' is missing here", closing));
     ++at_;
   }
 
-  void key(JsonPositions& child, std::set<std::string>& seen) {
-    child.key = at_;
-    child.name = string_token();
-    if (!seen.insert(child.name).second) {
-      throw InputError(locate(text_, child.key, file_),
-                       fmt::format("the key {} appears twice", quote(child.name)), "",
-                       "remove one");
+  void read_key(JsonValue& child, std::set<std::string>& keys) {
+    skip_blanks();
+    child.key_at = at_;
+    if (peek() != '"') fail(at_, "a key in quotes is missing here");
+    child.key = token().get<std::string>();
+    if (!keys.insert(child.key).second) {
+      throw InputError(locate(text_, child.key_at, file_),
+                       fmt::format("the key {} appears twice", quote(child.key)), "", "remove one");
     }
     skip_blanks();
-    ++at_;  // past the colon
+    if (peek() != ':') fail(at_, "a colon is missing here");
+    ++at_;
+  }
+
+  /// A string, a number, true, false or null.
+  json token() {
+    const std::size_t begin = at_;
+    if (begin == text_.size()) fail(begin, "the text ends where a value is missing");
+    if (peek() == '"') {
+      do {
+        at_ += peek() == '\\' ? 2 : 1;
+      } while (at_ < text_.size() && peek() != '"');
+      if (at_ >= text_.size()) fail(begin, "this string is never closed");
+      ++at_;
+    } else {
+      at_ = std::min(text_.find_first_of(",:[]{}\" \t\r\n", begin), text_.size());
+    }
+    const std::string_view word = text_.substr(begin, at_ - begin);
+    json value = json::parse(word, nullptr, false);
+    if (!value.is_discarded()) return value;
+    fail(begin, word.starts_with('"')
+                    ? "a character of this string has to be written with a backslash"
+                    : fmt::format("{} is not a value: a string in quotes, a number in double "
+                                  "precision, true, false or null",
+                                  quote(word)));
+  }
+
+  [[noreturn]] void fail(std::size_t at, const std::string& problem) const {
+    throw InputError(locate(text_, at, file_), problem, "the file is not valid JSON",
+                     "look at this place and just before it");
   }
 
   std::string_view text_;
@@ -141,25 +117,16 @@ class PositionScan {
 }  // namespace
 
 JsonDocument::JsonDocument(std::string text, std::string file)
-    : text_(std::move(text)), file_(std::move(file)) {
-  SyntaxCheck check;
-  if (!json::sax_parse(text_, &check)) {
-    throw InputError(at(check.offset(text_)), syntax_problem(check), "the file is not valid JSON",
-                     "look at this place and just before it");
-  }
-  positions_ = PositionScan(text_, file_).root();
-  value_ = json::parse(text_);
-}
+    : text_(std::move(text)), file_(std::move(file)), root_(Parser(text_, file_).document()) {}
 
 Location JsonDocument::at(std::size_t offset) const { return locate(text_, offset, file_); }
 
 std::optional<JsonNode> JsonNode::find(const std::string& key) const {
-  expect(value_->is_object(), "an object { }");
-  const auto& children = positions_->children;
-  const auto found = std::find_if(children.begin(), children.end(),
-                                  [&](const JsonPositions& child) { return child.name == key; });
-  if (found == children.end()) return std::nullopt;
-  return child(static_cast<std::size_t>(found - children.begin()));
+  expect(value_->scalar.is_object(), "an object { }");
+  for (std::size_t i = 0; i < value_->children.size(); ++i) {
+    if (value_->children[i].key == key) return child(i);
+  }
+  return std::nullopt;
 }
 
 JsonNode JsonNode::require(const std::string& key, const std::string& why,
@@ -171,27 +138,23 @@ JsonNode JsonNode::require(const std::string& key, const std::string& why,
 }
 
 std::vector<JsonNode> JsonNode::members() const {
-  expect(value_->is_object(), "an object { }");
-  std::vector<JsonNode> nodes;
-  for (std::size_t i = 0; i < positions_->children.size(); ++i) nodes.push_back(child(i));
-  return nodes;
+  expect(value_->scalar.is_object(), "an object { }");
+  return children();
 }
 
 std::vector<JsonNode> JsonNode::items() const {
-  expect(value_->is_array(), "a list [ ]");
-  std::vector<JsonNode> nodes;
-  for (std::size_t i = 0; i < positions_->children.size(); ++i) nodes.push_back(child(i));
-  return nodes;
+  expect(value_->scalar.is_array(), "a list [ ]");
+  return children();
 }
 
 std::string JsonNode::string() const {
-  expect(value_->is_string(), "a string");
-  return value_->get<std::string>();
+  expect(value_->scalar.is_string(), "a string");
+  return value_->scalar.get<std::string>();
 }
 
 double JsonNode::number() const {
-  expect(value_->is_number(), "a number");
-  return value_->get<double>();
+  expect(value_->scalar.is_number(), "a number");
+  return value_->scalar.get<double>();
 }
 
 void JsonNode::allow_only(const std::vector<std::string>& known) const {
@@ -203,9 +166,9 @@ void JsonNode::allow_only(const std::vector<std::string>& known) const {
   }
 }
 
-Location JsonNode::where() const { return document_->at(positions_->value); }
+Location JsonNode::where() const { return document_->at(value_->at); }
 
-Location JsonNode::where_key() const { return document_->at(positions_->key); }
+Location JsonNode::where_key() const { return document_->at(value_->key_at); }
 
 void JsonNode::fail(const std::string& problem, const std::string& why,
                     const std::string& suggestion) const {
@@ -213,18 +176,22 @@ void JsonNode::fail(const std::string& problem, const std::string& why,
 }
 
 JsonNode JsonNode::child(std::size_t index) const {
-  const JsonPositions& place = positions_->children[index];
-  if (value_->is_array()) {
-    return {*document_, value_->at(index), place, fmt::format("{}[{}]", name_, index)};
-  }
-  return {*document_, value_->at(place.name), place,
-          name_.empty() ? place.name : fmt::format("{}.{}", name_, place.name)};
+  const JsonValue& value = value_->children[index];
+  if (value_->scalar.is_array()) return {*document_, value, fmt::format("{}[{}]", name_, index)};
+  return {*document_, value, name_.empty() ? value.key : fmt::format("{}.{}", name_, value.key)};
+}
+
+std::vector<JsonNode> JsonNode::children() const {
+  std::vector<JsonNode> nodes;
+  for (std::size_t i = 0; i < value_->children.size(); ++i) nodes.push_back(child(i));
+  return nodes;
 }
 
 void JsonNode::expect(bool right_type, const std::string& type) const {
   if (right_type) return;
   fail(fmt::format("{} is {} {}", name_.empty() ? "the document" : fmt::format("'{}'", name_),
-                   value_->is_array() || value_->is_object() ? "an" : "a", value_->type_name()),
+                   value_->scalar.is_array() || value_->scalar.is_object() ? "an" : "a",
+                   value_->scalar.type_name()),
        "", fmt::format("write {}", type));
 }
 

@@ -9,12 +9,13 @@
 
 namespace recoil {
 
-/// Where a JSON value stands: the byte offsets of the value and of its key.
-struct JsonPositions {
-  std::string name;  ///< the key; empty for list items and the root
-  std::size_t key = 0;
-  std::size_t value = 0;
-  std::vector<JsonPositions> children;  ///< members or items, in the order of the file
+/// A value of a JSON text and its place.
+struct JsonValue {
+  nlohmann::json scalar;            ///< of an object or a list: {} or [], for its type
+  std::string key;                  ///< of a member; empty for list items and the root
+  std::size_t key_at = 0;           ///< offset of the key [bytes]
+  std::size_t at = 0;               ///< offset of the value [bytes]
+  std::vector<JsonValue> children;  ///< members or items, in the order of the file
 };
 
 class JsonDocument;
@@ -23,9 +24,8 @@ class JsonDocument;
 /// It points into its document, which has to live longer.
 class JsonNode {
  public:
-  JsonNode(const JsonDocument& document, const nlohmann::json& value,
-           const JsonPositions& positions, std::string name)
-      : document_(&document), value_(&value), positions_(&positions), name_(std::move(name)) {}
+  JsonNode(const JsonDocument& document, const JsonValue& value, std::string name)
+      : document_(&document), value_(&value), name_(std::move(name)) {}
 
   /// The member `key`, if there is one. @throws InputError when this is not an object.
   std::optional<JsonNode> find(const std::string& key) const;
@@ -40,7 +40,7 @@ class JsonNode {
   /// All items of a list. @throws InputError when this is not a list.
   std::vector<JsonNode> items() const;
 
-  bool is_object() const { return value_->is_object(); }
+  bool is_object() const { return value_->scalar.is_object(); }
 
   /// @throws InputError when this is not a string (a number).
   std::string string() const;
@@ -49,8 +49,8 @@ class JsonNode {
   /// Refuses members outside `known`, naming the nearest known one. @throws InputError
   void allow_only(const std::vector<std::string>& known) const;
 
-  const std::string& key() const { return positions_->name; }
-  /// The way to this value from the root: "recoil.particle.density".
+  const std::string& key() const { return value_->key; }
+  /// The path to this value from the root: "recoil.particle.density".
   const std::string& name() const { return name_; }
   Location where() const;
   Location where_key() const;
@@ -60,15 +60,15 @@ class JsonNode {
 
  private:
   JsonNode child(std::size_t index) const;
+  std::vector<JsonNode> children() const;
   void expect(bool right_type, const std::string& type) const;
 
   const JsonDocument* document_;
-  const nlohmann::json* value_;
-  const JsonPositions* positions_;
+  const JsonValue* value_;
   std::string name_;
 };
 
-/// A JSON text (RFC 8259) with the place of every value. Keys that stand twice in an object are
+/// A JSON text (RFC 8259) with the place of every value. A key that appears twice in an object is
 /// refused, since one of them would be ignored.
 class JsonDocument {
  public:
@@ -77,14 +77,13 @@ class JsonDocument {
   JsonDocument(const JsonDocument&) = delete;
   JsonDocument& operator=(const JsonDocument&) = delete;
 
-  JsonNode root() const { return {*this, value_, positions_, ""}; }
+  JsonNode root() const { return {*this, root_, ""}; }
   Location at(std::size_t offset) const;
 
  private:
   std::string text_;
   std::string file_;
-  nlohmann::json value_;
-  JsonPositions positions_;
+  JsonValue root_;
 };
 
 }  // namespace recoil

@@ -1,60 +1,77 @@
 #pragma once
 
-namespace recoil::limits {
+#include <string>
+#include <string_view>
 
-/// What a value of a dataset may be, in SI units. The limits are far outside of anything that the
-/// Hertz model describes; their purpose is to catch values in the wrong unit at the door.
+namespace recoil {
 
-/// Diameters [m]: from a nanometre, where no continuum is left, to a metre.
-inline constexpr double smallest_diameter = 1e-9;
-inline constexpr double largest_diameter = 1.0;
-/// Above this a diameter is kept with a question: microspheres are smaller [m].
+/// The values in SI units that a quantity may have.
+struct Range {
+  double lower = 0.0;
+  double upper = 0.0;
+  std::string_view unit = "1";
+  std::string_view hint = "correct it";  ///< what to do about a value outside
+  std::string_view hint_below = "";      ///< about one below `lower`, where that differs
+
+  constexpr bool contains(double value) const { return value >= lower && value <= upper; }
+  /// "it has to lie between 1e-09 and 1 m"
+  std::string sentence() const;
+  /// What to do about `value`, which lies outside.
+  std::string hint_for(double value) const;
+};
+
+/// The limits are far outside of anything that the Hertz model describes. They catch values in a
+/// wrong unit.
+namespace limits {
+
+/// From a nanometre, below which there is no continuum, to a metre.
+inline constexpr Range diameter{1e-9, 1.0, "m", "the unit is probably um",
+                                "the unit is probably m"};
+/// A larger diameter is kept with a warning: microspheres are smaller [m].
 inline constexpr double unusual_diameter = 1e-3;
+/// One standard deviation; the lower end is a thousandth of the smallest diameter.
+inline constexpr Range diameter_sd{1e-12, 1.0, "m", "the unit is probably um",
+                                   "leave the cell empty when it is not known"};
 
-/// Velocities [m/s]: Hertz contact is quasi-static, so impacts stay below the speed of sound in
-/// solids, about 1e3 to 1.2e4 m/s.
-inline constexpr double slowest_velocity = 1e-7;
-inline constexpr double fastest_velocity = 1e4;
-/// One standard deviation of a velocity [m/s]: a thousandth of the slowest velocity.
-inline constexpr double slowest_velocity_sd = 1e-10;
-/// One standard deviation of a diameter [m]: a thousandth of the smallest diameter.
-inline constexpr double smallest_diameter_sd = 1e-12;
+/// Hertz contact is quasi-static: impacts are slower than sound in solids, 1e3 to 1.2e4 m/s.
+inline constexpr Range velocity{1e-7, 1e4, "m/s", "check the unit"};
+/// One standard deviation; the lower end is a thousandth of the slowest velocity.
+inline constexpr Range velocity_sd{1e-10, 1e4, "m/s", "check the unit",
+                                   "leave the cell empty when it is not known"};
 
-/// Above 1 a restitution can only be noise; beyond this it is a mistake [1].
-inline constexpr double largest_restitution = 1.2;
-
-/// One standard deviation of a restitution [1]. The lower end is where rounding of e begins.
-inline constexpr double smallest_restitution_sd = 1e-12;
-inline constexpr double largest_restitution_sd = 1.0;
+/// Noise can bring a restitution above 1, but not beyond 1.2.
+inline constexpr Range restitution{0.0, 1.2, "1",
+                                   "correct it; a restitution in per cent has the unit %"};
+/// One standard deviation; below the lower end it is the rounding of e.
+inline constexpr Range restitution_sd{1e-12, 1.0, "1", "a deviation in per cent has the unit %",
+                                      "leave the cell empty when it is not known"};
 
 /// Impacts averaged in one point.
-inline constexpr double most_events = 1e9;
+inline constexpr Range events{1.0, 1e9, "impacts", "split the point", "count the impacts"};
 
-/// Mass densities [kg/m3]: light foams to osmium (22590). Below the lower end a number is more
-/// likely in g/cm3.
-inline constexpr double lowest_density = 25.0;
-inline constexpr double highest_density = 3e4;
+/// Light foams to osmium (22590 kg/m3).
+inline constexpr Range density{25.0, 3e4, "kg/m3", "give it in kg/m3: 1 g/cm3 is 1000 kg/m3"};
+/// Soft gels (about 1 kPa) to diamond (1.2 TPa).
+inline constexpr Range youngs_modulus{1e3, 2e12, "Pa", "give it in Pa: 1 GPa is 1e9 Pa"};
+/// Tungsten has about 4 J/m2, cleaved diamond about 10.
+inline constexpr Range surface_energy{0.0, 20.0, "J/m2", "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2"};
+/// W_A = 2 sqrt(gamma1 gamma2).
+inline constexpr Range adhesion_energy{
+    0.0, 40.0, "J/m2", "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2; 0 means no adhesion"};
+/// K = (4/3) E* of two equal bodies is at most (2/3) E / (1 - nu^2) < E.
+inline constexpr Range stiffness_K{1e3, 2e12, "Pa", "give it in Pa: 1 GPa is 1e9 Pa"};
+/// Table 1 of Li, Dunn & Brach (1999) has f0 from 5.7 to 310 N/m.
+inline constexpr Range adhesion_force_f0{0.0, 1e6, "N/m", "give it in N/m; 0 means no adhesion"};
+inline constexpr Range reference_diameter{1e-9, 1.0, "m", "give it in m: 1 um is 1e-6 m"};
 
-/// Young's moduli [Pa]: soft gels (about 1 kPa) to diamond (1.2 TPa).
-inline constexpr double lowest_modulus = 1e3;
-inline constexpr double highest_modulus = 2e12;
+/// From vacuum to a hundred atmospheres.
+inline constexpr Range pressure{0.0, 1e7, "Pa", "give it in Pa: 1 atm is 101325 Pa, 0 is vacuum"};
+inline constexpr Range temperature{50.0, 2000.0, "K", "give it in K: 20 degrees Celsius is 293 K"};
+/// Heights of measuring planes and thicknesses of plates.
+inline constexpr Range height{0.0, 10.0, "m", "give it in m: 1 mm is 1e-3 m"};
+inline constexpr Range thickness{1e-9, 10.0, "m", "give it in m: 1 mm is 1e-3 m"};
+inline constexpr Range roughness{0.0, 1e-3, "m", "give it in m: 1 nm is 1e-9 m"};
+inline constexpr Range humidity{0.0, 1.0, "1", "50 % is written 0.5"};
 
-/// Surface energies [J/m2]: tungsten has about 4, cleaved diamond about 10.
-inline constexpr double highest_surface_energy = 20.0;
-/// W_A = 2 sqrt(gamma1 gamma2) [J/m2].
-inline constexpr double highest_adhesion_energy = 2.0 * highest_surface_energy;
-
-/// K = (4/3) E* of two equal bodies is at most (2/3) E / (1 - nu^2) < E [Pa].
-inline constexpr double lowest_stiffness = 1e3;
-inline constexpr double highest_stiffness = highest_modulus;
-
-/// f0 [N/m]: Table 1 of Li, Dunn & Brach (1999) has 5.7 to 310.
-inline constexpr double highest_adhesion_force = 1e6;
-
-/// Ambient pressure [Pa], from vacuum (0) to a hundred atmospheres.
-inline constexpr double highest_pressure = 1e7;
-/// Temperatures [K]. Below the lower end a number is more likely in degrees Celsius.
-inline constexpr double lowest_temperature = 50.0;
-inline constexpr double highest_temperature = 2000.0;
-
-}  // namespace recoil::limits
+}  // namespace limits
+}  // namespace recoil

@@ -10,7 +10,7 @@ namespace recoil {
 /// One bin of a size distribution.
 struct SizeBin {
   double diameter = 0.0;  ///< of the bin, its mid-point [m]
-  double weight = 0.0;    ///< particles in it, or any number in proportion [1], > 0
+  double weight = 0.0;    ///< number of particles, or proportional to it [1], > 0
   double width = 0.0;     ///< from its lower to its upper end, 0 where not stated [m]
 };
 
@@ -19,7 +19,7 @@ struct MeasuredSizes {
   std::filesystem::path file;
   std::vector<SizeBin> bins;           ///< by ascending diameter, all different
   std::string provenance;              ///< as the package beside the file states it; may be empty
-  std::string description;             ///< the same; says what is known and what is assumed
+  std::string description;             ///< also from the package: what is known and assumed
   std::optional<double> probe_height;  ///< of the measuring plane, where the package states it [m]
   std::string sha256;                  ///< of the file's text
   double smallest = 0.0;               ///< lower end of the first bin, where stated [m]
@@ -37,9 +37,9 @@ std::vector<SizeBin> spread_within_bins(const std::vector<SizeBin>& bins, int pa
 /// taken; and `count` (or `weight`, or `fraction`), without which every row is one particle. Rows
 /// of equal diameter are added up, those of weight 0 dropped.
 ///
-/// The unit of the diameters is `unit` where that is not empty. Else a datapackage.json in the same
-/// folder is asked for a resource with this path: the `unit` of its field `diameter` (or `lower`),
-/// and beside it `description`, `provenance` and `probe_height` [m]. Else it is um.
+/// If datapackage.json in the same folder has a resource with this path, its `description`,
+/// `provenance` and `probe_height` [m] are read. The unit of the diameters is `unit`, or else that
+/// of the resource's field `diameter` (or `lower`), or else um.
 /// @throws InputError with file, line and column of the first mistake.
 MeasuredSizes load_sizes(const std::filesystem::path& file, const std::string& unit = "");
 

@@ -4,36 +4,20 @@
 
 #include <cmath>
 
-#include "data/limits.hpp"
+#include "data/json_document.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
 namespace {
 
-/// What a physical constant may be, and what a value outside of it usually means.
-struct Allowed {
-  double lower;
-  double upper;
-  std::string unit;
-  std::string hint;
-};
-
-double bounded(const JsonNode& node, const Allowed& range) {
+double bounded(const JsonNode& node, const Range& range) {
   const double value = node.number();
-  if (value >= range.lower && value <= range.upper) return value;
-  node.fail(
-      fmt::format("{} = {:g} {}", node.name(), value, range.unit),
-      fmt::format("it has to lie between {:g} and {:g} {}", range.lower, range.upper, range.unit),
-      range.hint);
+  if (range.contains(value)) return value;
+  node.fail(fmt::format("{} = {:g}{}", node.name(), value, unit_suffix(range.unit)),
+            range.sentence(), range.hint_for(value));
 }
 
-std::optional<double> bounded_if_any(const JsonNode& parent, const std::string& key,
-                                     const Allowed& range) {
-  if (const auto node = parent.find(key)) return bounded(*node, range);
-  return std::nullopt;
-}
-
-// A factor of e^3 either way as one standard deviation is no knowledge of a constant.
+/// A standard deviation of a factor of e^3 either way says nothing about a constant [1].
 constexpr double largest_relative_error = 3.0;
 
 /// The `sd` of { "value": ..., "sd": ... } or { "value": ..., "relative_sd": ... }.
@@ -65,7 +49,7 @@ double stated_sd(const JsonNode& node, double value) {
   return size;
 }
 
-/// A constant that may state its error: `read` takes its value, a bare number or `value`.
+/// A constant that may state its error: a bare number, or an object whose `value` is that number.
 template <class Read>
 double uncertain_constant(const JsonNode& node, Body body, Constant which, ImpactSystem& system,
                           const Read& read) {
@@ -78,18 +62,6 @@ double uncertain_constant(const JsonNode& node, Body body, Constant which, Impac
   return value;
 }
 
-const Allowed& density_range() {
-  static const Allowed range{limits::lowest_density, limits::highest_density, "kg/m3",
-                             "give it in kg/m3: 1 g/cm3 is 1000 kg/m3"};
-  return range;
-}
-
-const Allowed& surface_energy_range() {
-  static const Allowed range{0.0, limits::highest_surface_energy, "J/m2",
-                             "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2"};
-  return range;
-}
-
 double poisson_ratio(const JsonNode& node) {
   const double value = node.number();
   if (value > -1.0 && value <= 0.5) return value;
@@ -98,55 +70,46 @@ double poisson_ratio(const JsonNode& node) {
 }
 
 Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) {
-  const bool needs_density = body == Body::particle;
   const JsonNode node =
       recoil.require(to_string(body), "both bodies decide how stiff and sticky the contact is",
                      "state its material, youngs_modulus and poisson_ratio");
   node.allow_only({"material", "density", "youngs_modulus", "poisson_ratio", "surface_energy"});
-  Material material;
-  const auto within = [&](const JsonNode& stated, Constant which, const Allowed& range) {
+  const auto within = [&](const JsonNode& stated, Constant which, const Range& range) {
     return uncertain_constant(stated, body, which, system,
                               [&](const JsonNode& value) { return bounded(value, range); });
   };
+  Material material;
   if (const auto name = node.find("material")) material.name = printable(name->string());
   if (const auto density = node.find("density")) {
-    material.density = within(*density, Constant::density, density_range());
-  } else if (needs_density) {
+    material.density = within(*density, Constant::density, limits::density);
+  } else if (body == Body::particle) {
     node.require("density", "the mass of the particle follows from it", "give it in kg/m3");
   }
-  const Allowed modulus{limits::lowest_modulus, limits::highest_modulus, "Pa",
-                        "give it in Pa: 1 GPa is 1e9 Pa"};
   material.youngs_modulus = within(
       node.require("youngs_modulus", "the contact's stiffness follows from it", "give it in Pa"),
-      Constant::youngs_modulus, modulus);
+      Constant::youngs_modulus, limits::youngs_modulus);
   material.poisson_ratio = uncertain_constant(
       node.require("poisson_ratio", "the contact's stiffness follows from it", "0.3 is usual"),
       body, Constant::poisson_ratio, system, poisson_ratio);
   if (const auto energy = node.find("surface_energy")) {
-    material.surface_energy = within(*energy, Constant::surface_energy, surface_energy_range());
+    material.surface_energy = within(*energy, Constant::surface_energy, limits::surface_energy);
   }
   return material;
 }
 
 void read_overrides(const JsonNode& recoil, ImpactSystem& system) {
-  const auto of_pair = [&](Constant which, const Allowed& range) -> std::optional<double> {
+  const auto of_pair = [&](Constant which, const Range& range) -> std::optional<double> {
     const auto node = recoil.find(to_string(which));
     if (!node) return std::nullopt;
     return uncertain_constant(*node, Body::pair, which, system,
                               [&](const JsonNode& value) { return bounded(value, range); });
   };
-  system.stiffness_K =
-      of_pair(Constant::stiffness_K, {limits::lowest_stiffness, limits::highest_stiffness, "Pa",
-                                      "give it in Pa: 1 GPa is 1e9 Pa"});
-  system.adhesion_energy = of_pair(Constant::adhesion_energy,
-                                   {0.0, limits::highest_adhesion_energy, "J/m2",
-                                    "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2; 0 means no adhesion"});
-  system.adhesion_force_f0 =
-      of_pair(Constant::adhesion_force_f0,
-              {0.0, limits::highest_adhesion_force, "N/m", "give it in N/m; 0 means no adhesion"});
-  system.reference_diameter = bounded_if_any(
-      recoil, "reference_diameter",
-      {limits::smallest_diameter, limits::largest_diameter, "m", "give it in m: 1 um is 1e-6 m"});
+  system.stiffness_K = of_pair(Constant::stiffness_K, limits::stiffness_K);
+  system.adhesion_energy = of_pair(Constant::adhesion_energy, limits::adhesion_energy);
+  system.adhesion_force_f0 = of_pair(Constant::adhesion_force_f0, limits::adhesion_force_f0);
+  if (const auto diameter = recoil.find("reference_diameter")) {
+    system.reference_diameter = bounded(*diameter, limits::reference_diameter);
+  }
   if (system.adhesion_force_f0 && !system.reference_diameter) {
     throw InputError(recoil.find("adhesion_force_f0")->where_key(),
                      "'adhesion_force_f0' without 'reference_diameter'",
@@ -155,31 +118,104 @@ void read_overrides(const JsonNode& recoil, ImpactSystem& system) {
   }
 }
 
-void read_conditions(const JsonNode& conditions, ImpactSystem& system) {
-  conditions.allow_only(all_names<Condition>());
+Conditions read_conditions(const JsonNode& node) {
+  node.allow_only(all_names<Condition>());
+  Conditions conditions;
   for (const Condition condition : values_of<Condition>()) {
-    const ConditionInfo& info = info_of(condition);
-    const std::string name(name_of(condition));
-    const Allowed range{info.lower, info.upper, std::string(info.unit), std::string(info.hint)};
-    const auto stated = bounded_if_any(conditions, name, range);
+    const auto stated = node.find(to_string(condition));
     if (!stated) continue;
-    if (info.yes_or_no && *stated != std::trunc(*stated)) {
-      conditions.find(name)->fail(fmt::format("{} = {:g}", name, *stated), "",
-                                  std::string(info.hint));
+    const ConditionInfo& info = info_of(condition);
+    const double value = bounded(*stated, info);
+    if (info.yes_or_no && value != std::trunc(value)) {
+      stated->fail(fmt::format("{} = {:g}", name_of(condition), value), "", std::string(info.hint));
     }
-    system.conditions.set(condition, *stated);
+    conditions.set(condition, value);
   }
+  return conditions;
+}
+
+template <NamedEnum Enum>
+Enum known_word(const JsonNode& node, const std::string& what, const std::string& why) {
+  const std::string word = node.string();
+  if (const auto known = value_named<Enum>(word)) return *known;
+  node.fail(fmt::format("unknown {} {}", what, quote(word)), why,
+            did_you_mean(word, all_names<Enum>()));
 }
 
 }  // namespace
 
+std::string Range::sentence() const {
+  return fmt::format("it has to lie between {:g} and {:g}{}", lower, upper, unit_suffix(unit));
+}
+
+std::string Range::hint_for(double value) const {
+  return std::string(value < lower && !hint_below.empty() ? hint_below : hint);
+}
+
+const ConditionInfo& info_of(Condition condition) {
+  static constexpr std::array<ConditionInfo, count_of<Condition>> all = {{
+      {limits::pressure, "pressure of the surrounding air, 0 in vacuum"},
+      {limits::humidity, "relative humidity of the air"},
+      {limits::temperature, "temperature of the air"},
+      {limits::thickness, "thickness of the target, where it is a plate"},
+      {limits::height, "height of the measuring plane above the surface"},
+      {{0.0, 1.0, "1", "1 means neutralised, 0 that they were not"},
+       "1 where the charge of the spheres was removed, else 0",
+       true},
+      {limits::roughness, "root mean square roughness of the surface"},
+      {{0.0, 1.0, "1", "1 means checked, 0 that it was not"},
+       "1 where the readings were checked against a known velocity or height, else 0",
+       true},
+      {{0.0, 1.0, "1", "1 means checked, 0 that they were not"},
+       "1 where the diameters were checked against a standard, else 0",
+       true},
+  }};
+  return all[static_cast<std::size_t>(condition)];
+}
+
+Conditions Conditions::or_else(const Conditions& others) const {
+  Conditions both = *this;
+  for (std::size_t k = 0; k < values_.size(); ++k) {
+    if (!both.values_[k]) both.values_[k] = others.values_[k];
+  }
+  return both;
+}
+
+std::optional<double> ImpactSystem::value_of(Body body, Constant constant) const {
+  const Material& material = body == Body::surface ? surface : particle;
+  switch (constant) {
+    case Constant::density:
+      return material.density;
+    case Constant::youngs_modulus:
+      return material.youngs_modulus;
+    case Constant::poisson_ratio:
+      return material.poisson_ratio;
+    case Constant::surface_energy:
+      return material.surface_energy;
+    case Constant::gilman_factor:
+      return 1.0;
+    case Constant::stiffness_K:
+      return stiffness_K;
+    case Constant::adhesion_energy:
+      return adhesion_energy;
+    case Constant::adhesion_force_f0:
+      return adhesion_force_f0;
+  }
+  return std::nullopt;
+}
+
+double ImpactSystem::error_of(Body body, Constant constant) const {
+  for (const ConstantError& stated : errors) {
+    if (stated.body == body && stated.constant == constant) return stated.sd;
+  }
+  return 0.0;
+}
+
 Provenance read_provenance(const JsonNode& recoil) {
-  const JsonNode node = recoil.require("provenance", "every result says where its points come from",
-                                       "write measured, digitised, reconstruction or synthetic");
-  const std::string word = node.string();
-  if (const auto provenance = value_named<Provenance>(word)) return *provenance;
-  node.fail(fmt::format("unknown provenance {}", quote(word)), "",
-            did_you_mean(word, all_names<Provenance>()));
+  return known_word<Provenance>(
+      recoil.require("provenance", "every result says where its points come from",
+                     "write measured, digitised, reconstruction or synthetic"),
+      "provenance", "");
 }
 
 ImpactSystem read_system(const JsonNode& recoil) {
@@ -190,15 +226,11 @@ ImpactSystem read_system(const JsonNode& recoil) {
   system.particle = read_material(recoil, Body::particle, system);
   system.surface = read_material(recoil, Body::surface, system);
   read_overrides(recoil, system);
-  if (const auto conditions = recoil.find("conditions")) read_conditions(*conditions, system);
+  if (const auto conditions = recoil.find("conditions")) {
+    system.conditions = read_conditions(*conditions);
+  }
   if (const auto method = recoil.find("method")) {
-    const std::string word = method->string();
-    const auto known = value_named<Method>(word);
-    if (!known) {
-      method->fail(fmt::format("unknown method {}", quote(word)),
-                   "it says how velocities were measured", did_you_mean(word, all_names<Method>()));
-    }
-    system.method = *known;
+    system.method = known_word<Method>(*method, "method", "it says how velocities were measured");
   }
   return system;
 }

@@ -1,16 +1,152 @@
 #pragma once
 
-#include "data/dataset.hpp"
-#include "data/json_document.hpp"
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/names.hpp"
+#include "data/limits.hpp"
 
 namespace recoil {
 
-/// The `provenance` of the object under the key `recoil`.
-/// @throws InputError at the value, or when there is none.
+class JsonNode;
+
+/// Where points come from. It accompanies everything computed from them.
+enum class Provenance { measured, digitised, reconstruction, synthetic };
+template <>
+struct NamesOf<Provenance> {
+  static constexpr std::array<std::string_view, 4> names = {"measured", "digitised",
+                                                            "reconstruction", "synthetic"};
+};
+
+/// How velocities were measured: it decides which errors of the measurement are possible.
+enum class Method { unknown, velocimeter, drop_heights, bounce_intervals, video };
+template <>
+struct NamesOf<Method> {
+  static constexpr std::array<std::string_view, 5> names = {
+      "unknown", "velocimeter", "drop_heights", "bounce_intervals", "video"};
+};
+
+/// What an experimenter can set beside velocities, diameters and materials.
+enum class Condition {
+  ambient_pressure,       ///< of the surrounding air; 0 is vacuum [Pa]
+  relative_humidity,      ///< [1]
+  temperature,            ///< [K]
+  target_thickness,       ///< [m]
+  probe_height,           ///< of the measuring plane above the surface [m]
+  neutralised,            ///< 0 or 1: the charge of the spheres is removed
+  surface_rms_roughness,  ///< [m]
+  velocities_calibrated,  ///< 0 or 1: readings were checked against a known velocity or height
+  sizes_calibrated        ///< 0 or 1: the diameters were checked against a standard
+};
+template <>
+struct NamesOf<Condition> {
+  static constexpr std::array<std::string_view, 9> names = {
+      "ambient_pressure",      "relative_humidity",     "temperature",
+      "target_thickness",      "probe_height",          "neutralised",
+      "surface_rms_roughness", "velocities_calibrated", "sizes_calibrated"};
+};
+
+/// The values of a condition.
+struct ConditionInfo : Range {
+  std::string_view meaning;
+  bool yes_or_no = false;  ///< 1 or 0, and nothing between
+};
+const ConditionInfo& info_of(Condition condition);
+
+/// The stated conditions of a group of impacts.
+class Conditions {
+ public:
+  std::optional<double> of(Condition condition) const {
+    return values_[static_cast<std::size_t>(condition)];
+  }
+  void set(Condition condition, double value) {
+    values_[static_cast<std::size_t>(condition)] = value;
+  }
+  /// These conditions, completed by those of `others`.
+  Conditions or_else(const Conditions& others) const;
+  bool operator==(const Conditions&) const = default;
+  /// An arbitrary order, for maps.
+  bool operator<(const Conditions& other) const { return values_ < other.values_; }
+
+ private:
+  std::array<std::optional<double>, count_of<Condition>> values_;
+};
+
+/// The body that a material constant belongs to.
+enum class Body {
+  particle,
+  surface,
+  pair  ///< both together: a constant that the dataset states instead of deriving it
+};
+template <>
+struct NamesOf<Body> {
+  static constexpr std::array<std::string_view, 3> names = {"particle", "surface", "pair"};
+};
+
+/// A constant that may be known with an error.
+enum class Constant {
+  density,            ///< [kg/m3]
+  youngs_modulus,     ///< [Pa]
+  poisson_ratio,      ///< [1]
+  surface_energy,     ///< [J/m2]
+  gilman_factor,      ///< surface energy over Gilman's estimate of it, where it is not stated [1]
+  stiffness_K,        ///< of a pair [Pa]
+  adhesion_energy,    ///< of a pair [J/m2]
+  adhesion_force_f0,  ///< of a pair, at the reference diameter [N/m]
+};
+template <>
+struct NamesOf<Constant> {
+  static constexpr std::array<std::string_view, 8> names = {
+      "density",       "youngs_modulus", "poisson_ratio",   "surface_energy",
+      "gilman_factor", "stiffness_K",    "adhesion_energy", "adhesion_force_f0"};
+};
+
+/// Is a constant positive, and its error a factor? All are but Poisson's ratio.
+constexpr bool is_positive(Constant constant) { return constant != Constant::poisson_ratio; }
+
+/// The error that a dataset states for one of its constants.
+struct ConstantError {
+  Body body = Body::particle;
+  Constant constant = Constant::density;
+  double sd = 0.0;  ///< one standard deviation, in the constant's own unit, > 0
+};
+
+/// An elastic solid, as a dataset states it.
+struct Material {
+  std::string name;
+  double density = 0.0;                  ///< [kg/m3]; 0: not stated, for the surface only
+  double youngs_modulus = 0.0;           ///< E [Pa]
+  double poisson_ratio = 0.0;            ///< nu [1], -1 < nu <= 0.5
+  std::optional<double> surface_energy;  ///< gamma [J/m2]; Gilman's estimate when absent
+};
+
+/// The two bodies of an impact, what the dataset states instead of deriving it, and the conditions
+/// of all its points.
+struct ImpactSystem {
+  Material particle;
+  Material surface;
+  std::optional<double> stiffness_K;         ///< K [Pa], instead of eq. 6
+  std::optional<double> adhesion_energy;     ///< W_A [J/m2], instead of 2 sqrt(gamma1 gamma2)
+  std::optional<double> adhesion_force_f0;   ///< f0 [N/m] at `reference_diameter`, not by eq. 12
+  std::optional<double> reference_diameter;  ///< [m]
+  Conditions conditions;                     ///< of all points that do not state their own
+  Method method = Method::unknown;           ///< how velocities were measured
+  std::vector<ConstantError> errors;         ///< of the constants that state one; others are exact
+
+  /// The stated value of a constant, in its own unit; 1 for gilman_factor.
+  std::optional<double> value_of(Body body, Constant constant) const;
+  /// The stated standard deviation of a constant, in its own unit; 0: exact.
+  double error_of(Body body, Constant constant) const;
+};
+
+/// The `provenance` of the object under the key `recoil` of datapackage.json.
+/// @throws InputError at the value, or when it is missing.
 Provenance read_provenance(const JsonNode& recoil);
 
-/// The two materials, the overrides and the conditions of the object under the key `recoil`, which
-/// is refused when it has keys that are not known.
+/// The two materials, the overrides and the conditions of that object. Unknown keys are refused.
 /// @throws InputError at the key or value that is missing or physically impossible.
 ImpactSystem read_system(const JsonNode& recoil);
 

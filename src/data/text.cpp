@@ -108,6 +108,17 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
                          : fmt::format("did you mean '{}'?", nearest);
 }
 
+double known_factor(Dimension dimension, const std::string& unit, const std::string& of,
+                    const Location& where) {
+  if (const auto factor = unit_factor(dimension, unit)) return *factor;
+  const auto other = dimension_of_unit(unit);
+  throw InputError(where,
+                   other ? fmt::format("{} in {}", of, quote(unit))
+                         : fmt::format("unknown unit {} of {}", quote(unit), of),
+                   other ? fmt::format("that is the unit of a {}", name_of(*other)) : "",
+                   fmt::format("use {}", join(unit_names(dimension))));
+}
+
 std::string unit_suffix(std::string_view unit) {
   return unit.empty() || unit == "1" ? "" : fmt::format(" {}", unit);
 }
@@ -128,10 +139,7 @@ std::string join(const std::vector<std::string>& words) {
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  constexpr std::string_view blanks = " \t";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return std::nullopt;
-  text = text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  text = trimmed(text);
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
   const char* const end = text.data() + text.size();

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace recoil {
 
-/// Where byte `offset` of `text` stands. Lines end with LF, CR or CR LF; columns count characters
+/// The place of byte `offset` of `text`. Lines end with LF, CR or CR LF; columns count characters
 /// (UTF-8 code points), as editors do. An offset behind the end is taken as the end.
 Location locate(std::string_view text, std::size_t offset, const std::string& file);
 
@@ -33,18 +34,23 @@ std::string printable(std::string_view word);
 /// "did you mean 'x'?" when a known word is near, else "known: a, b, c".
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
 
+/// The factor to SI of `unit`. @param of what has this unit, for the message
+/// @throws InputError when the unit is unknown or measures something else.
+double known_factor(Dimension dimension, const std::string& unit, const std::string& of,
+                    const Location& where);
+
 /// What follows a number in words: " m/s", nothing for a pure number (unit "1" or none).
 std::string unit_suffix(std::string_view unit);
 
-/// "a, b, c and 7 more": words out of somebody's file for a message that has to stay readable, each
+/// "a, b, c and 7 more": words of a user's file for a message that has to stay readable, each
 /// printable and cut to 40 characters, some 400 characters in all.
 std::string listed(const std::vector<std::string>& words);
 
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words);
 
-/// The finite decimal number that is the whole of `text` but for blanks around it; nothing for
-/// anything else (nan, inf, overflow, trailing characters, a decimal comma).
+/// The finite decimal number that `text` consists of, blanks around it apart; nullopt for anything
+/// else (nan, inf, overflow, trailing characters, a decimal comma).
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace recoil

@@ -10,7 +10,43 @@
 namespace recoil {
 namespace {
 
-/// What a person calls a type of TOML.
+constexpr int longest_key = 16;  // parts of a dotted key
+
+/// The end of the string that begins at `begin`, on its last quotation mark.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+  const std::string three(3, text[begin]);
+  const bool of_lines = text.substr(begin).starts_with(three);
+  const bool escapes = text[begin] == '"';
+  for (std::size_t i = begin + (of_lines ? 3 : 1); i < text.size(); ++i) {
+    if (escapes && text[i] == '\\') {
+      ++i;
+    } else if (of_lines ? text.substr(i).starts_with(three) : text[i] == text[begin]) {
+      return i + (of_lines ? 2 : 0);
+    } else if (!of_lines && text[i] == '\n') {
+      return i;  // never closed, which the parser reports
+    }
+  }
+  return text.size();
+}
+
+/// Refuses dotted keys that are longer than any file needs. Every part nests the tables deeper, and
+/// the TOML library destroys tables by recursion, so that 40,000 parts would overflow the stack.
+/// The library itself limits how deep lists and tables in brackets are nested.
+void refuse_long_keys(std::string_view text, const std::string& file) {
+  int parts = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '#') i = std::min(text.find('\n', i), text.size() - 1);
+    if (text[i] == '"' || text[i] == '\'') i = end_of_string(text, i);
+    if (i >= text.size()) return;
+    if (text[i] == '.') ++parts;
+    if (std::string_view("=,[]{}\n").find(text[i]) != std::string_view::npos) parts = 1;
+    if (parts <= longest_key) continue;
+    throw InputError(locate(text, i, file), "a dotted key is nested too deeply",
+                     fmt::format("at most {} parts are read", longest_key), "shorten the key");
+  }
+}
+
+/// The name of a type of TOML in messages.
 const char* type_name(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:
@@ -37,6 +73,7 @@ Location TomlReader::at(const toml::source_region& region) const {
 
 toml::table TomlReader::parse(const std::string& text) const {
   require_text(text, file_);
+  refuse_long_keys(text, file_);
   try {
     return toml::parse(text, file_);
   } catch (const toml::parse_error& error) {

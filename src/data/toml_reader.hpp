@@ -10,8 +10,8 @@
 
 namespace recoil {
 
-/// Reads values out of a TOML file that a person wrote: whatever is not as it has to be throws an
-/// InputError with file, line and column. `TomlTable` reads a table key by key on top of it.
+/// Reads values of a TOML file that a user wrote. Every mistake throws an InputError with file,
+/// line and column.
 class TomlReader {
  public:
   explicit TomlReader(std::string file) : file_(std::move(file)) {}
@@ -19,7 +19,7 @@ class TomlReader {
   const std::string& file() const { return file_; }
   Location at(const toml::source_region& region) const;
 
-  /// The whole file. @throws InputError when `text` is not TOML or not UTF-8
+  /// The whole file. @throws InputError when `text` is not TOML, not UTF-8 or nested too deeply
   toml::table parse(const std::string& text) const;
 
   [[noreturn]] void fail(const toml::node& node, const std::string& problem, const std::string& why,

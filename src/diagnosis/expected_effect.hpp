@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "data/condition.hpp"
+#include "data/system.hpp"
 
 namespace recoil {
 

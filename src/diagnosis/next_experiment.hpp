@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/names.hpp"
-#include "data/condition.hpp"
+#include "data/system.hpp"
 #include "diagnosis/other_target.hpp"
 
 namespace recoil {

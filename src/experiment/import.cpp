@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "data/folder_names.hpp"
+#include "data/dataset.hpp"
 #include "data/text.hpp"
 #include "experiment/import_columns.hpp"
 #include "experiment/import_diameters.hpp"

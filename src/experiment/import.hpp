@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/names.hpp"
+#include "data/datapackage.hpp"
 #include "data/dataset.hpp"
-#include "data/inherited_system.hpp"
 
 namespace recoil {
 

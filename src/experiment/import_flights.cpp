@@ -111,14 +111,10 @@ class Reduction {
   std::optional<AirFlight> flights_of(const std::string& series,
                                       const std::optional<double>& in_file) const {
     const std::optional<double> diameter = known_diameter(request_, series, in_file);
-    const auto within = [](double value, double low, double high) {
-      return value >= low && value <= high;
-    };
-    const bool possible =
-        diameter && within(*diameter, limits::smallest_diameter, limits::largest_diameter) &&
-        within(sphere_.density, limits::lowest_density, limits::highest_density) &&
-        within(sphere_.air.pressure, thinnest_air, limits::highest_pressure) &&
-        within(sphere_.air.temperature, limits::lowest_temperature, limits::highest_temperature);
+    const bool possible = diameter && limits::diameter.contains(*diameter) &&
+                          limits::density.contains(sphere_.density) && air_acts(sphere_.air) &&
+                          limits::pressure.contains(sphere_.air.pressure) &&
+                          limits::temperature.contains(sphere_.air.temperature);
     if (!possible) return std::nullopt;
     return AirFlight(sphere_.air, *diameter, sphere_.density, gravity_);
   }
@@ -127,7 +123,7 @@ class Reduction {
   void add(const ImportTable& table, std::size_t row, const std::string& quantity,
            const AirFlight& flights, const ImportedPoint& point, double plain) {
     const double e = *point.restitution;
-    if (!(e <= limits::largest_restitution) && plain <= limits::largest_restitution) {
+    if (!(e <= limits::restitution.upper) && plain <= limits::restitution.upper) {
       table.fail(
           row, quantity,
           fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,

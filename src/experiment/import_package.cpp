@@ -8,10 +8,9 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
+#include "data/csv.hpp"
 #include "data/datapackage.hpp"
-#include "data/datapackage_writer.hpp"
-#include "data/folder_names.hpp"
-#include "data/inherited_system.hpp"
+#include "data/dataset.hpp"
 #include "data/text.hpp"
 #include "experiment/option_values.hpp"
 

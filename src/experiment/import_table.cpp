@@ -10,15 +10,6 @@
 namespace recoil {
 namespace {
 
-char delimiter_of(const std::string& text) {
-  const std::string first = text.substr(0, text.find('\n'));
-  if (first.find(',') == std::string::npos) {
-    if (first.find(';') != std::string::npos) return ';';
-    if (first.find('\t') != std::string::npos) return '\t';
-  }
-  return ',';
-}
-
 bool is_empty(const CsvRow& row) {
   return std::all_of(row.begin(), row.end(), [](const CsvField& f) { return f.text.empty(); });
 }
@@ -37,9 +28,10 @@ std::vector<CsvRow> import_rows(const std::filesystem::path& file) {
   const std::string text = read_text_file(file);
   require_text(text, file.string());
   std::vector<CsvRow> rows;
-  read_csv(text, file.string(), delimiter_of(text), [&](const CsvRow& row) {
-    if (!is_empty(row)) rows.push_back(row);
-  });
+  read_csv(text, file.string(), delimiter_of(std::string_view(text).substr(0, text.find('\n'))),
+           [&](const CsvRow& row) {
+             if (!is_empty(row)) rows.push_back(row);
+           });
   if (rows.empty()) {
     throw InputError({file.string(), 1, 1}, "the file is empty", "", "export the points again");
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "data/csv_table.hpp"
+#include "data/csv.hpp"
 #include "experiment/option_values.hpp"
 
 namespace recoil {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "data/condition.hpp"
+#include "data/system.hpp"
 #include "experiment/import.hpp"
 
 /// What the readers of all formats hand on.

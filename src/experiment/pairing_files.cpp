@@ -5,7 +5,8 @@
 #include <algorithm>
 
 #include "core/units.hpp"
-#include "data/datapackage_writer.hpp"
+#include "data/csv.hpp"
+#include "data/datapackage.hpp"
 
 namespace recoil {
 namespace {

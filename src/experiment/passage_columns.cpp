@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
-#include "data/folder_names.hpp"
+#include "data/dataset.hpp"
 #include "data/json_document.hpp"
 #include "data/system.hpp"
 #include "data/text.hpp"

@@ -10,7 +10,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "data/folder_names.hpp"
+#include "data/csv.hpp"
+#include "data/dataset.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "experiment/passage_columns.hpp"
@@ -38,17 +39,6 @@ void split(std::string_view line, char delimiter, std::vector<std::string_view>&
     if (end == std::string_view::npos) return;
     line.remove_prefix(end + 1);
   }
-}
-
-char likely_delimiter(std::string_view header) {
-  char best = ',';
-  for (const char candidate : {';', '\t'}) {
-    if (std::count(header.begin(), header.end(), candidate) >
-        std::count(header.begin(), header.end(), best)) {
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 /// Turns lines into passages and counts what it cannot use.
@@ -97,14 +87,13 @@ class PassageReader {
       *place = *value * columns_.factor[field];
     }
     const double speed = std::abs(passage.velocity);
-    if (!(speed >= limits::slowest_velocity && speed <= limits::fastest_velocity)) {
+    if (!limits::velocity.contains(speed)) {
       return fmt::format("velocity = {:g} m/s", passage.velocity);
     }
-    if (!(std::abs(passage.tangential) <= limits::fastest_velocity)) {
+    if (!(std::abs(passage.tangential) <= limits::velocity.upper)) {
       return fmt::format("tangential_velocity = {:g} m/s", passage.tangential);
     }
-    if (!(passage.diameter >= limits::smallest_diameter &&
-          passage.diameter <= limits::largest_diameter)) {
+    if (!limits::diameter.contains(passage.diameter)) {
       return fmt::format("diameter = {:g} m", passage.diameter);
     }
     passage.velocity *= sign_;
@@ -193,7 +182,7 @@ PassageTable parse_passages(const std::string& text, const std::string& file,
     if (content.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     if (!reader) {
       require_text(content, file);
-      delimiter = likely_delimiter(content);
+      delimiter = delimiter_of(content);
       split(content, delimiter, cells);
       const std::vector<std::string> header(cells.begin(), cells.end());
       PassageColumns columns = passage_columns(header, file, package_text, format);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "data/material.hpp"
+#include "data/system.hpp"
 #include "impact/impact.hpp"
 
 namespace recoil {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "data/contact.hpp"
-#include "data/material.hpp"
+#include "data/system.hpp"
 #include "impact/deepest_contact.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/dual.hpp"

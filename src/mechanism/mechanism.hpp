@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/names.hpp"
-#include "data/condition.hpp"
+#include "data/system.hpp"
 #include "mechanism/encounter.hpp"
 #include "mechanism/parameter.hpp"
 

@@ -7,8 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "data/condition.hpp"
-#include "data/material.hpp"
+#include "data/system.hpp"
 #include "impact/impact.hpp"
 
 namespace recoil {

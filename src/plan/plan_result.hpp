@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/names.hpp"
-#include "data/condition.hpp"
 #include "data/dataset.hpp"
+#include "data/system.hpp"
 #include "diagnosis/next_experiment.hpp"
 #include "diagnosis/odds.hpp"
 #include "estimate/model.hpp"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "data/datapackage.hpp"
 #include "data/dataset.hpp"
-#include "data/inherited_system.hpp"
 
 namespace recoil {
 

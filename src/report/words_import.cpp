@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/units.hpp"
-#include "data/folder_names.hpp"
+#include "data/dataset.hpp"
 #include "data/text.hpp"
 #include "report/words_dataset.hpp"
 

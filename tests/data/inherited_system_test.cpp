@@ -1,10 +1,10 @@
 // Which constants of a dataset another one with the same materials takes over.
-#include "data/inherited_system.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
+
+#include "data/datapackage.hpp"
 
 namespace {
 

@@ -1,8 +1,9 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "data/datapackage_writer.hpp"
+#include "data/datapackage.hpp"
 #include "data/dataset.hpp"
 #include "support/dataset_folder.hpp"
 
@@ -251,6 +252,15 @@ TEST(LoadDataset, ReadsTheErrorsOfConstants) {
   EXPECT_EQ(system.surface.surface_energy, 0.3);
   EXPECT_EQ(system.error_of(Body::surface, Constant::surface_energy), 0.15);
   EXPECT_EQ(system.error_of(Body::surface, Constant::youngs_modulus), 0.0);
+}
+
+TEST(LoadDataset, ReadsManySeriesInATimeInProportionToTheirNumber) {
+  // Were every series compared with every other one, this would take minutes.
+  std::string points =
+      "series,diameter,incident_velocity,restitution,restitution_sd,velocity_sd,events,captured\n";
+  for (int i = 0; i < 100000; ++i) points += fmt::format("s{},4.9,2.5,0.8,,,,\n", i);
+  const DatasetFolder folder(example::package, points);
+  EXPECT_EQ(load_dataset(folder.path()).series.size(), 100000U);
 }
 
 }  // namespace

@@ -21,9 +21,19 @@ TEST_P(PackageMistake, IsOneClearLine) {
 
 const Mistake package_mistakes[] = {
     // JSON itself.
-    {"syntax", "\"title\":", "\"title\"", "datapackage.json:3:11: ", "syntax error",
+    {"syntax", "\"title\":", "\"title\"", "datapackage.json:3:11: ", "colon is missing",
      "just before it"},
-    {"number_overflow", "1050", "1e999", "datapackage.json:23:57: ", "too large for double",
+    {"comma_missing", "\"example-quartz\",", "\"example-quartz\"",
+     "datapackage.json:3:3: ", "a comma or '}' is missing", "just before it"},
+    {"list_not_closed", "\"https://example.org/paper\" }]", "\"https://example.org/paper\" }",
+     "datapackage.json:5:13: ", "a comma or ']' is missing", "just before it"},
+    {"word_without_quotes", "\"measured\"", "measured",
+     "datapackage.json:22:19: ", "'measured' is not a value", "just before it"},
+    {"number_of_two_points", "1050", "1.0.5", "datapackage.json:23:57: ", "'1.0.5' is not a value",
+     "just before it"},
+    {"string_of_two_lines", "Spheres on", "Spheres\non", "datapackage.json:3:12: ", "backslash",
+     "just before it"},
+    {"number_overflow", "1050", "1e999", "datapackage.json:23:57: ", "double precision",
      "just before it"},
     {"repeated_key", "\"title\"", "\"name\"",
      "datapackage.json:3:3: ", "the key 'name' appears twice", "remove one"},
@@ -166,8 +176,13 @@ TEST(PackageFile, EmptyOrNoObject) {
       {"", "", "", "datapackage.json:1:1: ", "the file is empty", "shipped dataset"});
   DatasetFolder("[]").expect(
       {"", "", "", "datapackage.json:1:1: ", "the document is an array", "an object"});
+  DatasetFolder("{\n  \"name\": \"x")
+      .expect({"", "", "", "datapackage.json:2:11: ", "never closed", "just before it"});
+  DatasetFolder("{} {}").expect(
+      {"", "", "", "datapackage.json:1:4: ", "after the end", "just before it"});
   DatasetFolder("{\n  \"name\": \"x\",")
-      .expect({"", "", "", "datapackage.json:2:", "syntax error", "just before it"});
+      .expect(
+          {"", "", "", "datapackage.json:2:15: ", "a key in quotes is missing", "just before it"});
 }
 
 TEST(PackageFile, FolderOrFileIsNotThere) {

@@ -9,9 +9,9 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
-#include "data/toml_table.hpp"
 #include "validation/recipe/facts.hpp"
 #include "validation/recipe/plan.hpp"
+#include "validation/recipe/toml_table.hpp"
 
 namespace recoil {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "data/folder_names.hpp"
+#include "data/dataset.hpp"
 #include "validation/truth/truth.hpp"
 
 namespace recoil {

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "data/material.hpp"
+#include "data/system.hpp"
 
 namespace recoil {
 

@@ -1,4 +1,4 @@
-#include "data/toml_table.hpp"
+#include "validation/recipe/toml_table.hpp"
 
 #include <fmt/format.h>
 
