@@ -1,6 +1,6 @@
 #pragma once
 
-#include "experiment/air_flight.hpp"
+#include "experiment/flight.hpp"
 #include "experiment/imported_points.hpp"
 
 namespace recoil {

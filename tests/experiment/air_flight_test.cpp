@@ -2,7 +2,7 @@
 // method of fourth order in time with fixed steps (8000 to the drop's own time in vacuum), the rise
 // by Simpson's rule over the velocity; both in Python, C_d(Re), Sutherland's viscosity, ideal gas
 // and slip correction typed in anew. The ball has 2.7 g and 40 mm.
-#include "experiment/air_flight.hpp"
+#include "experiment/flight.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(AirFlight, DragFromStokesToNewton) {
 
 TEST(AirFlight, ABallFallsAndClimbs) {
   const AirFlight flight = ball();
-  const AirFlight::Way fall = flight.fall(1.0);
+  const AirFlight::Part fall = flight.fall(1.0);
   expect_close(fall.speed, 4.1875818829);
   expect_close(fall.time, 0.4600928144);
   expect_close(flight.rise(0.9 * fall.speed).height, 0.6707624827);

@@ -1,4 +1,4 @@
-#include "experiment/air_flight.hpp"
+#include "experiment/flight.hpp"
 
 #include <cmath>
 #include <limits>
@@ -12,7 +12,7 @@ namespace recoil {
 namespace {
 
 constexpr double gas_constant = 287.05;  // of air [J/(kg K)]
-constexpr double fastest_launch = 1e6;   // [m/s]; beyond, nothing is left of a flight
+constexpr double fastest_launch = 1e6;   // [m/s]
 constexpr double root_tolerance = 1e-12;
 
 // The integrals over the velocity go over y, in panels of this width: v = v_t (exp(y^2) - 1) on the
@@ -61,8 +61,8 @@ double AirFlight::deceleration(double speed) const {
   return drag_factor_ * sphere_drag_coefficient(reynolds(speed)) * speed * speed;
 }
 
-AirFlight::Way AirFlight::rise(double speed) const {
-  Way way{0.0, 0.0, speed};
+AirFlight::Part AirFlight::rise(double speed) const {
+  Part part{0.0, 0.0, speed};
   const double end = std::sqrt(std::log1p(speed / terminal_));
   if (!std::isfinite(end)) {  // a sphere that air holds at once
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -76,31 +76,31 @@ AirFlight::Way AirFlight::rise(double speed) const {
       const double v = terminal_ * std::expm1(y * y);
       const double dt =
           node.weight * width * 2.0 * y * (terminal_ + v) / (gravity_ + deceleration(v));
-      way.time += dt;
-      way.height += v * dt;
+      part.time += dt;
+      part.height += v * dt;
     }
   }
-  return way;
+  return part;
 }
 
-AirFlight::Way AirFlight::fall(double height) const {
+AirFlight::Part AirFlight::fall(double height) const {
   // What one panel from y over `width` adds.
   const auto panel = [&](double from, double width) {
-    Way way;
+    Part part;
     for (const QuadratureNode& node : panel_nodes()) {
       const double y = from + node.at * width;
       const double v = -terminal_ * std::expm1(-y * y);
       const double dt =
           node.weight * width * 2.0 * y * (terminal_ - v) / (gravity_ - deceleration(v));
-      way.time += dt;
-      way.height += v * dt;
+      part.time += dt;
+      part.height += v * dt;
     }
-    return way;
+    return part;
   };
-  Way done;
+  Part done;
   double y = 0.0;
   for (; y < last_y; y += panel_width) {
-    const Way next = panel(y, panel_width);
+    const Part next = panel(y, panel_width);
     if (done.height + next.height >= height) break;
     done.time += next.time;
     done.height += next.height;
@@ -138,7 +138,7 @@ double AirFlight::launch_for(const F& excess, double least) const {
 double AirFlight::launch_for_duration(double duration) const {
   return launch_for(
       [&](double u) {
-        const Way up = rise(u);
+        const Part up = rise(u);
         return up.time + fall(up.height).time - duration;
       },
       0.5 * gravity_ * duration);
