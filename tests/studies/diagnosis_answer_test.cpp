@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/files.hpp"
 #include "validation/studies/program_run.hpp"
 
@@ -42,6 +44,24 @@ TEST(NearestRival, IsSoughtForOneVisibleEffectOfTheCatalogueInSeveralSizes) {
     EXPECT_TRUE(answered.reached) << other.key();
     EXPECT_EQ(answered.nearest_rival.id, "") << other.key();
   }
+}
+
+TEST(KeptAnswer, IsFoundByItsOrderOnly) {
+  const ScratchFolder scratch;
+  Answered made;
+  made.order = {"wall", {"gas_film"}, 10.0, 3};
+  made.verdict = "not_separable";
+  made.rivals = {"gas_film", "probe_plane"};
+  made.taken = {{4.9e-6, 10.0, 40, {"ambient_pressure", 1.0}}};
+  made.nearest_rival = {"crack_rate", std::numeric_limits<double>::infinity()};
+  const std::string text = recoil::json_text(recoil::as_json(made, recoil::NonFinite::word));
+  recoil::write_whole_file(scratch.path() / (neutral_name(made.order) + ".json"), text);
+  const std::optional<Answered> found = kept_answer(made.order, scratch.path());
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(recoil::json_text(recoil::as_json(*found, recoil::NonFinite::word)), text);
+  CaseOrder other = made.order;
+  other.seed = 7;
+  EXPECT_FALSE(kept_answer(other, scratch.path()).has_value());
 }
 
 }  // namespace

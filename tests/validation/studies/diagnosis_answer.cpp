@@ -99,93 +99,6 @@ void diagnose_in_rounds(Case made, const fs::path& binary, Answered& a) {
 
 }  // namespace
 
-Json json_of(const Answered& a) {
-  Json taken = Json::array();
-  for (const FurtherImpacts& f : a.taken) {
-    taken.push_back({{"diameter_um", 1e6 * f.diameter},
-                     {"incident_velocity", f.velocity},
-                     {"events", f.events},
-                     {"changed", f.changed.name}});
-  }
-  return {{"key", a.order.key()},
-          {"design", a.order.design},
-          {"effects", a.order.effects},
-          {"wanted_signal_to_noise", a.order.signal_to_noise},
-          {"index", a.order.index},
-          {"seed", a.order.seed},
-          {"law_bend", a.order.law_bend},
-          {"base_bend", a.order.base_bend},
-          {"beyond", a.order.beyond},
-          {"other_law", a.order.other_law},
-          {"circumstances", recoil::to_string(a.order.circumstances)},
-          {"most_rounds", a.order.rounds},
-          {"readout", recoil::to_string(a.order.readout)},
-          {"rounds", a.rounds},
-          {"events", a.events},
-          {"taken", taken},
-          {"reached", a.reached},
-          {"signal_to_noise", a.signal_to_noise},
-          {"status", a.status},
-          {"complaint", a.complaint},
-          {"seconds", a.seconds},
-          {"verdict", a.verdict},
-          {"p_value", a.p_value},
-          {"named", a.named},
-          {"rivals", a.rivals},
-          {"resembles", a.resembles},
-          {"certain", a.certain},
-          {"shared_cause", a.shared_cause},
-          {"errors_told", a.errors_told},
-          {"odd_points", {a.odd, a.odd_found, a.right, a.accused}},
-          {"nearest_rival", a.nearest_rival.id},
-          {"nearest_rival_misfit", a.nearest_rival.misfit}};
-}
-
-Answered answered_of(const Json& json) {
-  Answered a;
-  a.order = {json.at("design"),
-             json.at("effects").get<std::vector<std::string>>(),
-             json.at("wanted_signal_to_noise"),
-             json.at("index"),
-             json.at("seed"),
-             json.at("law_bend"),
-             json.at("base_bend"),
-             json.at("beyond"),
-             recoil::value_named<Circumstances>(json.value("circumstances", "unstated"))
-                 .value_or(Circumstances::unstated),
-             json.value("other_law", false),
-             json.value("most_rounds", 0),
-             recoil::value_named<Readout>(json.value("readout", "exact")).value_or(Readout::exact)};
-  a.rounds = json.value("rounds", 0);
-  a.events = json.value("events", 0LL);
-  for (const Json& f : json.value("taken", Json::array())) {
-    a.taken.push_back({1e-6 * f.at("diameter_um").get<double>(),
-                       f.at("incident_velocity"),
-                       f.at("events"),
-                       {f.at("changed"), 0.0}});
-  }
-  a.reached = json.at("reached");
-  a.signal_to_noise = json.at("signal_to_noise");
-  a.status = json.at("status");
-  a.complaint = json.at("complaint");
-  a.seconds = json.at("seconds");
-  a.verdict = json.at("verdict");
-  a.p_value = json.at("p_value");
-  a.named = json.at("named").get<std::vector<std::string>>();
-  a.rivals = json.at("rivals").get<std::vector<std::string>>();
-  a.resembles = json.at("resembles").get<std::vector<std::string>>();
-  a.certain = json.at("certain").get<std::vector<std::string>>();
-  a.shared_cause = json.at("shared_cause");
-  a.errors_told = json.at("errors_told");
-  const auto odd = json.value("odd_points", std::vector<int>(4, 0));
-  a.odd = odd.at(0);
-  a.odd_found = odd.at(1);
-  a.right = odd.at(2);
-  a.accused = odd.at(3);
-  a.nearest_rival = {json.at("nearest_rival"), json.at("nearest_rival_misfit")};
-  return a;
-}
-
 Mark mark_of(const Answered& a) {
   if (a.status != 0) return Mark::failed;
   if (a.verdict == "adequate") return Mark::nothing;
@@ -264,11 +177,8 @@ std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep
   if (keep.empty()) return {};
   std::ifstream in(kept_file(order, keep));
   const Json kept = in ? Json::parse(in, nullptr, false) : Json();
-  if (!kept.is_object() || kept.value("key", "") != order.key() ||
-      kept.value("seed", std::uint64_t{0}) != order.seed) {
-    return {};
-  }
-  return answered_of(kept);
+  if (!kept.is_object() || kept.value("order", Json()) != recoil::as_json(order)) return {};
+  return recoil::value_from<Answered>(kept);
 }
 
 Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep) {
@@ -285,7 +195,8 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
   const bool answered = a.status >= 0 && a.status < 128;
   if (!keep.empty() && answered) {
-    recoil::write_whole_file(kept_file(order, keep), json_of(a).dump(2) + "\n");
+    recoil::write_whole_file(kept_file(order, keep),
+                             recoil::json_text(recoil::as_json(a, recoil::NonFinite::word)));
   }
   return a;
 }

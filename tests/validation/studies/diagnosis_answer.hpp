@@ -2,12 +2,12 @@
 
 #include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/json.hpp"
 #include "core/names.hpp"
 #include "validation/synthetic/further_impacts.hpp"
 
@@ -17,6 +17,7 @@ namespace hidden {
 struct NearestRival {
   std::string id;
   double misfit = 0.0;  ///< that it leaves of data without noise, as a signal-to-noise
+  RECOIL_FIELDS(id, misfit)
 };
 
 /// What the diagnosis of one case answered, beside what is true.
@@ -44,11 +45,10 @@ struct Answered {
   bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
   NearestRival
       nearest_rival;  ///< for one visible effect of the catalogue in a design of several diameters
+  RECOIL_FIELDS(order, reached, signal_to_noise, status, complaint, seconds, rounds, events, taken,
+                verdict, p_value, named, rivals, resembles, certain, shared_cause, odd, odd_found,
+                right, accused, errors_told, nearest_rival)
 };
-
-nlohmann::ordered_json json_of(const Answered& answered);
-/// @throws nlohmann::json::exception when something is missing
-Answered answered_of(const nlohmann::ordered_json& json);
 
 /// How an answer stands to the truth.
 enum class Mark {

@@ -34,6 +34,8 @@ struct CaseOrder {
   int rounds = 0;  ///< how often the first of what the answer advises is done, and asked again
   /// Of drops. The deviations of two data sets in four state what it does.
   Readout readout = Readout::exact;
+  RECOIL_FIELDS(design, effects, signal_to_noise, index, seed, law_bend, base_bend, beyond,
+                circumstances, other_law, rounds, readout)
 
   /// wall+plastic_yield+probe_plane@10#3; bent by 10 % and 3 %: wall+plastic_yield~10%~base3%@20#0;
   /// by another published law: wall+plastic_yield:other@20#0;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json.hpp"
 #include "validation/synthetic/effects.hpp"
 
 namespace hidden {
@@ -11,6 +12,7 @@ namespace hidden {
 struct StatedCondition {
   std::string name;
   double value = 0.0;
+  RECOIL_FIELDS(name, value)
 };
 
 /// What somebody who knows how it was done could state, where `effect` acts in `effects`: the

@@ -12,6 +12,7 @@ struct FurtherImpacts {
   double velocity = 0.0;    ///< [m/s]
   int events = 0;           ///< all of them
   StatedCondition changed;  ///< the condition that differs; its name is empty if none does
+  RECOIL_FIELDS(diameter, velocity, events, changed)
 };
 
 /// Measures them: one point with their mean, its noise drawn by `round`. A diameter that no row has
