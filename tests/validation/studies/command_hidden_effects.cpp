@@ -39,7 +39,7 @@ std::vector<hidden::Answered> answers_to(const std::vector<hidden::CaseOrder>& o
   {
     const InterruptGuard guard;
     Progress progress("hidden effects", orders.size());
-    std::atomic<std::size_t> next = 0;  // in the order of the plan, whoever is free
+    std::atomic<std::size_t> next = 0;  // threads take cases in the order of the plan
     parallel_over(orders.size(), options.run.threads, [&](std::size_t) {
       const std::size_t i = next++;
       if (stop_requested()) return;

@@ -26,7 +26,7 @@ struct CoverageTally {
 };
 CoverageTally tally_of(const std::vector<ParameterCoverage>& rows);
 
-/// The row of a design that is worst: misses first, then what nobody warned of, then by distance.
+/// The row of a design that is worst: misses first, then rows without a warning, then by distance.
 /// @pre rows is not empty
 const ParameterCoverage& worst_of(const std::vector<const ParameterCoverage*>& rows);
 

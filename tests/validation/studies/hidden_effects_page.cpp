@@ -421,7 +421,7 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
   section("Nothing hidden", {alarms_table(tally)});
   arms_section("Two at once", {Paragraph{"Each as strong as it would be alone."}}, {Arm::pair});
   arms_section("Effects that are not in the catalogue", {}, {Arm::outside});
-  arms_section("Errors that nobody stated", {Paragraph{careless_words(tally)}}, {Arm::careless});
+  arms_section("Unstated errors", {Paragraph{careless_words(tally)}}, {Arm::careless});
   arms_section("Drops of spheres of millimetres",
                {Paragraph{say("Three diameters of 3 to 12 mm without adhesion, five heights, four "
                               "drops from each ({}, method stated). First with an effect in them; "

@@ -40,7 +40,7 @@ double reading_of(const Case& made, const Point& p, recoil::RandomStream& random
     set *= std::sqrt(std::max(1.0 + effects.height_scatter * own.normal(), 0.5));
   }
   double reading = 0.0;
-  for (int i = 0; i < 100 && !(reading > 0.0); ++i) {  // somebody wants a rebound
+  for (int i = 0; i < 100 && !(reading > 0.0); ++i) {  // a point needs a rebound
     const double velocity = scatter > 0.0 ? set * (1.0 + scatter * random.normal()) : set;
     reading = observed_mean(made.design.base, effects, made.design.scatter, velocity, p.diameter,
                             p.row, made.design.events, random);
@@ -85,7 +85,7 @@ std::string neutral_name(const CaseOrder& order) {
 Case make_case(const CaseOrder& order) {
   Case made;
   made.order = order;
-  // The first draw that somebody would measure even with nothing hidden.
+  // The first draw that has points even with nothing hidden.
   std::uint64_t seed = order.experiment_seed();
   made.design = draw_design(order.design, seed);
   for (int i = 0; i < 100 && expected_points(made.design, {}).empty(); ++i) {

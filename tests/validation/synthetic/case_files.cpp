@@ -37,7 +37,7 @@ std::vector<std::string> changed_conditions(const Case& made) {
   return {names.begin(), names.end()};
 }
 
-/// Drops are of known heights; in every second data set somebody wrote down which.
+/// Drops are of known heights; every second data set states which.
 bool names_settings(const Case& made) {
   const Design& design = made.design;
   return design.dropped && !reads_times(design.readout) && made.order.index % 2 == 1;
@@ -56,8 +56,7 @@ Json fields_of(const Case& made) {
                  field("restitution_sd", "number", "1", "standard error of that mean"),
                  field("events", "integer", "1", "rebounds averaged in this point")};
   if (counts_captures(made)) {
-    fields.push_back(
-        field("captured", "integer", "1", "of the events; empty where nobody counted"));
+    fields.push_back(field("captured", "integer", "1", "of the events; empty where not counted"));
   }
   for (const std::string& condition : changed_conditions(made)) {
     const bool plain = condition == "neutralised" || condition == "relative_humidity" ||

@@ -15,7 +15,7 @@ struct StatedCondition {
   RECOIL_FIELDS(name, value)
 };
 
-/// What somebody who knows how it was done could state, where `effect` acts in `effects`: the
+/// What the experimenter could state where `effect` acts in `effects`: the
 /// pressure of the gas and the height of the measuring plane, the humidity at which a meniscus has
 /// that radius, the thickness of the plate, the roughness, and that nothing was neutralised or
 /// checked. Empty where no condition belongs to it.

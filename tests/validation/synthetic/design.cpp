@@ -242,7 +242,7 @@ std::vector<Point> expected_points(const Design& design, const Effects& effects)
     if (from > (design.id == "li" ? 0.25 : 0.15) * row.highest) return {};
     const double step = std::log(row.highest / from) / (row.points - 1);
     for (int i = 0; i < row.points; ++i) {
-      // The ends stay; between them nobody spaces evenly.
+      // The ends stay; between them the spacing is uneven.
       const bool end = i == 0 || i == row.points - 1;
       const double place = i + (end ? 0.0 : row.jitter[static_cast<std::size_t>(i)]);
       const double aimed = from * std::exp(step * place);

@@ -26,7 +26,7 @@ struct Row {
 /// How drops are read: exactly, or rounded to a step of a height or of a time of flight.
 enum class Readout { exact, millimetre, five_millimetres, millisecond, frame };
 
-/// An experiment that somebody could have made, drawn by seed around one that was made.
+/// A possible experiment, drawn by seed around a real one.
 struct Design {
   std::string id;
   std::string sphere;   ///< material
