@@ -13,7 +13,7 @@
 /// reconstruction.cpp the only code of this folder that uses what is tried on a truth.
 namespace recoil {
 
-/// What `recoil reconstruct --passages` writes for `recipe`, read as `recoil pair` reads it.
+/// What `./run study reconstruct --passages` writes for `recipe`, read as `recoil pair` reads it.
 /// @param times with so many times as many spheres.
 PassageTable recipe_passages(const Recipe& recipe, int times = 1);
 
@@ -27,8 +27,8 @@ struct PairedPoints {
   std::vector<GeneratedPoint> points;  ///< the same, for the facts
 };
 
-/// The same bytes as `recoil reconstruct DIR --passages FILE` followed by `recoil pair FILE` with
-/// the options above.
+/// The same bytes as `./run study reconstruct DIR --passages FILE` followed by `recoil pair FILE`
+/// with the options above.
 /// @pre recipe.pairing
 PairedPoints pair_passages(const Recipe& recipe);
 

@@ -18,7 +18,8 @@ bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); }
 void require_same_design(const Dataset& original, const std::vector<GeneratedPoint>& points,
                          const Recipe& recipe) {
   const Location where{(original.folder / "points.csv").string()};
-  const std::string suggestion = fmt::format("run: recoil reconstruct {}", recipe.folder.string());
+  const std::string suggestion =
+      fmt::format("run: ./run study reconstruct {}", recipe.folder.string());
   if (original.points.size() != points.size()) {
     throw InputError(where,
                      fmt::format("there are {} points, but the recipe makes {}",

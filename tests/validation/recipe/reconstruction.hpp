@@ -25,7 +25,7 @@ Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t 
 /// ring-adhesion model, by these names; empty when the truth is another model.
 std::map<std::string, double> true_parameters(const Recipe& recipe);
 
-/// What `recoil reconstruct` found or made.
+/// What `./run study reconstruct` found or made.
 struct ReconstructionResult {
   std::string id;
   std::filesystem::path folder;

@@ -13,7 +13,7 @@ Table facts_table(const ReconstructionResult& result);
 
 std::vector<Section> reconstruction_sections(const ReconstructionResult& result);
 
-/// What `recoil reconstruct` prints.
+/// What `./run study reconstruct` prints.
 std::string reconstruction_text(const ReconstructionResult& result);
 
 }  // namespace recoil
