@@ -90,22 +90,6 @@ void add_predictions(Analysis& analysis) {
       compare_captures(analysis.fitted, analysis.datasets, assessed.bootstrap, compare);
 }
 
-void add_corrections(Analysis& analysis) {
-  if (analysis.datasets.size() != 1) return;
-  const Dataset& dataset = analysis.datasets.front();
-  const std::filesystem::path studied = dataset.folder / correction_studies_name;
-  const std::filesystem::path recipe = dataset.folder / recipe_name;
-  if (!std::filesystem::exists(studied) || !std::filesystem::exists(recipe)) return;
-  CorrectionStudies found = read_correction_studies(studied);
-  const std::string inputs =
-      correction_inputs(analysis.spec.sha256, dataset.sha256, read_text_file(recipe));
-  if (found.inputs == inputs) {
-    analysis.corrections = std::move(found.studies);
-  } else {
-    analysis.corrections_outdated = true;
-  }
-}
-
 FitInputs load_inputs(const std::filesystem::path& fit_file) {
   FitSpec spec = load_fit(fit_file);
   std::vector<Dataset> datasets = load_datasets(spec);

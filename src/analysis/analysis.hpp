@@ -9,7 +9,6 @@
 #include "data/dataset.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/fit_spec.hpp"
-#include "experiment/correction_study.hpp"
 #include "predict/capture_comparison.hpp"
 #include "predict/law_choice.hpp"
 #include "predict/polydisperse.hpp"
@@ -29,9 +28,7 @@ struct Analysis {
   UncertaintyResult uncertainty;
   std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
   std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
-  std::vector<LawFit> laws;                  ///< the fit under its own law and others; may be empty
-  std::vector<CorrectionStudy> corrections;  ///< of a reconstruction that goes by way of events
-  bool corrections_outdated = false;         ///< they were made from another fit, dataset or recipe
+  std::vector<LawFit> laws;  ///< the fit under its own law and others; may be empty
 };
 
 /// A fit file and its datasets.
@@ -86,10 +83,6 @@ void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data
 /// Adds what only a report shows: the mixtures of the datasets that come with a size distribution,
 /// and the older capture models.
 void add_predictions(Analysis& analysis);
-
-/// Adds what each correction does to the points and the fit of a reconstruction, where a study of
-/// them lies beside its recipe.
-void add_corrections(Analysis& analysis);
 
 /// Removes the replicates that a stopped run has kept in `folder`. Call it once the results are
 /// written.

@@ -4,7 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "data/dataset.hpp"
-#include "report/dataset_document.hpp"
+#include "report/dataset_page.hpp"
 
 namespace recoil {
 

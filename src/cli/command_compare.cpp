@@ -6,7 +6,7 @@
 #include "cli/common_options.hpp"
 #include "core/files.hpp"
 #include "document/terminal.hpp"
-#include "report/comparison_document.hpp"
+#include "report/comparison_page.hpp"
 #include "report/result_json.hpp"
 
 namespace recoil {

@@ -19,7 +19,7 @@
 #include "diagnosis/diagnosis_result.hpp"
 #include "diagnosis/extended_toml.hpp"
 #include "diagnosis/kept_pieces.hpp"
-#include "report/diagnosis_document.hpp"
+#include "report/diagnosis_sections.hpp"
 #include "report/result_json.hpp"
 
 namespace recoil {
@@ -31,6 +31,7 @@ struct DiagnoseFlags {
   int threads = 0;
   std::int64_t seed = -1;
   bool json = false;
+  bool verbose = false;
   ShardFlags shards;
 
   DiagnosisOptions options(const FitSpec& spec) const {
@@ -94,7 +95,8 @@ void run_diagnosis(const DiagnoseFlags& flags) {
       *options.kept, [&] { return diagnose(inputs.spec, inputs.datasets, options); });
   diagnosis.remarks = reconstruction_remarks(diagnosis.datasets);
   const std::string result = diagnosis_json(diagnosis);
-  const std::string printed = flags.json ? result : diagnosis_text(diagnosis);
+  const std::string printed =
+      flags.json ? result : diagnosis_text(diagnosis, importance_of(flags.verbose));
   if (!flags.out.empty()) {
     const std::filesystem::path folder = flags.out;
     write_or_print({{folder / "extended.toml", extended_toml(diagnosis, folder)},
@@ -140,6 +142,7 @@ void add_diagnose(CLI::App& program) {
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   add_shard_flags(*command, "calibration's data sets", flags->shards);
   add_json_flag(*command, flags->json);
+  add_verbose_flag(*command, flags->verbose);
   command->callback([flags] {
     if (flags->shards.one_of_several()) {
       run_shard_of_calibration(*flags);

@@ -11,6 +11,7 @@
 #include "core/claim.hpp"
 #include "core/files.hpp"
 #include "core/shared_work.hpp"
+#include "report/fit_sections.hpp"
 #include "report/posterior_report.hpp"
 #include "report/result_json.hpp"
 #include "uncertainty/bootstrap.hpp"
@@ -24,6 +25,7 @@ struct FitFlags {
   std::string fit_file;
   std::string out;
   bool json = false;
+  bool verbose = false;
   AnalysisFlags analysis;
   ShardFlags shards;
 };
@@ -73,7 +75,8 @@ void run_fit(const FitFlags& flags) {
   }
   analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
   const std::string result = fit_json(analysis);
-  const std::string printed = flags.json ? result : text_report(analysis);
+  const std::string printed =
+      flags.json ? result : fit_text(analysis, importance_of(flags.verbose));
   if (!flags.out.empty()) {
     std::vector<WholeFile> files = {{folder / "fit.json", result}};
     std::string draws = posterior_csv(analysis);
@@ -101,6 +104,7 @@ void add_fit(CLI::App& program) {
   add_shard_flags(*command, "bootstrap's replicates", flags->shards);
   add_analysis_flags(*command, flags->analysis);
   add_json_flag(*command, flags->json);
+  add_verbose_flag(*command, flags->verbose);
   command->callback([flags] {
     if (flags->shards.one_of_several()) {
       run_shard_of_fit(*flags);

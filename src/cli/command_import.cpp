@@ -9,8 +9,8 @@
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "experiment/import.hpp"
-#include "report/dataset_document.hpp"
-#include "report/words_import.hpp"
+#include "report/dataset_page.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {

@@ -10,9 +10,8 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "plot/draw.hpp"
-#include "report/figures_mixture.hpp"
-#include "report/prediction_document.hpp"
 #include "report/prediction_files.hpp"
+#include "report/prediction_page.hpp"
 
 namespace recoil {
 namespace {

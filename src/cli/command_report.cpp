@@ -19,9 +19,10 @@
 #include "data/dataset.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/extended_toml.hpp"
-#include "report/diagnosis_document.hpp"
-#include "report/index_document.hpp"
-#include "report/law_comparison.hpp"
+#include "report/comparison_page.hpp"
+#include "report/diagnosis_sections.hpp"
+#include "report/fit_sections.hpp"
+#include "report/index_page.hpp"
 #include "report/result_json.hpp"
 
 namespace recoil {
@@ -58,10 +59,8 @@ std::string fingerprint(const FitInputs& inputs, const AnalysisFlags& flags) {
   std::string text = inputs.spec.sha256;
   for (const Dataset& dataset : inputs.datasets) {
     text += dataset.sha256;
-    for (const char* name : {recipe_name, correction_studies_name}) {
-      if (fs::exists(dataset.folder / name)) {
-        text += sha256_hex(read_text_file(dataset.folder / name));
-      }
+    if (fs::exists(dataset.folder / recipe_name)) {
+      text += sha256_hex(read_text_file(dataset.folder / recipe_name));
     }
     if (const auto sizes = sizes_of_dataset(dataset.folder)) text += sizes->sha256;
   }
@@ -122,8 +121,8 @@ struct PageFiles {
 };
 
 IndexEntry read_page(const PageFiles& files, IndexEntry entry) {
-  entry.fit = read_summary(entry.page, read_text_file(files.json), read_text_file(files.diagnosed));
-  entry.fit.laws = read_laws(entry.page, read_text_file(files.laws));
+  entry.fit_json = read_text_file(files.json);
+  entry.diagnosis_json = read_text_file(files.diagnosed);
   entry.picture = read_text_file(files.picture);
   entry.picture_csv = read_text_file(files.picture_data);
   return entry;
@@ -135,27 +134,26 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
   resolved.folder = files.folder;
   Analysis analysis = analyse(std::move(inputs), resolved);
   add_predictions(analysis);
-  add_corrections(analysis);
   const auto kept = std::make_shared<KeptRows>(unfinished_beside(files.diagnosed),
                                                expected + arithmetic_fingerprint());
   const Diagnosis diagnosis = diagnose_for_report(analysis, flags, kept);
-  entry.fit = summary_of(analysis, diagnosis);
   std::string page, diagnosis_page;
   at_once(
-      flags.threads,
-      [&] { page = html_report(analysis, diagnosis_blocks(diagnosis, entry.diagnosis_page)); },
+      flags.threads, [&] { page = fit_html(analysis, &diagnosis, entry.diagnosis_page); },
       [&] { diagnosis_page = diagnosis_html(diagnosis); },
       [&] { entry.picture = thumbnail(analysis); });
   entry.picture_csv = thumbnail_csv(analysis);
+  entry.fit_json = fit_json(analysis);
+  entry.diagnosis_json = diagnosis_json(diagnosis);
   write_whole_files({{files.page, page},
                      {files.folder / "diagnosis.html", diagnosis_page},
-                     {files.diagnosed, diagnosis_json(diagnosis)},
+                     {files.diagnosed, entry.diagnosis_json},
                      {files.folder / "extended.toml", extended_toml(diagnosis, files.folder)},
-                     {files.text, text_report(analysis)},
-                     {files.laws, laws_json(entry.fit.laws)},
+                     {files.text, fit_text(analysis, Importance::detail)},
+                     {files.laws, laws_json(compared_laws(analysis.laws, analysis.datasets))},
                      {files.picture, entry.picture},
                      {files.picture_data, entry.picture_csv},
-                     {files.json, fit_json(analysis)},
+                     {files.json, entry.fit_json},
                      {files.stamp, expected}});
   kept->forget();
   forget_replicates(resolved.folder);

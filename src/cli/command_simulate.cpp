@@ -16,7 +16,6 @@
 #include "impact/sensitivity.hpp"
 #include "predict/validity.hpp"
 #include "report/words_dataset.hpp"
-#include "report/words_validity.hpp"
 
 namespace recoil {
 namespace {

@@ -83,6 +83,10 @@ void add_json_flag(CLI::App& command, bool& json) {
                    "print the result as JSON instead; what else there is to say goes to stderr");
 }
 
+void add_verbose_flag(CLI::App& command, bool& verbose) {
+  command.add_flag("--verbose", verbose, "print all details, not the answer alone");
+}
+
 CLI::Validator positive_number(const std::string& what, double low, double high) {
   return {[=](const std::string& text) -> std::string {
             double value = 0.0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/analysis.hpp"
+#include "document/document.hpp"
 
 namespace recoil {
 
@@ -30,6 +31,13 @@ void add_analysis_flags(CLI::App& command, AnalysisFlags& flags);
 
 /// --json: the result as JSON on standard output in place of the words.
 void add_json_flag(CLI::App& command, bool& json);
+
+/// --verbose: the details behind the answer, too.
+void add_verbose_flag(CLI::App& command, bool& verbose);
+
+inline Importance importance_of(bool verbose) {
+  return verbose ? Importance::detail : Importance::answer;
+}
 
 /// A number in [low, high]; CLI11's own range check lets NaN through.
 CLI::Validator positive_number(const std::string& what, double low, double high);

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
-#include "report/words_intervals.hpp"
+#include "report/words_uncertainty.hpp"
 
 namespace recoil {
 namespace {

@@ -12,7 +12,7 @@
 #include "estimate/predictor.hpp"
 #include "impact/reference_solver.hpp"
 #include "report/words_dataset.hpp"
-#include "report/words_validity.hpp"
+#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {

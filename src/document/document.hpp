@@ -119,12 +119,17 @@ struct Blocks : std::vector<Block> {
   ~Blocks();
 };
 
+/// How urgently a reader needs a section. The terminal prints the answer alone unless asked for
+/// more; a page shows the answer and folds the details.
+enum class Importance { answer, detail };
+
 struct Section {
   std::string id;
-  Sentence title;
+  Sentence title;     ///< may be empty: a section without a heading
   Sentence remark{};  ///< behind the title
   Blocks blocks{};
-  std::string address{};  ///< where the title leads to
+  std::string address{};  ///< target of the title's link
+  Importance importance = Importance::answer;
 };
 
 struct Block

@@ -203,7 +203,7 @@ struct HtmlBlock {
   std::string operator()(const Banner& banner) const {
     const std::string label = escape_html(banner.label);
     return fmt::format(
-        "<aside class=\"provenance {0}\" aria-label=\"Provenance\"><strong>{0}</strong> "
+        "<aside class=\"banner {0}\" aria-label=\"{0}\"><strong>{0}</strong> "
         "<span>{1}</span></aside>\n",
         label, html_of(banner.text));
   }
@@ -230,8 +230,16 @@ std::string remark_html(const Section& section) {
 }
 
 std::string section_html(const Section& section) {
-  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}{}</section>\n", escape_html(section.id),
-                     titled(section), remark_html(section), html_of(section.blocks));
+  const std::string id = escape_html(section.id);
+  const std::string body = remark_html(section) + html_of(section.blocks);
+  if (section.importance == Importance::detail) {
+    return fmt::format(
+        "<details class=\"section\" id=\"{}\">\n<summary><h2>{}</h2></summary>\n{}</details>\n", id,
+        titled(section), body);
+  }
+  const std::string heading =
+      section.title.empty() ? "" : fmt::format("<h2>{}</h2>\n", titled(section));
+  return fmt::format("<section id=\"{}\">\n{}{}</section>\n", id, heading, body);
 }
 
 std::string card_html(const Section& section) {
@@ -240,7 +248,15 @@ std::string card_html(const Section& section) {
                      html_of(section.blocks));
 }
 
+bool has_details(const Document& document) {
+  return std::any_of(
+      document.sections.begin(), document.sections.end(),
+      [](const Section& section) { return section.importance == Importance::detail; });
+}
+
+/// Links to the sections. A page that folds its details needs none.
 std::string contents_html(const Document& document) {
+  if (document.cards || has_details(document)) return "";
   std::string out;
   for (const Section& section : document.sections) {
     if (empty(section) || section.id.empty()) continue;
@@ -274,12 +290,15 @@ std::string html_page(Document document) {
     head += fmt::format("<p class=\"subtitle\">{}</p>\n", html_of(document.subtitle));
   }
   head += html_of(document.foreword);
-  if (!document.cards) head += contents_html(document);
-  std::string body;
+  head += contents_html(document);
+  std::string answer, details;
   for (const Section& section : document.sections) {
     if (empty(section)) continue;
-    body += document.cards ? card_html(section) : section_html(section);
+    std::string& part = section.importance == Importance::answer ? answer : details;
+    part += document.cards ? card_html(section) : section_html(section);
   }
+  if (!details.empty()) answer = "<div class=\"answer\">\n" + answer + "</div>\n";
+  const std::string body = answer + details;
   // Only of a page with pictures: nothing else can be saved or explored.
   const bool pictures = body.find("<svg ") != std::string::npos;
   const std::string scripts =

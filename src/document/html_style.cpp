@@ -4,16 +4,17 @@ namespace recoil {
 
 std::string_view style_sheet() {
   return R"css(:root {
-  --paper: #ffffff; --ground: #f6f7f8; --ink: #1d2329; --quiet: #59636e; --line: #d9dee3;
+  --picture: #ffffff; --paper: #ffffff; --ground: #f6f7f8; --ink: #1d2329; --quiet: #59636e; --line: #d9dee3;
   --accent: #0b5c8f; --note: #fff6e0; --note-line: #c98a00; --card: #ffffff;
   --good: #00684c; --doubt: #a04600;
 }
 @media (prefers-color-scheme: dark) {
   :root {
-    --paper: #171b20; --ground: #101317; --ink: #e6e9ec; --quiet: #a3adb8; --line: #323a43;
+    --picture: #1d2228; --paper: #171b20; --ground: #101317; --ink: #e6e9ec; --quiet: #a3adb8; --line: #323a43;
     --accent: #7cc4f0; --note: #2d2613; --note-line: #d9a53a; --card: #1d2228;
     --good: #5cc9a4; --doubt: #f0a56b;
   }
+  .picture svg { filter: invert(.9) hue-rotate(180deg); }
 }
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; }
@@ -34,20 +35,19 @@ sub { line-height: 0; }
 code { font-family: "DejaVu Sans Mono", ui-monospace, monospace; font-size: .86em; }
 nav { font-size: .92rem; margin: .75rem 0; }
 nav a { margin-right: 1rem; display: inline-block; }
-.provenance { display: flex; flex-wrap: wrap; gap: .25rem .9rem; align-items: baseline;
+.banner { display: flex; flex-wrap: wrap; gap: .25rem .9rem; align-items: baseline;
   border-left: .3rem solid var(--accent); background: var(--card); padding: .7rem 1rem;
   margin: 1rem 0; }
-.provenance span { flex: 1 1 22rem; }
-.provenance strong { text-transform: uppercase; letter-spacing: .06em; font-size: .85rem; }
-.provenance.reconstruction, .provenance.synthetic {
+.banner span { flex: 1 1 22rem; }
+.banner strong { text-transform: uppercase; letter-spacing: .06em; font-size: .85rem; }
+.banner.reconstruction, .banner.synthetic, .banner.warning {
   background: var(--note); border-left-color: var(--note-line); }
-.warnings li { margin: .3rem 0; }
 .figures { display: grid; gap: 1rem;
   grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); }
 .figures.single { max-width: 33.5rem; }
 figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: .4rem;
   overflow: hidden; break-inside: avoid; }
-.picture { background: #ffffff; padding: .4rem; }
+.picture { background: var(--picture); padding: .4rem; }
 .picture svg { display: block; width: 100%; height: auto; }
 .large { grid-column: 1 / -1; }
 .large .picture { overflow-x: auto; }
@@ -82,6 +82,14 @@ table.compact th, table.compact td { padding: .18rem .7rem; font-weight: 400; }
 dt { font-weight: 600; margin-top: .7rem; }
 dd { margin: .1rem 0 0 1.2rem; }
 details summary { cursor: pointer; color: var(--accent); margin: .5rem 0; }
+details.section { border-top: 1px solid var(--line); margin-top: 1rem; padding-top: .25rem; }
+details.section > summary h2 { display: inline; border: 0; margin: 0; padding: 0; color: inherit; }
+.answer { display: grid; gap: 0 1.5rem;
+  grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); }
+.answer > section { grid-column: 1 / -1; min-width: 0; }
+.answer > section > h2 { border: 0; margin: .5rem 0; padding: 0; font-size: 1.05rem; }
+.answer > #picture { grid-column: auto; grid-row: span 2; }
+.answer > #capture, .answer > #parameters { grid-column: auto; }
 footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line);
   color: var(--quiet); font-size: .85rem; }
 .cards { display: grid; gap: 1.25rem; margin-top: 1.5rem;
@@ -90,7 +98,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   overflow: hidden; display: flex; flex-direction: column; break-inside: avoid; }
 .card h2 { border: 0; margin: 0; padding: .9rem 1rem 0; font-size: 1.12rem; }
 .card .subtitle { padding: 0 1rem; margin: .15rem 0 .5rem; font-size: .9rem; }
-.card .provenance { margin: 0; font-size: .86rem; line-height: 1.4; }
+.card .banner { margin: 0; font-size: .86rem; line-height: 1.4; }
 .card .verdict { margin: 0; padding: .5rem 1rem; font-size: .9rem; line-height: 1.4;
   border-top: 1px solid var(--line); }
 .verdict .mark { display: inline-block; min-width: 1.4em; font-weight: 700; text-align: center;
@@ -114,7 +122,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .explore .control span { grid-column: 1 / -1; }
 }
 @media print {
-  :root { --paper: #fff; --ground: #fff; --ink: #000; --quiet: #333; --line: #bbb;
+  :root { --picture: #fff; --paper: #fff; --ground: #fff; --ink: #000; --quiet: #333; --line: #bbb;
     --accent: #000; --note: #fff; --note-line: #000; --card: #fff; --good: #000;
     --doubt: #000; }
   @page { margin: 15mm; }
@@ -129,6 +137,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   .large .picture svg { min-width: 0; }
   .cards { grid-template-columns: 1fr 1fr; }
   figcaption { font-size: 8pt; }
+  .picture svg { filter: none; }
   .wide { overflow: visible; break-inside: avoid; }
   .wide:has(table.compact) { break-inside: auto; }
   .large .picture { overflow: visible; }

@@ -3,6 +3,11 @@
 // with runs of commas counted (html.cpp).
 "use strict";
 
+// Paper shows everything: folded sections open before printing.
+addEventListener("beforeprint", () => {
+  for (const section of document.querySelectorAll("details.section")) section.open = true;
+});
+
 document.addEventListener("DOMContentLoaded", () => {
   // "Restitution against V, d = 2.58 µm": restitution-against-v-d-2.58-um
   const fileName = text => text.toLowerCase().replace(/µ/g, "u").replace(/[^a-z0-9.]+/g, "-")

@@ -293,14 +293,17 @@ std::string terminal_text(const Table& table, std::size_t indent) {
 std::string terminal_text(const Section& section) {
   const std::string body = blocks_text(section.blocks);
   if (body.empty()) return "";
+  if (section.title.empty()) return body;
   const std::string remark = section.remark.empty() ? "" : " " + plain_text(section.remark);
   return wrap(fmt::format("[[{}]]{}", plain_text(section.title), remark), terminal_columns, 0) +
          '\n' + body;
 }
 
-std::string terminal_text(const std::vector<Section>& sections) {
+std::string terminal_text(const std::vector<Section>& sections, Importance least) {
   std::string out;
-  for (const Section& section : sections) out += terminal_text(section);
+  for (const Section& section : sections) {
+    if (section.importance <= least) out += terminal_text(section);
+  }
   return out;
 }
 

@@ -17,7 +17,9 @@ inline constexpr std::size_t terminal_columns = 100;
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
 
 std::string terminal_text(const Section& section);
-std::string terminal_text(const std::vector<Section>& sections);
+/// Sections down to an importance, without those that are empty.
+std::string terminal_text(const std::vector<Section>& sections,
+                          Importance least = Importance::detail);
 std::string terminal_text(const Table& table, std::size_t indent = 4);
 
 }  // namespace recoil

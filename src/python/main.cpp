@@ -25,13 +25,12 @@
 #include "python/interruptible.hpp"
 #include "python/pairs.hpp"
 #include "python/picture_json.hpp"
-#include "report/comparison_document.hpp"
-#include "report/diagnosis_document.hpp"
-#include "report/figures_mixture.hpp"
-#include "report/fit_document.hpp"
+#include "report/comparison_page.hpp"
+#include "report/diagnosis_sections.hpp"
+#include "report/fit_sections.hpp"
 #include "report/fit_tables.hpp"
-#include "report/prediction_document.hpp"
 #include "report/prediction_files.hpp"
+#include "report/prediction_page.hpp"
 #include "report/result_json.hpp"
 
 namespace py = pybind11;
@@ -133,12 +132,10 @@ std::string one_impact(const Valued& valued, double velocity, double diameter_um
 // ---- results -----------------------------------------------------------------------------------
 
 std::string summary_html(const Analysis& analysis) {
-  std::vector<Block> blocks = provenance_banners(analysis.datasets);
-  blocks.emplace_back(Paragraph{fit_summary(analysis)});
+  std::vector<Block> blocks;
   for (const Section& section : fit_sections(analysis)) {
-    if (section.id == "parameters" || section.id == "capture" || section.id == "warnings") {
-      blocks.emplace_back(section);
-    }
+    const bool answer = section.importance == Importance::answer && section.id != "picture";
+    if (answer) blocks.emplace_back(section);
   }
   return html_of(blocks);
 }
@@ -267,9 +264,10 @@ void bind_results(py::module_& module) {
   using Released = py::call_guard<py::gil_scoped_release>;
   py::class_<Analysis, std::shared_ptr<Analysis>>(module, "Analysis")
       .def("json", &fit_json, Released())
-      .def("text", &text_report, Released())
       .def(
-          "page", [](const Analysis& a) { return html_report(a); }, Released())
+          "text", [](const Analysis& a) { return fit_text(a, Importance::detail); }, Released())
+      .def(
+          "page", [](const Analysis& a) { return fit_html(a); }, Released())
       .def("summary", &summary_html, Released())
       .def(
           "pictures", [](const Analysis& a) { return text_of(pictures_json(fit_document(a))); },
@@ -308,10 +306,13 @@ void bind_results(py::module_& module) {
 
   py::class_<Diagnosis>(module, "Diagnosis")
       .def("json", &diagnosis_json, Released())
-      .def("text", &diagnosis_text, Released())
+      .def(
+          "text", [](const Diagnosis& d) { return diagnosis_text(d, Importance::detail); },
+          Released())
       .def("page", &diagnosis_html, Released())
       .def(
-          "summary", [](const Diagnosis& d) { return html_of(diagnosis_answer(d)); }, Released())
+          "summary", [](const Diagnosis& d) { return html_of(diagnosis_summary(d).blocks); },
+          Released())
       .def(
           "pictures",
           [](const Diagnosis& d) { return text_of(pictures_json(diagnosis_document(d))); },

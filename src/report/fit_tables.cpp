@@ -1,53 +1,39 @@
 #include "report/fit_tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
-#include "report/words_intervals.hpp"
-#include "report/words_noise.hpp"
+#include "report/words_fit.hpp"
+#include "report/words_uncertainty.hpp"
 
 namespace recoil {
 namespace {
 
-Sentence ending_words(const StartSummary& start) {
-  switch (start.ending) {
-    case DescentEnd::minimum:
-      return "converged";
-    case DescentEnd::valley:
-      return "converged, along a line of equal values";
-    case DescentEnd::flat:
-      return "a parameter has no effect there";
-    case DescentEnd::limit:
-      return "its iterations ran out";
-    case DescentEnd::no_answer:
-      break;
-  }
-  return "failed: " + start.message;
-}
-
 constexpr double least_correlation = 0.1;
-constexpr std::size_t most_residuals = 1000;  // in the table, so that the page stays about 1 MB
-
-bool rests_on_bound(const FitResult& fitted, std::size_t s) {
-  return s < fitted.at_bound.size() && fitted.at_bound[s];
-}
+constexpr double least_share = 5e-4;  // of a variance, in the table of sources
+constexpr std::size_t most_sizes = 10;
+constexpr std::size_t most_correlations = 6;
 
 Cell number_at(const std::vector<double>& values, std::size_t i, const Notation& notation) {
   return i < values.size() ? Cell(Number{values[i], notation}) : Cell();
 }
 
-Cell optional_cell(const std::optional<double>& value, const Notation& notation = {}) {
-  return cell_if(number_if(value, notation));
-}
-
 Cell count_cell(std::size_t count) { return Number{static_cast<double>(count), fixed(0)}; }
 
 std::string level_of(const Analysis& a) { return percent(a.uncertainty.options.level); }
+
+Sentence labelled(const ParameterSlot& slot) {
+  const std::string_view name = slot.parameter->unit;
+  return name == "1" ? symbol(slot.label()) : symbol(slot.label()) + " [" + unit(name) + "]";
+}
 
 std::size_t free_parameters(const FitResult& fitted) {
   const auto& slots = fitted.model.slots;
@@ -55,17 +41,41 @@ std::size_t free_parameters(const FitResult& fitted) {
       slots.begin(), slots.end(), [](const ParameterSlot& slot) { return slot.free; }));
 }
 
-Sentence solver_words(const FitResult& f) {
-  if (f.model.solver.kind == Solver::reference) return "reference (CVODES)";
-  return say("fast; {} impacts of the fit were handed over to the reference solver", f.handovers);
+Cell capture_cell(const Analysis& a, const CaptureEstimate& capture) {
+  if (without_adhesion(a, capture.dataset)) return no_capture_words;
+  if (!capture.found) return "none found";
+  Number value{capture.value, padded(3)};
+  if (capture.interval.available()) {
+    value.band = {*capture.interval.lower, *capture.interval.upper};
+  }
+  return value;
 }
 
-Cell p_value_cell(const Analysis& a) {
-  if (!a.fitted.data.sd_stated) {
-    return Sentence("not defined (no standard deviations are stated)");
+/// What is special about a parameter, in a word or two.
+std::string remark_of(const FitResult& f, std::size_t s, const Interval& interval) {
+  if (!f.model.slots[s].free) return followed_in(f.model, s) ? "follows the materials" : "fixed";
+  if (interval.note) {
+    if (const std::string words = short_note(interval.note->caution); !words.empty()) return words;
   }
-  if (a.fitted.dof <= 0) return Sentence("not defined (no degrees of freedom left)");
-  return Number{a.fitted.p_value, probability()};
+  if (s < f.at_bound.size() && f.at_bound[s]) return "at its bound";
+  return interval.available() ? "" : missing_words(interval);
+}
+
+Cell p_value_cell(const FitResult& f) {
+  if (!f.data.sd_stated) return "not defined (no standard deviations are stated)";
+  if (f.dof <= 0) return "not defined (no degrees of freedom left)";
+  return Number{f.p_value, probability()};
+}
+
+/// Points less free parameters, and why there may be fewer.
+Cell degrees_of_freedom_cell(const FitResult& f) {
+  const int silent =
+      static_cast<int>(f.data.points.size()) - static_cast<int>(free_parameters(f)) - f.dof;
+  if (!f.data.sd_stated || f.data.spec.student || silent <= 0) {
+    return Number{static_cast<double>(std::max(0, f.dof)), fixed(0)};
+  }
+  return say("{} ({} captured point{} excluded)", std::max(0, f.dof), silent,
+             silent == 1 ? " is" : "s are");
 }
 
 /// f0 of eq. 12 at the reference diameter [N/m]: two values where the K that is used is not that of
@@ -76,42 +86,6 @@ Sentence eq_12_words(const ContactProperties& contact) {
   }
   return say("{} with this {K}, {} with that of eq. 6", number(contact.adhesion_force_derived),
              number(contact.adhesion_force_materials));
-}
-
-/// The row of a parameter that is not fitted; an adhesion that follows the materials moves with
-/// their constants.
-std::vector<Cell> fixed_row(const Analysis& a, std::size_t s) {
-  const FitResult& f = a.fitted;
-  const ParameterSlot& slot = f.model.slots[s];
-  const Sentence name = symbol(slot.label());
-  if (followed_in(f.model, s)) {
-    const double error = s < a.uncertainty.budgets.size() ? a.uncertainty.budgets[s].sd : 0.0;
-    return {name,
-            Number{acting_value(f.model, f.theta, s), significant(4), error},
-            {},
-            unit(slot.parameter->unit),
-            {},
-            "follows the materials",
-            Number{f.theta[s]}};
-  }
-  return {name, Number{f.theta[s]}, {}, unit(slot.parameter->unit), {}, "fixed"};
-}
-
-}  // namespace
-
-Sentence labelled(const ParameterSlot& slot) {
-  return symbol(slot.label()) + " [" + unit(slot.parameter->unit) + "]";
-}
-
-/// Points less variables, and why it may be fewer.
-Cell degrees_of_freedom_cell(const FitResult& f) {
-  const int silent =
-      static_cast<int>(f.data.points.size()) - static_cast<int>(free_parameters(f)) - f.dof;
-  if (!f.data.sd_stated || f.data.spec.student || silent <= 0) {
-    return Number{static_cast<double>(std::max(0, f.dof)), fixed(0)};
-  }
-  return say("{}; captured points that the model captures too, {}, cannot scatter and do not count",
-             std::max(0, f.dof), silent);
 }
 
 std::string_view strategy_words(Strategy strategy) {
@@ -126,22 +100,46 @@ std::string_view strategy_words(Strategy strategy) {
   return "";
 }
 
-Table statistics_table(const Analysis& a) {
-  const FitResult& f = a.fitted;
-  return items(
-      {{"method", say("{} in {e}^2, {}",
-                      f.data.spec.student ? "Student's t likelihood" : "weighted least squares",
-                      strategy_words(f.strategy))},
-       {"solver", solver_words(f)},
-       {"data points", count_cell(f.data.points.size())},
-       {"variables", count_cell(free_parameters(f))},
-       {"chi-square", Number{f.chi2, significant(6)}},
-       {"degrees of freedom", degrees_of_freedom_cell(f)},
-       {"reduced chi-square", f.dof > 0 ? Cell(Number{f.chi2 / f.dof, significant(5)})
-                                        : Cell("not defined (no degrees of freedom left)")},
-       {"p-value", p_value_cell(a)},
-       {say("rms of {e}"), Number{f.rmse}},
-       {"noise", Sentence(noise_words(f))}});
+std::string starts_words(const FitResult& f) {
+  const auto agreeing = std::count_if(f.starts.begin(), f.starts.end(), [](const auto& start) {
+    return start.outcome == StartOutcome::best || start.outcome == StartOutcome::same;
+  });
+  return fmt::format("{} of {} reach the same minimum", agreeing, f.starts.size());
+}
+
+}  // namespace
+
+std::string short_name(const std::vector<Dataset>& datasets, std::size_t dataset) {
+  std::set<std::string> surfaces;
+  for (const Dataset& one : datasets) surfaces.insert(one.system.surface.name);
+  const bool tell = surfaces.size() == datasets.size() && !surfaces.contains("");
+  return tell ? datasets[dataset].system.surface.name : datasets[dataset].id;
+}
+
+Table capture_table(const Analysis& a) {
+  const SizeUnit size = size_unit(a.datasets);
+  std::map<double, std::vector<Cell>> by_diameter;
+  for (const CaptureEstimate& capture : a.uncertainty.capture) {
+    std::vector<Cell>& cells = by_diameter[capture.diameter];
+    cells.resize(a.datasets.size());
+    cells[capture.dataset] = capture_cell(a, capture);
+  }
+  Table table;
+  table.columns = {{say("{d}"), size.name}};
+  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
+    const Sentence where =
+        a.datasets.size() > 1 ? Sentence(" on " + short_name(a.datasets, k)) : Sentence();
+    table.columns.push_back({say("{V*} [{} interval]", level_of(a)) + where, "m/s"});
+  }
+  for (auto& [diameter, cells] : by_diameter) {
+    if (table.rows.size() == most_sizes) {
+      table.rows.push_back({say("{} more in fit.json", by_diameter.size() - most_sizes)});
+      break;
+    }
+    cells.insert(cells.begin(), Sentence(size_text(diameter, size)));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
 }
 
 Table parameters_table(const Analysis& a) {
@@ -149,100 +147,52 @@ Table parameters_table(const Analysis& a) {
   Table table;
   table.columns = {{"parameter"},
                    {say("estimate {+/-} standard error")},
-                   {"error", "%"},
-                   {"unit", "", true},
                    {level_of(a) + " interval"},
-                   {"kind", "", true},
-                   {"start"}};
+                   {"", "", true}};
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
     if (slot.is_constant()) continue;
-    if (!slot.free) {
-      table.rows.push_back(fixed_row(a, s));
-      continue;
-    }
-    const double error =
-        s < f.std_error.size() && std::isfinite(f.std_error[s]) ? f.std_error[s] : 0.0;
-    const bool relative = error > 0.0 && f.theta[s] != 0.0;
-    const IntervalSet set = intervals_of(a, s);
-    const Interval interval = recommended_interval(set);
-    table.rows.push_back(
-        {symbol(slot.label()), Number{f.theta[s], significant(4), error},
-         relative ? Cell(Number{100.0 * error / std::abs(f.theta[s]), significant(3)}) : Cell(),
-         unit(slot.parameter->unit), interval_cell(interval),
-         interval.available() ? Cell(Sentence(words_of(set.recommended))) : Cell(),
-         Number{slot.initial}});
+    const Interval interval = recommended_interval(intervals_of(a, s));
+    const bool follows = followed_in(f.model, s).has_value();
+    double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
+    if (follows) error = s < a.uncertainty.budgets.size() ? a.uncertainty.budgets[s].sd : 0.0;
+    if (!std::isfinite(error)) error = 0.0;
+    table.rows.push_back({labelled(slot),
+                          Number{acting_value(f.model, f.theta, s), significant(4), error},
+                          interval_cell(interval), Sentence(remark_of(f, s, interval))});
   }
   return table;
 }
 
-List parameter_remarks(const Analysis& a) {
-  const FitResult& f = a.fitted;
-  List remarks;
-  for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
-    const ParameterSlot& slot = f.model.slots[s];
-    if (!slot.free) continue;
-    const Sentence name = symbol(slot.label());
-    const IntervalSet set = intervals_of(a, s);
-    const Interval interval = recommended_interval(set);
-    if (rests_on_bound(f, s)) {
-      remarks.entries.push_back(
-          say("{} rests on a bound of [{}, {}].", name, number(slot.lower), number(slot.upper)));
-    } else if (s >= f.std_error.size() || !(f.std_error[s] > 0.0)) {
-      remarks.entries.push_back(say("{} has no standard error.", name));
-    }
-    if (!interval.available()) {
-      remarks.entries.push_back(
-          as_sentence(say("{} has no interval: {}", name, missing_words(interval))));
-    }
-    if (interval.note) {
-      remarks.entries.push_back(as_sentence(say("{}: {}", name, note_words(interval, name))));
-    }
-  }
-  return remarks;
-}
-
 Table intervals_table(const Analysis& a) {
   Table table;
-  table.caption = say("Every {} interval; a dash where there is none", level_of(a));
+  table.caption = say("Every kind of {} interval", level_of(a));
   table.columns = {{"parameter"}};
   for (const IntervalKind kind : values_of<IntervalKind>()) {
     table.columns.push_back({words_of(kind)});
   }
+  table.columns.push_back({"recommended", "", true});
   for (std::size_t s = 0; s < a.fitted.model.slots.size(); ++s) {
     const ParameterSlot& slot = a.fitted.model.slots[s];
-    if (!slot.free) continue;
+    if (!slot.free || s >= a.uncertainty.intervals.size()) continue;
+    const IntervalSet& set = a.uncertainty.intervals[s];
     std::vector<Cell> row = {labelled(slot)};
-    const IntervalSet set = intervals_of(a, s);
     for (const IntervalKind kind : values_of<IntervalKind>()) {
       row.push_back(interval_cell(set[kind]));
     }
+    row.emplace_back(Sentence(recommended_interval(set).available() ? words_of(set.recommended)
+                                                                    : std::string("none")));
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-List missing_intervals(const Analysis& a) {
-  List reasons;
-  for (std::size_t s = 0; s < a.fitted.model.slots.size(); ++s) {
-    const ParameterSlot& slot = a.fitted.model.slots[s];
-    if (!slot.free) continue;
-    const IntervalSet set = intervals_of(a, s);
-    for (const IntervalKind kind : values_of<IntervalKind>()) {
-      if (set[kind].available()) continue;
-      reasons.entries.push_back(
-          say("{}, {}: {}", symbol(slot.label()), words_of(kind), missing_words(set[kind])));
-    }
-  }
-  return reasons;
-}
-
 Table correlations_table(const Analysis& a) {
+  const auto& slots = a.fitted.model.slots;
   struct Pair {
     std::size_t one, other;
     double value;
   };
-  const auto& slots = a.fitted.model.slots;
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     for (std::size_t j = i + 1; j < slots.size(); ++j) {
@@ -253,36 +203,110 @@ Table correlations_table(const Analysis& a) {
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
     return std::abs(x.value) > std::abs(y.value);
   });
+  if (pairs.size() > most_correlations) pairs.resize(most_correlations);
   Table table;
-  table.caption = say("Correlations above {:g} in magnitude", least_correlation);
-  table.columns = {{"of"}, {"and", "", true}, {"correlation"}};
+  table.caption = say("The largest correlations above {:g}", least_correlation);
+  table.columns = {{"parameter"}, {"with", "", true}, {"correlation"}};
   for (const Pair& pair : pairs) {
     table.rows.push_back({symbol(slots[pair.one].label()), symbol(slots[pair.other].label()),
-                          Number{pair.value, signed_fixed(4)}});
+                          Number{pair.value, signed_fixed(3)}});
   }
   return table;
 }
 
-Table capture_table(const Analysis& a) {
-  const SizeUnit unit = size_unit(a.datasets);
+Table constants_table(const Analysis& a) {
+  const ImpactModel& model = a.fitted.model;
   Table table;
-  table.columns = {{"dataset"},
-                   {say("{d}"), unit.name},
-                   {say("{V*}"), "m/s"},
-                   {level_of(a) + " interval"},
-                   {"remark", "", true}};
-  for (const CaptureEstimate& capture : a.uncertainty.capture) {
-    const Cell id = Sentence(a.datasets[capture.dataset].id);
-    const Cell diameter = Sentence(size_text(capture.diameter, unit));
-    if (without_adhesion(a, capture.dataset)) {
-      table.rows.push_back({id, diameter, no_capture_words});
-      continue;
+  if (a.fitted.std_error.empty()) return table;
+  table.caption = "Material constants with uncertainty, fitted with their stated values as priors";
+  table.columns = {
+      {"constant", "", true}, {"unit", "", true}, {"stated"}, {"fitted"}, {"moved", "sd"}};
+  for (std::size_t k = 0; k < model.constants.size(); ++k) {
+    const std::size_t j = model.first_constant() + k;
+    const UncertainConstant& constant = model.constants[k];
+    const double sd = constant.sd * (is_positive(constant.constant) ? constant.stated : 1.0);
+    table.rows.push_back({Sentence(model.slots[j].label()), unit(model.slots[j].parameter->unit),
+                          Number{constant.stated, significant(4), sd},
+                          Number{a.fitted.theta[j], significant(4), a.fitted.std_error[j]},
+                          Number{a.fitted.constants_moved[k], signed_fixed(2)}});
+  }
+  return table;
+}
+
+Table conditional_table(const Analysis& a) {
+  Table table;
+  if (!a.uncertainty.conditional) return table;
+  const ConditionalFit& exact = *a.uncertainty.conditional;
+  table.caption = "Profile intervals with the errors of the materials, and with exact materials";
+  table.columns = {{"parameter"},
+                   {"estimate"},
+                   {"interval"},
+                   {"estimate, exact materials"},
+                   {"interval, exact materials"}};
+  for (std::size_t j = 0; j < exact.fitted.model.slots.size(); ++j) {
+    const ParameterSlot& slot = exact.fitted.model.slots[j];
+    if (!slot.free) continue;
+    table.rows.push_back({labelled(slot), Number{a.fitted.theta[j]},
+                          interval_cell(intervals_of(a, j)[IntervalKind::profile]),
+                          Number{exact.fitted.theta[j]},
+                          interval_cell(exact.intervals[j][IntervalKind::profile])});
+  }
+  return table;
+}
+
+Table budget_table(const Analysis& a) {
+  Table table;
+  const std::vector<BudgetOf> budgets = reference_budgets(a);
+  if (a.fitted.model.constants.empty() || budgets.empty()) return table;
+  table.caption = "Share of each source of error in the variance [%]";
+  table.columns = {{"source", "", true}};
+  std::map<std::string, std::vector<Cell>> rows;
+  std::vector<std::pair<double, std::string>> largest;  // share of each source, and its name
+  for (std::size_t k = 0; k < budgets.size(); ++k) {
+    table.columns.push_back({budgets[k].quantity});
+    for (const BudgetEntry& entry : budgets[k].budget->entries) {
+      const std::string name = source_words(entry, a.fitted.model);
+      std::vector<Cell>& row = rows[name];
+      row.resize(budgets.size());
+      row[k] = Number{100.0 * entry.share, fixed(1)};
+      largest.emplace_back(entry.share, name);
     }
-    table.rows.push_back(
-        {id, diameter, capture.found ? Cell(Number{capture.value, padded(4)}) : Cell("none found"),
-         interval_cell(capture.interval),
-         capture.interval.available() ? Cell()
-                                      : Cell("no interval: " + missing_words(capture.interval))});
+  }
+  std::stable_sort(largest.begin(), largest.end(),
+                   [](const auto& one, const auto& other) { return one.first > other.first; });
+  for (const auto& [share, name] : largest) {
+    if (share < least_share || rows[name].empty()) continue;
+    std::vector<Cell> row = std::move(rows[name]);
+    rows[name].clear();
+    row.insert(row.begin(), Sentence(name));
+    table.rows.push_back(std::move(row));
+  }
+  std::vector<Cell> total = {"standard error"};
+  for (const BudgetOf& of : budgets) {
+    total.push_back(Number{of.budget->sd, significant(2), 0.0, of.unit == "1" ? "" : of.unit});
+  }
+  table.rows.push_back(std::move(total));
+  return table;
+}
+
+Table posterior_table(const Analysis& a) {
+  Table table;
+  if (!a.uncertainty.posterior || !a.uncertainty.posterior->available()) return table;
+  const PosteriorResult& found = *a.uncertainty.posterior;
+  table.caption = say("Posterior with flat priors between the bounds; {} intervals of equal tails",
+                      level_of(a));
+  table.columns = {{"quantity"}, {"mean"}, {"sd"}, {"interval"}, {"R-hat"}, {"effective draws"}};
+  for (std::size_t j = 0; j < found.parameters.size(); ++j) {
+    const PosteriorMarginal& m = found.parameters[j];
+    if (!a.fitted.model.slots[j].moves()) continue;
+    table.rows.push_back({labelled(a.fitted.model.slots[j]), Number{m.mean},
+                          Number{m.sd, significant(2)}, interval_cell(m.interval),
+                          Number{m.r_hat, fixed(4)}, Number{m.effective, fixed(0)}});
+  }
+  for (std::size_t k = 0; k < found.capture.size(); ++k) {
+    const PosteriorMarginal& m = found.capture[k];
+    table.rows.push_back({capture_name(a, a.uncertainty.capture[k]) + " [m/s]", Number{m.mean},
+                          Number{m.sd, significant(2)}, interval_cell(m.interval)});
   }
   return table;
 }
@@ -291,22 +315,15 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
   const FitResult& f = a.fitted;
   const TwoPointResult& two = comparison.result;
   const bool answered = two.status != TwoPointStatus::too_few_points;
-  const auto point = [&](std::size_t i) -> Sentence {
-    if (!answered || i >= f.data.points.size()) return "none";
-    const auto& at = f.data.points[i];
-    return say("{e} = {} at {} m/s", number(at.restitution), number(at.velocity));
-  };
   Table table;
-  table.caption = say(
-      "{}, two points calibrated at {d} = {} {um}: {} and {}", a.datasets[comparison.dataset].id,
-      size_text(two.diameter, size_unit(a.datasets)), point(two.high_point), point(two.low_point));
+  table.caption = say("{}: two points of {}, beside all points",
+                      short_name(a.datasets, comparison.dataset), diameter_sentence(two.diameter));
   table.columns = {{}, {"two points"}, {"all points"}};
   for (const std::size_t s :
        {f.model.slot_C_H[comparison.dataset], f.model.slot_C_A[comparison.dataset]}) {
-    const ParameterSlot& slot = f.model.slots[s];
-    table.rows.push_back({labelled(slot), number_at(two.theta, s, significant(4)),
+    table.rows.push_back({labelled(f.model.slots[s]), number_at(two.theta, s, significant(4)),
                           number_at(f.theta, s, significant(4))});
-    table.rows.push_back({symbol(slot.parameter->name) + ", spread under resampling",
+    table.rows.push_back({symbol(f.model.slots[s].parameter->name) + ", sd under resampling",
                           number_at(comparison.spread, s, significant(2)),
                           number_at(comparison.full_spread, s, significant(2))});
   }
@@ -314,33 +331,60 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
                         answered ? Cell(Number{comparison.rmse}) : Cell("none"),
                         Number{comparison.full_rmse}});
   table.rows.push_back({say("rms of {e}, held-out diameters"),
-                        optional_cell(comparison.held_out_rmse),
-                        optional_cell(comparison.full_held_out_rmse)});
+                        cell_if(number_if(comparison.held_out_rmse, {})),
+                        cell_if(number_if(comparison.full_held_out_rmse, {}))});
   table.rows.push_back(
       {"replicates without an answer",
        say("{} of {}", comparison.failed, a.uncertainty.bootstrap.two_point_replicates)});
   return table;
 }
 
-Table bootstrap_table(const Analysis& a) {
+Table statistics_table(const Analysis& a) {
+  const FitResult& f = a.fitted;
+  std::vector<std::pair<Sentence, Cell>> entries = {
+      {"fit file", Sentence(a.spec.file.empty() ? a.spec.id : a.spec.file.generic_string())},
+      {"equation of motion", equation_words(f.model.adhesion)},
+      {"adhesion damping", f.model.phase == AdhesionDampingPhase::rebound
+                               ? "during rebound"
+                               : "during approach and rebound"},
+      {"mechanisms", Sentence(fmt::format("{}", fmt::join(a.spec.mechanisms, ", ")))},
+      {"method", say("{} in {e}^2, {}",
+                     f.data.spec.student ? "Student's t likelihood" : "weighted least squares",
+                     strategy_words(f.strategy))},
+      {"starts", Sentence(starts_words(f))},
+      {"solver", f.model.solver.kind == Solver::reference
+                     ? Sentence("reference (CVODES)")
+                     : say("fast ({} impacts by the reference solver)", f.handovers)},
+      {"data points", count_cell(f.data.points.size())},
+      {"free parameters", count_cell(free_parameters(f))},
+      {"chi-square", Number{f.chi2, significant(6)}},
+      {"degrees of freedom", degrees_of_freedom_cell(f)},
+      {"p-value", p_value_cell(f)},
+      {say("rms of {e}"), Number{f.rmse}},
+      {"noise", Sentence(noise_words(f))}};
   const BootstrapResult& bootstrap = a.uncertainty.bootstrap;
-  if (bootstrap.replicates == 0) return {};
-  return items({{"scheme", Sentence(to_string(bootstrap.scheme))},
-                {"replicates", say("{}", bootstrap.replicates)},
-                {"failed refits", say("{}", bootstrap.failed)},
-                {"seed", Sentence(fmt::format("{}", bootstrap.seed))}});
+  if (bootstrap.replicates > 0) {
+    entries.emplace_back("bootstrap", say("{} {} replicates, {} failed, seed {}",
+                                          bootstrap.replicates, to_string(bootstrap.scheme),
+                                          bootstrap.failed, fmt::format("{}", bootstrap.seed)));
+  }
+  for (const Dataset& dataset : a.datasets) {
+    if (!dataset.sha256.empty()) {
+      entries.emplace_back("SHA-256 of " + dataset.id, code(dataset.sha256));
+    }
+  }
+  entries.emplace_back("recoil", Sentence(version()));
+  return items(entries);
 }
 
 Table materials_table(const Analysis& a, std::size_t k) {
-  const Dataset& dataset = a.datasets[k];
   const ContactProperties& contact = a.fitted.model.contacts[k];
-  const Material& p = dataset.system.particle;
-  const Material& s = dataset.system.surface;
+  const Material& p = a.datasets[k].system.particle;
+  const Material& s = a.datasets[k].system.surface;
   const auto energy = [](double value, bool stated) {
-    return say("{} ({})", number(value), stated ? "stated" : "Gilman");
+    return say("{}{}", number(value), stated ? "" : " (Gilman)");
   };
   Table table;
-  table.caption = say("{}: the two bodies", dataset.id);
   table.columns = {{}, {"particle"}, {"surface"}};
   table.rows = {
       {"material", Sentence(p.name), Sentence(s.name)},
@@ -361,125 +405,31 @@ Table contact_table(const Analysis& a, std::size_t k) {
   const bool adhesion_free = a.fitted.model.slots[a.fitted.model.slot_adhesion[k]].free;
   const auto origin = [](bool stated) { return stated ? "stated" : "derived"; };
   Table table;
-  table.caption = say("{}: the contact", a.datasets[k].id);
-  table.columns = {{}, {"used"}, {"from", "", true}};
+  table.columns = {{"contact"}, {"used"}, {"from", "", true}};
   table.rows = {
       {say("{K} [GPa]"), Number{contact.stiffness / units::GPa},
        say("{}; eq. 6 gives {}", origin(system.stiffness_K.has_value()),
            number(contact.stiffness_derived / units::GPa))},
       {say("{W_A} [{J/m2}]"), Number{contact.adhesion_energy},
        system.adhesion_energy ? "stated" : "twice the geometric mean of the surface energies"}};
-  const bool has_theta = a.fitted.theta.size() == a.fitted.model.slots.size();
-  if (!has_theta) return table;
+  if (a.fitted.theta.size() != a.fitted.model.slots.size()) return table;
   const ImpactConditions conditions = reference_conditions(a, k, 1.0);
-  table.rows.push_back({say("{f0} [N/m]"), Number{conditions.adhesion_force},
+  const double radius = conditions.diameter / 2.0;
+  table.rows.push_back({say("{f0} [N/m] at {}", diameter_sentence(contact.reference_diameter)),
+                        Number{conditions.adhesion_force},
                         say("{}; eq. 12 gives {}",
                             !by_force       ? "the W below"
                             : adhesion_free ? "fitted"
                                             : origin(system.adhesion_force_f0.has_value()),
                             eq_12_words(contact))});
-  table.rows.push_back({say("{W} [{J/m2}]"),
-                        Number{adhesion_energy_for(conditions.adhesion_force,
-                                                   conditions.diameter / 2.0, contact.stiffness)},
-                        by_force        ? "this f0, by eqs 9 and 10"
-                        : adhesion_free ? "fitted"
-                                        : "the materials"});
-  table.rows.push_back({say("reference diameter [{um}]"),
-                        Sentence(diameter_text(contact.reference_diameter)),
-                        say("{f0} grows with the cube root of the radius from here")});
   table.rows.push_back(
-      {say("{a_eq} [nm]"), Number{contact.equilibrium_radius / units::nm}, "eq. 10"});
+      {say("{W} [{J/m2}]"),
+       Number{adhesion_energy_for(conditions.adhesion_force, radius, contact.stiffness)},
+       by_force        ? "this f0, by eqs 9 and 10"
+       : adhesion_free ? "fitted"
+                       : "the materials"});
   table.rows.push_back({say("{V_a} [m/s]"), Number{adhesion_velocity(conditions)},
-                        "the velocity at which adhesion and inertia balance"});
-  return table;
-}
-
-Table options_table(const Analysis& a) {
-  return items({{"adhesion", Sentence(to_string(a.fitted.model.adhesion))},
-                {"fit", Sentence(a.spec.file.empty() ? a.spec.id : a.spec.file.generic_string())},
-                {"adhesion damping acts", a.fitted.model.phase == AdhesionDampingPhase::rebound
-                                              ? "during rebound"
-                                              : "during approach and rebound"},
-                {"mechanisms", Sentence(fmt::format("{}", fmt::join(a.spec.mechanisms, ", ")))},
-                {"replicates", say("{}", a.uncertainty.options.replicates)},
-                {"level of every interval", Sentence(level_of(a))},
-                {"seed", Sentence(fmt::format("{}", a.uncertainty.options.seed))},
-                {"SHA-256 of the fit file", code(a.spec.sha256)},
-                {"recoil", Sentence(version())}});
-}
-
-Table starts_table(const Analysis& a) {
-  Table table;
-  if (a.fitted.starts.empty()) return table;
-  table.caption = "Where the minimisation began and ended";
-  if (a.fitted.searched_points < a.fitted.data.points.size()) {
-    table.caption = say("Where the minimisation began and ended, on {} of the {} points",
-                        a.fitted.searched_points, a.fitted.data.points.size());
-  }
-  table.columns = {{"start"}};
-  std::vector<std::size_t> free;
-  for (std::size_t s = 0; s < a.fitted.model.slots.size(); ++s) {
-    if (!a.fitted.model.slots[s].free) continue;
-    free.push_back(s);
-    table.columns.push_back({symbol(a.fitted.model.slots[s].label()) + ", start"});
-    table.columns.push_back({"end"});
-  }
-  table.columns.push_back({"chi-square"});
-  table.columns.push_back({"outcome", "", true});
-  for (std::size_t i = 0; i < a.fitted.starts.size(); ++i) {
-    const StartSummary& start = a.fitted.starts[i];
-    std::vector<Cell> row = {say("{}", i + 1)};
-    for (const std::size_t s : free) {
-      row.push_back(number_at(start.start, s, significant(3)));
-      row.push_back(number_at(start.end, s, significant(6)));
-    }
-    row.emplace_back(Number{start.chi2, significant(7)});
-    row.emplace_back(ending_words(start));
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-Table points_table(const Analysis& a) {
-  const FitResult& f = a.fitted;
-  const bool joint = a.datasets.size() > 1;
-  const double scale = residual_unit(a);
-  const SizeUnit unit = size_unit(a.datasets);
-  Table table;
-  table.compact = true;
-  if (joint) table.columns = {{"dataset"}};
-  for (const TableColumn& column : std::vector<TableColumn>{{"series"},
-                                                            {say("{d}"), unit.name},
-                                                            {say("{V}"), "m/s"},
-                                                            {say("{e}")},
-                                                            {"sd"},
-                                                            {"fit"},
-                                                            {"residual", "sd"},
-                                                            {"leverage"}}) {
-    table.columns.push_back(column);
-  }
-  const std::size_t count = std::min(f.data.points.size(), most_residuals);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto& point = f.data.points[i];
-    const Dataset& dataset = a.datasets[point.dataset];
-    std::vector<Cell> row;
-    if (joint) row.emplace_back(Sentence(dataset.id));
-    row.emplace_back(
-        Sentence(point.series < dataset.series.size() ? dataset.series[point.series] : ""));
-    row.emplace_back(Sentence(size_text(point.diameter, unit)));
-    row.emplace_back(Number{point.velocity});
-    row.push_back(point.censored ? Cell("captured") : Cell(Number{point.restitution, fixed(4)}));
-    row.push_back(f.data.sd_stated ? Cell(Number{point.weights.sd, significant(2)}) : Cell());
-    row.push_back(number_at(f.prediction, i, fixed(4)));
-    row.push_back(i < f.residuals.size() ? Cell(Number{f.residuals[i] / scale, signed_fixed(2)})
-                                         : Cell());
-    row.push_back(number_at(f.leverage, i, fixed(3)));
-    table.rows.push_back(std::move(row));
-  }
-  if (count < f.data.points.size()) {
-    table.caption =
-        say("The first {} of {} points; fit.json has them all.", count, f.data.points.size());
-  }
+                        "adhesion and inertia balance at this velocity"});
   return table;
 }
 

@@ -2,50 +2,49 @@
 
 #include <vector>
 
+#include "analysis/analysis.hpp"
 #include "document/document.hpp"
-#include "report/report.hpp"
 
-/// The tables of a fit, for the terminal, the page and whoever asks for a number in them. Each is
-/// empty when there is nothing to say.
+/// The tables of a fit, for the terminal and the page. A table without rows has nothing to show.
 namespace recoil {
 
-/// "C_H [s/m]"
-Sentence labelled(const ParameterSlot& slot);
+/// Name of a dataset among the others of its fit: its surface where all surfaces differ, else its
+/// id.
+std::string short_name(const std::vector<Dataset>& datasets, std::size_t dataset);
 
-/// How the fit was made and how well it meets the points, as names and values.
-Table statistics_table(const Analysis& analysis);
+/// Capture velocity and its interval by diameter, one column per dataset.
+Table capture_table(const Analysis& analysis);
 
 /// Estimate, standard error and recommended interval of every parameter.
 Table parameters_table(const Analysis& analysis);
 
-/// What has to be known of single parameters: bounds, missing intervals.
-List parameter_remarks(const Analysis& analysis);
-
-/// Every kind of interval of every free parameter, and why some are missing.
+/// Every kind of interval of every free parameter.
 Table intervals_table(const Analysis& analysis);
-List missing_intervals(const Analysis& analysis);
 
-/// The larger correlations, the largest first.
+/// Correlations above 0.1 in magnitude, the largest first.
 Table correlations_table(const Analysis& analysis);
 
-Table capture_table(const Analysis& analysis);
+/// Stated and fitted value of every uncertain constant of the materials.
+Table constants_table(const Analysis& analysis);
 
-/// Two points beside all points, on one dataset.
+/// Estimates and profile intervals beside those with exact materials.
+Table conditional_table(const Analysis& analysis);
+
+/// Share of every source of error in the variance of each parameter and of V* at each reference
+/// diameter [%] (JCGM 100:2008, 5.1).
+Table budget_table(const Analysis& analysis);
+
+/// Mean, deviation and interval of the posterior, with the convergence of the sampler.
+Table posterior_table(const Analysis& analysis);
+
+/// The two-point calibration of one dataset beside the full fit.
 Table two_point_table(const Analysis& analysis, const TwoPointComparison& comparison);
 
-Table bootstrap_table(const Analysis& analysis);
+/// How the fit was made and how well it meets the points.
+Table statistics_table(const Analysis& analysis);
 
-/// The two bodies of one dataset, and the contact that they make.
+/// The two bodies of one dataset and the contact that follows from them.
 Table materials_table(const Analysis& analysis, std::size_t dataset);
 Table contact_table(const Analysis& analysis, std::size_t dataset);
-
-/// What was asked for in the fit file.
-Table options_table(const Analysis& analysis);
-
-/// Where the minimisation began and ended.
-Table starts_table(const Analysis& analysis);
-
-/// One row per point, of very many the first thousand.
-Table points_table(const Analysis& analysis);
 
 }  // namespace recoil

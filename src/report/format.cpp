@@ -7,21 +7,8 @@
 
 #include "core/units.hpp"
 #include "report/words_dataset.hpp"
-#include "report/words_fit.hpp"
-#include "report/words_identifiability.hpp"
-#include "report/words_intervals.hpp"
-#include "report/words_two_point.hpp"
 
 namespace recoil {
-namespace {
-
-void add_new(std::vector<Sentence>& list, const std::vector<Sentence>& more) {
-  for (const Sentence& item : more) {
-    if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
-  }
-}
-
-}  // namespace
 
 std::string interval_text(const Interval& interval, int count) {
   if (!interval.available()) return "none";
@@ -95,27 +82,6 @@ IntervalSet intervals_of(const Analysis& analysis, std::size_t slot) {
   return set;
 }
 
-std::vector<Sentence> recommendations(const Analysis& analysis) {
-  std::vector<Sentence> sentences;
-  for (std::size_t slot = 0; slot < analysis.fitted.model.slots.size(); ++slot) {
-    const IntervalSet set = intervals_of(analysis, slot);
-    if (!recommended_interval(set).available()) continue;
-    add_new(sentences, {fmt::format("The {} interval is recommended: {}.",
-                                    words_of(set.recommended), recommended_words(set))});
-  }
-  return sentences;
-}
-
-std::vector<Sentence> disagreements(const Analysis& analysis) {
-  std::vector<Sentence> sentences;
-  for (std::size_t slot = 0; slot < analysis.uncertainty.intervals.size(); ++slot) {
-    const IntervalSet& set = analysis.uncertainty.intervals[slot];
-    if (!set.disagreement) continue;
-    add_new(sentences, {as_sentence(disagreement_words(analysis.fitted, slot, set))});
-  }
-  return sentences;
-}
-
 double correlation(const Analysis& analysis, std::size_t a, std::size_t b) {
   const FitResult& fitted = analysis.fitted;
   const std::size_t slots = fitted.model.slots.size();
@@ -139,42 +105,6 @@ std::vector<std::pair<std::string, std::string>> provenances(const std::vector<D
     if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
   }
   return list;
-}
-
-std::vector<Sentence> all_warnings(const Analysis& analysis) {
-  std::vector<Sentence> warnings;
-  for (const Dataset& dataset : analysis.datasets) {
-    for (const DatasetWarning& warning : dataset.warnings) {
-      add_new(warnings, {warning_sentence(warning)});
-    }
-  }
-  add_new(warnings, fit_warnings(analysis.fitted));
-  for (const TwoPointComparison& comparison : analysis.uncertainty.two_point) {
-    if (comparison.result.status == TwoPointStatus::converged) continue;
-    add_new(warnings,
-            {say("two-point iteration on {}: {}", analysis.datasets[comparison.dataset].id,
-                 two_point_words(analysis.fitted, comparison.dataset, comparison.result))});
-  }
-  add_new(warnings, uncertainty_warnings(analysis.uncertainty, analysis.fitted.data));
-  return warnings;
-}
-
-std::vector<Sentence> all_contradictions(const Analysis& analysis) {
-  std::vector<Sentence> sentences;
-  const auto& contacts = analysis.fitted.model.contacts;
-  for (std::size_t k = 0; k < contacts.size() && k < analysis.datasets.size(); ++k) {
-    for (const std::string& sentence : contacts[k].contradictions) {
-      sentences.push_back(say("{}: {}", code(analysis.datasets[k].id), sentence));
-    }
-  }
-  return sentences;
-}
-
-const TwoPointComparison* two_point_of(const Analysis& analysis, std::size_t dataset) {
-  for (const TwoPointComparison& comparison : analysis.uncertainty.two_point) {
-    if (comparison.dataset == dataset) return &comparison;
-  }
-  return nullptr;
 }
 
 bool without_adhesion(const Analysis& analysis, std::size_t dataset) {

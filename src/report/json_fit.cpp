@@ -9,15 +9,10 @@
 #include "core/units.hpp"
 #include "estimate/reweighting.hpp"
 #include "report/format.hpp"
-#include "report/posterior_report.hpp"
 #include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
-#include "report/words_identifiability.hpp"
-#include "report/words_intervals.hpp"
-#include "report/words_materials.hpp"
-#include "report/words_noise.hpp"
-#include "report/words_two_point.hpp"
-#include "report/words_validity.hpp"
+#include "report/words_fit.hpp"
+#include "report/words_uncertainty.hpp"
 
 namespace recoil {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/analysis.hpp"
 #include "plot/plot.hpp"
-#include "report/report.hpp"
 
 /// What the pictures of e(V) are made of.
 namespace recoil {

@@ -14,8 +14,8 @@
 #include "predict/validity.hpp"
 #include "report/figures_plan.hpp"
 #include "report/format.hpp"
+#include "report/words_dataset.hpp"
 #include "report/words_diagnosis.hpp"
-#include "report/words_validity.hpp"
 
 namespace recoil {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "report/format.hpp"
+#include "report/prediction_page.hpp"
 #include "report/words_dataset.hpp"
-#include "report/words_predict.hpp"
 
 namespace recoil {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "report/report.hpp"
+#include "analysis/analysis.hpp"
 
 namespace recoil {
 

@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "analysis/analysis.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/passages.hpp"
 #include "json/diagnosis_file.hpp"
 #include "json/fit_file.hpp"
-#include "report/comparison_document.hpp"
-#include "report/report.hpp"
+#include "report/comparison_page.hpp"
 
 /// The JSON files of results. Numbers that do not exist are null, where possible with a reason.
 namespace recoil {

@@ -5,12 +5,19 @@
 
 #include "data/datapackage.hpp"
 #include "data/dataset.hpp"
+#include "document/document.hpp"
+#include "experiment/import.hpp"
+#include "predict/validity.hpp"
+
+/// Datasets in words: origin, warnings, stated errors, limits of the model, notes of an import.
 
 namespace recoil {
 
-/// One sentence on what the provenance means for whoever reads a result; for a reconstruction it
-/// says that no point of it was measured.
+/// One sentence on the origin of the points; for a reconstruction, that none was measured.
 std::string provenance_sentence(Provenance provenance);
+
+/// A banner for each provenance among the datasets.
+std::vector<Block> provenance_banners(const std::vector<Dataset>& datasets);
 
 /// "2 points with a restitution above 1 (first in line 5): ..."
 std::string warning_sentence(const DatasetWarning& warning);
@@ -21,7 +28,21 @@ std::string mixed_sizes_words(const MeasuredSizes& sizes);
 /// "particle: Young's modulus 20 %; surface: Poisson's ratio 0.02"; empty where all are exact.
 std::string stated_errors_words(const ImpactSystem& system);
 
-/// What a dataset did not take over from the one whose materials it has, and what these give.
+/// Stated values that were not taken over with the materials of another dataset.
 std::string left_out_sentence(const std::vector<LeftOverride>& left_out);
+
+/// "the contact grows to 0.53 of the sphere's radius (100 m/s, 4.9 um); Hertz' theory is good to
+/// about 0.3".
+std::string validity_sentence(const Validity& validity);
+
+/// The sentences of those beyond their limits, with the dataset where there are several.
+std::vector<std::string> passed_limits(const std::vector<Validity>& validity,
+                                       const std::vector<Dataset>& datasets);
+
+/// Quantity, value and limit of one impact.
+Table validity_table(const std::vector<Validity>& validity);
+
+/// A note of `recoil import` as a sentence.
+std::string note_sentence(const ImportNote& note);
 
 }  // namespace recoil

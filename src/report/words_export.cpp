@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "analysis/analysis.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
 #include "report/format.hpp"
-#include "report/report.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {

@@ -1,137 +1,355 @@
 #include "report/words_fit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "report/words_noise.hpp"
+#include "estimate/reweighting.hpp"
+#include "estimate/shared_settings.hpp"
+#include "report/format.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_uncertainty.hpp"
 
 namespace recoil {
 namespace {
 
-void add_about_data(const Observations& data, std::vector<Sentence>& warnings) {
-  if (data.sd_stated) return;
-  if (data.sd_set_aside > 0) {
-    warnings.push_back(fmt::format(
-        "the standard deviations that {} points state (restitution_sd) are set aside: {}",
-        data.sd_set_aside,
-        data.spec.variance ? "the fit asks for an estimated variance function"
-                           : fmt::format("{} others state none, and two kinds of weights would not "
-                                         "be comparable",
-                                         data.sd_missing)));
-  }
-  warnings.emplace_back(
-      "the noise is estimated from the residuals: the fit cannot be tested against it");
+using Sentences = std::vector<Sentence>;
+
+/// A likelihood ratio of e^(4/2), about 7 to 1, decides clearly between variance functions.
+constexpr double clear = 4.0;
+
+std::string p_words(double p_value) {
+  return p_value < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p_value);
 }
 
-void add_about_starts(const FitResult& fitted, std::vector<Sentence>& warnings) {
-  for (const StartSummary& start : fitted.starts) {
-    for (const std::size_t j : start.differing) {
-      warnings.push_back(
-          say("tie: another start ends with the same chi2 at {} = {:.4g} instead of {:.4g}",
-              symbol(fitted.model.slots[j].label()), start.end[j], fitted.best_start().end[j]));
-    }
+// ---- noise -------------------------------------------------------------------------------------
+
+std::string widened_words(const FitResult& fitted) {
+  return fmt::format(
+      "the residuals are {:.3g} times larger than the stated noise ({}): errors and intervals are "
+      "widened by this factor, but no widening can correct for a wrong model",
+      fitted.noise_scale, p_words(fitted.p_value));
+}
+
+std::string variance_words(const Observations& data) {
+  const NoiseModel& noise = data.noise;
+  const std::string text =
+      "estimated from the residuals: " + scale_words(noise.variance, noise.scale);
+  if (data.spec.variance || noise.candidates.empty()) return text;
+  std::vector<std::string_view> others;
+  for (const VarianceCandidate& candidate : noise.candidates) {
+    if (candidate.function != noise.variance) others.push_back(name_of(candidate.function));
   }
-  const auto count = [&](StartOutcome outcome) {
-    return std::count_if(fitted.starts.begin(), fitted.starts.end(),
-                         [&](const StartSummary& start) { return start.outcome == outcome; });
-  };
-  const auto unfinished =
-      std::count_if(fitted.starts.begin(), fitted.starts.end(),
-                    [](const StartSummary& start) { return start.ending == DescentEnd::limit; });
-  if (unfinished > 0) {
-    warnings.push_back(
-        fmt::format("{} of {} starts were still under way when their iterations ran out",
-                    unfinished, fitted.starts.size()));
+  const double margin = choice_margin(noise);
+  return text + fmt::format(" ({}, chosen over {} by {:.1f} in -2 ln restricted likelihood{})",
+                            name_of(noise.variance), fmt::join(others, " and "), margin,
+                            margin < clear ? ", not clearly" : "");
+}
+
+std::string verdict_words(const FitResult& fitted) {
+  switch (fitted.noise_verdict) {
+    case NoiseVerdict::unchecked:
+      return "not checked: there are no more points than parameters";
+    case NoiseVerdict::estimated:
+      return variance_words(fitted.data);
+    case NoiseVerdict::explained:
+      return "the stated standard deviations explain the scatter";
+    case NoiseVerdict::doubtful:
+      return fmt::format("the stated standard deviations barely explain the scatter ({})",
+                         p_words(fitted.p_value));
+    case NoiseVerdict::exceeded:
+      return widened_words(fitted);
   }
-  if (const auto failed = count(StartOutcome::not_converged) - unfinished; failed > 0) {
-    warnings.push_back(
-        fmt::format("{} of {} starts did not converge", failed, fitted.starts.size()));
+  return "";
+}
+
+/// The largest share of velocity and diameter errors in the error of a point.
+std::string input_words(const std::vector<Observation>& points) {
+  double most = 0.0;
+  int count = 0;
+  for (const Observation& point : points) {
+    const PointWeights& weights = point.weights;
+    if (!(weights.input_sd > 0.0) || point.censored) continue;
+    ++count;
+    const double width = std::max(2.0 * point.restitution, weights.sd) * weights.sd;
+    most = std::max(most, weights.input_sd / width);
   }
-  if (const auto flat = count(StartOutcome::flat); flat > 0 && fitted.flat.empty()) {
-    warnings.push_back(
-        fmt::format("{} of {} starts ended where the points do not depend on one of the parameters",
-                    flat, fitted.starts.size()));
-  }
-  if (const auto worse = count(StartOutcome::worse); worse > 0) {
-    warnings.push_back(
-        fmt::format("{} of {} starts ended in a worse local minimum", worse, fitted.starts.size()));
+  if (count == 0) return "";
+  return fmt::format(
+      "; errors of velocity and diameter add up to {:.2g} standard deviations of e at {} points",
+      most, count);
+}
+
+std::string setting_words(const Observations& data) {
+  if (!data.shares_settings()) return "";
+  const SettingCount count = count_settings(data);
+  const std::string source =
+      fmt::format("{}, {} settings, {} points", data.setting_sd_estimated ? "estimated" : "stated",
+                  count.settings, count.points);
+  return data.noise.setting_sd > 0.0
+             ? fmt::format("; the points of one setting share an error of e of {:.2g} ({})",
+                           data.noise.setting_sd, source)
+             : fmt::format("; no shared error of the points of one setting is seen ({})", source);
+}
+
+// ---- warnings ----------------------------------------------------------------------------------
+
+void add_new(Sentences& list, const Sentences& more) {
+  for (const Sentence& item : more) {
+    if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
   }
 }
 
-void add_about_bounds(const FitResult& fitted, std::vector<Sentence>& warnings) {
+/// Standard deviations that the fit did not use.
+Sentences data_warnings(const Observations& data) {
+  if (data.sd_stated || data.sd_set_aside == 0) return {};
+  return {fmt::format("the restitution_sd of {} points is ignored: {}", data.sd_set_aside,
+                      data.spec.variance ? "the fit file requests an estimated variance"
+                                         : fmt::format("{} points state none", data.sd_missing))};
+}
+
+/// Parameters that the fit does not determine.
+Sentences undetermined_warnings(const FitResult& fitted) {
+  if (!fitted.flat.empty()) {
+    Sentences names;
+    for (const std::size_t j : fitted.flat) names.push_back(symbol(fitted.model.slots[j].label()));
+    return {
+        say("the points do not depend on {} at the estimate: change its initial value, or fix "
+            "it (free = false)",
+            join(names, ", "))};
+  }
+  if (!fitted.covariance.empty()) return {};
+  return {"the points do not determine all free parameters (J'J is singular): no standard errors"};
+}
+
+Sentences bound_warnings(const FitResult& fitted) {
+  Sentences warnings;
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     if (!fitted.at_bound[j]) continue;
     const ParameterSlot& slot = fitted.model.slots[j];
     const bool low = fitted.theta[j] <= 0.5 * (slot.lower + slot.upper);
     warnings.push_back(
-        say("{} rests on its {} bound {:.4g} {}: it has no symmetric error, and the errors of the "
-            "others are conditional on it",
+        say("{} is at its {} bound {:.4g}{}: it has no standard error, and the "
+            "errors of the other parameters are conditional on it",
             symbol(slot.label()), low ? "lower" : "upper", low ? slot.lower : slot.upper,
-            unit(slot.parameter->unit)));
+            unit_after_number(slot.parameter->unit)));
   }
+  return warnings;
 }
 
-void add_about_idle_mechanisms(const ImpactModel& model, std::vector<Sentence>& warnings) {
+Sentences weight_warnings(const FitResult& fitted) {
+  Sentences warnings;
+  if (!fitted.weights_at_rest) warnings.emplace_back("reweighting did not converge");
+  if (fitted.strained_points > 0) {
+    warnings.push_back(fmt::format(
+        "at {} points near capture the errors of velocity or diameter are too large for their "
+        "first-order treatment (bias above {:.1g} standard deviations)",
+        fitted.strained_points, strained_bias));
+  }
+  if (fitted.unused_counts) {
+    const Mechanism* const mechanism = fitted.unused_counts->mechanism;
+    warnings.push_back(fmt::format(
+        "captured counts at {} points with rebounds are not used, because {} already describe{} "
+        "how impacts differ",
+        fitted.unused_counts->points,
+        mechanism == nullptr ? "the stated sizes" : std::string(mechanism->info.id),
+        mechanism == nullptr ? "" : "s"));
+  }
+  return warnings;
+}
+
+Sentences mechanism_warnings(const ImpactModel& model) {
+  Sentences warnings;
   for (const Mechanism* mechanism : model.chain) {
     const auto idle =
         std::count_if(model.surroundings.begin(), model.surroundings.end(),
                       [&](const Surroundings& at) { return !mechanism->acts_at(at); });
     if (idle == 0) continue;
-    warnings.push_back(fmt::format(
-        "{} does nothing in {} of {} datasets, whose work of adhesion is 0 (it is a multiple of "
-        "it): {}",
-        mechanism->info.id, idle, model.surroundings.size(),
-        static_cast<std::size_t>(idle) == model.surroundings.size()
-            ? "leave it out, or state adhesion_energy"
-            : "its parameter rests on the others"));
+    warnings.push_back(
+        fmt::format("{} has no effect in {} of {} datasets, whose work of adhesion is 0",
+                    mechanism->info.id, idle, model.surroundings.size()));
   }
+  return warnings;
+}
+
+Sentences start_warnings(const FitResult& fitted) {
+  Sentences warnings;
+  for (const StartSummary& start : fitted.starts) {
+    for (const std::size_t j : start.differing) {
+      warnings.push_back(
+          say("another minimum has the same chi2, with {} = {:.4g} instead of {:.4g}",
+              symbol(fitted.model.slots[j].label()), start.end[j], fitted.best_start().end[j]));
+    }
+  }
+  const auto add = [&](std::ptrdiff_t count, const char* problem) {
+    if (count > 0) {
+      warnings.push_back(fmt::format("{} of {} starts {}", count, fitted.starts.size(), problem));
+    }
+  };
+  const auto count = [&](const auto& holds) {
+    return std::count_if(fitted.starts.begin(), fitted.starts.end(), holds);
+  };
+  const auto unfinished = count([](const auto& s) { return s.ending == DescentEnd::limit; });
+  add(unfinished, "reached the iteration limit");
+  add(count([](const auto& s) { return s.outcome == StartOutcome::not_converged; }) - unfinished,
+      "did not converge");
+  add(count([](const auto& s) { return s.outcome == StartOutcome::worse; }),
+      "ended in a worse local minimum");
+  if (fitted.flat.empty()) {
+    add(count([](const auto& s) { return s.outcome == StartOutcome::flat; }),
+        "ended where a parameter has no effect");
+  }
+  return warnings;
+}
+
+Sentence point_words(const MeasuredPoint& point) {
+  return say("{e} = {:.4g} at {V} = {:.4g} m/s", point.restitution, point.velocity);
 }
 
 }  // namespace
 
+Sentence equation_words(AdhesionLaw law) {
+  switch (law) {
+    case AdhesionLaw::ring:
+      return say("Hertz contact with ring adhesion 2 pi {a} {f0} (Li, Dunn & Brach 1999, eq. 5)");
+    case AdhesionLaw::jkr:
+      return "Johnson, Kendall & Roberts (1971), damped";
+    case AdhesionLaw::dmt:
+      return "Derjaguin, Muller & Toporov (1975), damped";
+    case AdhesionLaw::maugis:
+      return "Maugis (1992), damped";
+  }
+  return {};
+}
+
+Sentence quality_words(const FitResult& f) {
+  if (!f.data.sd_stated) {
+    return say(
+        "The rms residual of {e} is {}; without stated standard deviations the fit cannot be "
+        "tested.",
+        number(f.rmse, 2));
+  }
+  if (f.dof <= 0) return "The fit cannot be tested: there are no more points than parameters.";
+  const std::string p = p_words(f.p_value);
+  if (f.p_value > 0.99) {
+    return say("The model fits; the points scatter less than stated ({}).", p);
+  }
+  if (f.p_value >= 0.05) return say("The model fits ({}).", p);
+  if (f.p_value >= 0.01) return say("The model barely fits ({}).", p);
+  return say("The model does not fit: chi-square is {} on {} degrees of freedom ({}).",
+             number(f.chi2, 4), f.dof, p);
+}
+
+std::string noise_words(const FitResult& fitted) {
+  if (!fitted.usable) return "";
+  const Observations& data = fitted.data;
+  std::string text = verdict_words(fitted) + input_words(data.points);
+  if (data.noise.event_spread > 0.0) {
+    text += fmt::format("; the capture velocity scatters by {:.1f} % from impact to impact",
+                        100.0 * data.noise.event_spread);
+  }
+  text += setting_words(data);
+  if (data.noise.student) {
+    text += fmt::format("; Student's t residuals with {:g} degrees of freedom",
+                        data.noise.student->dof);
+  }
+  return text;
+}
+
+std::string scale_words(VarianceFunction function, double scale) {
+  switch (function) {
+    case VarianceFunction::proportional:
+      return fmt::format("sd(e) = {:.3g} e", scale);
+    case VarianceFunction::capture:
+      return fmt::format("sd(e^2) = {:.3g}", scale);
+    case VarianceFunction::steep:
+      return fmt::format("sd(e) = {:.3g} exp(2 (V* / V)^2)", scale);
+    case VarianceFunction::constant:
+      return fmt::format("sd(e) = {:.3g}", scale);
+    case VarianceFunction::stated:
+      break;
+  }
+  return "sd(e) as stated";
+}
+
+Sentence two_point_words(const FitResult& fitted, std::size_t dataset,
+                         const TwoPointResult& result) {
+  if (result.status == TwoPointStatus::too_few_points) {
+    return "the diameter has fewer than two velocities with rebounds";
+  }
+  const ImpactModel& model = fitted.model;
+  const Sentence low = point_words(fitted.data.points[result.low_point]);
+  const Sentence high = point_words(fitted.data.points[result.high_point]);
+  const double C_H = result.theta[model.slot_C_H[dataset]];
+  const double C_A = result.theta[model.slot_C_A[dataset]];
+  switch (result.status) {
+    case TwoPointStatus::no_hertz_damping:
+      return say(
+          "no {C_H} >= 0 gives {}: with the {C_A} of the slowest point, {:.4g} s/m, adhesion "
+          "already loses more there",
+          high, C_A);
+    case TwoPointStatus::no_adhesion_damping:
+      return say("no {C_A} in [0, {:.4g}] s/m gives {} with {C_H} = {:.4g} s/m",
+                 model.slots[model.slot_C_A[dataset]].upper, low, C_H);
+    case TwoPointStatus::converged:
+      return say("from {} and {}", low, high);
+    case TwoPointStatus::not_converging:
+      return say("{C_H} and {C_A} still change after {} iterations on {} and {}", result.iterations,
+                 low, high);
+    case TwoPointStatus::too_few_points:
+      break;
+  }
+  return {};
+}
+
 std::vector<Sentence> fit_warnings(const FitResult& fitted) {
-  std::vector<Sentence> warnings;
-  add_about_data(fitted.data, warnings);
-  add_about_idle_mechanisms(fitted.model, warnings);
-  if (fitted.unused_counts) {
-    warnings.push_back(
-        fmt::format("{} how the impacts of a point differ: the counts of captured spheres at {} "
-                    "points with rebounds are not used in addition",
-                    fitted.unused_counts->mechanism == nullptr
-                        ? std::string("the stated sizes say")
-                        : fmt::format("{} says", fitted.unused_counts->mechanism->info.id),
-                    fitted.unused_counts->points));
+  Sentences warnings = data_warnings(fitted.data);
+  if (fitted.usable) {
+    add_new(warnings, undetermined_warnings(fitted));
+    add_new(warnings, bound_warnings(fitted));
+    if (fitted.noise_verdict == NoiseVerdict::exceeded) {
+      warnings.emplace_back(widened_words(fitted));
+    }
+    add_new(warnings, start_warnings(fitted));
   }
-  if (!fitted.usable) return warnings;
-  if (!fitted.weights_at_rest) {
-    warnings.emplace_back(
-        "the weights of the points had not settled in the last round of reweighting: the estimate "
-        "depends on where they stopped");
-  }
-  if (fitted.noise_verdict == NoiseVerdict::exceeded) warnings.push_back(widened_words(fitted));
-  if (fitted.strained_points > 0) {
-    warnings.push_back(fmt::format(
-        "at {} points the curve bends so much over the errors of velocity or diameter that their "
-        "effective variance (first order) is biased by more than {:.1g} standard deviations: close "
-        "to capture these errors are too large for that approximation",
-        fitted.strained_points, strained_bias));
-  }
-  if (!fitted.flat.empty()) {
-    std::vector<Sentence> names;
-    for (const std::size_t j : fitted.flat) names.push_back(symbol(fitted.model.slots[j].label()));
-    warnings.push_back(
-        say("the fit ended where the points do not depend on {}: such a value means nothing, and "
-            "there are no standard errors; begin elsewhere (initial) or do not fit it (free = "
-            "false)",
-            join(names, ", ")));
-  } else if (fitted.covariance.empty()) {
-    warnings.emplace_back(
-        "the points do not determine all free parameters (J'J is singular): no standard errors");
-  }
-  add_about_starts(fitted, warnings);
-  add_about_bounds(fitted, warnings);
+  add_new(warnings, weight_warnings(fitted));
+  add_new(warnings, mechanism_warnings(fitted.model));
   return warnings;
+}
+
+std::vector<Sentence> all_warnings(const Analysis& a) {
+  Sentences warnings = fit_warnings(a.fitted);
+  add_new(warnings, uncertainty_warnings(a.uncertainty, a.fitted.data));
+  for (std::size_t s = 0; s < a.uncertainty.intervals.size(); ++s) {
+    const Interval& interval = recommended_interval(a.uncertainty.intervals[s]);
+    if (!interval.note || !short_note(interval.note->caution).empty()) continue;
+    const Sentence name = symbol(a.fitted.model.slots[s].label());
+    add_new(warnings, {say("{}: {}", name, note_words(interval, name))});
+  }
+  for (const Dataset& dataset : a.datasets) {
+    for (const DatasetWarning& warning : dataset.warnings) {
+      add_new(warnings, {warning_sentence(warning)});
+    }
+  }
+  for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
+    if (comparison.result.status == TwoPointStatus::converged) continue;
+    add_new(warnings, {say("two points on {}: {}", a.datasets[comparison.dataset].id,
+                           two_point_words(a.fitted, comparison.dataset, comparison.result))});
+  }
+  return warnings;
+}
+
+std::vector<Sentence> all_contradictions(const Analysis& a) {
+  Sentences sentences;
+  const auto& contacts = a.fitted.model.contacts;
+  for (std::size_t k = 0; k < contacts.size() && k < a.datasets.size(); ++k) {
+    for (const std::string& sentence : contacts[k].contradictions) {
+      sentences.push_back(say("{}: {}", code(a.datasets[k].id), sentence));
+    }
+  }
+  return sentences;
 }
 
 }  // namespace recoil

@@ -70,13 +70,3 @@ def test_a_picture_that_is_not_there_says_so(here):
         result.plot_mixture_average()
     with pytest.raises(ValueError, match="there are restitution-1"):
         result.plot_picture("restitutoin")
-
-
-def test_pictures_of_several_plots_take_as_many_axes(here):
-    result = recoil.fit("mine.toml")
-    axes = drawn(result.plot_corner())
-    assert isinstance(axes, list) and len(axes) == 3
-    figure, mine = plt.subplots(1, 3)
-    assert drawn(result.plot_corner(ax=mine)) == list(mine)
-    with pytest.raises(ValueError, match="3 plots, and ax has 1"):
-        result.plot_corner(ax=mine[0])

@@ -10,7 +10,9 @@
 #include "document/html.hpp"
 #include "example_analysis.hpp"
 #include "report/experiment_figures.hpp"
-#include "report/index_document.hpp"
+#include "report/fit_sections.hpp"
+#include "report/index_page.hpp"
+#include "report/result_json.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -22,9 +24,11 @@ namespace fs = std::filesystem;
 class Browser : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    page_ = html_report(sample::four_diameters());
+    page_ = fit_html(sample::four_diameters());
     const Analysis analysis = sample::four_diameters();
-    index_ = html_index({{"page.html", summary_of(analysis), thumbnail(analysis)}});
+    IndexEntry entry{"page.html", fit_json(analysis)};
+    entry.picture = thumbnail(analysis);
+    index_ = html_index({entry});
   }
 
   /// 0 when Chromium is content with `html`.
@@ -52,20 +56,14 @@ class Browser : public testing::Test {
   support::TemporaryFolder folder_;
 };
 
-TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 15), 0); }
+TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 6), 0); }
 
 TEST_F(Browser, ShowsThePageWithoutScript) {
-  EXPECT_EQ(open(page_, 15, {"--without-script"}), 0);
+  EXPECT_EQ(open(page_, 6, {"--without-script"}), 0);
   EXPECT_EQ(
-      open(replaced(page_, "</main>", "<p class='save'>Save</p></main>"), 15, {"--without-script"}),
+      open(replaced(page_, "</main>", "<p class='save'>Save</p></main>"), 6, {"--without-script"}),
       1)
       << "what only a script can do is not there";
-}
-
-TEST_F(Browser, ShowsWhatCorrectionsDo) {
-  Analysis analysis = sample::four_diameters();
-  analysis.corrections = {sample::corrections(1), sample::corrections(4)};
-  EXPECT_EQ(open(html_report(analysis), 19), 0) << last_words_;  // two pictures of each
 }
 
 TEST_F(Browser, ShowsThePicturesOfAnExperiment) {
@@ -96,7 +94,7 @@ TEST_F(Browser, ShowsThePicturesOfAnExperiment) {
   EXPECT_EQ(open(html_page(page), 4), 0);
 }
 
-TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(html_report(sample::two_datasets()), 28), 0); }
+TEST_F(Browser, ShowsAJointPage) { EXPECT_EQ(open(fit_html(sample::two_datasets()), 11), 0); }
 
 TEST_F(Browser, ShowsTheIndex) { EXPECT_EQ(open(index_, 1), 0); }
 
@@ -113,7 +111,7 @@ TEST_F(Browser, ComplainsOfAMissingPlot) {
   const auto begin = broken.find("<svg ");
   broken.erase(begin, broken.find("</svg>") + 6 - begin);
   EXPECT_EQ(open(broken, 1), 1);
-  EXPECT_EQ(open(page_, 16), 1) << "fewer figures than asked for";
+  EXPECT_EQ(open(page_, 7), 1) << "fewer figures than asked for";
 }
 
 TEST_F(Browser, ComplainsOfAnEmptyPlot) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "report/comparison_document.hpp"
+#include "report/comparison_page.hpp"
 
 namespace recoil {
 namespace {

@@ -1,10 +1,9 @@
-#include "report/dataset_document.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "report/dataset_page.hpp"
 #include "report/words_dataset.hpp"
 #include "support/dataset_folder.hpp"
 

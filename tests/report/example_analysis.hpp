@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/report.hpp"
+#include "analysis/analysis.hpp"
 
 namespace recoil::sample {
 
@@ -10,8 +10,5 @@ Analysis four_diameters();
 
 /// Two datasets fitted together, f0 free per dataset, captured points, no stated deviations.
 Analysis two_datasets();
-
-/// What each correction of a pairing does, in numbers of a plausible size; one row without a fit.
-CorrectionStudy corrections(std::size_t size_classes);
 
 }  // namespace recoil::sample

@@ -16,6 +16,7 @@
 #include "estimate/residual.hpp"
 #include "example_analysis.hpp"
 #include "mechanism/catalogue.hpp"
+#include "report/fit_sections.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -26,7 +27,7 @@ using Json = nlohmann::json;
 
 class Explorer : public testing::Test {
  protected:
-  static void SetUpTestSuite() { page_ = html_report(sample::four_diameters()); }
+  static void SetUpTestSuite() { page_ = fit_html(sample::four_diameters()); }
 
   /// The values of JavaScript expressions in `page`, one after the other; the test fails where the
   /// browser does.
@@ -187,7 +188,7 @@ TEST_F(Explorer, WeighsEveryKindOfPointAsTheFit) {
   for (const bool student : {false, true}) {
     const Analysis analysis = with_every_kind_of_point(student);
     const std::vector<Json> found =
-        evaluate(html_report(analysis),
+        evaluate(fit_html(analysis),
                  {std::string(panels) + ".map(p => [p.chi2, recoil.misfit(p, p.diameter, p)])"});
     ASSERT_EQ(found.front().size(), 4U);
     double all = 0.0;
@@ -215,7 +216,7 @@ TEST_F(Explorer, MisfitFollowsTheValuesAndTheDiameter) {
         predict(analysis.fitted.model, theta, 0, 2.0 * p.diameter, p.velocity, false);
     expected += std::pow(weighted_residual(p, m.restitution_squared).value, 2);
   }
-  const Json found = evaluate(html_report(analysis),
+  const Json found = evaluate(fit_html(analysis),
                               {fmt::format("(p => recoil.misfit(p, 2 * p.diameter, {{...p, C_H: "
                                            "0.01, C_A: 0.1, adhesion: {}}}))({}[0])",
                                            theta[2], panels)})
@@ -248,7 +249,7 @@ TEST_F(Explorer, ControlsDrawTheCurveOfTheirValues) {
   const std::string drawn_by_the_program =
       "document.querySelector('#restitution-1 path[stroke=\"#0072b2\"]').getAttribute('d')";
   const std::vector<Json> seen =
-      evaluate(html_report(analysis),
+      evaluate(fit_html(analysis),
                {"document.querySelectorAll('path.explored').length", seen_after(-1, ""),
                 drawn_by_the_program, seen_after(1, "0.2"),
                 seen_after(-1, "", "box.querySelector('button').click();"), seen_after(3, "-1"),

@@ -1,6 +1,4 @@
 // What the pictures of a fit show, as facts: axes, layers, numbers. Nothing is drawn here.
-#include "report/figures.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,14 +6,9 @@
 
 #include "core/units.hpp"
 #include "example_analysis.hpp"
-#include "report/corrections_document.hpp"
+#include "report/diagnosis_figures.hpp"
 #include "report/experiment_figures.hpp"
-#include "report/figures_corner.hpp"
-#include "report/figures_corrections.hpp"
-#include "report/figures_diagnosis.hpp"
-#include "report/figures_intervals.hpp"
-#include "report/figures_physics.hpp"
-#include "report/figures_statistics.hpp"
+#include "report/fit_figures.hpp"
 
 namespace recoil {
 namespace {
@@ -123,110 +116,14 @@ TEST(RestitutionFigures, TheCaptureVelocityStandsInItsInterval) {
 }
 
 TEST(ResidualFigures, LieAboutZeroWithLinesAtTwo) {
-  for (const auto& figures : {residual_velocity_figures(sample::four_diameters()),
-                              residual_diameter_figures(sample::four_diameters())}) {
+  {
+    const auto figures = residual_figures(sample::four_diameters());
     ASSERT_EQ(figures.size(), 1U);
     const plot::Plot& plot = plot_of(figures[0]);
     EXPECT_EQ(*plot.y.from, -*plot.y.to);
     std::vector<double> places;
     for (const plot::Rule& rule : layers_of<plot::Rule>(plot)) places.push_back(rule.at);
     EXPECT_THAT(places, ElementsAre(-2.0, 2.0, 0.0));
-  }
-}
-
-TEST(ResidualFigures, TheMeanOfADiameterIsThatOfItsResiduals) {
-  const Analysis analysis = sample::four_diameters();
-  const auto means = layer_named<plot::Points>(plot_of(residual_diameter_figures(analysis).front()),
-                                               "mean ± 1 sd");
-  ASSERT_EQ(means.x.size(), 4U);
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < analysis.fitted.data.points.size(); ++i) {
-    if (std::abs(analysis.fitted.data.points[i].diameter / units::um - means.x[0]) > 1e-9) continue;
-    sum += analysis.fitted.residuals[i];
-    count += 1.0;
-  }
-  EXPECT_NEAR(means.y[0], sum / count, 1e-12);
-  EXPECT_NEAR(means.upper[0] - means.y[0], 1.0 / std::sqrt(count), 1e-12);
-}
-
-TEST(BootstrapFigures, BarsCountEveryReplicateInThePicture) {
-  const Analysis analysis = sample::four_diameters();
-  const Figure figure = bootstrap_figures(analysis).front();
-  const plot::Boxes bars = layers_of<plot::Boxes>(plot_of(figure)).at(0);
-  double counted = 0.0;
-  for (const double top : bars.top) counted += top;
-  const double all = static_cast<double>(analysis.uncertainty.bootstrap.theta.size());
-  EXPECT_LE(counted, all);
-  EXPECT_GE(counted, 0.98 * all);
-  const double estimate = layer_named<plot::Rule>(plot_of(figure), "estimate").at;
-  EXPECT_TRUE(inside(estimate, plot_of(figure).x));
-}
-
-TEST(IntervalFigures, EveryIntervalHasItsRow) {
-  const Analysis analysis = sample::four_diameters();
-  for (const Figure& figure : interval_figures(analysis)) {
-    const plot::Plot& plot = plot_of(figure);
-    EXPECT_EQ(plot.y.ticks.size(), 5U);
-    std::size_t rows = 0;
-    for (const plot::Spans& spans : layers_of<plot::Spans>(plot)) {
-      rows += spans.y.size();
-      for (std::size_t i = 0; i < spans.y.size(); ++i) EXPECT_LE(spans.lower[i], spans.upper[i]);
-    }
-    for (const plot::Words& words : layers_of<plot::Words>(plot)) rows += words.text == "none";
-    EXPECT_EQ(rows, 5U);
-  }
-}
-
-TEST(CornerFigures, HaveAPanelForEveryPairAndEveryParameter) {
-  const std::vector<Figure> figures = corner_figures(sample::two_datasets());
-  ASSERT_EQ(figures.size(), 1U);
-  std::size_t diagonal = 0;
-  for (const plot::Plot& plot : figures[0].picture.plots) {
-    ASSERT_TRUE(plot.frame.has_value());
-    EXPECT_GE(plot.frame->left, 0.0);
-    EXPECT_LE(plot.frame->right, figures[0].picture.width);
-    EXPECT_LE(plot.frame->top, figures[0].picture.height);
-    diagonal += layers_of<plot::Boxes>(plot).size();
-  }
-  EXPECT_EQ(figures[0].picture.plots.size(), diagonal * (diagonal + 1) / 2);
-  Analysis without = sample::two_datasets();
-  without.uncertainty.bootstrap.theta.clear();
-  EXPECT_THAT(corner_figures(without), IsEmpty());
-}
-
-TEST(CornerFigures, PanelsDoNotOverlap) {
-  const Figure figure = corner_figures(sample::two_datasets()).at(0);
-  const auto& plots = figure.picture.plots;
-  for (std::size_t a = 0; a < plots.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      const plot::Frame& one = *plots[a].frame;
-      const plot::Frame& other = *plots[b].frame;
-      EXPECT_TRUE(one.right <= other.left || other.right <= one.left || one.top <= other.bottom ||
-                  other.top <= one.bottom)
-          << a << " and " << b;
-    }
-  }
-}
-
-TEST(AdhesionForceFigures, FollowTheCubeRoot) {
-  const Figure figure = adhesion_force_figures(sample::four_diameters()).at(0);
-  const plot::Line line = layers_of<plot::Line>(plot_of(figure)).at(0);
-  const double scale = line.y.back() / std::cbrt(line.x.back());
-  for (std::size_t i = 0; i < line.x.size(); ++i) {
-    EXPECT_NEAR(line.y[i], scale * std::cbrt(line.x[i]), 1e-9 * line.y.back());
-  }
-}
-
-TEST(ForceHistoryFigures, TheSumIsThatOfTheFourForces) {
-  const Figure figure = force_history_figures(sample::four_diameters()).at(0);
-  const auto lines = layers_of<plot::Line>(plot_of(figure));
-  ASSERT_EQ(lines.size(), 5U);
-  EXPECT_EQ(lines[4].name, "sum");
-  for (std::size_t i = 0; i < lines[4].y.size(); ++i) {
-    const double sum = lines[0].y[i] + lines[1].y[i] + lines[2].y[i] + lines[3].y[i];
-    EXPECT_NEAR(lines[4].y[i], sum, 1e-9 * (1.0 + std::abs(sum)));
-    EXPECT_TRUE(inside(lines[0].x[i], plot_of(figure).x));
   }
 }
 
@@ -279,30 +176,6 @@ TEST(RankingFigures, LeaveRoomForTheReasonBehindALongBar) {
   d.candidates[0].set_aside = SetAside::at_the_edge;  // in more words
   EXPECT_GT(*plot_of(ranking_figures(d).at(0)).x.to, 1.1 * end);
   EXPECT_LT(*plot_of(ranking_figures(d).at(0)).x.to, 45.0);
-}
-
-TEST(CorrectionFigures, LeaveOutTheRowThatCannotDiffer) {
-  const CorrectionStudy study = sample::corrections(1);
-  const std::vector<Figure> figures = correction_figures(study, 1);
-  ASSERT_EQ(figures.size(), 2U);
-  EXPECT_EQ(layers_of<plot::Line>(plot_of(figures[0])).size(), study.rows.size() - 1);
-  EXPECT_EQ(plot_of(figures[1]).y.ticks.size(), study.rows.size());
-}
-
-TEST(CorrectionFigures, HaveRoomForEveryErrorBar) {
-  CorrectionStudy study = sample::corrections(1);
-  for (CorrectionRow& row : study.rows) {
-    row.usable = true;
-    row.C_A = study.C_A;
-    row.C_A_sd = 1.5 * study.C_A;  // below zero too
-  }
-  const plot::Plot damping = plot_of(correction_figures(study, 1)[1]);
-  const auto bars = layers_of<plot::Line>(damping);
-  ASSERT_EQ(bars.size(), study.rows.size());
-  for (const plot::Line& bar : bars) {
-    EXPECT_NEAR(bar.x[1] - bar.x[0], 3.0 * study.C_A, 1e-12);  // two standard errors
-    EXPECT_TRUE(inside(bar.x[0], damping.x) && inside(bar.x[1], damping.x));
-  }
 }
 
 TEST(ExperimentPictures, BarsAndOutlineHoldTheSameShare) {

@@ -35,6 +35,7 @@ WIDTHS = {"desktop": (1200, 900, False), "phone": (360, 740, True), "print": (68
 # Runs inside the page, given the screen's width; returns a list of complaints and what it counted.
 INSPECT = r"""
 (screen => {
+  for (const section of document.querySelectorAll('details.section')) section.open = true;
   const complaints = [];
   const visible = box => box && box.width > 40 && box.height > 40;
   const pictures = [...document.querySelectorAll('.picture')];

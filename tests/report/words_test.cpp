@@ -4,10 +4,9 @@
 #include <set>
 
 #include "example_analysis.hpp"
+#include "report/prediction_page.hpp"
 #include "report/words_diagnosis.hpp"
-#include "report/words_identifiability.hpp"
-#include "report/words_intervals.hpp"
-#include "report/words_predict.hpp"
+#include "report/words_uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -46,8 +45,6 @@ TEST(Words, EveryFactHasItsOwn) {
     bootstrap.because = because;
     return scheme_words(bootstrap);
   });
-  expect_words_for_all<SchemeObstacle>(
-      [](SchemeObstacle obstacle) { return obstacle_words(obstacle); });
   expect_words_for_all<NothingHeldOut>([](NothingHeldOut why) {
     TwoPointComparison comparison;
     comparison.nothing_held_out = why;
@@ -116,10 +113,10 @@ TEST(Words, SayWhoseBoundTheReplicatesRestOn) {
   set.disagreement = Disagreement{};
   set.disagreement->on_bound = Disagreement::OnBound{0, 0.3, 0.0};
   const std::string own = plain_text(disagreement_words(analysis.fitted, 0, set));
-  EXPECT_NE(own.find("30 % of the replicates rest on a bound"), std::string::npos) << own;
+  EXPECT_NE(own.find("30 % of the replicates are at a bound"), std::string::npos) << own;
   set.disagreement->on_bound = Disagreement::OnBound{1, 0.3, -0.8};
   const std::string others = plain_text(disagreement_words(analysis.fitted, 0, set));
-  EXPECT_NE(others.find("30 % of the replicates have " + other + " on its bound"),
+  EXPECT_NE(others.find("30 % of the replicates have " + other + " at its bound"),
             std::string::npos)
       << others;
 }

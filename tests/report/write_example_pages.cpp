@@ -5,7 +5,8 @@
 
 #include "core/files.hpp"
 #include "example_analysis.hpp"
-#include "report/index_document.hpp"
+#include "report/fit_sections.hpp"
+#include "report/index_page.hpp"
 #include "report/result_json.hpp"
 
 int main(int argc, char** argv) {
@@ -18,10 +19,12 @@ int main(int argc, char** argv) {
   for (const recoil::Analysis& analysis :
        {recoil::sample::four_diameters(), recoil::sample::two_datasets()}) {
     const std::string id = analysis.spec.id;
-    recoil::write_whole_file(folder / (id + ".html"), recoil::html_report(analysis));
+    recoil::write_whole_file(folder / (id + ".html"), recoil::fit_html(analysis));
     recoil::write_whole_file(folder / (id + ".json"), recoil::fit_json(analysis));
-    recoil::write_whole_file(folder / (id + ".txt"), recoil::text_report(analysis));
-    entries.push_back({id + ".html", recoil::summary_of(analysis), recoil::thumbnail(analysis)});
+    recoil::write_whole_file(folder / (id + ".txt"),
+                             recoil::fit_text(analysis, recoil::Importance::detail));
+    entries.push_back({id + ".html", recoil::fit_json(analysis)});
+    entries.back().picture = recoil::thumbnail(analysis);
   }
   recoil::write_whole_file(folder / "index.html", recoil::html_index(entries));
 }

@@ -64,37 +64,13 @@ class FitPictures(_Pictures):
         capture velocity with its interval."""
         return self._draw("restitution", which, ax)
 
-    def plot_residual_velocity(self, which: int = 1, ax: "On" = None) -> "Drawn":
+    def plot_residuals(self, which: int = 1, ax: "On" = None) -> "Drawn":
         """Weighted residuals against velocity, of one dataset."""
-        return self._draw("residual-velocity", which, ax)
+        return self._draw("residuals", which, ax)
 
-    def plot_residual_diameter(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """Weighted residuals against diameter, of one dataset."""
-        return self._draw("residual-diameter", which, ax)
-
-    def plot_intervals(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """All kinds of interval of one free parameter."""
-        return self._draw("intervals", which, ax)
-
-    def plot_bootstrap(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """The bootstrap distribution of one free parameter."""
-        return self._draw("bootstrap", which, ax)
-
-    def plot_corner(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """The replicates of every pair of parameters, profile likelihoods on the diagonal."""
-        return self._draw("corner", which, ax)
-
-    def plot_two_point(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """Two points against all under resampling, of one dataset."""
-        return self._draw("two-point", which, ax)
-
-    def plot_adhesion_force(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """Adhesion force per length against radius."""
-        return self._draw("adhesion-force", which, ax)
-
-    def plot_force_history(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """The forces during one impact, of one dataset."""
-        return self._draw("force-history", which, ax)
+    def plot_overview(self, which: int = 1, ax: "On" = None) -> "Drawn":
+        """e against V of all sizes."""
+        return self._draw("overview", which, ax)
 
     def plot_capture_models(self, which: int = 1, ax: "On" = None) -> "Drawn":
         """Capture velocity against diameter, beside other models, of one dataset."""
@@ -104,20 +80,7 @@ class FitPictures(_Pictures):
         """Averages over the sizes, of a dataset that comes with a size distribution."""
         return self._draw("mixture-average", which, ax)
 
-    def plot_mixture_sizes(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """The smallest sphere, the mean one, the largest, of such a dataset."""
-        return self._draw("mixture-sizes", which, ax)
-
-    def plot_mixture_captured(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """How many spheres stay or are not seen again, of such a dataset."""
-        return self._draw("mixture-captured", which, ax)
-
-    def plot_budget(self, which: int = 1, ax: "On" = None) -> "Drawn":
-        """What the errors come from, where constants of the materials are uncertain."""
-        return self._draw("budget", which, ax)
-
     plot_fit = plot_restitution
-    plot_residuals = plot_residual_velocity
     plot = plot_restitution
 
 

@@ -8,7 +8,7 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/row_file.hpp"
-#include "report/report.hpp"
+#include "analysis/analysis.hpp"
 #include "report/words_parts.hpp"
 #include "validation/studies/commands.hpp"
 #include "validation/studies/study_list.hpp"

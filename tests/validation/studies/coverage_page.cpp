@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 
-#include "report/corrections_document.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {

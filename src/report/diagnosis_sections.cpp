@@ -1,0 +1,326 @@
+#include "report/diagnosis_sections.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/program.hpp"
+#include "core/units.hpp"
+#include "document/html.hpp"
+#include "document/terminal.hpp"
+#include "report/answer_words.hpp"
+#include "report/diagnosis_figures.hpp"
+#include "report/diagnosis_headline.hpp"
+#include "report/format.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_diagnosis.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_pairs = 8;
+constexpr std::size_t most_values = 8;         // of the parameters of one mechanism
+constexpr std::size_t sentences_in_short = 3;  // of the answer, on the page of the fit
+
+/// One parameter under one of the models.
+struct UnderModel {
+  Cell estimate, interval;
+  std::string remark;
+};
+
+UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& intervals,
+                       const std::string& label) {
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    if (fitted.model.slots[j].label() != label) continue;
+    if (!fitted.model.slots[j].free) {
+      const bool moves = fitted.model.slots[j].is_constant();
+      const bool follows = followed_in(fitted.model, j).has_value();
+      return {Number{acting_value(fitted.model, fitted.theta, j)},
+              {},
+              moves     ? "moves within its stated error"
+              : follows ? "follows the materials"
+                        : "fixed"};
+    }
+    const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
+    UnderModel found{Number{fitted.theta[j], significant(4), error}, {}, ""};
+    if (fitted.at_bound[j]) found.remark = "at its bound";
+    if (j < intervals.size())
+      found.interval = interval_cell(recommended_interval(intervals[j]), padded(3));
+    return found;
+  }
+  return {};
+}
+
+Cell said_of_both(const std::string& base, const std::string& extended) {
+  if (base == extended) return Sentence(base);
+  if (base.empty()) return Sentence(extended + " in the extended model");
+  if (extended.empty()) return Sentence(base + " in the base model");
+  return Sentence(fmt::format("{}, then {}", base, extended));
+}
+
+Paragraph gain_summary(const Diagnosis& d) {
+  if (!d.gain || !d.gain->lower || !d.gain->upper || !d.gain->any_chosen()) return {};
+  return {say("Together: {} instead of {}, {:.0f} % less (95 % interval {:.0f} to {:.0f} %).",
+              number(d.gain->rmse_extended, 3), number(d.gain->rmse_base, 3),
+              100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper)};
+}
+
+Table structure_table(const Diagnosis& d) {
+  Table table;
+  table.caption =
+      say("Tests of the residuals; {p} from {} simulated data sets", d.structure.simulated);
+  table.columns = {{"structure"}, {say("{p}")}};
+  for (const StructureTest& test : d.structure.tests) {
+    table.rows.push_back({Sentence(words_of(test.question)), Number{test.p_value, probability()}});
+  }
+  table.rows.push_back({"all tests together", Number{d.structure.p_value, probability()}});
+  return table;
+}
+
+Table misfit_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
+  Table table;
+  table.caption = say("Mean misfit, {e} - {e}_model: positive where the model is too low");
+  table.columns = {{"dataset"},     {say("{d}"), sizes.name}, {say("{V}"), "m/s"}, {"points"},
+                   {say("in {e}")}, {"energy", "J"},          {"standard errors"}};
+  for (const MisfitCell& cell : d.where) {
+    table.rows.push_back(
+        {Sentence(d.datasets[cell.dataset].id), Sentence(size_text(cell.diameter, sizes)),
+         say("{:.3g} to {:.3g}", cell.slowest, cell.fastest),
+         Number{static_cast<double>(cell.points), fixed(0)},
+         Number{cell.restitution, signed_fixed(3)}, Number{cell.energy, scientific(2)},
+         Number{cell.standardised, signed_fixed(1)}});
+  }
+  return table;
+}
+
+Sentence value_of(const FoundParameter& p) {
+  return say("{} = {:.3g}", symbol(p.label), p.value) + unit_after_number(p.unit);
+}
+
+/// All of them; of many, the least and the largest.
+Sentence values_of(const std::vector<FoundParameter>& parameters) {
+  if (parameters.size() > most_values) {
+    const auto [least, largest] =
+        std::minmax_element(parameters.begin(), parameters.end(),
+                            [](const auto& a, const auto& b) { return a.value < b.value; });
+    return say("{} values from ", parameters.size()) + value_of(*least) + Sentence(" to ") +
+           value_of(*largest);
+  }
+  std::vector<Sentence> values;
+  for (const FoundParameter& p : parameters) values.push_back(value_of(p));
+  return join(values, ", ");
+}
+
+/// Every mechanism added to the model and refitted, with the values that it needs.
+Table candidates_table(const std::vector<CandidateResult>& candidates) {
+  Table table;
+  table.compact = true;
+  table.caption = say(
+      "Mechanisms added to the model, one or two at a time. {p}: share of simulated data sets in "
+      "which the best of all candidates gains as much by chance; left: p-value of the remaining "
+      "structure");
+  table.columns = {{"mechanism"},        {"dAICc"}, {say("{p}")},
+                   {"held out"},         {"left"},  {"values", "", true},
+                   {"verdict", "", true}};
+  for (const CandidateResult& c : candidates) {
+    table.rows.push_back(
+        {Sentence(c.candidate.name()), Number{c.delta_aicc, fixed(1)},
+         cell_if(number_if(c.p_value, probability())),
+         c.gain ? Cell(Number{c.gain->relative, in_percent(signed_fixed(0))}) : Cell(),
+         Number{c.remaining_p, probability()}, values_of(c.parameters),
+         Sentence(c.explains() ? "explains it" : set_aside_words(c))});
+  }
+  return table;
+}
+
+std::string remark_of(const HeldOutGain::PerFold& fold) {
+  std::vector<std::string> remarks;
+  if (!fold.chosen) remarks.emplace_back("the other points choose the base model");
+  if (!fold.counted) remarks.emplace_back("shown, not counted");
+  return fmt::format("{}", fmt::join(remarks, "; "));
+}
+
+Table held_out_table(const Diagnosis& d) {
+  Table table;
+  if (!d.gain) return table;
+  table.caption = "Both models fitted without a block of points, and compared with it";
+  table.columns = {{"held out"},
+                   {"points"},
+                   {say("rms of {e}, base")},
+                   {say("rms of {e}, extended")},
+                   {"ln likelihood"},
+                   {"remark", "", true}};
+  for (const HeldOutGain::PerFold& fold : d.gain->folds) {
+    table.rows.push_back(
+        {say("{} {}", to_string(fold.fold.kind), fold_words(fold.fold, d.datasets)),
+         Number{static_cast<double>(fold.fold.points.size()), fixed(0)},
+         Number{fold.rmse_base, significant(3)}, Number{fold.rmse_extended, significant(3)},
+         Number{fold.log_score, signed_fixed(1)}, Sentence(remark_of(fold))});
+  }
+  return table;
+}
+
+Table both_models_table(const Diagnosis& d) {
+  Table table;
+  if (!d.extended_fit) return table;
+  const std::string level = percent(d.spec.uncertainty.level) + " interval";
+  table.caption = "Parameters under both models";
+  if (d.spec.law_error > 0.0) {
+    table.caption += fmt::format(", without the law error of {} that the diagnosis allows",
+                                 percent(d.spec.law_error));
+  }
+  table.columns = {{"parameter"}, {"unit", "", true},  {"base"}, {level}, {"extended"},
+                   {level},       {"remark", "", true}};
+  for (const ParameterSlot& slot : d.extended_fit->model.slots) {
+    const UnderModel base = under_model(d.base, d.base_intervals, slot.label());
+    const UnderModel extended = under_model(*d.extended_fit, d.extended_intervals, slot.label());
+    table.rows.push_back({symbol(slot.label()), unit(slot.parameter->unit), base.estimate,
+                          base.interval, extended.estimate, extended.interval,
+                          said_of_both(base.remark, extended.remark)});
+  }
+  return table;
+}
+
+Table capture_change_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
+  Table table;
+  table.caption = "Predicted capture velocity";
+  table.columns = {{"dataset"}, {say("{d}"), sizes.name}, {"base", "m/s"}, {"extended", "m/s"}};
+  const auto cell = [](const std::optional<double>& value) {
+    return value ? Cell(Number{*value, significant(4)}) : Cell("none");
+  };
+  for (const CaptureChange& change : d.capture) {
+    table.rows.push_back({Sentence(d.datasets[change.dataset].id),
+                          Sentence(size_text(change.diameter, sizes)), cell(change.base),
+                          cell(change.extended)});
+  }
+  return table;
+}
+
+Table next_experiment_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
+  Table table;
+  if (d.experiments.empty()) return table;
+  table.compact = true;
+  table.caption =
+      "Experiments with the least effort: impacts until the expected odds between two causes are "
+      "99 "
+      "to 1";
+  table.columns = {{"do", "", true},          {"impacts"},         {say("{d}"), sizes.name},
+                   {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
+                   {say("difference in {e}")}};
+  for (const NextExperiment& next : d.experiments) {
+    table.rows.push_back(
+        {Sentence(doing_words(next)), Number{static_cast<double>(next.events), fixed(0)},
+         Sentence(size_text(next.diameter, sizes)), Number{next.velocity, significant(3)},
+         Sentence(next.one), Sentence(next.other), Number{next.difference, signed_fixed(3)}});
+  }
+  return table;
+}
+
+Table expected_table(const Diagnosis& d) {
+  const SizeUnit sizes = size_unit(d.datasets);
+  Table table;
+  if (d.expected.empty()) return table;
+  table.caption = "Effects that follow from the stated conditions, at the point they change most";
+  table.columns = {{"mechanism"},
+                   {"dataset", "", true},
+                   {"condition", "", true},
+                   {"value"},
+                   {say("{d}"), sizes.name},
+                   {say("{V}"), "m/s"},
+                   {say("change of {e}")}};
+  for (const ExpectedEffect& effect : d.expected) {
+    table.rows.push_back(
+        {Sentence(effect.id), Sentence(d.datasets[effect.dataset].id),
+         Sentence(condition_words(effect.condition)), Number{effect.stated, significant(4)},
+         Sentence(size_text(effect.diameter, sizes)), Number{effect.velocity, significant(3)},
+         Number{effect.change, significant(2)}});
+  }
+  return table;
+}
+
+List list_of(const std::vector<std::string>& sentences) {
+  List list;
+  for (const std::string& sentence : sentences) {
+    list.entries.push_back(as_sentence(Sentence(sentence)));
+  }
+  return list;
+}
+
+Section detail(const char* id, const char* title, Blocks blocks) {
+  return {id, title, {}, std::move(blocks), "", Importance::detail};
+}
+
+Section answer_section(const Diagnosis& d) {
+  Section answer{"answer", d.spec.id, "diagnosis"};
+  answer.blocks = {Paragraph{strong(headline(d) + "."), true},
+                   Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " "))}};
+  for (const std::string& remark : d.remarks) answer.blocks.emplace_back(Paragraph{remark});
+  append(answer.blocks, provenance_banners(d.datasets));
+  return answer;
+}
+
+/// Single mechanisms and the best pairs, the best first.
+std::vector<CandidateResult> tried(const Diagnosis& d) {
+  std::vector<CandidateResult> all = d.candidates;
+  const std::size_t pairs = std::min(d.pairs.size(), most_pairs);
+  all.insert(all.end(), d.pairs.begin(), d.pairs.begin() + static_cast<std::ptrdiff_t>(pairs));
+  std::stable_sort(all.begin(), all.end(), [](const auto& one, const auto& other) {
+    return one.delta_aicc < other.delta_aicc;
+  });
+  return all;
+}
+
+}  // namespace
+
+std::vector<Section> diagnosis_sections(const Diagnosis& d) {
+  const Figures before_after{before_after_figures(d)};
+  const bool one = d.datasets.size() == 1;
+  std::vector<std::string> notes = answer_notes(d);
+  for (std::string& warning : diagnosis_warnings(d)) notes.push_back(std::move(warning));
+  return {answer_section(d),
+          {"picture", "", {}, {one ? before_after : Figures{}}},
+          detail("misfit", "Where the model misses",
+                 {Figures{misfit_figures(d)}, structure_table(d), misfit_table(d)}),
+          detail("causes", "Every cause tried",
+                 {Figures{ranking_figures(d)}, candidates_table(tried(d))}),
+          detail("gain", "The extended model",
+                 {one ? Figures{} : before_after, both_models_table(d), capture_change_table(d),
+                  held_out_table(d), gain_summary(d)}),
+          detail("next", "What to measure next", {next_experiment_table(d)}),
+          detail("notes", "Notes and warnings", {list_of(notes), expected_table(d)})};
+}
+
+Section diagnosis_summary(const Diagnosis& d, const std::string& address) {
+  std::vector<std::string> sentences = answer_sentences(d);
+  if (sentences.size() > sentences_in_short) sentences.resize(sentences_in_short);
+  Section section{"diagnosis", "Diagnosis"};
+  section.blocks = {Paragraph{strong(headline(d) + ".") +
+                              Sentence(fmt::format(" {}", fmt::join(sentences, " ")))}};
+  if (!address.empty())
+    section.blocks.emplace_back(Paragraph{link("The whole diagnosis", address)});
+  return section;
+}
+
+Document diagnosis_document(const Diagnosis& d) {
+  Document page;
+  page.title = "Diagnosis of " + d.spec.id;
+  page.heading = page.title;
+  page.name = d.spec.id;
+  page.foot = "recoil " + version();
+  page.sections = diagnosis_sections(d);
+  page.sections.front().title = {};  // the heading of the page says it
+  page.sections.front().remark = {};
+  return page;
+}
+
+std::string diagnosis_text(const Diagnosis& d, Importance least) {
+  return terminal_text(diagnosis_sections(d), least);
+}
+
+std::string diagnosis_html(const Diagnosis& d) { return html_page(diagnosis_document(d)); }
+
+}  // namespace recoil

@@ -1,0 +1,267 @@
+#include "report/fit_sections.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/program.hpp"
+#include "document/html.hpp"
+#include "document/terminal.hpp"
+#include "report/comparison_page.hpp"
+#include "report/diagnosis_sections.hpp"
+#include "report/explore.hpp"
+#include "report/fit_figures.hpp"
+#include "report/fit_tables.hpp"
+#include "report/format.hpp"
+#include "report/prediction_page.hpp"
+#include "report/words_dataset.hpp"
+#include "report/words_fit.hpp"
+#include "report/words_uncertainty.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr int picture_width = 560;   // [px]
+constexpr int picture_height = 380;  // [px]
+
+/// "ammonium fluorescein on molybdenum, 60 points"
+Sentence subtitle_of(const Analysis& a) {
+  std::vector<std::string> surfaces;
+  for (const Dataset& dataset : a.datasets) surfaces.push_back(dataset.system.surface.name);
+  return say("{} on {}, {} points", a.datasets.front().system.particle.name,
+             fmt::format("{}", fmt::join(surfaces, ", ")), a.fitted.data.points.size());
+}
+
+/// The capture velocity at the diameter for which the parameters of a dataset are quoted.
+const CaptureEstimate* reference_capture(const Analysis& a, std::size_t dataset) {
+  const double reference = a.fitted.model.contacts[dataset].reference_diameter;
+  const CaptureEstimate* nearest = nullptr;
+  for (const CaptureEstimate& capture : a.uncertainty.capture) {
+    if (capture.dataset != dataset || !capture.found || without_adhesion(a, dataset)) continue;
+    const auto distance = [&](const CaptureEstimate& one) {
+      return std::abs(std::log(one.diameter / reference));
+    };
+    if (nearest == nullptr || distance(capture) < distance(*nearest)) nearest = &capture;
+  }
+  return nearest;
+}
+
+/// "Spheres of 4.9 um stick below 0.958 m/s [0.912, 0.984]."
+Sentence capture_words(const Analysis& a) {
+  std::vector<Sentence> parts;
+  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
+    const CaptureEstimate* const capture = reference_capture(a, k);
+    if (capture == nullptr) continue;
+    Number velocity{capture->value, padded(3), 0.0, "m/s"};
+    if (capture->interval.available()) {
+      velocity.band = {*capture->interval.lower, *capture->interval.upper};
+    }
+    const std::string where =
+        a.datasets.size() > 1 ? " on " + short_name(a.datasets, k) : std::string();
+    parts.push_back(
+        say("{} below {}{}", diameter_sentence(capture->diameter), velocity.words(), where));
+  }
+  if (parts.empty()) return {};
+  return say("Spheres stick: ") + join(parts, "; ") + ".";
+}
+
+Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
+  if (diagnosis == nullptr) return quality_words(a.fitted);
+  return diagnosis->verdict == Verdict::adequate ? "The model fits." : "The model does not fit.";
+}
+
+/// What one of the panels of e(V) shows, or all of them in one picture.
+Figures answer_figures(const Analysis& a, const std::vector<Figure>& panels) {
+  if (panels.size() == 1) return {panels};
+  return {
+      {figure_of(restitution_overview(a, picture_width, picture_height),
+                 say("Points and fit with its {} band.", percent(a.uncertainty.options.level)))}};
+}
+
+/// The gravest warning, and how many more there are.
+Blocks gravest_warning(const Analysis& a) {
+  std::vector<Sentence> warnings = all_warnings(a);
+  for (Sentence& sentence : all_contradictions(a)) warnings.push_back(std::move(sentence));
+  if (warnings.empty()) return {};
+  Sentence text = as_sentence(warnings.front());
+  if (warnings.size() > 1) {
+    text += say(" ({} more under Warnings and limits.)", warnings.size() - 1);
+  }
+  return {Banner{"warning", text}};
+}
+
+List list_of(const std::vector<Sentence>& sentences) {
+  List list;
+  for (const Sentence& sentence : sentences) {
+    if (!sentence.empty()) list.entries.push_back(as_sentence(sentence));
+  }
+  return list;
+}
+
+Section detail(const char* id, const char* title, Blocks blocks) {
+  return {id, title, {}, std::move(blocks), "", Importance::detail};
+}
+
+/// Every diameter by itself, and the residuals of every dataset.
+Section sizes_section(const Analysis& a, std::vector<Figure> panels) {
+  if (panels.size() == 1) panels.clear();  // the answer shows it
+  for (Figure& figure : residual_figures(a)) panels.push_back(std::move(figure));
+  return detail("sizes", "Every size, and the residuals", {Figures{std::move(panels)}});
+}
+
+/// Reasons why intervals are missing or differ.
+std::vector<Sentence> interval_sentences(const Analysis& a) {
+  std::vector<Sentence> sentences;
+  for (std::size_t s = 0; s < a.uncertainty.intervals.size(); ++s) {
+    const ParameterSlot& slot = a.fitted.model.slots[s];
+    const IntervalSet& set = a.uncertainty.intervals[s];
+    if (!slot.free || slot.is_constant()) continue;
+    const Interval& interval = recommended_interval(set);
+    if (!interval.available()) {
+      sentences.push_back(
+          say("{} has no interval: {}", symbol(slot.label()), missing_words(interval)));
+    }
+    sentences.push_back(disagreement_words(a.fitted, s, set));
+  }
+  return sentences;
+}
+
+Section certainty_section(const Analysis& a) {
+  const Identifiability& found = a.uncertainty.identifiability;
+  Blocks blocks;
+  if (found.assessed()) {
+    blocks.emplace_back(Paragraph{as_sentence(identifiability_words(a.fitted, a.uncertainty))});
+  }
+  std::vector<Sentence> sentences = interval_sentences(a);
+  if (a.uncertainty.bootstrap.replicates > 0) {
+    sentences.push_back("bootstrap: " + scheme_words(a.uncertainty.bootstrap));
+  }
+  if (a.uncertainty.posterior) {
+    sentences.emplace_back(no_posterior_words(*a.uncertainty.posterior));
+  }
+  append(blocks, {intervals_table(a), list_of(sentences), correlations_table(a), posterior_table(a),
+                  constants_table(a), list_of({moved_words(a)}), conditional_table(a),
+                  budget_table(a), list_of(budget_sentences(a))});
+  return detail("certainty", "How certain the numbers are", std::move(blocks));
+}
+
+Section comparison_section(const Analysis& a) {
+  Blocks blocks;
+  std::vector<Sentence> sentences;
+  for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
+    blocks.emplace_back(two_point_table(a, comparison));
+    sentences.push_back(say("two points, {}: {}", words_of(to_string(comparison.result.status)),
+                            two_point_words(a.fitted, comparison.dataset, comparison.result)));
+    sentences.emplace_back(held_out_words(comparison));
+  }
+  blocks.emplace_back(list_of(sentences));
+  append(blocks, law_blocks(compared_laws(a.laws, a.datasets)));
+  blocks.emplace_back(Figures{capture_figures(a)});
+  append(blocks, mixture_blocks(a));
+  return detail("comparison", "Two points, other laws, other models", std::move(blocks));
+}
+
+Section warnings_section(const Analysis& a) {
+  std::vector<Sentence> sentences = all_warnings(a);
+  for (const Sentence& words : all_contradictions(a)) {
+    sentences.push_back("contradiction: " + words);
+  }
+  for (const std::string& words : passed_limits(a.validity, a.datasets)) {
+    sentences.push_back("limit of the model: " + words);
+  }
+  return detail("warnings", "Warnings and limits", {list_of(sentences)});
+}
+
+Section inputs_section(const Analysis& a) {
+  Blocks blocks = {statistics_table(a)};
+  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
+    const Dataset& dataset = a.datasets[k];
+    Section part{"", dataset.id};
+    List sources;
+    if (!dataset.title.empty()) sources.entries.emplace_back(dataset.title);
+    for (const std::string& source : dataset.sources) sources.entries.emplace_back(source);
+    if (averages_over_sizes(a.fitted.model, k)) {
+      sources.entries.push_back(as_sentence(Sentence(mixed_sizes_words(*dataset.mixed_sizes))));
+    }
+    part.blocks = {std::move(sources), materials_table(a, k), contact_table(a, k)};
+    blocks.emplace_back(std::move(part));
+  }
+  return detail("inputs", "Data, model and method", std::move(blocks));
+}
+
+/// The commands that answer the next questions.
+Section next_section(const Analysis& a) {
+  Section next{"next", "Next"};
+  if (a.spec.file.empty()) return next;
+  const std::string file = a.spec.file.generic_string();
+  next.blocks = {items({{"recoil fit " + file + " --verbose", "all details"},
+                        {"recoil diagnose " + file, "what the model misses"},
+                        {"recoil report " + file, "a page with pictures"}})};
+  return next;
+}
+
+}  // namespace
+
+std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
+                                  const std::string& diagnosis_page) {
+  Section answer{"answer", a.spec.id, subtitle_of(a)};
+  if (!a.fitted.usable) {
+    answer.blocks = {Paragraph{"The fit failed: " + a.fitted.failure}};
+    return {answer, warnings_section(a), inputs_section(a)};
+  }
+  std::vector<Figure> panels = restitution_figures(a);
+  const Sentence lead = capture_words(a) + " " + verdict_words(a, diagnosis);
+  answer.blocks = {Paragraph{lead, true}};
+  append(answer.blocks, provenance_banners(a.datasets));
+  std::vector<Section> sections = {std::move(answer)};
+  sections.push_back({"picture", "", {}, {answer_figures(a, panels)}});
+  sections.push_back({"capture", "Capture velocity", {}, {capture_table(a)}});
+  sections.push_back({"parameters", "Parameters", {}, {parameters_table(a)}});
+  if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
+  sections.push_back({"warning", "", {}, gravest_warning(a)});
+  sections.push_back(sizes_section(a, std::move(panels)));
+  sections.push_back(certainty_section(a));
+  sections.push_back(comparison_section(a));
+  sections.push_back(warnings_section(a));
+  sections.push_back(inputs_section(a));
+  return sections;
+}
+
+Document fit_document(const Analysis& a, const Diagnosis* diagnosis,
+                      const std::string& diagnosis_page) {
+  if (!a.fitted.usable) {
+    throw ComputationError(
+        fmt::format("there is no page without a usable fit: {}", a.fitted.failure));
+  }
+  Document page;
+  page.sections = fit_sections(a, diagnosis, diagnosis_page);
+  const std::string& title = a.datasets.front().title;
+  page.title = a.datasets.size() == 1 && !title.empty() ? title : a.spec.id;
+  page.heading = page.title;
+  page.subtitle = page.sections.front().remark;
+  page.foot = "recoil " + version();
+  page.name = a.spec.id;
+  page.script = explore_script();
+  page.sections.front().title = {};  // the heading of the page says it
+  page.sections.front().remark = {};
+  return page;
+}
+
+std::string fit_text(const Analysis& a, Importance least) {
+  std::vector<Section> sections = fit_sections(a);
+  const auto details = std::find_if(sections.begin(), sections.end(), [](const Section& section) {
+    return section.importance == Importance::detail;
+  });
+  sections.insert(details, next_section(a));
+  return terminal_text(sections, least);
+}
+
+std::string fit_html(const Analysis& a, const Diagnosis* diagnosis,
+                     const std::string& diagnosis_page) {
+  return html_page(fit_document(a, diagnosis, diagnosis_page));
+}
+
+}  // namespace recoil

@@ -1,0 +1,178 @@
+#include "report/index_page.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "core/program.hpp"
+#include "diagnosis/diagnosis_result.hpp"
+#include "document/html.hpp"
+#include "plot/plot.hpp"
+#include "plot/draw.hpp"
+#include "report/fit_figures.hpp"
+#include "report/format.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr std::size_t most_sizes = 4;
+constexpr int thumbnail_width = 420;   // [px]
+constexpr int thumbnail_height = 270;  // [px]
+
+/// A value of `json`, or null: a key may be missing in files of another version.
+Json at(const Json& json, const char* pointer) {
+  const Json::json_pointer path(pointer);
+  return json.contains(path) ? json.at(path) : Json();
+}
+
+std::string text_at(const Json& json, const char* pointer) {
+  const Json value = at(json, pointer);
+  return value.is_string() ? value.get<std::string>() : std::string();
+}
+
+double number_at(const Json& json, const char* pointer) {
+  const Json value = at(json, pointer);
+  return value.is_number() ? value.get<double>() : NAN;
+}
+
+Cell interval_cell(const Json& ends) {
+  if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number()) {
+    return {};
+  }
+  return NumberRange{ends[0].get<double>(), ends[1].get<double>(), significant(3)};
+}
+
+Json parsed(const std::string& page, const std::string& content, const std::string& file) {
+  Json json = Json::parse(content, nullptr, false);
+  if (!json.is_object()) {
+    throw InputError({page}, fmt::format("its {} is not a JSON object", file),
+                     "the index is made from it", "run the fit again");
+  }
+  return json;
+}
+
+/// A sign for each verdict, so that no verdict is told by its colour alone.
+const char* sign_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::adequate:
+      return "✓";
+    case Verdict::cause_named:
+      return "◆";
+    case Verdict::not_separable:
+      return "?";
+    case Verdict::unexplained:
+      return "✗";
+  }
+  return "";
+}
+
+/// Capture velocities of the first sizes, and all free parameters.
+Table summary_table(const Json& fit) {
+  Table table;
+  table.columns = {{}, {"estimate"}, {"interval"}};
+  const Json captures = at(fit, "/derived/capture_velocity");
+  const bool several = at(fit, "/datasets").size() > 1;
+  for (const Json& capture : captures) {
+    if (table.rows.size() == most_sizes) break;
+    const double value = number_at(capture, "/value");
+    if (!std::isfinite(value)) continue;
+    Sentence name = say("{V*} at {:.3g} {um} [m/s]", number_at(capture, "/diameter_um"));
+    if (several) name += ", " + text_at(capture, "/dataset");
+    table.rows.push_back(
+        {std::move(name), Number{value, significant(3)}, interval_cell(at(capture, "/interval"))});
+  }
+  const Json parameters = at(fit, "/parameters");
+  for (const auto& [label, parameter] : parameters.items()) {
+    if (!parameter.is_object() || !parameter.value("free", false)) continue;
+    const std::string kind = text_at(parameter, "/recommended/interval");
+    table.rows.push_back({symbol(label) + " [" + unit(text_at(parameter, "/unit")) + "]",
+                          Number{number_at(parameter, "/value"), significant(3)},
+                          interval_cell(at(parameter, ("/intervals/" + kind).c_str()))});
+  }
+  table.rows.push_back(
+      {say("rms of {e}"), Number{number_at(fit, "/goodness/rmse"), significant(3)}, {}});
+  return table;
+}
+
+std::vector<Block> banners_of(const Json& datasets) {
+  std::vector<std::pair<std::string, std::string>> known;
+  std::vector<Block> banners;
+  for (const Json& dataset : datasets) {
+    const std::pair entry{text_at(dataset, "/provenance"),
+                          text_at(dataset, "/provenance_sentence")};
+    if (entry.first.empty() || std::find(known.begin(), known.end(), entry) != known.end()) {
+      continue;
+    }
+    known.push_back(entry);
+    banners.emplace_back(Banner{entry.first, entry.second});
+  }
+  return banners;
+}
+
+/// The verdict of the diagnosis with a link to its page; nothing without a diagnosis.
+std::vector<Block> verdict_of(const IndexEntry& entry) {
+  if (entry.diagnosis_json.empty()) return {};
+  const Json diagnosis = parsed(entry.page, entry.diagnosis_json, "diagnosis.json");
+  const auto verdict = value_named<Verdict>(text_at(diagnosis, "/verdict"));
+  if (!verdict) return {};
+  const std::string headline = text_at(diagnosis, "/headline");
+  return {Remark{
+      to_string(*verdict), sign_of(*verdict),
+      link(headline.empty() ? words_of(to_string(*verdict)) : headline, entry.diagnosis_page)}};
+}
+
+Section card_of(const IndexEntry& entry) {
+  const Json fit = parsed(entry.page, entry.fit_json, "fit.json");
+  Json datasets = at(fit, "/datasets");
+  if (!datasets.is_array()) datasets = Json::array({at(fit, "/dataset")});
+  const std::string id = text_at(fit, "/fit/id");
+  const std::string title = datasets.size() == 1 ? text_at(fit, "/dataset/title") : "";
+  Section card{id, title.empty() ? id : title,
+               say("{}, {:.0f} points", id, number_at(fit, "/dataset/points")),
+               banners_of(datasets), entry.page};
+  append(card.blocks, verdict_of(entry));
+  if (!entry.picture.empty()) {
+    Figure picture{"picture", "", {}, entry.picture};
+    picture.csv = entry.picture_csv;
+    card.blocks.emplace_back(Figures{{std::move(picture)}});
+  }
+  card.blocks.emplace_back(summary_table(fit));
+  card.blocks.emplace_back(Paragraph{link("All pictures and numbers", entry.page)});
+  return card;
+}
+
+}  // namespace
+
+std::string thumbnail(const Analysis& analysis) {
+  plot::Picture picture = restitution_overview(analysis, thumbnail_width, thumbnail_height);
+  picture.name = plot::plot_name("overview-" + analysis.spec.id);  // unique on the index
+  return plot::draw_svg(picture);
+}
+
+std::string thumbnail_csv(const Analysis& analysis) {
+  return plot::csv_of(restitution_overview(analysis, thumbnail_width, thumbnail_height));
+}
+
+Document index_document(const std::vector<IndexEntry>& entries) {
+  Document page;
+  page.title = "recoil: fits";
+  page.heading = "Impact of microspheres with surfaces";
+  page.foot = "recoil " + version();
+  page.cards = true;
+  page.foreword = {Paragraph{entries.empty()
+                                 ? Sentence("There is no fit yet.")
+                                 : say("One card per fit: does the model hold, below which {V*} "
+                                       "do spheres stick, and the fitted parameters.")}};
+  for (const IndexEntry& entry : entries) page.sections.push_back(card_of(entry));
+  return page;
+}
+
+std::string html_index(const std::vector<IndexEntry>& entries) {
+  return html_page(index_document(entries));
+}
+
+}  // namespace recoil
