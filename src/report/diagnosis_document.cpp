@@ -238,23 +238,6 @@ Table capture_change_table(const Diagnosis& d) {
   return table;
 }
 
-Table next_measurement_table(const Diagnosis& d) {
-  const SizeUnit sizes = size_unit(d.datasets);
-  Table table;
-  table.caption = "Where the fewest impacts would tell the rivals apart";
-  table.columns = {{"tells"},           {"from", "", true},         {say("{d}"), sizes.name},
-                   {say("{V}"), "m/s"}, {say("difference in {e}")}, {"impacts"}};
-  for (const NextMeasurement& next : d.next) {
-    table.rows.push_back({Sentence(words_of(next.one)), Sentence(words_of(next.other)),
-                          Sentence(size_text(next.diameter, sizes)),
-                          Number{next.velocity, significant(3)},
-                          Number{next.difference, signed_fixed(3)},
-                          next.events ? Cell(Number{static_cast<double>(*next.events), fixed(0)})
-                                      : Cell("more than a million")});
-  }
-  return table;
-}
-
 Table next_experiment_table(const Diagnosis& d) {
   const SizeUnit sizes = size_unit(d.datasets);
   Table table;
@@ -312,25 +295,24 @@ std::vector<Section> diagnosis_sections(const Diagnosis& d) {
   answer.blocks = {Paragraph{to_string(d.verdict)}, Paragraph{answer_words(d)}};
   append(answer.blocks, provenance_banners(d.datasets));
   for (const std::string& remark : d.remarks) answer.blocks.emplace_back(Paragraph{remark});
-  return {
-      std::move(answer),
-      {"residuals", "Residuals of the base model", {}, {structure_table(d)}},
-      {"misfit", "Where it misses", {}, {misfit_table(d)}},
-      {"causes",
-       "Causes",
-       {},
-       {candidates_table(d.candidates, most_on_terminal),
-        found_parameters_table(d.candidates, most_on_terminal)}},
-      {"pairs",
-       "Two causes at once",
-       {},
-       {candidates_table(d.pairs, most_on_terminal),
-        found_parameters_table(d.pairs, most_on_terminal)}},
-      {"gain", "Gain on held-out blocks", {}, {held_out_table(d), gain_summary(d)}},
-      {"parameters", "Parameters", {}, {both_models_table(d), capture_change_table(d)}},
-      {"next", "What to measure next", {}, {next_experiment_table(d), next_measurement_table(d)}},
-      {"expected", "What the conditions say must be there", {}, {expected_table(d)}},
-      {"warnings", "Warnings", {}, {warnings_of(d)}}};
+  return {std::move(answer),
+          {"residuals", "Residuals of the base model", {}, {structure_table(d)}},
+          {"misfit", "Where it misses", {}, {misfit_table(d)}},
+          {"causes",
+           "Causes",
+           {},
+           {candidates_table(d.candidates, most_on_terminal),
+            found_parameters_table(d.candidates, most_on_terminal)}},
+          {"pairs",
+           "Two causes at once",
+           {},
+           {candidates_table(d.pairs, most_on_terminal),
+            found_parameters_table(d.pairs, most_on_terminal)}},
+          {"gain", "Gain on held-out blocks", {}, {held_out_table(d), gain_summary(d)}},
+          {"parameters", "Parameters", {}, {both_models_table(d), capture_change_table(d)}},
+          {"next", "What to measure next", {}, {next_experiment_table(d)}},
+          {"expected", "What the conditions say must be there", {}, {expected_table(d)}},
+          {"warnings", "Warnings", {}, {warnings_of(d)}}};
 }
 
 Document diagnosis_document(const Diagnosis& d) {
@@ -363,7 +345,7 @@ Document diagnosis_document(const Diagnosis& d) {
                 {found_parameters_table(tried, all)}}}},
       {"parameters", "Parameters", {}, {both_models_table(d), capture_change_table(d)}},
       {"gain", "What was gained", {}, {held_out_table(d), gain_summary(d)}},
-      {"next", "What to measure next", {}, {next_experiment_table(d), next_measurement_table(d)}},
+      {"next", "What to measure next", {}, {next_experiment_table(d)}},
       {"expected", "What the conditions say must be there", {}, {expected_table(d)}},
       {"warnings", "Warnings", {}, {warnings_of(d)}}};
   return page;

@@ -19,7 +19,6 @@ Table held_out_table(const Diagnosis& diagnosis);
 Table both_models_table(const Diagnosis& diagnosis);
 Table capture_change_table(const Diagnosis& diagnosis);
 Table next_experiment_table(const Diagnosis& diagnosis);
-Table next_measurement_table(const Diagnosis& diagnosis);
 Table expected_table(const Diagnosis& diagnosis);
 
 /// The answer and what else has to be known of it.
