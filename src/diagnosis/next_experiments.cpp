@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/discrepancy.hpp"
+#include "diagnosis/search.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/predictor.hpp"
 #include "mechanism/catalogue.hpp"

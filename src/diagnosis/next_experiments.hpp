@@ -6,9 +6,11 @@
 
 #include "core/names.hpp"
 #include "data/condition.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/candidate_result.hpp"
 
 namespace recoil {
+
+struct SearchBase;
 
 enum class ExperimentKind {
   points,    ///< more impacts, at another velocity and diameter
