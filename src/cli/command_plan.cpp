@@ -14,7 +14,6 @@
 #include "core/files.hpp"
 #include "core/units.hpp"
 #include "data/dataset.hpp"
-#include "plan/datasets_to_plan.hpp"
 #include "plan/experiment_plan.hpp"
 #include "plot/draw.hpp"
 #include "report/figures_plan.hpp"
@@ -165,11 +164,9 @@ void add_plan(CLI::App& program) {
   command->footer(
       "Needs a fit file and datasets with their materials; points need not be there yet. From the\n"
       "model it works out which points determine the free parameters and the capture velocities\n"
-      "with the fewest impacts, which errors to expect, and which of the other causes that may\n"
-      "act the points would show and tell apart: if not, what would. The plan is best where its\n"
-      "assumptions hold: make it again with --parameters once there are first results. With\n"
-      "--out it writes plan.html (a page to read), plan.json, pictures and points.csv, to be\n"
-      "filled in.\n\n"
+      "with the fewest impacts, and which errors to expect. The plan is best where its assumptions\n"
+      "hold: make it again with --parameters once there are first results. With --out it writes\n"
+      "plan.html (a page to read), plan.json, pictures and points.csv, to be filled in.\n\n"
       "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
       "  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \\\n"
       "      --out my-plan");

@@ -138,9 +138,12 @@ void take_stated_scatter(const std::vector<Dataset>& datasets, ParameterSpec& sp
 
 }  // namespace
 
+bool Candidate::adds(const std::string& id) const {
+  return std::find(added.begin(), added.end(), id) != added.end();
+}
+
 bool Candidate::adds(const ParameterSlot& slot) const {
-  return slot.mechanism() != nullptr &&
-         std::find(added.begin(), added.end(), slot.mechanism()->info.id) != added.end();
+  return slot.mechanism() != nullptr && adds(std::string(slot.mechanism()->info.id));
 }
 
 std::string Candidate::name() const { return fmt::format("{}", fmt::join(added, " + ")); }
@@ -254,14 +257,13 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
 }
 
 std::vector<double> carried_over(const ImpactModel& model, std::span<const double> theta,
-                                 const ImpactModel& to, CarriedTo slots) {
+                                 const ImpactModel& to) {
   std::map<std::string, double> values;
   for (std::size_t j = 0; j < theta.size(); ++j) values[model.slots[j].label()] = theta[j];
   std::vector<double> carried = to.initial();
   for (std::size_t j = 0; j < carried.size(); ++j) {
     const auto found = values.find(to.slots[j].label());
-    const bool takes = slots == CarriedTo::all || to.slots[j].moves();
-    if (found != values.end() && takes) carried[j] = found->second;
+    if (found != values.end() && to.slots[j].moves()) carried[j] = found->second;
   }
   return carried;
 }

@@ -24,6 +24,7 @@ struct Candidate {
 
   /// The ids of what is added: one, or "one + another".
   std::string name() const;
+  bool adds(const std::string& id) const;
   /// Does `slot` belong to one of the further mechanisms?
   bool adds(const ParameterSlot& slot) const;
 };
@@ -70,13 +71,10 @@ struct Refit {
   std::shared_ptr<const Discrepancy> discrepancy = nothing_shared();
 };
 
-/// Which slots take values over from another model.
-enum class CarriedTo { moving, all };
-
-/// The values of `theta` under `model` carried over to the slots of another one by their labels;
-/// the others keep their initial value.
+/// Start values for the model `to`: its moving slots take the values of `theta` under `model` that
+/// have the same label; the others keep their initial values.
 std::vector<double> carried_over(const ImpactModel& model, std::span<const double> theta,
-                                 const ImpactModel& to, CarriedTo slots = CarriedTo::moving);
+                                 const ImpactModel& to);
 
 /// Minimises from `near`, with the parameters of the added mechanisms also at every start that the
 /// catalogue advises; of these starts the `tries` with the smallest deviance are followed, and as

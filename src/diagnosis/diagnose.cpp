@@ -14,7 +14,6 @@
 #include "diagnosis/judge.hpp"
 #include "diagnosis/misfit_map.hpp"
 #include "diagnosis/next_experiments.hpp"
-#include "diagnosis/next_measurement.hpp"
 #include "diagnosis/pairs.hpp"
 #include "diagnosis/search.hpp"
 #include "diagnosis/singles.hpp"
@@ -306,7 +305,6 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   }
   decide(found, one_size, diagnosis);
   if (diagnosis.verdict == Verdict::not_separable) {
-    diagnosis.next = next_measurements(diagnosis.base, found);
     diagnosis.experiments = next_experiments(base, found);
   }
   if (diagnosis.extended) extend(base, diagnosis);

@@ -9,8 +9,7 @@
 #include "diagnosis/diagnosis_options.hpp"
 #include "diagnosis/expected_effect.hpp"
 #include "diagnosis/misfit_map.hpp"
-#include "diagnosis/next_experiment.hpp"
-#include "diagnosis/next_measurement.hpp"
+#include "diagnosis/next_experiments.hpp"
 #include "diagnosis/outlying_points.hpp"
 #include "diagnosis/structure.hpp"
 #include "diagnosis/unstated_errors.hpp"
@@ -74,7 +73,6 @@ struct Diagnosis {
   std::vector<IntervalSet> base_intervals, extended_intervals;
   std::optional<HeldOutGain> gain;
   std::vector<CaptureChange> capture;
-  std::vector<NextMeasurement> next;
   std::vector<NextExperiment> experiments;  ///< the least effort first
   std::vector<ExpectedEffect> expected;     ///< of what the conditions state, the largest first
   std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate

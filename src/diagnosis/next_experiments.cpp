@@ -1,21 +1,229 @@
 #include "diagnosis/next_experiments.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
-#include "diagnosis/measurable.hpp"
-#include "diagnosis/odds.hpp"
-#include "diagnosis/predicted_spread.hpp"
-#include "diagnosis/target_experiments.hpp"
+#include "diagnosis/discrepancy.hpp"
+#include "diagnosis/search.hpp"
+#include "estimate/impact_problem.hpp"
+#include "estimate/predictor.hpp"
 #include "mechanism/catalogue.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_compared = 4;
+constexpr std::size_t most_compared = 4;    // rivals
+constexpr int grid_velocities = 24;         // of each diameter
+constexpr double smallest_sd = 1e-3;        // of e of one impact, where a point states less
+constexpr double least_restitution = 0.05;  // below it e^2 is not linear in e
+constexpr double most_impacts = 1e6;        // of an experiment
+constexpr int effort_of_a_change = 100;     // of a condition, in impacts
+constexpr double wanted_log_odds = 4.59511985013459;  // ln 99
 
-/// Has this dataset impacts from which a condition takes the mechanism away already?
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The impacts to choose from, see `next_experiments`, and the standard deviation of e of one [1].
+struct PossibleImpacts {
+  std::vector<PointConditions> at;
+  std::vector<double> sd;
+};
+
+PossibleImpacts possible_impacts(const FitResult& base) {
+  double low = INFINITY, high = 0.0;
+  std::set<std::pair<std::size_t, double>> sizes;
+  for (const Observation& point : base.data.points) {
+    low = std::min(low, point.velocity);
+    high = std::max(high, point.velocity);
+    sizes.insert({point.dataset, point.diameter});
+  }
+  std::set<std::pair<std::size_t, double>> wider = sizes;
+  for (const auto& [dataset, diameter] : sizes) {
+    const auto of_dataset = [d = dataset](const auto& size) { return size.first == d; };
+    const auto first = std::find_if(sizes.begin(), sizes.end(), of_dataset);
+    const auto last = std::find_if(sizes.rbegin(), sizes.rend(), of_dataset);
+    wider.insert({dataset, 0.6 * first->second});
+    wider.insert({dataset, 1.6 * last->second});
+  }
+  PossibleImpacts possible;
+  for (const auto& [dataset, diameter] : wider) {
+    for (int k = 0; k < grid_velocities; ++k) {
+      const double share = static_cast<double>(k) / (grid_velocities - 1);
+      const double velocity = 0.7 * low * std::pow(1.5 * high / (0.7 * low), share);
+      possible.at.push_back({dataset, diameter, velocity});
+      possible.sd.push_back(scatter_of_one_event(base, dataset, velocity));
+    }
+  }
+  return possible;
+}
+
+/// The measured points, followed by one observation of each possible impact with the predicted e.
+Observations with_possible(const Observations& data, const PossibleImpacts& possible,
+                           const std::vector<double>& restitution) {
+  Observations all = data;
+  for (std::size_t i = 0; i < possible.at.size(); ++i) {
+    const PointConditions& at = possible.at[i];
+    Observation point;
+    point.dataset = at.dataset;
+    point.diameter = at.diameter;
+    point.velocity = at.velocity;
+    point.series = at.series;
+    point.events = 1;
+    point.restitution = std::isnan(restitution[i]) ? least_restitution
+                                                   : std::max(restitution[i], least_restitution);
+    point.weights.sd = possible.sd[i];
+    all.points.push_back(point);
+  }
+  return all;
+}
+
+/// Weighted residuals of measured points, possible impacts and constants, in this order, and their
+/// slopes in the unknowns: first the moving parameters, then the errors of the laws.
+struct Linearised {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd slopes;
+  Eigen::Index parameters = 0;
+};
+
+/// @returns nullopt where the model has no answer
+std::optional<Linearised> linearised_at(const CandidateResult& rival, const Observations& all,
+                                        const std::vector<double>& theta, const LawErrors& laws) {
+  const LeastSquaresProblem problem = impact_problem(rival.candidate.model, all);
+  std::vector<double> residuals(problem.residual_count);
+  std::vector<double> jacobian(problem.residual_count * theta.size());
+  if (!problem.evaluate(theta, residuals, jacobian)) return std::nullopt;
+  const auto columns = law_error_columns(rival.candidate, all, theta, laws);
+  if (!columns) return std::nullopt;
+  const auto rows = static_cast<Eigen::Index>(problem.residual_count);
+  const Eigen::Map<const RowMajor> J(jacobian.data(), rows,
+                                     static_cast<Eigen::Index>(theta.size()));
+  std::vector<Eigen::Index> moving;
+  for (std::size_t j = 0; j < rival.refit.moving.size(); ++j) {
+    if (rival.refit.moving[j]) moving.push_back(static_cast<Eigen::Index>(j));
+  }
+  const auto p = static_cast<Eigen::Index>(moving.size());
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(rows, p + columns->cols());
+  for (Eigen::Index k = 0; k < p; ++k) both.col(k) = J.col(moving[static_cast<std::size_t>(k)]);
+  both.topRightCorner(columns->rows(), columns->cols()) = *columns;
+  return Linearised{Eigen::Map<Eigen::VectorXd>(residuals.data(), rows), std::move(both), p};
+}
+
+/// What a rival predicts of each possible impact.
+struct PredictedImpacts {
+  std::vector<double> restitution;  ///< mean e, 0 where captured; NaN without an answer
+  std::vector<double> variance;     ///< of that mean, over the variance of one impact
+};
+
+/// The distribution of the possible impacts given the measured points, see `next_experiments`.
+/// @param removed a mechanism that a changed condition removes from the possible impacts, or null
+PredictedImpacts predicted_impacts(const SearchBase& base, const CandidateResult& rival,
+                                   const PossibleImpacts& possible, const Mechanism* removed) {
+  const ImpactModel& model = rival.candidate.model;
+  const std::vector<double>& theta = rival.refit.theta;
+  const std::vector<double> changed =
+      removed == nullptr ? theta : without_mechanism(model, theta, *removed);
+  PredictedImpacts found;
+  for (const Prediction& at : predict(model, changed, possible.at, false)) {
+    found.restitution.push_back(at.usable() ? at.restitution() : NAN);
+  }
+  found.variance.assign(possible.at.size(), NAN);
+  const auto n = static_cast<Eigen::Index>(base.fitted.data.points.size());
+  const auto g = static_cast<Eigen::Index>(possible.at.size());
+  const Observations all = with_possible(base.fitted.data, possible, found.restitution);
+  LawErrors laws = base.laws;
+  laws.functions = smooth_functions(all);
+  const auto here = linearised_at(rival, all, theta, laws);
+  const auto there = removed == nullptr ? here : linearised_at(rival, all, changed, laws);
+  if (!here || !there) return found;
+  const Eigen::Index rows = here->slopes.rows();
+  const Eigen::Index p = here->parameters;
+  const auto without_possible = [&](const auto& of_all) {
+    std::decay_t<decltype(of_all)> rest(rows - g, of_all.cols());
+    rest << of_all.topRows(n), of_all.bottomRows(rows - n - g);
+    return rest;
+  };
+  Eigen::MatrixXd known = without_possible(here->slopes);
+  const Eigen::VectorXd residuals = without_possible(here->residuals);
+  Eigen::MatrixXd asked = there->slopes.middleRows(n, g);
+  // Columns of unit length: the units of the parameters differ by twenty orders of magnitude.
+  for (Eigen::Index k = 0; k < p; ++k) {
+    const double length = std::sqrt(known.col(k).squaredNorm());
+    if (!(length > 0.0)) return found;
+    known.col(k) /= length;
+    asked.col(k) /= length;
+  }
+  Eigen::VectorXd prior = Eigen::VectorXd::Ones(here->slopes.cols());
+  prior.head(p).setConstant(1e-12);
+  Eigen::MatrixXd information = known.transpose() * known;
+  information.diagonal() += prior;
+  const Eigen::LLT<Eigen::MatrixXd> factor(information);
+  if (factor.info() != Eigen::Success) return found;
+  const Eigen::VectorXd likeliest = -factor.solve(known.transpose() * residuals);
+  const Eigen::VectorXd moved = asked * likeliest;
+  const Eigen::MatrixXd root = factor.matrixL().solve(asked.transpose());
+  for (Eigen::Index i = 0; i < g; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    found.variance[k] = root.col(i).squaredNorm();
+    found.restitution[k] = std::max(0.0, found.restitution[k] - possible.sd[k] * moved(i));
+  }
+  return found;
+}
+
+/// ln of the odds that `count` impacts are expected to give the true one of two rivals.
+/// @param apart difference of the predicted means, over the standard deviation of one impact
+/// @param one,other variances of the predictions, over the variance of one impact
+double expected_log_odds(double apart, double one, double other, double count) {
+  const double a = one + 1.0 / count;
+  const double b = other + 1.0 / count;
+  const auto divergence = [&](double from, double to) {
+    return 0.5 * (from / to - 1.0 - std::log(from / to) + apart * apart / to);
+  };
+  return std::min(divergence(a, b), divergence(b, a));
+}
+
+/// The fewest impacts whose `log_odds(count)`, which rise with them, reach ln 99; nullopt where
+/// `most_impacts` are not enough.
+template <class LogOdds>
+std::optional<int> fewest_impacts(const LogOdds& log_odds) {
+  const auto enough = [&](double count) { return log_odds(count) >= wanted_log_odds; };
+  if (!enough(most_impacts)) return std::nullopt;
+  double few = 0.5;
+  double many = most_impacts;
+  while (many > 1.001 * few && std::ceil(few) < std::ceil(many)) {
+    const double middle = std::sqrt(few * many);
+    (enough(middle) ? many : few) = middle;
+  }
+  return std::max(1, static_cast<int>(std::ceil(many)));
+}
+
+/// Writes the impact that tells two predictions apart with the fewest events into `experiment`.
+/// @returns false where there is none
+bool find_impact(const PossibleImpacts& possible, const PredictedImpacts& a,
+                 const PredictedImpacts& b, NextExperiment& experiment) {
+  std::optional<int> fewest;
+  for (std::size_t i = 0; i < possible.at.size(); ++i) {
+    const double difference = a.restitution[i] - b.restitution[i];
+    const double apart = difference / possible.sd[i];
+    if (!std::isfinite(apart + a.variance[i] + b.variance[i])) continue;
+    const auto odds = [&](double count) {
+      return expected_log_odds(apart, a.variance[i], b.variance[i], count);
+    };
+    const auto count = fewest_impacts(odds);
+    if (!count || (fewest && *count >= *fewest)) continue;
+    fewest = count;
+    experiment.dataset = possible.at[i].dataset;
+    experiment.diameter = possible.at[i].diameter;
+    experiment.velocity = possible.at[i].velocity;
+    experiment.difference = difference;
+    experiment.events = *count;
+    experiment.log_odds = odds(*count);
+  }
+  return fewest.has_value();
+}
+
+/// Were some impacts of this dataset measured under a condition that removes the mechanism?
 bool was_taken_away(const Candidate& candidate, const Mechanism& mechanism, std::size_t dataset) {
   return std::any_of(
       candidate.impacts.begin(), candidate.impacts.end(), [&](const PointConditions& at) {
@@ -23,8 +231,8 @@ bool was_taken_away(const Candidate& candidate, const Mechanism& mechanism, std:
       });
 }
 
-/// The series whose impacts are most like `experiment`, in ln d and then in ln V.
-std::size_t most_like(const Observations& data, const NextExperiment& experiment) {
+/// The series whose impacts are most similar to `experiment`: in ln d first, then in ln V.
+std::size_t most_similar_series(const Observations& data, const NextExperiment& experiment) {
   std::size_t series = 0;
   double least = INFINITY;
   for (const Observation& point : data.points) {
@@ -37,77 +245,19 @@ std::size_t most_like(const Observations& data, const NextExperiment& experiment
   return series;
 }
 
-bool has(const CandidateResult& rival, const std::string& id) {
-  const auto& ids = rival.candidate.added;
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
-/// ln of the odds that `count` impacts are expected to give the right one of two rivals, who
-/// predict their mean with variances `one` and `other` (in those of one impact) and a difference of
-/// `apart` (in its standard deviation): the smaller of the two divergences of Kullback & Leibler.
-double expected_log_odds(double apart, double one, double other, double count) {
-  const double a = one + 1.0 / count;
-  const double b = other + 1.0 / count;
-  const auto divergence = [&](double from, double to) {
-    return 0.5 * (from / to - 1.0 - std::log(from / to) + apart * apart / to);
-  };
-  return std::min(divergence(a, b), divergence(b, a));
-}
-
-class Search {
- public:
-  explicit Search(const SearchBase& base) : base_(base) {
-    possible_.at = measurable_impacts(base.fitted);
-    for (const PointConditions& at : possible_.at) {
-      possible_.sd.push_back(scatter_of_one_event(base.fitted, at.dataset, at.velocity));
-    }
-  }
-
-  PredictedSpread predicted(const CandidateResult& rival,
-                            const Mechanism* without = nullptr) const {
-    return predicted_spread(base_, rival, possible_, without);
-  }
-
-  /// Where the fewest impacts tell two predictions apart, put into `experiment`; false where a
-  /// million would not do anywhere.
-  bool place(const PredictedSpread& a, const PredictedSpread& b, NextExperiment& experiment) const {
-    std::optional<int> fewest;
-    for (std::size_t i = 0; i < possible_.at.size(); ++i) {
-      const double difference = a.restitution[i] - b.restitution[i];
-      const double apart = difference / possible_.sd[i];
-      if (!std::isfinite(apart + a.variance[i] + b.variance[i])) continue;
-      const auto odds = [&](double count) {
-        return expected_log_odds(apart, a.variance[i], b.variance[i], count);
-      };
-      const auto count = fewest_impacts(odds, most_impacts);
-      if (!count || (fewest && *count >= *fewest)) continue;
-      fewest = count;
-      experiment.dataset = possible_.at[i].dataset;
-      experiment.diameter = possible_.at[i].diameter;
-      experiment.velocity = possible_.at[i].velocity;
-      experiment.difference = difference;
-      experiment.events = *count;
-      experiment.log_odds = odds(*count);
-    }
-    return fewest.has_value();
-  }
-
- private:
-  const SearchBase& base_;
-  PossibleImpacts possible_;
-};
-
-/// Changes of a condition that take away what `one` has and `other` has not.
-void add_changes(const Search& search, const CandidateResult& one, const CandidateResult& other,
-                 const PredictedSpread& of_other, std::vector<NextExperiment>& all) {
+/// Adds the changes of a condition that remove a mechanism which `one` has and `other` has not.
+void add_changes(const SearchBase& base, const PossibleImpacts& possible,
+                 const CandidateResult& one, const CandidateResult& other,
+                 const PredictedImpacts& of_other, std::vector<NextExperiment>& all) {
   for (const std::string& id : one.candidate.added) {
     const Mechanism& mechanism = *find_mechanism(id);
-    if (!mechanism.info.taken_away || has(other, id)) continue;
+    if (!mechanism.info.taken_away || other.candidate.adds(id)) continue;
     NextExperiment change;
     change.kind = ExperimentKind::condition;
     change.one = one.candidate.name();
     change.other = other.candidate.name();
-    if (!search.place(search.predicted(one, &mechanism), of_other, change)) continue;
+    const PredictedImpacts without = predicted_impacts(base, one, possible, &mechanism);
+    if (!find_impact(possible, without, of_other, change)) continue;
     if (was_taken_away(one.candidate, mechanism, change.dataset)) continue;
     change.condition = mechanism.info.taken_away->condition;
     change.value = mechanism.info.taken_away->value;
@@ -117,41 +267,46 @@ void add_changes(const Search& search, const CandidateResult& one, const Candida
 }
 
 int effort(const NextExperiment& experiment) {
-  switch (experiment.kind) {
-    case ExperimentKind::points:
-      return experiment.events;
-    case ExperimentKind::condition:
-      return experiment.events + effort_of_a_change;
-    case ExperimentKind::target:
-      return experiment.events + effort_of_a_target;
-  }
-  return experiment.events;
+  return experiment.events +
+         (experiment.kind == ExperimentKind::condition ? effort_of_a_change : 0);
 }
 
 }  // namespace
 
+double scatter_of_one_event(const FitResult& base, std::size_t dataset, double velocity) {
+  double nearest = INFINITY, sd = smallest_sd;
+  for (const Observation& point : base.data.points) {
+    if (point.dataset != dataset || point.censored) continue;
+    const double distance = std::abs(std::log(point.velocity / velocity));
+    if (distance >= nearest) continue;
+    nearest = distance;
+    sd = point.weights.sd * std::sqrt(static_cast<double>(std::max(point.rebounds(), 1))) *
+         base.noise_scale;
+  }
+  return std::max(sd, smallest_sd);
+}
+
 std::vector<NextExperiment> next_experiments(const SearchBase& base,
                                              const std::vector<const CandidateResult*>& rivals) {
-  const Search search(base);
+  if (rivals.size() < 2) return {};
+  const PossibleImpacts possible = possible_impacts(base.fitted);
   const std::size_t count = std::min(most_compared, rivals.size());
-  const std::vector<const CandidateResult*> compared(
-      rivals.begin(), rivals.begin() + static_cast<std::ptrdiff_t>(count));
-  std::vector<PredictedSpread> predicted;
-  for (std::size_t k = 0; k < count && count > 1; ++k) {
-    predicted.push_back(search.predicted(*rivals[k]));
+  std::vector<PredictedImpacts> predicted;
+  for (std::size_t k = 0; k < count; ++k) {
+    predicted.push_back(predicted_impacts(base, *rivals[k], possible, nullptr));
   }
-  std::vector<NextExperiment> all = target_experiments(base, compared);
+  std::vector<NextExperiment> all;
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       NextExperiment points;
       points.one = rivals[a]->candidate.name();
       points.other = rivals[b]->candidate.name();
-      if (search.place(predicted[a], predicted[b], points)) all.push_back(points);
-      add_changes(search, *rivals[a], *rivals[b], predicted[b], all);
-      add_changes(search, *rivals[b], *rivals[a], predicted[a], all);
+      if (find_impact(possible, predicted[a], predicted[b], points)) all.push_back(points);
+      add_changes(base, possible, *rivals[a], *rivals[b], predicted[b], all);
+      add_changes(base, possible, *rivals[b], *rivals[a], predicted[a], all);
     }
   }
-  for (NextExperiment& next : all) next.series = most_like(base.fitted.data, next);
+  for (NextExperiment& next : all) next.series = most_similar_series(base.fitted.data, next);
   std::stable_sort(all.begin(), all.end(), [](const NextExperiment& a, const NextExperiment& b) {
     return effort(a) < effort(b);
   });

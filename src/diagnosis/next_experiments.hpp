@@ -1,30 +1,67 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/names.hpp"
+#include "data/system.hpp"
 #include "diagnosis/candidate_result.hpp"
-#include "diagnosis/next_experiment.hpp"
-#include "diagnosis/search.hpp"
 
 namespace recoil {
 
-/// For every two of `rivals` (the best four): the impacts that tell them apart with the fewest
-/// events (over the grid of `next_measurements`), and, where the catalogue knows a condition that
-/// takes a mechanism away which only one of them has, the same under a change of that condition;
-/// and impacts on another target (`target_experiments`). The least effort first, an effort being
-/// the number of impacts, of a changed condition `effort_of_a_change` and of another target
-/// `effort_of_a_target` more.
+struct SearchBase;
+
+enum class ExperimentKind {
+  points,    ///< more impacts, at another velocity and diameter
+  condition  ///< more impacts under a changed condition, which removes one of the two causes
+};
+template <>
+struct NamesOf<ExperimentKind> {
+  static constexpr std::array<std::string_view, 2> names = {"points", "condition"};
+};
+
+/// An experiment that would tell one rival from another.
+struct NextExperiment {
+  ExperimentKind kind = ExperimentKind::points;
+  std::string one, other;  ///< names of the two candidates
+  std::size_t dataset = 0;
+  std::size_t series = 0;  ///< of that dataset: the one whose impacts are most similar
+  double diameter = 0.0;   ///< [m]
+  double velocity = 0.0;   ///< incident velocity [m/s]
+  /// e predicted by `one` less e predicted by `other`. Of kind `condition` the change removes the
+  /// mechanism of `one` [1].
+  double difference = 0.0;
+  int events = 0;                                     ///< impacts for expected odds of 99 to 1
+  double log_odds = 0.0;                              ///< expected from that many, at least ln 99
+  Condition condition = Condition::ambient_pressure;  ///< of kind `condition`
+  double value = 0.0;                                 ///< of the condition, in its unit
+  std::string_view doing;                             ///< in a laboratory: "pump the chamber"
+};
+
+/// For every two of the first four `rivals`: the impacts that tell them apart with the fewest
+/// events. Where the catalogue knows a condition that removes a mechanism which only one of the two
+/// has, also the impacts that do so under that condition. Sorted by effort: the number of impacts,
+/// plus 100 for a changed condition. Experiments of more than a million impacts are left out.
 ///
-/// Both predict the mean of n impacts with an error: what the points leave open of their
-/// parameters, and how wrong their laws may be there (`predicted_spread`). The expected log odds of
-/// the right one of the two is the Kullback-Leibler divergence of the two normal distributions (Box
-/// & Hill 1967, Technometrics 9, 57-71), the smaller of both directions; it does not grow without
-/// end with n. What takes more than a million impacts is left out.
+/// The impacts to choose from are 24 velocities from 0.7 times the slowest to 1.5 times the fastest
+/// measured, for every diameter of the data, 0.6 times the smallest and 1.6 times the largest.
+///
+/// Each rival predicts the mean e of n impacts as a normal variable. Its variance has three parts:
+/// the scatter of one impact over n, the errors of the fitted parameters, and the errors of the
+/// laws (`LawErrors`). The expected log odds are the Kullback-Leibler divergence of the two normal
+/// distributions, the smaller of both directions (Box & Hill 1967, Technometrics 9, 57-71); they
+/// stay finite as n grows.
+///
+/// The parameters and the errors of the laws are linearised at the fit. With A the weighted slopes
+/// of the measured points in both and r the weighted residuals, their mean is -(A'A + I')^-1 A'r
+/// and their covariance (A'A + I')^-1, where I' is 1 for each error of a law and 0 for each
+/// parameter.
 std::vector<NextExperiment> next_experiments(const SearchBase& base,
                                              const std::vector<const CandidateResult*>& rivals);
 
-inline constexpr int effort_of_a_change = 100;  ///< impacts
-/// Mounting a target, and learning what damps the spheres on it beside what is asked [impacts].
-inline constexpr int effort_of_a_target = 300;
+/// Standard deviation of e of one impact [1]: that of the point of the dataset that is nearest in
+/// ln V, at least 0.001.
+double scatter_of_one_event(const FitResult& base, std::size_t dataset, double velocity);
 
 }  // namespace recoil

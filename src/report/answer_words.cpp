@@ -62,45 +62,17 @@ const CandidateResult* single_named(const Diagnosis& d, const std::string& id) {
   return found == d.candidates.end() ? nullptr : &*found;
 }
 
-/// "24 impacts of spheres of 2.6 and 6.9 um, 2 at each of 12 velocities from 2.1 to 95 m/s"
-std::string places_words(const NextExperiment& next) {
-  const ExperimentPlace& first = next.places.front();
-  const ExperimentPlace& last = next.places.back();
-  const std::string sizes =
-      first.diameter == last.diameter
-          ? diameter_words(first.diameter)
-          : fmt::format("{} and {}", diameter_words(first.diameter), diameter_words(last.diameter));
-  const auto [slowest, fastest] = std::minmax_element(
-      next.places.begin(), next.places.end(),
-      [](const ExperimentPlace& a, const ExperimentPlace& b) { return a.velocity < b.velocity; });
-  return fmt::format("{} impacts of {}, {} at each of {} velocities from {:.3g} to {:.3g} m/s",
-                     next.events, sizes, first.events, next.places.size(), slowest->velocity,
-                     fastest->velocity);
-}
-
-/// Of kind `target`.
-std::string target_words(const NextExperiment& next) {
-  return fmt::format(
-      "To find out, measure the same spheres with the same instrument on {} (E = {:.3g} GPa): {}. "
-      "What damps them there is fitted anew (C_H and C_A with per = \"dataset\"); at {:.3g} m/s, e "
-      "of {} is {} by {:.2g} with {} than with {}.",
-      block_words(next.material), next.material.youngs_modulus / units::GPa, places_words(next),
-      next.velocity, diameter_words(next.diameter), next.difference > 0.0 ? "higher" : "lower",
-      std::abs(next.difference), words_of(next.one), words_of(next.other));
-}
-
-/// The experiment that would tell most for its effort.
+/// The experiment that takes the least effort.
 std::string experiment_words(const Diagnosis& d) {
   if (d.experiments.empty()) {
     return has_one_size(d.base.data)
                ? "Measure spheres of other diameters: how an effect depends on size tells one "
                  "cause "
                  "from another."
-               : "No impacts that such an experiment could add would tell them apart: change what "
-                 "it is made on, or with.";
+               : "No further impacts of these spheres on this surface would tell them apart: "
+                 "measure another pair of materials, or with another instrument.";
   }
   const NextExperiment& next = d.experiments.front();
-  if (next.kind == ExperimentKind::target) return target_words(next);
   const std::string impacts =
       fmt::format("{} impact{} of {} at {:.3g} m/s", next.events, next.events == 1 ? "" : "s",
                   diameter_words(next.diameter), next.velocity);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "document/document.hpp"
-#include "plan/plan_result.hpp"
+#include "plan/experiment_plan.hpp"
 
 namespace recoil {
 

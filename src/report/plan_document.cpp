@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/program.hpp"
 #include "core/units.hpp"
@@ -20,8 +19,6 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_steps = 8;
-constexpr std::size_t most_told = 4;
 constexpr std::size_t most_places = 3;
 
 Notation two_digit_percent() {
@@ -175,145 +172,6 @@ Table learnt_table(const ExperimentPlan& plan) {
   return table;
 }
 
-/// "1e-14 (0 to 1e-11) J"
-Sentence strength_words(const PlannedCause& cause) {
-  const std::string range = cause.stated
-                                ? std::string("stated")
-                                : fmt::format("{:.2g} to {:.2g}", cause.lower, cause.upper);
-  return say("{:.3g} ({})", cause.strength, range) + unit_after_number(cause.unit);
-}
-
-Table causes_table(const ExperimentPlan& plan) {
-  Table table;
-  if (plan.expected.causes.empty()) return table;
-  table.compact = true;
-  table.caption = say(
-      "What else may act, at the strength at which a diagnosis starts to look for it (and what it "
-      "can be). Seen: expected odds of 99 to 1 against the model without it; told from: other "
-      "causes against which the odds are as good");
-  table.columns = {{"cause"}, {"strength", "", true}, {say("change of {e}")},
-                   {"seen"},  {"seen from"},          {"told from"}};
-  for (const PlannedCause& cause : plan.expected.causes) {
-    const bool possible = cause.seen_from && *cause.seen_from <= std::max(cause.upper, 0.0);
-    const int told = cause.rivals - static_cast<int>(cause.confused.size());
-    table.rows.push_back({Sentence(cause.id), strength_words(cause),
-                          Number{cause.change, signed_fixed(3)},
-                          Sentence(cause.seen() ? "yes" : "no"),
-                          possible ? Cell(Number{*cause.seen_from, significant(2)}) : Cell(),
-                          cause.seen() ? Cell(say("{} of {}", told, cause.rivals)) : Cell()});
-  }
-  return table;
-}
-
-Table confusions_table(const ExperimentPlan& plan) {
-  Table table;
-  table.compact = true;
-  table.caption =
-      "Seen, but not told from others: if the first is true, each of these does as well";
-  table.columns = {{"true"}, {"does as well", "", true}};
-  for (const PlannedCause& cause : plan.expected.causes) {
-    if (cause.confused.empty()) continue;
-    std::vector<Sentence> rivals;
-    for (const Confusion& rival : cause.confused) rivals.emplace_back(rival.id);
-    table.rows.push_back({Sentence(cause.id), join(rivals, ", ")});
-  }
-  return table;
-}
-
-/// "shows a, b; tells c from d, e": what a step does, or nothing would do.
-std::string done_words(const std::vector<CausePair>& pairs, std::size_t most) {
-  std::vector<std::string> shown;
-  std::map<std::string, std::vector<std::string>> told;
-  for (const auto& [one, other] : pairs) {
-    if (other.empty()) {
-      shown.push_back(one);
-    } else {
-      told[one].push_back(other);
-    }
-  }
-  std::vector<std::string> parts;
-  if (!shown.empty()) parts.push_back(fmt::format("show {}", fmt::join(shown, ", ")));
-  std::size_t named = 0;
-  std::size_t more = 0;
-  for (const auto& [one, others] : told) {
-    if (named >= most) {
-      more += others.size();
-      continue;
-    }
-    parts.push_back(fmt::format("tell {} from {}", one, fmt::join(others, ", ")));
-    named += others.size();
-  }
-  if (more > 0) parts.push_back(fmt::format("tell {} more pair{}", more, more == 1 ? "" : "s"));
-  return fmt::format("{}", fmt::join(parts, "; "));
-}
-
-std::string doing_words(const PlanRemedy& remedy) {
-  switch (remedy.kind) {
-    case ExperimentKind::points:
-      break;
-    case ExperimentKind::condition:
-      return std::string(remedy.doing);
-    case ExperimentKind::target:
-      return fmt::format("take {} as the target, {} impacts at each of {} velocities and sizes",
-                         block_words(remedy.material), remedy.places.front().events,
-                         remedy.places.size());
-  }
-  return "more points";
-}
-
-Cell size_cell(const ExperimentPlan& plan, const PlanRemedy& remedy) {
-  const SizeUnit unit = planned_unit(plan);
-  const std::string first = size_text(remedy.diameter, unit);
-  if (remedy.places.empty()) return Sentence(first);
-  const std::string last = size_text(remedy.places.back().diameter, unit);
-  return Sentence(first == last ? first : first + " and " + last);
-}
-
-Cell velocity_cell(const PlanRemedy& remedy) {
-  if (remedy.places.empty()) return Number{remedy.velocity, significant(3)};
-  const auto [slowest, fastest] = std::minmax_element(
-      remedy.places.begin(), remedy.places.end(),
-      [](const ExperimentPlace& a, const ExperimentPlace& b) { return a.velocity < b.velocity; });
-  return say("{:.3g} to {:.3g}", slowest->velocity, fastest->velocity);
-}
-
-Table steps_table(const ExperimentPlan& plan) {
-  Table table;
-  table.compact = true;
-  table.caption =
-      "What would do the rest, on top of the plan: each line by itself, so that all "
-      "beside it has odds of 99 to 1";
-  table.columns = {{"do", "", true},
-                   {"impacts"},
-                   {say("{d}"), planned_unit(plan).name},
-                   {say("{V}"), "m/s"},
-                   {"to", "", true}};
-  for (const PlanStep& step : plan.expected.steps) {
-    if (table.rows.size() == most_steps) break;
-    const PlanRemedy& remedy = step.remedy;
-    table.rows.push_back({Sentence(doing_words(remedy)),
-                          Number{static_cast<double>(remedy.impacts), fixed(0)},
-                          size_cell(plan, remedy), velocity_cell(remedy),
-                          Sentence(done_words(step.tells, most_told))});
-  }
-  return table;
-}
-
-List beyond_reach(const ExperimentPlan& plan) {
-  const PlannedCauses& expected = plan.expected;
-  List list;
-  if (expected.steps.size() > most_steps) {
-    list.entries.push_back(
-        say("{} more steps stand in plan.json.", expected.steps.size() - most_steps));
-  }
-  if (expected.beyond.empty()) return list;
-  list.entries.push_back(
-      Sentence("At these strengths no size, velocity, condition or target within reach, with 10000 "
-               "impacts, would " +
-               done_words(expected.beyond, expected.beyond.size()) + "."));
-  return list;
-}
-
 List limits_of_plan(const ExperimentPlan& plan) {
   std::vector<Validity> worst;
   for (const PlannedSetting& setting : plan.settings) {
@@ -356,10 +214,6 @@ std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string
           {"assumed", "Assumed", {}, {assumptions(plan, assumed)}},
           {"settings", "What to Measure", {}, {settings_table(plan)}},
           {"errors", "Errors", {}, {errors_table(plan), learnt_table(plan)}},
-          {"causes",
-           "Causes",
-           {},
-           {causes_table(plan), confusions_table(plan), steps_table(plan), beyond_reach(plan)}},
           {"limits", "Limits of the Model", {}, {limits_of_plan(plan)}}};
 }
 

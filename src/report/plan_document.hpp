@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "document/document.hpp"
-#include "plan/plan_result.hpp"
+#include "plan/experiment_plan.hpp"
 
 namespace recoil {
 
-/// What `recoil plan` prints: the answer, what to measure, the errors, the causes.
+/// What `recoil plan` prints: the answer, what to measure, the errors.
 /// @param assumed where the values of the parameters come from
 std::vector<Section> plan_sections(const ExperimentPlan& plan, const std::string& assumed);
 std::string plan_text(const ExperimentPlan& plan, const std::string& assumed);

@@ -13,20 +13,6 @@
 namespace recoil {
 namespace {
 
-void add_target(Json& entry, const TargetMaterial& material,
-                const std::vector<ExperimentPlace>& places) {
-  entry["target"] = {{"material", material.name},
-                     {"youngs_modulus", material.youngs_modulus},
-                     {"poisson_ratio", material.poisson_ratio},
-                     {"density", material.density}};
-  entry["points"] = Json::array();
-  for (const ExperimentPlace& place : places) {
-    entry["points"].push_back({{"diameter_um", place.diameter / units::um},
-                               {"incident_velocity", place.velocity},
-                               {"events", place.events}});
-  }
-}
-
 Json count_or_null(const std::optional<double>& value) {
   return value ? Json(std::ceil(*value)) : Json(nullptr);
 }
@@ -73,51 +59,6 @@ Json quantity_json(const ExperimentPlan& plan, const PlannedQuantity& quantity) 
   return out;
 }
 
-Json remedy_json(const ExperimentPlan& plan, const std::optional<PlanRemedy>& remedy) {
-  if (!remedy) return nullptr;
-  Json out = {{"kind", to_string(remedy->kind)}};
-  out.update(place_json(plan, remedy->dataset, remedy->diameter, remedy->velocity));
-  out["impacts"] = remedy->impacts;
-  if (remedy->kind == ExperimentKind::condition) {
-    out["condition"] = to_string(remedy->condition);
-    out["value"] = remedy->value;
-  }
-  if (remedy->kind == ExperimentKind::target) add_target(out, remedy->material, remedy->places);
-  return out;
-}
-
-Json cause_json(const ExperimentPlan& plan, const PlannedCause& cause) {
-  Json out;
-  out["id"] = cause.id;
-  out["kind"] = to_string(cause.kind);
-  out["parameter"] = cause.parameter;
-  out["unit"] = cause.unit;
-  out["strength"] = number_or_null(cause.strength);
-  out["possible"] = {number_or_null(cause.lower), number_or_null(cause.upper)};
-  out["stated"] = cause.stated;
-  out["largest_change"] = number_or_null(cause.change);
-  out["seen"] = cause.seen();
-  out["log_odds"] = number_or_null(cause.log_odds);
-  out["seen_from"] = cause.seen_from ? number_or_null(*cause.seen_from) : Json(nullptr);
-  out["remedy"] = remedy_json(plan, cause.remedy);
-  out["rivals"] = cause.rivals;
-  out["not_told_from"] = Json::array();
-  for (const Confusion& rival : cause.confused) {
-    out["not_told_from"].push_back({{"id", rival.id},
-                                    {"log_odds", number_or_null(rival.log_odds)},
-                                    {"remedy", remedy_json(plan, rival.remedy)}});
-  }
-  return out;
-}
-
-Json pairs_of_causes_json(const std::vector<CausePair>& pairs) {
-  Json out = Json::array();
-  for (const auto& [one, other] : pairs) {
-    out.push_back({{"id", one}, {"from", other.empty() ? Json(nullptr) : Json(other)}});
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string json_plan(const ExperimentPlan& plan) {
@@ -132,10 +73,11 @@ std::string json_plan(const ExperimentPlan& plan) {
                                {"particle", dataset.system.particle.name},
                                {"surface", dataset.system.surface.name}});
   }
-  out["assumed"] = {
-      {"parameters", assumed_json(plan)}, {"velocities", {options.slowest, options.fastest}},
-      {"scatter", options.scatter},       {"floor", options.floor},
-      {"spread", options.spread},         {"law_error", plan.law_error}};
+  out["assumed"] = {{"parameters", assumed_json(plan)},
+                    {"velocities", {options.slowest, options.fastest}},
+                    {"scatter", options.scatter},
+                    {"floor", options.floor},
+                    {"spread", options.spread}};
   out["wanted_error"] = options.error;
   out["reached"] = plan.reached;
   out["checks"] = options.checks;
@@ -157,17 +99,6 @@ std::string json_plan(const ExperimentPlan& plan) {
   for (const PlannedQuantity& quantity : plan.quantities) {
     out["quantities"].push_back(quantity_json(plan, quantity));
   }
-  out["causes"] = Json::array();
-  for (const PlannedCause& cause : plan.expected.causes) {
-    out["causes"].push_back(cause_json(plan, cause));
-  }
-  out["steps"] = Json::array();
-  for (const PlanStep& step : plan.expected.steps) {
-    Json row = remedy_json(plan, step.remedy);
-    row["tells"] = pairs_of_causes_json(step.tells);
-    out["steps"].push_back(std::move(row));
-  }
-  out["beyond"] = pairs_of_causes_json(plan.expected.beyond);
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

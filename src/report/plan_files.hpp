@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "plan/plan_result.hpp"
+#include "plan/experiment_plan.hpp"
 
 namespace recoil {
 

@@ -34,21 +34,9 @@ std::string condition_words(Condition condition) {
   return words_of(std::string(name_of(condition)));
 }
 
-std::string block_words(const TargetMaterial& material) {
-  return fmt::format("a thick, polished block of {}", material.name);
-}
-
 std::string doing_words(const NextExperiment& experiment) {
-  switch (experiment.kind) {
-    case ExperimentKind::points:
-      break;
-    case ExperimentKind::condition:
-      return std::string(experiment.doing);
-    case ExperimentKind::target:
-      return fmt::format("take {} as the target, at {} velocities and sizes",
-                         block_words(experiment.material), experiment.places.size());
-  }
-  return "more impacts";
+  return experiment.kind == ExperimentKind::condition ? std::string(experiment.doing)
+                                                      : "more impacts";
 }
 
 std::string because_words(const CandidateResult& c) {

@@ -14,9 +14,6 @@ std::string p_words(double p, int simulated);
 /// "ambient pressure"
 std::string condition_words(Condition condition);
 
-/// "a thick, polished block of sapphire"
-std::string block_words(const TargetMaterial& material);
-
 /// What to do, in a few words: "more impacts", "pump the chamber".
 std::string doing_words(const NextExperiment& experiment);
 

@@ -11,7 +11,6 @@
 #include "coverage/simulated_impacts.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
-#include "plan/datasets_to_plan.hpp"
 #include "support/mistake.hpp"
 #include "support/synthetic.hpp"
 

@@ -34,7 +34,7 @@ TEST(PlanCommand, ForAFolderWithoutPoints) {
   const Outcome plan = planned(place);
   ASSERT_EQ(plan.status, 0) << plan.err;
   EXPECT_EQ(plan.err, "");
-  for (const char* word : {"[[Plan]]", "[[What to Measure]]", "[[Errors]]", "[[Causes]]", "C_H"}) {
+  for (const char* word : {"[[Plan]]", "[[What to Measure]]", "[[Errors]]", "C_H"}) {
     EXPECT_NE(plan.out.find(word), std::string::npos) << word << "\n" << plan.out;
   }
   std::istringstream lines(plan.out);

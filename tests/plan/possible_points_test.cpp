@@ -1,5 +1,5 @@
 // What one planned point tells, against closed forms and against the scatter of simulated points.
-#include "plan/point_outlook.hpp"
+#include "plan/possible_points.hpp"
 
 #include <gtest/gtest.h>
 

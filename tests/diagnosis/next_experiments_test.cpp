@@ -6,6 +6,7 @@
 #include "diagnosis/next_experiments.hpp"
 #include "estimate/predictor.hpp"
 #include "search_with_exact_laws.hpp"
+#include "support/noisy_case.hpp"
 
 namespace recoil {
 namespace {
@@ -88,6 +89,23 @@ TEST_F(NextExperiments, WatchACauseWhileItIsTakenAway) {
     pumped = pumped || experiment.condition == Condition::ambient_pressure;
   }
   EXPECT_TRUE(pumped);
+}
+
+TEST(ScatterOfOneEvent, IsThatOfTheNearestPointInLogVelocity) {
+  synthetic::Case c = synthetic::noisy_case();
+  for (Observation& point : c.fitted.data.points) {
+    point.weights.sd = point.velocity < 10.0 ? 0.02 : 0.005;
+    point.events = 1;
+  }
+  EXPECT_DOUBLE_EQ(scatter_of_one_event(c.fitted, 0, 3.0), 0.02);
+  EXPECT_DOUBLE_EQ(scatter_of_one_event(c.fitted, 0, 400.0), 0.005);
+}
+
+TEST(ScatterOfOneEvent, IsAThousandthWhereLessIsStated) {
+  synthetic::Case c = synthetic::noisy_case();
+  for (Observation& point : c.fitted.data.points) point.weights.sd = 1e-6;
+  EXPECT_DOUBLE_EQ(scatter_of_one_event(c.fitted, 0, 3.0), 1e-3);
+  EXPECT_DOUBLE_EQ(scatter_of_one_event(c.fitted, 5, 3.0), 1e-3);  // a dataset without points
 }
 
 }  // namespace
