@@ -102,14 +102,10 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
   job.folder = fs::absolute(flags.out).lexically_normal();
   if (!job.folder.has_filename()) job.folder = job.folder.parent_path();
   const std::string name = job.folder.string();
-  if (name.find_first_of(std::string("\"'\\%\n\t") +
-                         (job.system == ClusterSystem::htcondor ? " $" : "")) !=
-      std::string::npos) {
-    throw InputError(
-        {name}, "this folder cannot be named in the scripts",
-        "its path has a quote, a backslash, a percent sign, or a blank that the system "
-        "does not take",
-        "choose another folder");
+  if (name.find_first_of("\"'\\%\n\t") != std::string::npos) {
+    throw InputError({name}, "this folder cannot be named in the scripts",
+                     "its path has a quote, a backslash, a percent sign, a tab or a line break",
+                     "choose another folder");
   }
   job.words = words;
   job.shards = flags.shards;
@@ -127,11 +123,8 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
     }
     fmt::print("{}: written\n", (fs::path(flags.out) / file.name).string());
   }
-  const fs::path start =
-      fs::path(flags.out) / (job.system == ClusterSystem::htcondor ? "run.dag" : "run.sh");
-  fmt::print("Read them, edit them, and start the job: {} {}\n",
-             job.system == ClusterSystem::htcondor ? "condor_submit_dag" : "sh",
-             shell_word(start.string()));
+  fmt::print("Read them, edit them, and start the job: sh {}\n",
+             shell_word((fs::path(flags.out) / "run.sh").string()));
 }
 
 }  // namespace
@@ -147,7 +140,7 @@ void add_cluster(CLI::App& program) {
       "  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big\n"
       "  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big");
   const auto flags = std::make_shared<ClusterFlags>();
-  command->add_option("SYSTEM", flags->system, "what starts the shards: slurm, htcondor, parallel")
+  command->add_option("SYSTEM", flags->system, "what starts the shards: slurm, parallel")
       ->required()
       ->check(CLI::IsMember(all_names<ClusterSystem>()));
   command->add_option("--shards", flags->shards, "how many")

@@ -46,7 +46,6 @@ const std::map<std::string, Words>& commands() {
         std::string(target) + "/history.csv"}},
       {"shard", {"fit", "fit.toml", "--shard", "1/2", "--out", target}},
       {"cluster", {"cluster", "parallel", "fit.toml", "--shards", "2", "--out", target}},
-      {"help", {"help", "--man", target}},
   };
   return all;
 }
