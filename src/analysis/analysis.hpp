@@ -48,8 +48,7 @@ struct AnalysisOptions {
   std::optional<std::uint64_t> seed;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
   Solver solver = Solver::fast;
-  /// Folder in which a stopped run keeps its finished replicates; empty: it keeps none.
-  std::filesystem::path folder;
+  std::shared_ptr<KeptRows> kept;  ///< see UncertaintyOptions
 };
 
 /// Reads a fit file and every dataset that it names.
@@ -60,7 +59,6 @@ std::vector<Dataset> load_datasets(const FitSpec& spec);
 /// The whole pipeline for one fit: data, fit, uncertainty.
 /// @throws InputError when the bootstrap's scheme cannot draw from these data.
 /// @throws ComputationError when the fit has no usable answer.
-/// @throws Interrupted when the user stops it; `options.folder` keeps the finished replicates.
 Analysis analyse(FitInputs inputs, const AnalysisOptions& options = {});
 
 /// The pipeline up to the fit: `uncertainty` stays empty.
@@ -90,10 +88,6 @@ void add_predictions(Analysis& analysis);
 /// Adds what each correction does to the points and the fit of a reconstruction, where a study of
 /// them lies beside its recipe.
 void add_corrections(Analysis& analysis);
-
-/// Removes the replicates that a stopped run has kept in `folder`. Call it once the results are
-/// written.
-void forget_replicates(const std::filesystem::path& folder);
 
 /// The index of the dataset named `id`; 0 when `id` is empty.
 /// @throws InputError when there is none

@@ -9,7 +9,7 @@
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/shard.hpp"
+#include "core/resumable.hpp"
 
 namespace recoil {
 namespace {
@@ -24,7 +24,7 @@ struct ClusterFlags {
   std::string time = "01:00:00";
 };
 
-const char* const shareable[] = {"fit", "coverage", "diagnose", "report"};
+const char* const shareable[] = {"fit", "coverage", "diagnose"};
 
 /// The words behind those of `cluster` itself: a command, or the fit file of the command fit.
 std::vector<std::string> words_of_job(std::vector<std::string> words) {
@@ -58,7 +58,6 @@ void require_valid(const std::vector<std::string>& words) {
   add_fit(trial);
   add_coverage(trial);
   add_diagnose(trial);
-  add_report(trial);
   // Ends before the command is run. (Its own callback stays: it holds what the options write to.)
   for (CLI::App* command : trial.get_subcommands({})) {
     command->parse_complete_callback([] { throw CLI::Success(); });
@@ -133,8 +132,8 @@ void add_cluster(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "cluster", "write the scripts that run a command in shards on a cluster, and its merge");
   command->footer(
-      "Behind its own words stands a fit file, or a command with its options: fit, coverage,\n"
-      "diagnose or report.\n"
+      "Behind its own words stands a fit file, or a command with its options: fit, coverage\n"
+      "or diagnose.\n"
       "The scripts are plain, and yours to edit. All machines see the folder, the program and the\n"
       "data at the same paths.\n\n"
       "  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big\n"

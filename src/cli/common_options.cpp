@@ -83,6 +83,15 @@ void add_json_flag(CLI::App& command, bool& json) {
                    "print the result as JSON instead; what else there is to say goes to stderr");
 }
 
+void write_or_print(const std::vector<WholeFile>& files, const std::string& result) {
+  try {
+    write_whole_files(files);
+  } catch (const InputError&) {
+    fmt::print("{}", result);
+    throw;
+  }
+}
+
 CLI::Validator positive_number(const std::string& what, double low, double high) {
   return {[=](const std::string& text) -> std::string {
             double value = 0.0;

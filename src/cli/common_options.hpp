@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/analysis.hpp"
+#include "core/files.hpp"
 
 namespace recoil {
 
@@ -30,6 +31,10 @@ void add_analysis_flags(CLI::App& command, AnalysisFlags& flags);
 
 /// --json: the result as JSON on standard output in place of the words.
 void add_json_flag(CLI::App& command, bool& json);
+
+/// Writes the files of a result. If they cannot be written the result is printed, so that the work
+/// is not lost, before the error is thrown. @throws InputError
+void write_or_print(const std::vector<WholeFile>& files, const std::string& result);
 
 /// A number in [low, high]; CLI11's own range check lets NaN through.
 CLI::Validator positive_number(const std::string& what, double low, double high);

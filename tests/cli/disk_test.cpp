@@ -138,7 +138,7 @@ TEST(DiskAtWork, OneThatGoesIsToldAndWhatIsOnItIsWhole) {
   ASSERT_TRUE(disk.is_mounted());
   const Words command = {"fit",       "fit.toml", "--replicates", "200000",
                          "--threads", "2",        "--out",        target};
-  const fs::path kept = disk / target / "replicates.jsonl";
+  const fs::path kept = disk / target / "unfinished-fit.json.jsonl";
   // Sooner and later, until it is well at work: on a slow machine it may still be reading.
   const auto stopped_after = [&](int milliseconds, const std::function<void()>& meanwhile) {
     Started run(command, disk.path());
@@ -154,7 +154,8 @@ TEST(DiskAtWork, OneThatGoesIsToldAndWhatIsOnItIsWhole) {
   const Outcome told = stopped_after(delay, [&] { disk.go_away(); });
   EXPECT_EQ(told.status, 2);
   EXPECT_EQ(std::count(told.err.begin(), told.err.end(), '\n'), 1) << told.err;
-  EXPECT_NE(told.err.find("replicates.jsonl: the file cannot be written (Read-only file system)"),
+  EXPECT_NE(told.err.find(
+                "unfinished-fit.json.jsonl: the file cannot be written (Read-only file system)"),
             std::string::npos)
       << told.err;
   disk.come_back();
