@@ -13,13 +13,6 @@
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
-namespace {
-
-std::filesystem::path replicates_file(const std::filesystem::path& folder) {
-  return folder.empty() ? folder : folder / "replicates.jsonl";
-}
-
-}  // namespace
 
 UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOptions& options) {
   UncertaintyOptions assess;
@@ -31,8 +24,7 @@ UncertaintyOptions uncertainty_options(const FitSpec& spec, const AnalysisOption
   assess.posterior = spec.uncertainty.posterior;
   assess.seed = options.seed.value_or(spec.uncertainty.seed);
   assess.threads = options.threads;
-  assess.keep = replicates_file(options.folder);
-  if (!options.folder.empty()) assess.keep_key = fmt::format("{}|{}", version(), program_stamp());
+  assess.kept = options.kept;
   return assess;
 }
 
@@ -42,11 +34,6 @@ void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data
   throw InputError({spec.file.string()},
                    fmt::format("the scheme \"{}\" cannot be used", to_string(scheme)),
                    obstacle_words(*obstacle), "scheme = \"auto\" chooses one that can");
-}
-
-void forget_replicates(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  if (!folder.empty()) std::filesystem::remove(replicates_file(folder), ignored);
 }
 
 std::vector<Dataset> load_datasets(const FitSpec& spec) {

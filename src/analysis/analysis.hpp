@@ -45,8 +45,7 @@ struct AnalysisOptions {
   std::optional<std::uint64_t> seed;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
   Solver solver = Solver::fast;
-  /// Folder in which a stopped run keeps its finished replicates; empty: it keeps none.
-  std::filesystem::path folder;
+  std::shared_ptr<KeptRows> kept;  ///< see UncertaintyOptions
 };
 
 /// Reads a fit file and every dataset that it names.
@@ -57,7 +56,6 @@ std::vector<Dataset> load_datasets(const FitSpec& spec);
 /// The whole pipeline for one fit: data, fit, uncertainty.
 /// @throws InputError when the bootstrap's scheme cannot draw from these data.
 /// @throws ComputationError when the fit has no usable answer.
-/// @throws Interrupted when the user stops it; `options.folder` keeps the finished replicates.
 Analysis analyse(FitInputs inputs, const AnalysisOptions& options = {});
 
 /// The pipeline up to the fit: `uncertainty` stays empty.
@@ -84,9 +82,6 @@ void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data
 /// and the older capture models.
 void add_predictions(Analysis& analysis);
 
-/// Removes the replicates that a stopped run has kept in `folder`. Call it once the results are
-/// written.
-void forget_replicates(const std::filesystem::path& folder);
 
 /// The index of the dataset named `id`; 0 when `id` is empty.
 /// @throws InputError when there is none

@@ -85,42 +85,6 @@ cd @WHERE@ || exit 1
 @RECOIL@ merge @FOLDER@ >@FOLDER@/result.txt
 )";
 
-const char* const condor_shards = R"(# The shards, on a file system that all machines share.
-universe = vanilla
-executable = @PLAIN_FOLDER@/shard.sh
-# HTCondor counts from 0, shards count from 1.
-number = $(Process) + 1
-arguments = $INT(number)
-should_transfer_files = NO
-request_cpus = @CPUS@
-+MaxRuntime = @SECONDS@
-# SIGTERM is the gentle end of an eviction: recoil keeps what is finished.
-kill_sig = SIGTERM
-# Input that was refused (exit status 2) is not tried again.
-max_retries = 5
-retry_until = 2
-output = @PLAIN_FOLDER@/log-$(Process).txt
-error = @PLAIN_FOLDER@/log-$(Process).txt
-log = @PLAIN_FOLDER@/condor.log
-queue @SHARDS@
-)";
-
-const char* const condor_merge = R"(# The merge.
-universe = vanilla
-executable = @PLAIN_FOLDER@/merge.sh
-should_transfer_files = NO
-request_cpus = @CPUS@
-error = @PLAIN_FOLDER@/log-merge.txt
-log = @PLAIN_FOLDER@/condor.log
-queue
-)";
-
-const char* const condor_dag =
-    R"(# condor_submit_dag run.dag: the shards, and after them the merge, whatever became of them.
-JOB shards @PLAIN_FOLDER@/shards.sub
-FINAL merge @PLAIN_FOLDER@/merge.sub
-)";
-
 const char* const parallel_run = R"(#!/bin/sh
 # Starts the job: sh run.sh. Shards that are there are not run again. For several machines give
 # parallel their names (--sshlogin, --sshloginfile); they share this folder.
@@ -203,21 +167,11 @@ std::vector<ClusterFile> cluster_scripts(const ClusterJob& job) {
   }
   files.push_back({"merge.sh", filled(merge_script,
                                       {{"WHERE", where}, {"RECOIL", recoil}, {"FOLDER", folder}})});
-  if (job.system == ClusterSystem::parallel) {
-    files.push_back(
-        {"run.sh", filled(parallel_run,
-                          {{"SHARDS", shards},
-                           {"FOLDER", folder},
-                           {"JOBS", fmt::format("$((($(nproc) + {0} - 1) / {0}))", job.cpus)}})});
-    return files;
-  }
-  files.push_back({"shards.sub", filled(condor_shards, {{"SHARDS", shards},
-                                                        {"CPUS", cpus},
-                                                        {"SECONDS", fmt::format("{}", job.seconds)},
-                                                        {"PLAIN_FOLDER", plain_folder}})});
   files.push_back(
-      {"merge.sub", filled(condor_merge, {{"CPUS", cpus}, {"PLAIN_FOLDER", plain_folder}})});
-  files.push_back({"run.dag", filled(condor_dag, {{"PLAIN_FOLDER", plain_folder}})});
+      {"run.sh",
+       filled(parallel_run, {{"SHARDS", shards},
+                             {"FOLDER", folder},
+                             {"JOBS", fmt::format("$((($(nproc) + {0} - 1) / {0}))", job.cpus)}})});
   return files;
 }
 

@@ -12,10 +12,10 @@
 namespace recoil {
 
 /// What starts the shards.
-enum class ClusterSystem { slurm, htcondor, parallel };
+enum class ClusterSystem { slurm, parallel };
 template <>
 struct NamesOf<ClusterSystem> {
-  static constexpr std::array<std::string_view, 3> names = {"slurm", "htcondor", "parallel"};
+  static constexpr std::array<std::string_view, 2> names = {"slurm", "parallel"};
 };
 
 /// One command in shards.

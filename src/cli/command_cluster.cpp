@@ -9,7 +9,7 @@
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/shard.hpp"
+#include "core/resumable.hpp"
 
 namespace recoil {
 namespace {
@@ -24,7 +24,7 @@ struct ClusterFlags {
   std::string time = "01:00:00";
 };
 
-const char* const shareable[] = {"fit", "coverage", "diagnose", "report"};
+const char* const shareable[] = {"fit", "coverage", "diagnose"};
 
 /// The words behind those of `cluster` itself: a command, or the fit file of the command fit.
 std::vector<std::string> words_of_job(std::vector<std::string> words) {
@@ -58,7 +58,6 @@ void require_valid(const std::vector<std::string>& words) {
   add_fit(trial);
   add_coverage(trial);
   add_diagnose(trial);
-  add_report(trial);
   // Ends before the command is run. (Its own callback stays: it holds what the options write to.)
   for (CLI::App* command : trial.get_subcommands({})) {
     command->parse_complete_callback([] { throw CLI::Success(); });
@@ -102,14 +101,10 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
   job.folder = fs::absolute(flags.out).lexically_normal();
   if (!job.folder.has_filename()) job.folder = job.folder.parent_path();
   const std::string name = job.folder.string();
-  if (name.find_first_of(std::string("\"'\\%\n\t") +
-                         (job.system == ClusterSystem::htcondor ? " $" : "")) !=
-      std::string::npos) {
-    throw InputError(
-        {name}, "this folder cannot be named in the scripts",
-        "its path has a quote, a backslash, a percent sign, or a blank that the system "
-        "does not take",
-        "choose another folder");
+  if (name.find_first_of("\"'\\%\n\t") != std::string::npos) {
+    throw InputError({name}, "this folder cannot be named in the scripts",
+                     "its path has a quote, a backslash, a percent sign, a tab or a line break",
+                     "choose another folder");
   }
   job.words = words;
   job.shards = flags.shards;
@@ -127,11 +122,8 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
     }
     fmt::print("{}: written\n", (fs::path(flags.out) / file.name).string());
   }
-  const fs::path start =
-      fs::path(flags.out) / (job.system == ClusterSystem::htcondor ? "run.dag" : "run.sh");
-  fmt::print("Read them, edit them, and start the job: {} {}\n",
-             job.system == ClusterSystem::htcondor ? "condor_submit_dag" : "sh",
-             shell_word(start.string()));
+  fmt::print("Read them, edit them, and start the job: sh {}\n",
+             shell_word((fs::path(flags.out) / "run.sh").string()));
 }
 
 }  // namespace
@@ -140,14 +132,14 @@ void add_cluster(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "cluster", "write the scripts that run a command in shards on a cluster, and its merge");
   command->footer(
-      "Behind its own words stands a fit file, or a command with its options: fit, coverage,\n"
-      "diagnose or report.\n"
+      "Behind its own words stands a fit file, or a command with its options: fit, coverage\n"
+      "or diagnose.\n"
       "The scripts are plain, and yours to edit. All machines see the folder, the program and the\n"
       "data at the same paths.\n\n"
       "  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big\n"
       "  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big");
   const auto flags = std::make_shared<ClusterFlags>();
-  command->add_option("SYSTEM", flags->system, "what starts the shards: slurm, htcondor, parallel")
+  command->add_option("SYSTEM", flags->system, "what starts the shards: slurm, parallel")
       ->required()
       ->check(CLI::IsMember(all_names<ClusterSystem>()));
   command->add_option("--shards", flags->shards, "how many")

@@ -9,11 +9,9 @@
 #include "cli/coverage_words.hpp"
 #include "cli/json_coverage.hpp"
 #include "cli/shard_flags.hpp"
-#include "cli/write_or_print.hpp"
 #include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/shared_work.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "report/words_dataset.hpp"
 
@@ -50,63 +48,41 @@ std::unique_ptr<Prepared> prepare(const Options& options) {
   require_scheme(ready->spec, coverage.uncertainty.scheme, gather(ready->datasets));
   ready->truth = coverage_truth(ready->spec, ready->datasets, coverage.uncertainty.seed);
   ready->origin =
-      origin_of(options.shards, inputs_of(ready->spec, ready->datasets), coverage.uncertainty.seed,
-                static_cast<std::size_t>(coverage.datasets), digits_of(ready->truth));
+      options.shards.origin(ready->spec, ready->datasets, coverage.uncertainty.seed,
+                            static_cast<std::size_t>(coverage.datasets), digits_of(ready->truth));
   return ready;
 }
 
-SharedWork work_of(const Prepared& ready) {
-  SharedWork work;
-  work.label = "coverage";
-  work.pieces = ready.origin.pieces;
-  work.threads = ready.coverage.uncertainty.threads;
-  work.run = [&ready](std::size_t piece) {
-    return json_of(run_coverage_trial(ready.spec, ready.truth, ready.coverage, piece));
-  };
-  return work;
-}
-
-void run_shard_of_coverage(const Options& options) {
-  require_share(options.out, static_cast<std::size_t>(options.datasets), "data sets");
-  const std::unique_ptr<Prepared> ready = prepare(options);
-  const Shard shard = options.shards.chosen();
-  if (part_is_there(options.out, ready->origin, shard)) return;
-  write_part(work_of(*ready), ready->origin, shard, options.out);
-  say_part(options.out, ready->origin, shard, "data sets");
-}
-
-CoverageResult merged(const Prepared& ready, const std::string& folder) {
-  std::vector<CoverageTrial> trials(ready.origin.pieces);
-  const std::vector<bool> there =
-      read_parts(parts_of(ready.origin, folder), trials.size(),
-                 [&](std::size_t i, const Json& row) { trials[i] = coverage_trial_of(row); });
-  for (std::size_t i = 0; i < trials.size(); ++i) {  // what a damaged file should have held
-    if (!there[i]) trials[i] = run_coverage_trial(ready.spec, ready.truth, ready.coverage, i);
-  }
-  return count_coverage(ready.spec, ready.truth, ready.coverage, trials);
-}
-
-/// Runs what earlier runs of the same study have not left beside its result.
-CoverageResult measured(const Prepared& ready, KeptRows& kept) {
-  run_pieces(work_of(ready), Shard{}, kept);
-  std::vector<CoverageTrial> trials;
-  for (const auto& [piece, row] : kept.rows()) trials.push_back(coverage_trial_of(row));
-  return count_coverage(ready.spec, ready.truth, ready.coverage, trials);
+Pieces pieces_of(const Prepared& ready) {
+  return {"coverage", ready.origin.pieces, ready.coverage.uncertainty.threads,
+          [&ready](std::size_t i) {
+            return json_of(run_coverage_trial(ready.spec, ready.truth, ready.coverage, i));
+          }};
 }
 
 void run(const Options& options) {
-  std::optional<Claim> claim;
-  if (!options.out.empty()) {
+  const bool shard = options.shards.one_of_several();
+  if (shard) {
+    options.shards.require_share(options.out, static_cast<std::size_t>(options.datasets));
+  } else if (!options.out.empty()) {
     require_writable_folder(std::filesystem::absolute(options.out).parent_path());
     require_other_file(options.out, {options.fit_file});
   }
   const std::unique_ptr<Prepared> ready = prepare(options);
-  if (!options.out.empty()) claim.emplace(options.out);
-  KeptRows kept(options.out.empty() ? "" : unfinished_beside(options.out), key_of(ready->origin));
-  const CoverageResult result = options.shards.merging() ? merged(*ready, options.shards.parts)
-                                : options.out.empty()
-                                    ? measure_coverage(ready->spec, ready->truth, ready->coverage)
-                                    : measured(*ready, kept);
+  std::optional<Claim> claim;
+  if (!shard && !options.out.empty()) claim.emplace(options.out);
+  const std::shared_ptr<KeptRows> kept = options.shards.rows(ready->origin, options.out);
+  if (!kept) return;
+  const Pieces pieces = pieces_of(*ready);
+  if (shard) {
+    options.shards.run_share(pieces, *kept, ready->origin, options.out);
+    return;
+  }
+  resumable(pieces, *kept);
+  std::vector<CoverageTrial> trials;
+  for (std::size_t i = 0; i < pieces.count; ++i)
+    trials.push_back(coverage_trial_of(kept->find(i).value()));
+  const CoverageResult result = count_coverage(ready->spec, ready->truth, ready->coverage, trials);
   std::string text = coverage_markdown(result, ready->spec, ready->coverage);
   for (const Dataset& dataset : ready->datasets) {
     text += fmt::format("\n`{}`: {}\n", dataset.id, provenance_sentence(dataset.provenance));
@@ -115,7 +91,7 @@ void run(const Options& options) {
       options.json ? coverage_json(result, ready->spec, ready->coverage, ready->datasets) : text;
   if (!options.out.empty()) {
     write_or_print({{options.out, text}}, printed);
-    kept.forget();
+    kept->forget();
   }
   fmt::print("{}", printed);
 }
@@ -161,13 +137,7 @@ void add_coverage(CLI::App& program) {
   point_to_studies(*command);
   add_analysis_flags(*command, options->analysis);
   add_json_flag(*command, options->json);
-  command->callback([options] {
-    if (options->shards.one_of_several()) {
-      run_shard_of_coverage(*options);
-    } else {
-      run(*options);
-    }
-  });
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace recoil

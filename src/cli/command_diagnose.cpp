@@ -9,16 +9,12 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/shard_flags.hpp"
-#include "cli/unless_stopped.hpp"
-#include "cli/write_or_print.hpp"
 #include "core/claim.hpp"
 #include "core/files.hpp"
-#include "core/shared_work.hpp"
 #include "diagnosis/calibration.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "diagnosis/extended_toml.hpp"
-#include "diagnosis/kept_pieces.hpp"
 #include "report/diagnosis_sections.hpp"
 #include "report/result_json.hpp"
 
@@ -42,42 +38,38 @@ struct DiagnoseFlags {
   }
 };
 
+/// Where the data sets of the calibration come from.
 Origin origin_of_calibration(const DiagnoseFlags& flags, const FitInputs& inputs,
                              const Calibration& calibration) {
-  return origin_of(flags.shards, inputs_of(inputs.spec, inputs.datasets),
-                   flags.options(inputs.spec).seed, calibration.pieces(), calibration.digits());
+  return flags.shards.origin(inputs.spec, inputs.datasets, flags.options(inputs.spec).seed,
+                             calibration.pieces(), calibration.digits());
 }
 
 void run_shard_of_calibration(const DiagnoseFlags& flags) {
-  require_share(flags.out, 1, "data sets");
+  flags.shards.require_share(flags.out, 1);
   const FitInputs inputs = load_inputs(flags.fit);
   const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
   const Origin origin = origin_of_calibration(flags, inputs, calibration);
-  const Shard shard = flags.shards.chosen();
-  if (part_is_there(flags.out, origin, shard)) return;
-  const SharedWork work = {"diagnosis", calibration.pieces(), flags.threads,
-                           [&](std::size_t piece) { return row_json(calibration.run(piece)); }};
-  write_part(work, origin, shard, flags.out);
-  say_part(flags.out, origin, shard, "data sets of the calibration");
-}
-
-void take_merged_calibration(const DiagnoseFlags& flags, const FitInputs& inputs, KeptRows& kept) {
-  const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
-  const Origin origin = origin_of_calibration(flags, inputs, calibration);
-  read_parts(parts_of(origin, flags.shards.parts), origin.pieces,
-             [&](std::size_t piece, const Json& row) { kept.put(piece, row); });
+  const std::shared_ptr<KeptRows> kept = flags.shards.rows(origin, flags.out);
+  if (!kept) return;
+  const Pieces pieces = {"diagnosis", calibration.pieces(), flags.threads,
+                         [&](std::size_t piece) { return row_json(calibration.run(piece)); }};
+  flags.shards.run_share(pieces, *kept, origin, flags.out);
 }
 
 std::filesystem::path result_in(const std::filesystem::path& folder) {
   return folder / "diagnosis.json";
 }
 
-/// What earlier runs of the same diagnosis have left in the folder of its results, if it has one.
-std::shared_ptr<KeptRows> kept_by(const DiagnoseFlags& flags, const FitInputs& inputs) {
-  if (flags.out.empty()) return std::make_shared<KeptRows>("", "");
-  const Origin origin = origin_of(flags.shards, inputs_of(inputs.spec, inputs.datasets),
-                                  flags.options(inputs.spec).seed, 0, "");
-  return std::make_shared<KeptRows>(unfinished_beside(result_in(flags.out)), key_of(origin));
+/// The pieces of the diagnosis to go on from: of a merge the data sets of its calibration.
+std::shared_ptr<KeptRows> rows_for(const DiagnoseFlags& flags, const FitInputs& inputs) {
+  if (flags.shards.merging()) {
+    const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
+    return flags.shards.rows(origin_of_calibration(flags, inputs, calibration), "");
+  }
+  const Origin origin =
+      flags.shards.origin(inputs.spec, inputs.datasets, flags.options(inputs.spec).seed, 0, "");
+  return flags.shards.rows(origin, flags.out.empty() ? "" : result_in(flags.out));
 }
 
 void run_diagnosis(const DiagnoseFlags& flags) {
@@ -89,10 +81,9 @@ void run_diagnosis(const DiagnoseFlags& flags) {
   std::optional<Claim> claim;
   if (!flags.out.empty()) claim.emplace(result_in(flags.out));
   DiagnosisOptions options = flags.options(inputs.spec);
-  options.kept = kept_by(flags, inputs);
-  if (flags.shards.merging()) take_merged_calibration(flags, inputs, *options.kept);
-  Diagnosis diagnosis = unless_stopped(
-      *options.kept, [&] { return diagnose(inputs.spec, inputs.datasets, options); });
+  options.kept = rows_for(flags, inputs);
+  Diagnosis diagnosis =
+      resumable(*options.kept, [&] { return diagnose(inputs.spec, inputs.datasets, options); });
   diagnosis.remarks = reconstruction_remarks(diagnosis.datasets);
   const std::string result = diagnosis_json(diagnosis);
   const std::string printed =

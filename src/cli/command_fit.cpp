@@ -7,10 +7,8 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/shard_flags.hpp"
-#include "cli/write_or_print.hpp"
 #include "core/claim.hpp"
 #include "core/files.hpp"
-#include "core/shared_work.hpp"
 #include "report/fit_sections.hpp"
 #include "report/posterior_report.hpp"
 #include "report/result_json.hpp"
@@ -30,50 +28,36 @@ struct FitFlags {
   ShardFlags shards;
 };
 
-Origin origin_of_replicates(const ShardFlags& shards, const Analysis& analysis,
-                            const UncertaintyOptions& assess) {
-  return origin_of(shards, inputs_of(analysis.spec, analysis.datasets), assess.seed,
-                   replicates_at_most(assess), key_of_bootstrap(analysis.fitted, assess));
-}
-
-void run_shard_of_fit(const FitFlags& flags) {
-  AnalysisOptions resolved = flags.analysis.resolved();
-  resolved.folder = flags.out;
-  FitInputs inputs = load_inputs(flags.fit_file);
-  UncertaintyOptions assess = uncertainty_options(inputs.spec, resolved);
-  require_share(flags.out, replicates_at_most(assess), "replicates");
-  const Analysis analysis = analyse_fit(std::move(inputs), resolved);
-  const Origin origin = origin_of_replicates(flags.shards, analysis, assess);
-  const Shard shard = flags.shards.chosen();
-  if (part_is_there(flags.out, origin, shard)) return;
-  assess.shard = shard;
-  assess.keep = unfinished_path(flags.out, origin, shard);
-  const ReplicateTable table = shard_of_bootstrap(
-      analysis.fitted,
-      capture_estimates(noise_alternatives(analysis.fitted), assess.level, analysis.datasets),
-      assess);
-  save_replicates(part_path(flags.out, origin, shard), key_of_bootstrap(analysis.fitted, assess),
-                  table, part_head(origin, shard));
-  std::error_code ignored;
-  std::filesystem::remove(assess.keep, ignored);
-  say_part(flags.out, origin, shard, "replicates");
-}
-
 void run_fit(const FitFlags& flags) {
-  if (!flags.out.empty()) require_writable_folder(flags.out);
-  AnalysisOptions resolved = flags.analysis.resolved();
-  resolved.folder = flags.out;
-  FitInputs inputs = load_inputs(flags.fit_file);
   const std::filesystem::path folder = flags.out;
+  const AnalysisOptions options = flags.analysis.resolved();
+  FitInputs inputs = load_inputs(flags.fit_file);
+  UncertaintyOptions assess = uncertainty_options(inputs.spec, options);
   std::optional<Claim> claim;
-  if (!flags.out.empty()) claim.emplace(folder / "fit.json");
-  Analysis analysis = analyse_fit(std::move(inputs), resolved);
-  UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
-  if (flags.shards.merging()) {
-    assess.parts =
-        parts_of(origin_of_replicates(flags.shards, analysis, assess), flags.shards.parts);
+  if (flags.shards.one_of_several()) {
+    flags.shards.require_share(flags.out, replicates_at_most(assess));
+  } else if (!flags.out.empty()) {
+    require_writable_folder(folder);
+    claim.emplace(folder / "fit.json");
   }
-  analysis.uncertainty = assess_uncertainty(analysis.fitted, analysis.datasets, assess);
+  Analysis analysis = analyse_fit(std::move(inputs), options);
+  const Origin origin = flags.shards.origin(analysis.spec, analysis.datasets, assess.seed,
+                                            replicates_at_most(assess), digits_of(analysis.fitted));
+  const bool writes = !flags.out.empty() && !flags.shards.one_of_several();
+  const std::shared_ptr<KeptRows> kept =
+      flags.shards.rows(origin, writes ? folder / "fit.json" : folder);
+  if (!kept) return;
+  if (flags.shards.one_of_several()) {
+    const Pieces replicates = bootstrap_pieces(
+        analysis.fitted,
+        capture_estimates(noise_alternatives(analysis.fitted), assess.level, analysis.datasets),
+        assess);
+    flags.shards.run_share(replicates, *kept, origin, folder);
+    return;
+  }
+  assess.kept = kept;
+  analysis.uncertainty = resumable(
+      *kept, [&] { return assess_uncertainty(analysis.fitted, analysis.datasets, assess); });
   const std::string result = fit_json(analysis);
   const std::string printed =
       flags.json ? result : fit_text(analysis, importance_of(flags.verbose));
@@ -82,7 +66,7 @@ void run_fit(const FitFlags& flags) {
     std::string draws = posterior_csv(analysis);
     if (!draws.empty()) files.push_back({folder / "posterior.csv", std::move(draws)});
     write_or_print(files, printed);
-    forget_replicates(folder);
+    kept->forget();
   }
   fmt::print("{}", printed);
 }
@@ -105,13 +89,7 @@ void add_fit(CLI::App& program) {
   add_analysis_flags(*command, flags->analysis);
   add_json_flag(*command, flags->json);
   add_verbose_flag(*command, flags->verbose);
-  command->callback([flags] {
-    if (flags->shards.one_of_several()) {
-      run_shard_of_fit(*flags);
-    } else {
-      run_fit(*flags);
-    }
-  });
+  command->callback([flags] { run_fit(*flags); });
 }
 
 }  // namespace recoil

@@ -7,8 +7,6 @@
 #include "cli/commands.hpp"
 #include "cli/manual.hpp"
 #include "cli/reference.hpp"
-#include "cli/shell_pages.hpp"
-#include "cli/terminal_markdown.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/text.hpp"
@@ -28,7 +26,7 @@ void list_topics() {
 
 void print_topic(const CLI::App& program, const std::string& topic) {
   if (const ManualPage* page = find_manual_page(topic)) {
-    fmt::print("{}", terminal_markdown(page->text));
+    fmt::print("{}", page->text);
     return;
   }
   std::vector<std::string> known = manual_topics();
@@ -67,8 +65,6 @@ void add_help(CLI::App& program) {
   struct Options {
     std::string topic;
     std::string folder;
-    std::string completion;
-    std::string man;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* const command = program.add_subcommand("help", "print a page of the manual");
@@ -76,30 +72,13 @@ void add_help(CLI::App& program) {
   command->add_option("--write-docs", options->folder, "the tables that are made from the code")
       ->check(CLI::ExistingDirectory)
       ->group("");
-  command
-      ->add_option("--completion", options->completion,
-                   "a completion script for this shell: commands, options and their words")
-      ->check(CLI::IsMember(all_names<Shell>()));
-  command->add_option("--man", options->man, "write pages for man(1) into this folder")
-      ->type_name("DIR");
   command->footer(
       "The pages are those of docs/, carried along in the program.\n\n"
       "  recoil help\n"
-      "  recoil help noise\n"
-      "  source <(recoil help --completion bash)\n"
-      "  recoil help --man ~/.local/share/man/man1");
+      "  recoil help noise");
   command->callback([options, &program] {
     if (!options->folder.empty()) {
       write_pages(program, options->folder);
-    } else if (!options->completion.empty()) {
-      fmt::print("{}", completion_script(program, *value_named<Shell>(options->completion)));
-    } else if (!options->man.empty()) {
-      require_writable_folder(options->man);
-      std::vector<WholeFile> files;
-      for (const ManPage& page : man_pages(program, RECOIL_VERSION)) {
-        files.push_back({std::filesystem::path(options->man) / page.name, page.text});
-      }
-      write_whole_files(files);
     } else if (options->topic.empty()) {
       list_topics();
     } else {

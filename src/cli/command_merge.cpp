@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/shard_flags.hpp"
-#include "core/arithmetic.hpp"
+#include "core/resumable.hpp"
 
 namespace recoil {
 namespace {
@@ -18,13 +17,12 @@ struct MergeFlags {
   int threads = 0;
 };
 
-/// What the one command writes into the folder of its parts: all commands write into a folder, but
-/// `coverage` one file.
+/// The --out of the command without shards: a folder, but for `coverage` a file.
 fs::path place_of_results(const std::string& command, const fs::path& folder) {
   return command == "coverage" ? folder / "coverage.md" : folder;
 }
 
-/// Runs the command again with all pieces at hand.
+/// Runs the command again; it takes the rows of its pieces from the parts.
 void finish(const Origin& origin, const fs::path& folder, int threads) {
   std::vector<std::string> words = origin.command;
   words.insert(words.end(), {"--out", place_of_results(words.front(), folder).string(), "--parts",
@@ -34,26 +32,25 @@ void finish(const Origin& origin, const fs::path& folder, int threads) {
   add_fit(again);
   add_coverage(again);
   add_diagnose(again);
-  add_report(again);
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   again.parse(words);
 }
 
 void merge(const MergeFlags& flags) {
-  const std::vector<PartFile> parts = parts_of_one_origin(flags.folder);
-  const MissingShards missing = missing_in(parts, arithmetic_fingerprint());
+  const std::vector<Part> parts = parts_in(flags.folder);
   if (flags.missing) {
-    if (!missing.numbers.empty()) fmt::print("--array={}\n", array_list(missing.numbers));
+    const std::string missing = array_list(missing_shards(parts).numbers);
+    if (!missing.empty()) fmt::print("--array={}\n", missing);
     return;
   }
-  require_all_shards(flags.folder, missing);
-  // Paths in the words count from where the command was given.
+  require_all_shards(flags.folder, parts);
+  // Relative paths in the command start from its working directory.
   const Origin& origin = parts.front().origin;
   fs::path folder = flags.folder;
   if (fs::current_path() != origin.folder) {
     folder = fs::absolute(folder).lexically_normal();
-    std::error_code elsewhere;
-    fs::current_path(origin.folder, elsewhere);
+    std::error_code failed;
+    fs::current_path(origin.folder, failed);
   }
   finish(origin, folder, flags.threads);
 }

@@ -5,7 +5,6 @@
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/write_or_print.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"

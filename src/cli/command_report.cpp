@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "analysis/analysis.hpp"
-#include "cli/at_once.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/shard_flags.hpp"
-#include "cli/unless_stopped.hpp"
-#include "core/arithmetic.hpp"
 #include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/parallel.hpp"
 #include "core/program.hpp"
-#include "core/row_file.hpp"
+#include "core/resumable.hpp"
 #include "data/dataset.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/extended_toml.hpp"
@@ -35,7 +31,6 @@ struct ReportOptions {
   std::string out = "reports";
   bool force = false;
   AnalysisFlags analysis;
-  ShardFlags shards;
 };
 
 std::vector<fs::path> fits_to_report(const ReportOptions& options) {
@@ -76,15 +71,15 @@ bool is_current(const fs::path& stamp, const std::string& expected,
   return all_there && fs::exists(stamp) && read_text_file(stamp) == expected;
 }
 
-/// The diagnosis of a fit, and beside it the fits under every law, into `analysis`: these take one
-/// thread, and a diagnosis leaves some time of one.
+/// Diagnoses a fit, and at the same time puts the fits under every law into `analysis`: these take
+/// one thread, and a diagnosis does not keep all threads busy.
 Diagnosis diagnose_for_report(Analysis& analysis, const AnalysisFlags& flags,
                               const std::shared_ptr<KeptRows>& kept) {
   DiagnosisOptions options;
   options.kept = kept;
   options.seed = analysis.uncertainty.options.seed;
   options.threads = flags.threads;
-  Diagnosis diagnosis = unless_stopped(*kept, [&] {
+  Diagnosis diagnosis = resumable(*kept, [&] {
     Diagnosis result;
     at_once(
         flags.threads,
@@ -130,12 +125,17 @@ IndexEntry read_page(const PageFiles& files, IndexEntry entry) {
 
 IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::string& expected,
                      const PageFiles& files, IndexEntry entry) {
+  // A page goes on where an earlier run with the same inputs was stopped.
+  const auto kept_for = [&](const fs::path& result) {
+    return std::make_shared<KeptRows>(unfinished_beside(result),
+                                      expected + arithmetic_fingerprint());
+  };
   AnalysisOptions resolved = flags.resolved();
-  resolved.folder = files.folder;
-  Analysis analysis = analyse(std::move(inputs), resolved);
+  resolved.kept = kept_for(files.json);
+  Analysis analysis =
+      resumable(*resolved.kept, [&] { return analyse(std::move(inputs), resolved); });
   add_predictions(analysis);
-  const auto kept = std::make_shared<KeptRows>(unfinished_beside(files.diagnosed),
-                                               expected + arithmetic_fingerprint());
+  const std::shared_ptr<KeptRows> kept = kept_for(files.diagnosed);
   const Diagnosis diagnosis = diagnose_for_report(analysis, flags, kept);
   std::string page, diagnosis_page;
   at_once(
@@ -156,63 +156,32 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
                      {files.json, entry.fit_json},
                      {files.stamp, expected}});
   kept->forget();
-  forget_replicates(resolved.folder);
+  resolved.kept->forget();
   return entry;
-}
-
-/// The pages of one shard are the work itself; its part says that they are there.
-Origin origin_of_pages(const ReportOptions& options, const std::vector<fs::path>& fits) {
-  std::string names;
-  for (const fs::path& fit : fits) names += fit.string() + "\n";
-  return origin_of(options.shards, sha256_hex(names), 0, fits.size(), "");
-}
-
-void write_part_of_pages(const ReportOptions& options, const Origin& origin) {
-  const Shard shard = options.shards.chosen();
-  std::vector<Json> rows;
-  for (std::size_t i = shard.number - 1; i < origin.pieces; i += shard.of) rows.push_back({i});
-  write_rows(part_path(options.out, origin, shard), part_head(origin, shard), rows);
-  say_part(options.out, origin, shard, "pages");
 }
 
 void report(const ReportOptions& options) {
   const fs::path out = options.out;
   require_writable_folder(out);
-  const std::vector<fs::path> fits = fits_to_report(options);
-  const Origin origin = origin_of_pages(options, fits);
-  const bool merging = options.shards.merging();
-  if (merging) parts_of(origin, options.shards.parts);
   std::vector<IndexEntry> entries;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (!options.shards.chosen().owns(i)) continue;
-    const std::string id = fits[i].stem().string();
+  for (const fs::path& fit : fits_to_report(options)) {
+    const std::string id = fit.stem().string();
     const PageFiles files(out, id);
-    FitInputs inputs = load_inputs(fits[i]);
+    FitInputs inputs = load_inputs(fit);
     const std::string expected = fingerprint(inputs, options.analysis);
     IndexEntry entry;
     entry.page = id + ".html";
     entry.diagnosis_page = id + "/diagnosis.html";
-    const bool current = files.are_current(expected);
-    if (merging && !current) {
-      throw InputError({files.page.string()}, "this page is not of what is here now",
-                       "its fit file or data have changed since its shard ran",
-                       "run the shards again");
-    }
-    if (current && (!options.force || merging)) {
+    const bool current = files.are_current(expected) && !options.force;
+    if (current) {
       entries.push_back(read_page(files, std::move(entry)));
     } else {
-      std::optional<Claim> claim;
-      if (!options.shards.one_of_several()) claim.emplace(files.json);  // shards may run twice
+      const Claim claim(files.json);
       entries.push_back(
           make_page(std::move(inputs), options.analysis, expected, files, std::move(entry)));
     }
-    fmt::print("{}: {}\n", files.page.string(),
-               current && !options.force && !merging ? "current" : "written");
+    fmt::print("{}: {}\n", files.page.string(), current ? "current" : "written");
     std::fflush(stdout);
-  }
-  if (options.shards.one_of_several()) {
-    write_part_of_pages(options, origin);
-    return;
   }
   write_whole_file(out / "index.html", html_index(entries));
   fmt::print("{}: written\n", (out / "index.html").string());
@@ -236,7 +205,6 @@ void add_report(CLI::App& program) {
       ->type_name("DIR");
   command->add_flag("--force", options->force,
                     "write every page again, even if nothing has changed");
-  add_shard_flags(*command, "fits", options->shards);
   add_analysis_flags(*command, options->analysis);
   command->callback([options] { report(*options); });
 }

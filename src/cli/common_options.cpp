@@ -87,6 +87,15 @@ void add_verbose_flag(CLI::App& command, bool& verbose) {
   command.add_flag("--verbose", verbose, "print all details, not the answer alone");
 }
 
+void write_or_print(const std::vector<WholeFile>& files, const std::string& result) {
+  try {
+    write_whole_files(files);
+  } catch (const InputError&) {
+    fmt::print("{}", result);
+    throw;
+  }
+}
+
 CLI::Validator positive_number(const std::string& what, double low, double high) {
   return {[=](const std::string& text) -> std::string {
             double value = 0.0;

@@ -6,6 +6,7 @@
 
 #include "analysis/analysis.hpp"
 #include "document/document.hpp"
+#include "core/files.hpp"
 
 namespace recoil {
 
@@ -38,6 +39,9 @@ void add_verbose_flag(CLI::App& command, bool& verbose);
 inline Importance importance_of(bool verbose) {
   return verbose ? Importance::detail : Importance::answer;
 }
+/// Writes the files of a result. If they cannot be written the result is printed, so that the work
+/// is not lost, before the error is thrown. @throws InputError
+void write_or_print(const std::vector<WholeFile>& files, const std::string& result);
 
 /// A number in [low, high]; CLI11's own range check lets NaN through.
 CLI::Validator positive_number(const std::string& what, double low, double high);

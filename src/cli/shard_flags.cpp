@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/arithmetic.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
-#include "report/words_uncertainty.hpp"
 
 namespace recoil {
 namespace {
@@ -37,6 +35,7 @@ std::vector<std::string> words_of(const CLI::App& command) {
 
 void add_shard_flags(CLI::App& command, const std::string& pieces, ShardFlags& flags) {
   flags.command = &command;
+  flags.pieces = pieces;
   command
       .add_option("--shard", flags.shard,
                   fmt::format("run only the K-th of N shares of the {}, from 1/N to N/N, and write "
@@ -50,48 +49,44 @@ void add_shard_flags(CLI::App& command, const std::string& pieces, ShardFlags& f
   command.add_option("--parts", flags.parts)->group("");
 }
 
-Origin origin_of(const ShardFlags& flags, const std::string& inputs, std::uint64_t seed,
-                 std::size_t pieces, const std::string& start) {
-  return {words_of(*flags.command),
-          fs::current_path().string(),
-          version(),
-          program_stamp(),
-          inputs,
-          seed,
-          pieces,
-          arithmetic_fingerprint(),
-          sha256_hex(start)};
-}
-
-std::string inputs_of(const FitSpec& spec, const std::vector<Dataset>& datasets) {
-  std::string text = spec.sha256;
-  for (const Dataset& dataset : datasets) text += "|" + dataset.sha256;
-  return sha256_hex(text);
-}
-
-void require_share(const std::string& out, std::size_t pieces, const std::string& what) {
+void ShardFlags::require_share(const std::string& out, std::size_t count) const {
   if (out.empty()) {
     throw InputError({}, "--shard needs --out DIR", "the part is written there",
                      "give all shards the same folder");
   }
-  if (pieces == 0) {
-    throw InputError({}, fmt::format("there are no {} to share", what), "",
+  if (count == 0) {
+    throw InputError({}, fmt::format("there are no {} to share", pieces), "",
                      "leave --shard out, or ask for some");
   }
   require_writable_folder(out);
 }
 
-bool part_is_there(const fs::path& folder, const Origin& origin, const Shard& shard) {
-  const fs::path file = part_path(folder, origin, shard);
-  if (!part_in(file)) return false;
-  fmt::print("{}: there already\n", file.string());
-  return true;
+Origin ShardFlags::origin(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                          std::uint64_t seed, std::size_t count, const std::string& start) const {
+  std::string inputs = spec.sha256;
+  for (const Dataset& dataset : datasets) inputs += "|" + dataset.sha256;
+  return origin_here(words_of(*command), sha256_hex(inputs), seed, count, start);
 }
 
-void say_part(const fs::path& folder, const Origin& origin, const Shard& shard,
-              const std::string& what) {
-  fmt::print("{}: {} of {} {}\n", part_path(folder, origin, shard).string(),
-             shard.share(origin.pieces), origin.pieces, what);
+std::shared_ptr<KeptRows> ShardFlags::rows(const Origin& origin, const fs::path& result) const {
+  if (merging()) return rows_of_parts(parts, origin);
+  if (result.empty()) return std::make_shared<KeptRows>();
+  if (!one_of_several()) {
+    return std::make_shared<KeptRows>(unfinished_beside(result), key_of(origin));
+  }
+  const Shard own = shard_named(shard).value();
+  if (!has_part(result, origin, own)) return rows_of_shard(result, origin, own);
+  fmt::print("{}: there already\n", part_path(result, origin, own).string());
+  return nullptr;
+}
+
+void ShardFlags::run_share(const Pieces& work, KeptRows& kept, const Origin& origin,
+                           const fs::path& folder) const {
+  const Shard own = shard_named(shard).value();
+  resumable(work, kept, own);
+  write_part(kept, folder, origin, own);
+  fmt::print("{}: {} of {} {}\n", part_path(folder, origin, own).string(), own.share(work.count),
+             work.count, pieces);
 }
 
 }  // namespace recoil

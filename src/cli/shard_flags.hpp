@@ -2,45 +2,45 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "analysis/analysis.hpp"
-#include "core/parts.hpp"
-#include "report/words_parts.hpp"
+#include "core/resumable.hpp"
 
 namespace recoil {
 
-/// What makes a command one of several processes, as given.
+/// The options of a command whose pieces several processes can share.
 struct ShardFlags {
-  std::string shard;                  ///< "3/40"; empty: the whole is computed here
-  std::string parts;                  ///< set by `recoil merge`: the folder whose parts are taken
-  const CLI::App* command = nullptr;  ///< whose words the parts carry
+  std::string shard;                  ///< "3/40"; empty: this process computes everything
+  std::string parts;                  ///< set by `recoil merge`: the folder of the parts
+  const CLI::App* command = nullptr;  ///< its words are those of the origin
+  std::string pieces;                 ///< "data sets"
 
   bool one_of_several() const { return !shard.empty(); }
   bool merging() const { return !parts.empty(); }
-  Shard chosen() const { return shard_named(shard).value_or(Shard{}); }
+
+  /// Checks, before a shard computes anything, that it has a folder and something to share.
+  /// @throws InputError
+  void require_share(const std::string& out, std::size_t count) const;
+
+  /// The origin of this command.
+  Origin origin(const FitSpec& spec, const std::vector<Dataset>& datasets, std::uint64_t seed,
+                std::size_t count, const std::string& start) const;
+
+  /// The rows to go on from: those that a stopped run left beside `result` (with --shard, in the
+  /// folder `result`), or those of all parts for a merge. Null if the part of this shard exists; a
+  /// line on standard output reports it.
+  /// @param result empty: nothing is written
+  std::shared_ptr<KeptRows> rows(const Origin& origin, const std::filesystem::path& result) const;
+
+  /// With --shard: runs its pieces, and writes them as a part into `folder`.
+  void run_share(const Pieces& work, KeptRows& kept, const Origin& origin,
+                 const std::filesystem::path& folder) const;
 };
 
-/// --shard, and an option that only `recoil merge` uses. `pieces` is what is shared: "replicates".
+/// Adds --shard, and an option that only `recoil merge` uses. `pieces`: see ShardFlags.
 void add_shard_flags(CLI::App& command, const std::string& pieces, ShardFlags& flags);
-
-/// Where the parts of a computation come from: the words of the command, this program, this
-/// processor, and what the command knows of its `inputs` and of what its pieces `start` from.
-Origin origin_of(const ShardFlags& flags, const std::string& inputs, std::uint64_t seed,
-                 std::size_t pieces, const std::string& start);
-
-/// Of a fit file and its data.
-std::string inputs_of(const FitSpec& spec, const std::vector<Dataset>& datasets);
-
-/// Complains before a shard computes anything: about a missing folder, or nothing to share.
-void require_share(const std::string& out, std::size_t pieces, const std::string& what);
-
-/// Has this shard run already? Then it says so.
-bool part_is_there(const std::filesystem::path& folder, const Origin& origin, const Shard& shard);
-
-/// One line about the part that was written.
-void say_part(const std::filesystem::path& folder, const Origin& origin, const Shard& shard,
-              const std::string& what);
 
 }  // namespace recoil

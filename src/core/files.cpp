@@ -24,7 +24,7 @@ std::string unique_ending() {
   return fmt::format(".part-{}-{}-{}", host, static_cast<long>(getpid()), ++number);
 }
 
-/// Writes `text` and waits until it is on the disk. @return 0, or the errno of what went wrong
+/// Writes `text` and waits until it is on the disk. @return 0, or the errno of the failure
 int write_to_disk(const std::filesystem::path& path, std::string_view text) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) return errno;
@@ -38,13 +38,13 @@ int write_to_disk(const std::filesystem::path& path, std::string_view text) {
       text.remove_prefix(static_cast<std::size_t>(some));
     }
   }
-  // What cannot be synchronised, such as a pipe, is written all the same.
+  // A pipe, for example, is written but cannot be synchronised.
   if (failed == 0 && fsync(file) != 0 && errno != EINVAL && errno != EROFS) failed = errno;
   if (close(file) != 0 && failed == 0) failed = errno;
   return failed;
 }
 
-/// The file that a path leads to: a link stays where it is, and what it names is replaced.
+/// The file that a path leads to through symbolic links. The link stays, and its target is replaced.
 std::filesystem::path behind_links(std::filesystem::path path) {
   constexpr int most_links = 40;  // as Linux follows
   std::error_code failed;
@@ -54,7 +54,7 @@ std::filesystem::path behind_links(std::filesystem::path path) {
   return path;
 }
 
-/// Something that is written into and cannot be replaced: a device, a pipe.
+/// Is it a device or a pipe, which is written into and cannot be replaced?
 bool is_special(const std::filesystem::path& path) {
   std::error_code failed;
   const auto status = std::filesystem::status(path, failed);
@@ -62,7 +62,7 @@ bool is_special(const std::filesystem::path& path) {
          !std::filesystem::is_directory(status);
 }
 
-/// What whoever reads that something cannot be written can do about it.
+/// The hint appended to "cannot be written" errors.
 std::string advice_on(int failed) {
   switch (failed) {
     case ENOSPC:

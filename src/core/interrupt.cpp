@@ -8,7 +8,7 @@ namespace {
 
 std::atomic<int> raised{0};
 std::atomic<int> calling_off{0};
-std::atomic<int> signals_call_off{0};  // guards under which a signal does it
+std::atomic<int> guards{0};
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler writes it");
 
 struct sigaction previous_interrupt;
@@ -22,23 +22,23 @@ void watch(int signal, struct sigaction& previous) {
   struct sigaction action {};
   action.sa_handler = remember;
   sigemptyset(&action.sa_mask);
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);  // the second one is as ever
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);  // the second one acts as usual
   sigaction(signal, nullptr, &previous);
   if (previous.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(Work work) : calls_off_(work == Work::is_called_off) {
+InterruptGuard::InterruptGuard() {
   raised = 0;
-  if (calls_off_) ++signals_call_off;
+  ++guards;
   watch(SIGINT, previous_interrupt);
   watch(SIGTERM, previous_terminate);
   watch(SIGUSR1, previous_user);
 }
 
 InterruptGuard::~InterruptGuard() {
-  if (calls_off_) --signals_call_off;
+  --guards;
   sigaction(SIGINT, &previous_interrupt, nullptr);
   sigaction(SIGTERM, &previous_terminate, nullptr);
   sigaction(SIGUSR1, &previous_user, nullptr);
@@ -53,7 +53,7 @@ CallingOff::~CallingOff() { --calling_off; }
 
 bool called_off() {
   if (calling_off.load(std::memory_order_relaxed) != 0) return true;
-  return signals_call_off.load(std::memory_order_relaxed) != 0 && stop_requested();
+  return guards.load(std::memory_order_relaxed) != 0 && stop_requested();
 }
 
 }  // namespace recoil

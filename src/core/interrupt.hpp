@@ -5,46 +5,38 @@
 
 namespace recoil {
 
-/// Long work that was stopped by the user and has kept what was finished. The command line says so
-/// and ends as the signal would have ended it.
+/// Long work that the user stopped and that has kept its finished pieces. The program prints the
+/// message and then ends as the signal would have ended it.
 class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// While one of these lives, the first Ctrl-C (SIGINT), SIGTERM or SIGUSR1 (which clusters send
-/// before a time limit) only raises a flag, so that work in progress can put what is finished on
-/// disk. The second one of a kind ends the process as ever. What was set before comes back at its
-/// end.
-class InterruptGuard {
- public:
-  enum class Work {
-    asks,          ///< with `stop_requested`, where it likes to end
-    is_called_off  ///< ends where it next asks `called_off`, as under a `CallingOff`
-  };
-  explicit InterruptGuard(Work work = Work::asks);
-  ~InterruptGuard();
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  bool calls_off_;
-};
-
-/// Has the flag been raised? Cheap enough to ask before every replicate.
-bool stop_requested();
-
-/// The signal that raised the flag, 0 when none did.
-int stop_signal();
-
-/// Thrown out of work that was called off: nothing of it is kept.
+/// Thrown by work that was called off. Its result is lost.
 class CalledOff : public std::exception {
  public:
   const char* what() const noexcept override { return "called off"; }
 };
 
-/// While one of these lives, all long work of this process ends where it next asks, within some
-/// milliseconds. For a program that has Ctrl-C to itself, as Python has.
+/// During the lifetime of a guard the first Ctrl-C (SIGINT), SIGTERM or SIGUSR1 (which clusters
+/// send before a time limit) calls off all long work of this process; the next signal of that kind
+/// acts as usual. The destructor restores the earlier handlers.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+};
+
+/// Has a signal arrived since the last guard was made?
+bool stop_requested();
+
+/// That signal; 0 if none arrived.
+int stop_signal();
+
+/// During the lifetime of one of these all long work of this process is called off. For a program
+/// that handles Ctrl-C itself, as Python does.
 class CallingOff {
  public:
   CallingOff();
@@ -53,9 +45,10 @@ class CallingOff {
   CallingOff& operator=(const CallingOff&) = delete;
 };
 
+/// Should long work end now? Cheap; long work asks every few milliseconds.
 bool called_off();
 
-/// @throws CalledOff when the work that asks is to end.
+/// @throws CalledOff if long work should end now
 inline void end_if_called_off() {
   if (called_off()) throw CalledOff();
 }

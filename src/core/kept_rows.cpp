@@ -3,29 +3,93 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/interrupt.hpp"
-#include "core/row_file.hpp"
 
 namespace recoil {
+namespace {
 
-bool KeepingPace::keep(const std::function<void()>& write) {
+/// The head in the first line of `in`.
+std::optional<Json> head_in(std::istream& in) {
+  std::string line;
+  if (!in || !std::getline(in, line)) return std::nullopt;
+  Json head = Json::parse(line, nullptr, false);
+  if (!head.is_object() || !head.value("rows", Json()).is_number_unsigned() ||
+      !head.value("bytes", Json()).is_number_unsigned() ||
+      !head.value("sha256", Json()).is_string()) {
+    return std::nullopt;
+  }
+  return head;
+}
+
+/// Adds the row of one line, "[7,ROW]". @return whether the line is one
+bool add_row(std::string_view line, Rows& rows) {
+  if (line.size() < 4 || line.front() != '[' || line.back() != ']') return false;
+  std::size_t piece = 0;
+  const char* const end = line.data() + line.size();
+  const auto number = std::from_chars(line.data() + 1, end, piece);
+  if (number.ec != std::errc{} || *number.ptr != ',') return false;
+  rows[piece] = std::string(number.ptr + 1, end - 1);
+  return true;
+}
+
+}  // namespace
+
+void write_rows(const std::filesystem::path& file, Json head, const Rows& rows) {
+  std::string text;
+  for (const auto& [piece, row] : rows) text += fmt::format("[{},{}]\n", piece, row);
+  head["rows"] = rows.size();
+  head["bytes"] = text.size();
+  head["sha256"] = sha256_hex(text);
+  write_whole_file(file, head.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n" + text);
+}
+
+std::optional<Json> read_row_head(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::optional<Json> head = head_in(in);
+  if (!head) return std::nullopt;
+  const std::uintmax_t line = static_cast<std::uintmax_t>(in.tellg());
+  std::error_code failed;
+  const std::uintmax_t size = std::filesystem::file_size(file, failed);
+  if (failed || size != line + head->at("bytes").get<std::uintmax_t>()) return std::nullopt;
+  return head;
+}
+
+std::optional<Rows> read_rows(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::optional<Json> head = head_in(in);
+  if (!head) return std::nullopt;
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (sha256_hex(text) != head->at("sha256").get<std::string>()) return std::nullopt;
+  Rows rows;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (!add_row(std::string_view(text).substr(begin, end - begin), rows)) return std::nullopt;
+    begin = end + 1;
+  }
+  if (rows.size() != head->at("rows").get<std::size_t>()) return std::nullopt;
+  return rows;
+}
+
+void KeepingPace::keep(const std::function<void()>& write) {
   const Clock::time_point begin = Clock::now();
-  bool written = true;
   try {
     write();
+    reported_ = false;
   } catch (const InputError& error) {
-    written = false;
-    if (!told_) fmt::print(stderr, "{}\n", error.what());
+    if (!std::exchange(reported_, true)) fmt::print(stderr, "{}\n", error.what());
   }
-  told_ = !written;
   const Clock::time_point end = Clock::now();
   next_ = end + std::max<Clock::duration>(most_lost_, longer_than_writing * (end - begin));
-  return written;
 }
 
 KeptRows::KeptRows(std::filesystem::path file, std::string key, KeepingPace pace)
@@ -33,29 +97,41 @@ KeptRows::KeptRows(std::filesystem::path file, std::string key, KeepingPace pace
   if (file_.empty()) return;
   const std::optional<Json> head = read_row_head(file_);
   if (!head || head->value("key", Json()) != key_) return;
-  const bool whole = read_rows(file_, [this](const Json& row) {
-    if (row.size() != 2 || row[1].is_null()) return false;
-    rows_[row[0].get<std::size_t>()] = row[1];
-    return true;
-  });
-  if (!whole) rows_.clear();
+  if (std::optional<Rows> rows = read_rows(file_)) rows_ = std::move(*rows);
 }
 
 std::optional<Json> KeptRows::find(std::size_t piece) const {
-  const std::lock_guard lock(using_);
-  const auto found = rows_.find(piece);
-  return found == rows_.end() ? std::nullopt : std::optional<Json>(found->second);
+  std::string text;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = rows_.find(piece);
+    if (found == rows_.end()) return std::nullopt;
+    text = found->second;
+  }
+  Json row = Json::parse(text, nullptr, false);
+  return row.is_discarded() ? std::nullopt : std::optional<Json>(std::move(row));
 }
 
-void KeptRows::put(std::size_t piece, Json row) {
-  end_if_called_off();  // what was called off may have ended early, with anything
-  const std::lock_guard lock(using_);
-  rows_[piece] = std::move(row);
+bool KeptRows::has(std::size_t piece) const {
+  const std::lock_guard lock(mutex_);
+  return rows_.contains(piece);
+}
+
+void KeptRows::put(std::size_t piece, const Json& row) {
+  end_if_called_off();
+  std::string text = row.dump();
+  const std::lock_guard lock(mutex_);
+  rows_[piece] = std::move(text);
   if (!file_.empty() && pace_.is_due()) pace_.keep([this] { write(); });
 }
 
+void KeptRows::add(Rows rows) {
+  const std::lock_guard lock(mutex_);
+  rows_.merge(rows);
+}
+
 void KeptRows::keep() {
-  const std::lock_guard lock(using_);
+  const std::lock_guard lock(mutex_);
   if (!file_.empty()) write();
 }
 
@@ -65,19 +141,17 @@ void KeptRows::forget() const {
 }
 
 std::size_t KeptRows::size() const {
-  const std::lock_guard lock(using_);
+  const std::lock_guard lock(mutex_);
   return rows_.size();
 }
 
-void KeptRows::write() const {
-  std::vector<Json> lines;
-  lines.reserve(rows_.size());
-  for (const auto& [piece, row] : rows_) lines.push_back(Json::array({piece, row}));
-  write_rows(file_, {{"key", key_}}, lines);
+std::vector<std::size_t> KeptRows::pieces() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::size_t> numbers;
+  for (const auto& [piece, row] : rows_) numbers.push_back(piece);
+  return numbers;
 }
 
-std::filesystem::path unfinished_beside(const std::filesystem::path& result) {
-  return result.parent_path() / ("unfinished-" + result.filename().string() + ".jsonl");
-}
+void KeptRows::write() const { write_rows(file_, {{"key", key_}}, rows_); }
 
 }  // namespace recoil

@@ -7,14 +7,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <future>
 #include <optional>
 
 #include "core/interrupt.hpp"
 
 namespace recoil {
 
-/// `threads` of them, also where that is more than there are cores, which is somebody's choice: TBB
-/// would warn on stderr and run fewer.
+/// Allows `threads` threads even if the machine has fewer cores; TBB alone would warn on stderr and
+/// run fewer.
 class AllowedThreads {
  public:
   explicit AllowedThreads(int threads) {
@@ -46,9 +47,9 @@ void parallel_over(std::size_t count, int threads, const Body& body) {
   });
 }
 
-/// Calls body(first, count) for blocks of at most `size` of `count` things, several at the same
-/// time on the threads of the arena that asks. It may be called from within `parallel_over`: a
-/// thread that waits for its blocks takes up nothing else.
+/// Calls body(first, count) for blocks of at most `size` of `count` items, in parallel on the
+/// threads of the calling arena. It may be called within `parallel_over`: a thread that waits for
+/// its blocks starts no other task.
 /// @throws CalledOff between two blocks
 template <class Body>
 void over_blocks(std::size_t count, std::size_t size, const Body& body) {
@@ -64,13 +65,26 @@ void over_blocks(std::size_t count, std::size_t size, const Body& body) {
   });
 }
 
-/// What `work` returns, on at most `threads` threads (0: those of the caller).
+/// The result of `work`, run on at most `threads` threads (0: those of the caller).
 template <class Work>
 auto on_threads(int threads, const Work& work) {
   if (threads <= 0) return work();
   const AllowedThreads allowed(threads);
   tbb::task_arena arena(threads);
   return arena.execute(work);
+}
+
+/// Runs `main` on this thread and each of `others` on a thread of its own if `threads` is 0;
+/// otherwise one after the other. These are threads and not TBB tasks, because a TBB worker that
+/// finished a task beside `main` would not join an arena inside of it.
+/// @throws the exception of `main`, or else the first of `others`, after all have ended
+template <class Work, class... Others>
+void at_once(int threads, const Work& main, const Others&... others) {
+  const std::launch how = threads == 0 ? std::launch::async : std::launch::deferred;
+  std::future<void> started[] = {std::async(how, others)...};
+  main();
+  for (std::future<void>& one : started) one.wait();
+  for (std::future<void>& one : started) one.get();
 }
 
 }  // namespace recoil

@@ -1,8 +1,5 @@
 #include "diagnosis/kept_pieces.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -12,22 +9,6 @@ std::size_t number_of(const DiagnosisOptions& options, KeptPiece kind, std::size
   constexpr std::size_t kinds = 4;
   constexpr std::size_t of_each = std::size_t{1} << 32;
   return ((options.first_piece + 1) * kinds + static_cast<std::size_t>(kind)) * of_each + k;
-}
-
-Json row_json(const std::vector<double>& row) {
-  Json json = Json::array();
-  for (const double value : row) {
-    json.push_back(std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value)));
-  }
-  return json;
-}
-
-std::vector<double> row_of(const Json& json) {
-  std::vector<double> row;
-  for (const Json& value : json) {
-    row.push_back(value.is_number() ? value.get<double>() : std::stod(value.get<std::string>()));
-  }
-  return row;
 }
 
 Json json_of(const Refit& refit) {
@@ -40,10 +21,10 @@ Refit refit_of(const Json& json, const Candidate& candidate, std::size_t points)
   Refit refit;
   if (json.empty()) return refit;
   refit.usable = true;
-  refit.theta = row_of(json.at(0));
-  refit.chi2 = row_of(json.at(1)).at(0);
-  refit.residuals = row_of(json.at(2));
-  refit.jacobian = row_of(json.at(3));
+  refit.theta = row_numbers(json.at(0));
+  refit.chi2 = row_numbers(json.at(1)).at(0);
+  refit.residuals = row_numbers(json.at(2));
+  refit.jacobian = row_numbers(json.at(3));
   refit.moving = json.at(4).get<std::vector<bool>>();
   const std::size_t p = candidate.model.slots.size();
   if (refit.theta.size() != p || refit.moving.size() != p || refit.residuals.size() != points ||

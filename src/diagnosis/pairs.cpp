@@ -78,10 +78,10 @@ void look_once(const SearchBase& base, std::size_t k, FirstLook& look) {
   const auto read = [&](const Json& row) {
     require_names(row, names);
     return std::pair(refit_of(row.at(1), look.both, base.fitted.data.points.size()),
-                     row_of(row.at(2)).at(0));
+                     row_numbers(row.at(2)).at(0));
   };
-  std::tie(look.refit, look.delta_aicc) =
-      kept_or_made(base.options, number_of(base.options, KeptPiece::look, k), make, write, read);
+  std::tie(look.refit, look.delta_aicc) = kept_or_made(
+      base.options.kept.get(), number_of(base.options, KeptPiece::look, k), make, write, read);
 }
 
 /// A pair that is further behind at the first look does not come near the best in the end: of 460

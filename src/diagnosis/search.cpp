@@ -115,7 +115,7 @@ std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
   };
   const auto write = [](const Answer& answer) { return row_json(calibration_row(answer)); };
   const auto read = [](const Json& row) -> Answer {
-    const std::vector<double> values = row_of(row);
+    const std::vector<double> values = row_numbers(row);
     if (values.size() == 1) return std::nullopt;
     PerValue<StructureQuestion, double> answer{};
     std::size_t at = 1;
@@ -124,7 +124,7 @@ std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
     }
     return answer;
   };
-  return kept_or_made(base.options, base.options.first_piece + index, make, write, read);
+  return kept_or_made(base.options.kept.get(), base.options.first_piece + index, make, write, read);
 }
 
 std::vector<double> calibration_row(
@@ -170,11 +170,11 @@ void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
   std::vector<double> most(count, -INFINITY);
   const auto gains_more = [&](std::size_t b) {
     most[b] = kept_or_made(
-        base.options,
+        base.options.kept.get(),
         base.options.first_piece + static_cast<std::size_t>(base.options.simulated) + b,
         [&] { return largest_gain(base, candidates, b); },
         [](double gain) { return row_json({gain}); },
-        [](const Json& row) { return row_of(row).at(0); });
+        [](const Json& row) { return row_numbers(row).at(0); });
     tick();
   };
   std::size_t done = 0;

@@ -143,7 +143,7 @@ CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size
     Candidate candidate =
         make_candidate(base.spec, base.datasets, added, row.at(1).get<bool>(), added.size() > 1);
     Refit refit = refit_of(row.at(2), candidate, base.fitted.data.points.size());
-    const std::vector<double> values = row_of(row.at(3));
+    const std::vector<double> values = row_numbers(row.at(3));
     CandidateResult c = described(base, std::move(candidate), std::move(refit), values.at(3));
     c.delta_aicc = values.at(0);
     c.remaining_p = values.at(1);
@@ -151,7 +151,7 @@ CandidateResult kept_candidate(const SearchBase& base, KeptPiece kind, std::size
     if (!row.at(4).is_null()) c.set_aside = value_named<SetAside>(row.at(4).get<std::string>());
     return c;
   };
-  return kept_or_made(base.options, number_of(base.options, kind, k), make, write, read);
+  return kept_or_made(base.options.kept.get(), number_of(base.options, kind, k), make, write, read);
 }
 
 std::vector<double> within_bounds(const ImpactModel& model, std::vector<double> theta) {

@@ -1,18 +1,26 @@
-// recoil._recoil: what the package recoil (src/python/recoil) is made of. Results cross over as the
-// JSON that the commands write, so that names and digits are the same; arrays only for impacts.
+// recoil._recoil, the compiled part of the package recoil (src/python/recoil). Results are passed
+// to Python as the JSON that the commands write, so that names and digits are the same; many
+// impacts are passed as arrays.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <map>
 #include <memory>
+#include <numbers>
 
 #include "analysis/analysis.hpp"
 #include "cli/fitted_values.hpp"
 #include "cli/json_coverage.hpp"
+#include "cli/paired_passages.hpp"
 #include "cli/simulated_impact.hpp"
 #include "core/error.hpp"
 #include "core/gsl_errors.hpp"
+#include "core/interrupt.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "coverage/coverage_truth.hpp"
@@ -20,15 +28,16 @@
 #include "diagnosis/extended_toml.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
+#include "experiment/pairing_files.hpp"
+#include "plot/draw.hpp"
 #include "predict/polydisperse.hpp"
 #include "python/impacts.hpp"
-#include "python/interruptible.hpp"
-#include "python/pairs.hpp"
-#include "python/picture_json.hpp"
 #include "report/comparison_page.hpp"
 #include "report/diagnosis_sections.hpp"
+#include "report/experiment_figures.hpp"
 #include "report/fit_sections.hpp"
 #include "report/fit_tables.hpp"
+#include "report/pairing_document.hpp"
 #include "report/prediction_files.hpp"
 #include "report/prediction_page.hpp"
 #include "report/result_json.hpp"
@@ -38,8 +47,28 @@ namespace py = pybind11;
 namespace recoil {
 namespace {
 
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+/// The result of `work`, during which other threads of Python run. Ctrl-C ends it, and all other
+/// work of the process, as KeyboardInterrupt. @pre the caller holds the interpreter's lock
+template <class Work>
+auto interruptible(const Work& work) {
+  constexpr auto poll_interval = std::chrono::milliseconds(50);
+  auto running = std::async(std::launch::async, [&work] { return work(); });
+  for (;;) {
+    {
+      const py::gil_scoped_release release;
+      if (running.wait_for(poll_interval) == std::future_status::ready) break;
+    }
+    // Python delivers signals to its main thread only.
+    if (PyErr_CheckSignals() == 0) continue;
+    const py::error_already_set interrupt;
+    {
+      const py::gil_scoped_release release;
+      const CallingOff calling_off;
+      running.wait();
+    }
+    throw interrupt;
+  }
+  return running.get();
 }
 
 AnalysisOptions analysis_options(std::optional<int> replicates, bool automatic,
@@ -140,8 +169,34 @@ std::string summary_html(const Analysis& analysis) {
   return html_of(blocks);
 }
 
+/// The pictures of a result by name.
+struct Pictures {
+  std::vector<Figure> figures;
+
+  std::map<std::string, std::string> titles() const {
+    std::map<std::string, std::string> titles;
+    for (const Figure& figure : figures) titles[figure.picture.name] = figure.picture.title;
+    return titles;
+  }
+  std::string svg(const std::string& name) const {
+    for (const Figure& figure : figures) {
+      if (figure.picture.name == name) return plot::draw_svg(figure.picture);
+    }
+    throw InputError({}, "no picture " + name, "", "choose one of `pictures`");
+  }
+};
+
+Pictures pictures_of(const Document& document) {
+  Pictures pictures;
+  for (const Section& section : document.sections) {
+    for (const Figure* figure : figures_of(section)) pictures.figures.push_back(*figure);
+  }
+  return pictures;
+}
+
 struct Predicted {
-  std::string json, text, pictures;
+  std::string json, text;
+  Pictures pictures;
 };
 
 Predicted predict_for(const Analysis& analysis, const std::string& sizes_file,
@@ -157,8 +212,9 @@ Predicted predict_for(const Analysis& analysis, const std::string& sizes_file,
   const PolydispersePrediction mixture =
       predict_mixture(analysis.fitted, choose_dataset(analysis.datasets, dataset),
                       analysis.uncertainty.bootstrap, sizes, mix);
-  return {json_prediction(analysis, mixture), text_prediction(analysis, mixture),
-          text_of(pictures_json(mixture_figures(analysis, mixture)))};
+  return {json_prediction(analysis, mixture),
+          text_prediction(analysis, mixture),
+          {mixture_figures(analysis, mixture)}};
 }
 
 Diagnosis diagnosis_of(const Analysis& analysis, std::optional<std::uint64_t> seed, int threads) {
@@ -188,9 +244,70 @@ std::pair<std::string, std::string> compared(
   return {comparison_json(fits), terminal_text(comparison_sections(fits))};
 }
 
+// ---- passages ----------------------------------------------------------------------------------
+
+/// The options of `recoil.pair`, in the units of the command's options of the same names.
+struct PairArguments {
+  std::map<std::string, std::string> units, columns;
+  bool positive_away = false;
+  double height = 1.0;  ///< [mm]
+  double height_range = 1.5;
+  bool keep_height = false;
+  double diameter_tolerance = 0.2;
+  double velocity_tolerance = 0.15;
+  bool keep_later = false;
+  std::optional<double> threshold;  ///< [m/s]
+  std::optional<double> angle;      ///< [degrees]
+  std::optional<double> lost_share;
+  std::size_t per_bin = 40;
+  std::size_t size_classes = 1;
+  std::vector<double> size_edges;  ///< [um]
+  bool mean_diameter = false;
+};
+
+/// The texts that the command prints and writes, and its pictures.
+struct PairTexts {
+  std::string json, text, points, impacts;
+  Pictures pictures;
+};
+
+PairTexts pair_texts(const std::string& file, const PairArguments& arguments) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  PairRequest request;
+  request.file = file;
+  PairingOptions& pairing = request.pairing;
+  pairing.height = arguments.height * units::mm;
+  pairing.height_range = arguments.height_range;
+  pairing.refine = !arguments.keep_height;
+  pairing.diameter_tolerance = arguments.diameter_tolerance;
+  pairing.velocity_tolerance = arguments.velocity_tolerance;
+  pairing.keep_later = arguments.keep_later;
+  pairing.threshold = arguments.threshold;
+  if (arguments.angle) pairing.angle = *arguments.angle * degree;
+  pairing.lost_share = arguments.lost_share;
+  AverageOptions& averaging = request.averaging;
+  averaging.per_bin = arguments.per_bin;
+  averaging.size_classes = arguments.size_classes;
+  for (const double edge : arguments.size_edges) averaging.size_edges.push_back(edge * units::um);
+  averaging.mean_diameter = arguments.mean_diameter;
+
+  const PairedPassages paired = pair_and_average(
+      read_passages(file, {arguments.units, arguments.columns, arguments.positive_away}), request);
+  require_impacts(paired, request, "");
+  const auto& [table, pairs, averages] = paired;
+  const std::string remark = std::filesystem::path(file).filename().string();
+  Pictures pictures;
+  for (plot::Picture& picture :
+       experiment_pictures(distributions(table, pairs), averages, remark)) {
+    pictures.figures.push_back(figure_of(std::move(picture), ""));
+  }
+  return {pairing_json(table, pairs, averages), pairing_text(table, pairs, averages),
+          points_csv(averages), impacts_csv(table, pairs), std::move(pictures)};
+}
+
 // ---- errors ------------------------------------------------------------------------------------
 
-/// The exceptions are classes of the package, where they have their words.
+/// Raises an exception that is a class of the package.
 void raise_as(const char* name, const py::tuple& arguments) {
   const py::object type = py::module_::import("recoil._errors").attr(name);
   PyErr_SetObject(type.ptr(), type(*arguments).ptr());
@@ -205,12 +322,12 @@ void translate(std::exception_ptr thrown) {
                                           error.suggestion()));
   } catch (const ComputationError& error) {
     raise_as("ComputationError", py::make_tuple(error.what()));
-  } catch (const CalledOff&) {  // by a Ctrl-C while another thread called
+  } catch (const CalledOff&) {  // by a Ctrl-C in another thread
     PyErr_SetNone(PyExc_KeyboardInterrupt);
   }
 }
 
-// ---- what Python sees --------------------------------------------------------------------------
+// ---- bindings ----------------------------------------------------------------------------------
 
 void bind_inputs(py::module_& module) {
   py::class_<Dataset>(module, "Dataset")
@@ -262,6 +379,10 @@ void bind_models(py::module_& module) {
 
 void bind_results(py::module_& module) {
   using Released = py::call_guard<py::gil_scoped_release>;
+  py::class_<Pictures>(module, "Pictures")
+      .def("titles", &Pictures::titles)
+      .def("svg", &Pictures::svg, py::arg("name"), Released());
+
   py::class_<Analysis, std::shared_ptr<Analysis>>(module, "Analysis")
       .def("json", &fit_json, Released())
       .def(
@@ -270,8 +391,7 @@ void bind_results(py::module_& module) {
           "page", [](const Analysis& a) { return fit_html(a); }, Released())
       .def("summary", &summary_html, Released())
       .def(
-          "pictures", [](const Analysis& a) { return text_of(pictures_json(fit_document(a))); },
-          Released())
+          "pictures", [](const Analysis& a) { return pictures_of(fit_document(a)); }, Released())
       .def("model", [](const Analysis& a) { return model_of(a); })
       .def(
           "predict",
@@ -314,8 +434,7 @@ void bind_results(py::module_& module) {
           "summary", [](const Diagnosis& d) { return html_of(diagnosis_summary(d).blocks); },
           Released())
       .def(
-          "pictures",
-          [](const Diagnosis& d) { return text_of(pictures_json(diagnosis_document(d))); },
+          "pictures", [](const Diagnosis& d) { return pictures_of(diagnosis_document(d)); },
           Released())
       .def("extended_toml",
            [](const Diagnosis& d, const std::string& folder) { return extended_toml(d, folder); });

@@ -2,16 +2,12 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
-#include "core/files.hpp"
-#include "core/interrupt.hpp"
-#include "core/kept_rows.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "estimate/capture_velocity.hpp"
@@ -26,21 +22,6 @@
 namespace recoil {
 namespace {
 
-using State = ReplicateTable::State;
-
-// Between two batches finished replicates can be put on disk; waiting for the slowest of a batch
-// costs about one refit in so many. The first one shows how long they take.
-constexpr std::size_t first_batch = 50;
-constexpr double largest_batch = 500.0;
-constexpr double batch_seconds = 5.0;
-
-/// After one of so many that took so long.
-std::size_t next_batch(std::size_t size, double seconds) {
-  const double least = 4.0 * tbb::this_task_arena::max_concurrency();
-  const double fitting = static_cast<double>(size) * batch_seconds / std::max(seconds, 1e-9);
-  return static_cast<std::size_t>(std::clamp(fitting, least, std::max(least, largest_batch)));
-}
-
 // Tolerance of the impacts in refits over that of the fit. It moves the estimates of a replicate by
 // about 1e-8 of themselves (measured on 60 points, f0 free), where they scatter by percents, and
 // saves a third of the time.
@@ -48,8 +29,6 @@ constexpr double refit_tolerance_factor = 100.0;
 // `replicates = "auto"` begins with the first number and ends with the last.
 constexpr int fewest_automatic = 999;
 constexpr int most_automatic = 19999;
-// A bootstrap quicker than this is not worth a file.
-constexpr auto worth_keeping = std::chrono::seconds(1);
 
 /// What one thread needs to refit samples one after the other without building anything anew: the
 /// problem refers to the sample beside it, and outlives its data as long as the points stay where
@@ -89,50 +68,14 @@ class Workspace {
   std::optional<LeastSquaresProblem> problem_;
 };
 
-/// The settings of the noise, which are settled anew in every replicate.
-std::string noise_key(const Observations& data) {
-  const NoiseSpec& spec = data.spec;
-  const NoiseModel& noise = data.noise;
-  return fmt::format("{} {} {} {} {:a} {} {:a} {} {:a} {} {:a} {:a}|", data.sd_stated,
-                     data.weights_depend_on_fit(),
-                     spec.variance ? to_string(*spec.variance) : "auto", spec.student,
-                     spec.student_dof, spec.velocity_errors, spec.velocity_relative_sd,
-                     spec.diameter_errors, spec.diameter_relative_sd, to_string(noise.variance),
-                     noise.scale, noise.event_spread);
-}
+/// What all replicates need, besides the fit.
+struct Run {
+  explicit Run(const ResamplingPlan& plan)
+      : workspaces([&plan] { return std::make_unique<Workspace>(plan); }) {}
 
-/// Everything that decides a replicate's digits, hashed.
-std::string bootstrap_key(const FitResult& fitted, const ResamplingPlan& plan,
-                          const UncertaintyOptions& options) {
-  std::string text = fmt::format("{}|{}|{}|{}|{}|{:a}|", options.keep_key, options.seed,
-                                 to_string(plan.scheme), static_cast<int>(fitted.model.phase),
-                                 to_string(fitted.model.solver.kind), fitted.noise_scale);
-  if (fitted.model.adhesion != AdhesionLaw::ring) text += to_string(fitted.model.adhesion) + "|";
-  if (fitted.model.separation != equilibrium_separation) {
-    text += fmt::format("{}|", fitted.model.separation);
-  }
-  text += noise_key(fitted.data);
-  if (!fitted.model.constants.empty()) text += fmt::format("{:a}|", fitted.data.constants_weight);
-  for (const UncertainConstant& constant : fitted.model.constants) {
-    text += fmt::format("{:a} {:a}|", constant.stated, constant.sd);
-  }
-  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
-    const ParameterSlot& slot = fitted.model.slots[j];
-    text += fmt::format("{} {:a} {:a} {:a} {} {}|", slot.label(), fitted.theta[j], slot.lower,
-                        slot.upper, slot.free, slot.log_scale);
-  }
-  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
-    const Observation& point = fitted.data.points[i];
-    text +=
-        fmt::format("{} {} {:a} {:a} {:a} {:a} {} {:a} {:a} {:a}|", point.dataset, point.series,
-                    point.diameter, point.velocity, point.restitution, point.weights.sd,
-                    point.censored, fitted.prediction[i], fitted.residuals[i], fitted.leverage[i]);
-    text += fmt::format("{} {} {} {} {:a} {:a} {:a} {:a}|", point.events, point.captured,
-                        point.counted, point.rebound_measured, point.velocity_sd, point.diameter_sd,
-                        point.weights.input_sd, point.weights.scatter);
-  }
-  return sha256_hex(text);
-}
+  tbb::enumerable_thread_specific<std::unique_ptr<Workspace>> workspaces;
+  std::vector<CaptureQuery> queries;  ///< the capture velocities of the fit
+};
 
 /// The larger Monte-Carlo error of an interval's ends over its width; 0 where nothing is random.
 double relative_error(const Interval& interval) {
@@ -179,102 +122,47 @@ Bootstrap::Bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>
       options_(options),
       plan_(plan_resampling(fitted, options.scheme)),
       reference_covariance_(reference_covariance(fitted, plan_)) {
-  table_.slots = fitted.theta.size();
-  table_.derived = capture.size();
-  if (options.keep.empty() && options.parts.empty()) return;
-  key_ = bootstrap_key(fitted, plan_, options);
-  load_replicates(options.keep, key_, table_);
-  for (const std::filesystem::path& part : options.parts) load_replicates(part, key_, table_);
+  const auto run = std::make_shared<Run>(plan_);
+  for (const CaptureEstimate& at : capture_) {
+    run->queries.push_back({at.dataset, at.diameter, at.value});
+  }
+  replicate_ = [this, run](std::size_t i) {
+    Workspace& workspace = *run->workspaces.local();
+    const LeastSquaresResult found = workspace.refit(options_.seed, i);
+    if (!has_answer(found, fitted_)) return std::vector<double>{};
+    const auto covariance = replicate_covariance(found, workspace.data(), fitted_, plan_);
+    std::vector<double> numbers = found.theta;
+    const std::vector<double> errors = roots_of_diagonal(covariance, found.theta.size());
+    numbers.insert(numbers.end(), errors.begin(), errors.end());
+    if (run->queries.empty()) return numbers;
+    for (const CaptureVelocity& v : capture_velocities(fitted_.model, found.theta, run->queries)) {
+      numbers.push_back(v.found ? v.value : std::nan(""));
+      numbers.push_back(logarithmic_error(v, covariance));
+    }
+    return numbers;
+  };
 }
-
-std::string key_of_bootstrap(const FitResult& fitted, const UncertaintyOptions& options) {
-  return bootstrap_key(fitted, plan_resampling(fitted, options.scheme), options);
-}
-
-void Bootstrap::keep() const { save_replicates(options_.keep, key_, table_); }
 
 void Bootstrap::extend(int count) {
-  using Clock = std::chrono::steady_clock;
+  const std::size_t first = replicates_.size();
   count_ = static_cast<std::size_t>(count);
-  table_.grow(count_);
-  std::optional<InterruptGuard> guard;
-  if (!options_.keep.empty()) guard.emplace();
-  tbb::enumerable_thread_specific<std::unique_ptr<Workspace>> workspaces(
-      [&] { return std::make_unique<Workspace>(plan_); });
-  std::vector<CaptureQuery> queries;
-  for (const CaptureEstimate& at : capture_) {
-    queries.push_back({at.dataset, at.diameter, at.value});
-  }
-  capture_velocity_.resize(std::max(capture_velocity_.size(), count_));
-  const auto run = [&](std::size_t i) {
-    if (guard && stop_requested()) return;
-    Workspace& workspace = *workspaces.local();
-    const LeastSquaresResult found = workspace.refit(options_.seed, i);
-    const bool usable = has_answer(found, fitted_);
-    if (usable) {
-      const auto covariance = replicate_covariance(found, workspace.data(), fitted_, plan_);
-      std::vector<double> errors = roots_of_diagonal(covariance, table_.slots);
-      for (const CaptureVelocity& v : capture_velocities(fitted_.model, found.theta, queries)) {
-        capture_velocity_[i].push_back(v.found ? v.value : std::nan(""));
-        errors.push_back(logarithmic_error(v, covariance));
-      }
-      std::copy(found.theta.begin(), found.theta.end(),
-                table_.theta.begin() + static_cast<std::ptrdiff_t>(i * table_.slots));
-      std::copy(errors.begin(), errors.end(),
-                table_.std_error.begin() + static_cast<std::ptrdiff_t>(i * table_.errors()));
-    }
-    table_.state[i] = usable ? State::usable : State::failed;
+  replicates_.resize(std::max(first, count_));
+  const std::size_t length = 2 * (fitted_.theta.size() + capture_.size());
+  const auto read = [length](const Json& row) {
+    std::vector<double> numbers = row_numbers(row);
+    if (!numbers.empty() && numbers.size() != length) throw std::length_error("another bootstrap");
+    return numbers;
   };
-  std::vector<std::size_t> left;
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (table_.state[i] == State::not_run && options_.shard.owns(i)) left.push_back(i);
-  }
-  const auto start = Clock::now();
-  KeepingPace pace;
-  bool changed = false;
-  {
-    Progress progress("bootstrap", left.size());
-    std::size_t batch = first_batch;
-    for (std::size_t first = 0; first < left.size();) {
-      const std::size_t rest = left.size() - first;
-      const std::size_t size = guard ? std::min(batch, rest) : rest;
-      const auto begin = Clock::now();
-      parallel_over(size, options_.threads, [&](std::size_t k) {
-        run(left[first + k]);
-        progress.advance();
-      });
-      first += size;
-      batch = next_batch(size, std::chrono::duration<double>(Clock::now() - begin).count());
-      if (!guard) continue;
-      changed = true;
-      if (stop_requested()) {
-        keep();
-        break;
-      }
-      if (!pace.is_due()) continue;
-      changed = !pace.keep([this] { keep(); });
-    }
-  }
-  if (guard && stop_requested()) {
-    throw Interrupted(
-        fmt::format("stopped: {} replicates are kept in {}; the same command goes on from there",
-                    table_.finished(), options_.keep.string()));
-  }
-  if (options_.shard.of > 1) return;
-  if (guard && changed && Clock::now() - start > worth_keeping) {
-    pace.keep([this] { keep(); });
-  }
-
-  if (capture_.empty()) return;
-  // Those that an earlier run has left.
-  parallel_over(count_, options_.threads, [&](std::size_t i) {
-    if (table_.state[i] != State::usable || !capture_velocity_[i].empty()) return;
-    const std::span<const double> theta(table_.theta.data() + i * table_.slots, table_.slots);
-    for (const CaptureVelocity& v : capture_velocities(fitted_.model, theta, queries)) {
-      capture_velocity_[i].push_back(v.found ? v.value : std::nan(""));
-    }
+  Progress progress("bootstrap", replicates_.size() - first);
+  parallel_over(replicates_.size() - first, options_.threads, [&](std::size_t k) {
+    const std::size_t i = first + k;
+    replicates_[i] = kept_or_made(
+        options_.kept.get(), i, [&] { return replicate_(i); }, row_json, read);
+    progress.advance();
   });
 }
+
+Json Bootstrap::row(std::size_t index) const { return row_json(replicate_(index)); }
 
 BootstrapResult Bootstrap::result() const {
   BootstrapResult result;
@@ -283,28 +171,44 @@ BootstrapResult Bootstrap::result() const {
   result.scheme = plan_.scheme;
   result.because = plan_.because;
   result.series = plan_.clusters.size();
-  result.reference_error = roots_of_diagonal(reference_covariance_, table_.slots);
-  for (std::size_t k = 0; k < table_.derived; ++k) {
-    const CaptureVelocity v = capture_velocity(fitted_.model, fitted_.theta, capture_[k].dataset,
-                                               capture_[k].diameter, capture_[k].value);
+  const std::size_t slots = fitted_.theta.size();
+  result.reference_error = roots_of_diagonal(reference_covariance_, slots);
+  for (const CaptureEstimate& at : capture_) {
+    const CaptureVelocity v =
+        capture_velocity(fitted_.model, fitted_.theta, at.dataset, at.diameter, at.value);
     result.capture_reference_error.push_back(logarithmic_error(v, reference_covariance_));
   }
   std::vector<std::uint64_t> failed;
   for (std::size_t i = 0; i < count_; ++i) {
-    if (table_.state[i] == State::failed) {
+    const std::vector<double>& numbers = replicates_[i];
+    if (numbers.empty()) {
       failed.push_back(i);
       continue;
     }
-    const double* theta = table_.theta.data() + i * table_.slots;
-    const double* error = table_.std_error.data() + i * table_.errors();
-    result.theta.emplace_back(theta, theta + table_.slots);
-    result.std_error.emplace_back(error, error + table_.slots);
-    result.capture_velocity.push_back(capture_velocity_[i]);
-    result.capture_error.emplace_back(error + table_.slots, error + table_.errors());
+    const auto errors = numbers.begin() + static_cast<std::ptrdiff_t>(slots);
+    const auto captures = errors + static_cast<std::ptrdiff_t>(slots);
+    result.theta.emplace_back(numbers.begin(), errors);
+    result.std_error.emplace_back(errors, captures);
+    result.capture_velocity.emplace_back();
+    result.capture_error.emplace_back();
+    for (auto at = captures; at != numbers.end(); at += 2) {
+      result.capture_velocity.back().push_back(at[0]);
+      result.capture_error.back().push_back(at[1]);
+    }
   }
   result.failed = static_cast<int>(failed.size());
   result.failures = locate_failures(plan_, options_.seed, result.replicates, std::move(failed));
   return result;
+}
+
+std::string digits_of(const FitResult& fitted) {
+  std::string digits = fmt::format("{:a}", fitted.noise_scale);
+  for (const double value : fitted.theta) digits += fmt::format("|{:a}", value);
+  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
+    digits += fmt::format("|{:a} {:a} {:a}", fitted.prediction[i], fitted.residuals[i],
+                          fitted.leverage[i]);
+  }
+  return digits;
 }
 
 BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
@@ -326,12 +230,11 @@ std::size_t replicates_at_most(const UncertaintyOptions& options) {
   return static_cast<std::size_t>(options.replicates_auto ? most_automatic : options.replicates);
 }
 
-ReplicateTable shard_of_bootstrap(const FitResult& fitted,
-                                  const std::vector<CaptureEstimate>& capture,
-                                  const UncertaintyOptions& options) {
-  Bootstrap run(fitted, capture, options);
-  run.extend(static_cast<int>(replicates_at_most(options)));
-  return run.table();
+Pieces bootstrap_pieces(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
+                        const UncertaintyOptions& options) {
+  const auto run = std::make_shared<Bootstrap>(fitted, capture, options);
+  return {"bootstrap", replicates_at_most(options), options.threads,
+          [run](std::size_t i) { return run->row(i); }};
 }
 
 std::vector<std::vector<double>> jackknife(const ResamplingPlan& plan, int threads) {

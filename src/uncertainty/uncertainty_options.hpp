@@ -2,14 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
+#include <memory>
 
-#include "core/shard.hpp"
 #include "estimate/fit_spec.hpp"
 
 namespace recoil {
+
+class KeptRows;
 
 struct PosteriorOptions {
   double level = 0.95;
@@ -35,14 +34,9 @@ struct UncertaintyOptions {
   int threads = 0;            ///< 0: all cores. No digit depends on it.
   bool posterior = false;     ///< sample it
   PosteriorOptions sampling;  ///< how; level, seed and threads are those above
-  /// Where finished replicates are kept when the user stops the run, and looked for by the next run
-  /// of the same fit; empty: nowhere. The file is left behind; whoever has written the results
-  /// removes it.
-  std::filesystem::path keep;
-  std::string keep_key;  ///< what else the replicates depend on: the program that makes them
-  Shard shard;           ///< whose replicates `shard_of_bootstrap` runs
-  /// Files in which shards have left their replicates, and from which they are taken over.
-  std::vector<std::filesystem::path> parts;
+  /// The finished replicates of an earlier run or of other processes, by their index. They are not
+  /// run again, and new ones are put there. Null: none are kept.
+  std::shared_ptr<KeptRows> kept;
 };
 
 /// How to sample the posterior: `options.sampling` with the level, seed and threads of `options`.

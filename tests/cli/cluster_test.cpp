@@ -25,8 +25,7 @@ TEST(Cluster, WritesItsScriptsAndChecksEveryOneOfThem) {
   const Workplace place;
   const std::vector<std::pair<std::string, Words>> systems = {
       {"slurm", {"array.sbatch", "run.sh", "shard.sh"}},
-      {"parallel", {"merge.sh", "run.sh", "shard.sh"}},
-      {"htcondor", {"merge.sh", "merge.sub", "run.dag", "shard.sh", "shards.sub"}}};
+      {"parallel", {"merge.sh", "run.sh", "shard.sh"}}};
   for (const auto& [system, names] : systems) {
     fs::remove_all(place.path() / "job");
     const Outcome wrote = place.run(cluster(system, {"fit.toml", "--replicates", "9"}));
@@ -38,7 +37,6 @@ TEST(Cluster, WritesItsScriptsAndChecksEveryOneOfThem) {
       // Every place has its value: what is left is Slurm's own.
       EXPECT_EQ(std::count(text.begin(), text.end(), '@'), found.back() == "array.sbatch" ? 1 : 0)
           << text;
-      if (entry.path().extension() == ".sub" || entry.path().extension() == ".dag") continue;
       EXPECT_EQ(run_command({"sh", "-n", found.back()}, place.path() / "job").status, 0) << text;
     }
     std::sort(found.begin(), found.end());
@@ -54,11 +52,6 @@ TEST(Cluster, TheLimitsAreThoseThatWereAskedFor) {
   for (const char* line : {"#SBATCH --array=1-3\n", "#SBATCH --cpus-per-task=4\n",
                            "#SBATCH --time=101:02:03\n", "#SBATCH --signal=B:USR1@90\n"}) {
     EXPECT_NE(array.find(line), std::string::npos) << array;
-  }
-  ASSERT_EQ(place.run(cluster("htcondor", limits)).status, 0);
-  const std::string shards = place.read("job/shards.sub");
-  for (const char* line : {"+MaxRuntime = 363723\n", "request_cpus = 4\n", "queue 3\n"}) {
-    EXPECT_NE(shards.find(line), std::string::npos) << shards;
   }
 }
 
@@ -152,8 +145,7 @@ TEST(Cluster, MistakesAreToldBeforeAThousandShardsRepeatThem) {
         cluster("slurm", {"fit.toml", "--time", "-1:00:00"}),
         Words{"cluster", "slurm", "fit.toml", "--shards", "0", "--out", "job"},
         Words{"cluster", "slurm", "fit.toml", "--shards", "2"},
-        Words{"cluster", "slurm", "fit.toml", "--shards", "2", "--out", "50%"},
-        Words{"cluster", "htcondor", "fit.toml", "--shards", "2", "--out", "two words"}}) {
+        Words{"cluster", "slurm", "fit.toml", "--shards", "2", "--out", "50%"}}) {
     const Outcome told = place.run(words);
     EXPECT_EQ(told.status, 2) << words.back();
     EXPECT_EQ(std::count(told.err.begin(), told.err.end(), '\n'), 1) << told.err;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/at_once.hpp"
+#include "core/parallel.hpp"
 #include "support/workplace.hpp"
 
 namespace {

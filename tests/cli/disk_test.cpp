@@ -46,7 +46,6 @@ const std::map<std::string, Words>& commands() {
         std::string(target) + "/history.csv"}},
       {"shard", {"fit", "fit.toml", "--shard", "1/2", "--out", target}},
       {"cluster", {"cluster", "parallel", "fit.toml", "--shards", "2", "--out", target}},
-      {"help", {"help", "--man", target}},
   };
   return all;
 }
@@ -139,7 +138,7 @@ TEST(DiskAtWork, OneThatGoesIsToldAndWhatIsOnItIsWhole) {
   ASSERT_TRUE(disk.is_mounted());
   const Words command = {"fit",       "fit.toml", "--replicates", "200000",
                          "--threads", "2",        "--out",        target};
-  const fs::path kept = disk / target / "replicates.jsonl";
+  const fs::path kept = disk / target / "unfinished-fit.json.jsonl";
   // Sooner and later, until it is well at work: on a slow machine it may still be reading.
   const auto stopped_after = [&](int milliseconds, const std::function<void()>& meanwhile) {
     Started run(command, disk.path());
@@ -155,7 +154,8 @@ TEST(DiskAtWork, OneThatGoesIsToldAndWhatIsOnItIsWhole) {
   const Outcome told = stopped_after(delay, [&] { disk.go_away(); });
   EXPECT_EQ(told.status, 2);
   EXPECT_EQ(std::count(told.err.begin(), told.err.end(), '\n'), 1) << told.err;
-  EXPECT_NE(told.err.find("replicates.jsonl: the file cannot be written (Read-only file system)"),
+  EXPECT_NE(told.err.find(
+                "unfinished-fit.json.jsonl: the file cannot be written (Read-only file system)"),
             std::string::npos)
       << told.err;
   disk.come_back();

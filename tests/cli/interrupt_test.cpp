@@ -65,7 +65,7 @@ int stopped_long_fit(const Workplace& place, const std::string& out) {
     status = stopped_after(
         place, {"fit", "fit.toml", "--out", out, "--replicates", "1000000", "--threads", "2"},
         std::chrono::milliseconds(delay), SIGINT);
-    if (kept_replicates(place.path() / out / "replicates.jsonl") > 10) break;
+    if (kept_replicates(place.path() / out / "unfinished-fit.json.jsonl") > 10) break;
   }
   return status;
 }
@@ -78,7 +78,7 @@ TEST(Interrupt, KeepsFinishedReplicatesAndEndsAsTheSignalWould) {
   EXPECT_EQ(place.read("out.txt"), "");
   const std::string complaint = place.read("err.txt");
   EXPECT_NE(complaint.find("the same command goes on from there"), std::string::npos) << complaint;
-  const std::size_t kept = kept_replicates(place.path() / "out/replicates.jsonl");
+  const std::size_t kept = kept_replicates(place.path() / "out/unfinished-fit.json.jsonl");
   EXPECT_GT(kept, 10U);
   EXPECT_LT(kept, 1000000U);
   // Whole files only: nothing half-written lies about.
@@ -103,7 +103,7 @@ TEST(Interrupt, TheNextRunGoesOnAndNoByteTellsOfIt) {
   for (int delay = 60; stops < 2 && !fs::exists(place.path() / "broken/fit.json") && delay < 30000;
        delay = delay * 3 / 2) {
     const int status = stopped_after(place, broken, std::chrono::milliseconds(delay), SIGTERM);
-    const fs::path kept = place.path() / "broken/replicates.jsonl";
+    const fs::path kept = place.path() / "broken/unfinished-fit.json.jsonl";
     if (!WIFSIGNALED(status) || !fs::exists(kept)) continue;
     ++stops;
     EXPECT_GE(kept_replicates(kept), most_kept) << "finished replicates were lost";
@@ -112,14 +112,14 @@ TEST(Interrupt, TheNextRunGoesOnAndNoByteTellsOfIt) {
   EXPECT_GE(stops, 1);
   ASSERT_EQ(place.run(broken).status, 0);
   EXPECT_EQ(place.read("broken/fit.json"), place.read("whole/fit.json"));
-  EXPECT_FALSE(fs::exists(place.path() / "broken/replicates.jsonl"));
+  EXPECT_FALSE(fs::exists(place.path() / "broken/unfinished-fit.json.jsonl"));
 }
 
 TEST(Interrupt, WhatAnotherRunLeftIsNotMistakenForOurs) {
   const Workplace place;
   const int status = stopped_long_fit(place, "out");
   ASSERT_TRUE(WIFSIGNALED(status));
-  ASSERT_TRUE(fs::exists(place.path() / "out/replicates.jsonl"));
+  ASSERT_TRUE(fs::exists(place.path() / "out/unfinished-fit.json.jsonl"));
   const std::vector<std::string> other = {"--replicates", "39", "--seed", "7"};
   std::vector<std::string> here = {"fit", "fit.toml", "--out", "out"};
   std::vector<std::string> fresh = {"fit", "fit.toml", "--out", "fresh"};

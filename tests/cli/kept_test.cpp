@@ -151,7 +151,7 @@ TEST(Kept, TwoWithTheSameFolderAreOneTooMany) {
   ASSERT_TRUE(first.runs()) << "it ended before the others; nothing was tried";
   first.send(SIGTERM);
   EXPECT_EQ(first.end().status, 128 + SIGTERM);
-  EXPECT_TRUE(place.has("out/replicates.jsonl")) << "what it had is there";
+  EXPECT_TRUE(place.has("out/unfinished-fit.json.jsonl")) << "what it had is there";
   EXPECT_FALSE(place.has("out/fit.json.lock"));
   EXPECT_EQ(place.run({"fit", "fit.toml", "--out", "out"}).status, 0);
 }

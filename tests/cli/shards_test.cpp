@@ -96,7 +96,7 @@ TEST(Shards, TheReplicatesComeFromThePartsAndNotFromTheMerge) {
     const std::string text = place.read("parts/" + name);
     std::string rows = text.substr(text.find('\n') + 1);
     ASSERT_TRUE(rows.starts_with("[0,["));
-    rows.insert(4, "1");  // ten times and more
+    rows.insert(4, "1");  // theta[0]: ten times and more
     put_rows(place, "parts/" + name, rows);
   }
   ASSERT_EQ(place.run({"merge", "parts"}).status, 0);
@@ -359,37 +359,6 @@ TEST(Shards, ADiagnosisTakesItsCalibrationFromThem) {
     EXPECT_GT(other["misfit"]["p_value"], 0.3);
     EXPECT_NE(other["misfit"]["p_value"], answer["misfit"]["p_value"]);
   }
-}
-
-TEST(Shards, ABatchOfFitsIsSharedPageByPage) {
-  const Workplace place;
-  place.write("second.toml", place.read("fit.toml") + "scheme = \"wild\"\n");
-  place.write("third.toml", place.read("fit.toml") + "scheme = \"case\"\n");
-  const Words command = {"report", "fit.toml", "second.toml", "third.toml"};
-  const Outcome whole = place.run(with(command, {"--out", "pages"}));
-  ASSERT_EQ(whole.status, 0) << whole.err;
-  fs::rename(place.path() / "pages", place.path() / "whole");
-  run_shards(place, command, {2}, 2, "pages");
-  EXPECT_TRUE(place.has("pages/second.html"));
-  EXPECT_FALSE(place.has("pages/fit.html"));
-  EXPECT_FALSE(place.has("pages/index.html"));
-  EXPECT_EQ(place.run({"merge", "pages"}).status, 3);
-  EXPECT_FALSE(place.has("pages/index.html"));
-  run_shards(place, command, {1}, 2, "pages");
-  const Outcome merged = place.run({"merge", "pages"});
-  ASSERT_EQ(merged.status, 0) << merged.err;
-  EXPECT_EQ(merged.out, whole.out);
-  std::size_t compared = 0;
-  for (const std::string& name : place.listing()) {
-    if (!name.starts_with("whole/") || !fs::is_regular_file(place.path() / name)) continue;
-    EXPECT_EQ(place.read("pages" + name.substr(5)), place.read(name)) << name;
-    ++compared;
-  }
-  EXPECT_GE(compared, 3U * 9U + 1U);
-  place.change("third.toml", "\"case\"", "\"wild\"");
-  const Outcome changed = place.run({"merge", "pages"});
-  EXPECT_EQ(changed.status, 2);
-  EXPECT_NE(changed.err.find("third.html"), std::string::npos) << changed.err;
 }
 
 TEST(Shards, AStudyIsSharedDesignByDesign) {

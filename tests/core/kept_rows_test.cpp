@@ -1,13 +1,16 @@
 #include "core/kept_rows.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <thread>
 
 #include "core/claim.hpp"
+#include "core/files.hpp"
 #include "core/interrupt.hpp"
 #include "support/mistake.hpp"
 #include "support/small_disk.hpp"
@@ -52,6 +55,41 @@ TEST_F(KeptRowsTest, AnotherKeyAndADamagedFileGiveNothing) {
   }
 }
 
+TEST_F(KeptRowsTest, RowsOfAnotherFormGiveNothing) {
+  // One row is promised, and the bytes and their sum are right.
+  const auto size_of = [this](const std::string& rows) {
+    folder_.write("kept", fmt::format(R"({{"key": "k", "rows": 1, "bytes": {}, "sha256": "{}"}})"
+                                      "\n{}",
+                                      rows.size(), sha256_hex(rows), rows));
+    return kept().size();
+  };
+  EXPECT_EQ(size_of("[0,[1]]\n"), 1U);
+  for (const char* rows : {"", "[-1,2]\n", "7\n", "[7]\n", "[99999999999999999999999,1]\n",
+                           "[\"a\",1]\n", "[0,1]\n[1,2]\n", "[0,1]\n[1,2", "[0,1]\n\n"}) {
+    EXPECT_EQ(size_of(rows), 0U) << rows;
+  }
+  size_of("[0,nonsense]\n");
+  EXPECT_FALSE(kept().find(0));
+}
+
+TEST_F(KeptRowsTest, AResultIsReadOrMade) {
+  KeptRows rows;
+  int made = 0;
+  const auto get = [&](KeptRows* kept, std::size_t piece) {
+    return kept_or_made(
+        kept, piece,
+        [&] {
+          return std::vector<double>{1.0 * ++made, -INFINITY};
+        },
+        row_json, row_numbers);
+  };
+  EXPECT_EQ(get(&rows, 4), (std::vector<double>{1, -INFINITY}));
+  EXPECT_EQ(get(&rows, 4), (std::vector<double>{1, -INFINITY}));
+  EXPECT_EQ(get(nullptr, 4), (std::vector<double>{2, -INFINITY}));
+  rows.put(4, "no numbers");
+  EXPECT_EQ(get(&rows, 4), (std::vector<double>{3, -INFINITY}));
+}
+
 TEST_F(KeptRowsTest, IsWrittenWhenItIsTimeAndNotBefore) {
   KeptRows slow(folder_ / "slow", "k");
   slow.put(1, 1);
@@ -74,7 +112,7 @@ TEST_F(KeptRowsTest, WhatWasCalledOffIsNotTaken) {
     const CallingOff off;
     EXPECT_THROW(rows.put(1, 1), CalledOff);
   }
-  const InterruptGuard guard(InterruptGuard::Work::is_called_off);
+  const InterruptGuard guard;
   rows.put(2, 2);
   std::raise(SIGTERM);
   EXPECT_THROW(rows.put(3, 3), CalledOff);

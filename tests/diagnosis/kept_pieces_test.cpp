@@ -57,7 +57,7 @@ TEST(KeptPieces, AnyPartOfThemGivesTheSameAnswer) {
   const auto kept = std::make_shared<KeptRows>(folder / "all", "k");
   const std::size_t all = kept->size();
   std::set<std::size_t> kinds;
-  for (const auto& [piece, row] : kept->rows()) kinds.insert(piece / first_beside_calibration);
+  for (const std::size_t piece : kept->pieces()) kinds.insert(piece / first_beside_calibration);
   EXPECT_EQ(kinds, (std::set<std::size_t>{0, 4, 5, 6})) << "calibration, singles, looks, pairs";
   EXPECT_TRUE(answer(kept) == expected);
   EXPECT_EQ(kept->size(), all);
@@ -65,7 +65,8 @@ TEST(KeptPieces, AnyPartOfThemGivesTheSameAnswer) {
   // Two thirds of them, and a few damaged ones, which are run again.
   std::mt19937 random(1);
   const auto some = std::make_shared<KeptRows>("", "");
-  for (const auto& [piece, row] : kept->rows()) {
+  for (const std::size_t piece : kept->pieces()) {
+    const Json row = *kept->find(piece);
     const auto drawn = random() % 30;
     if (drawn < 20) some->put(piece, drawn == 0 ? Json::object({{"no", "row"}}) : row);
   }
@@ -75,7 +76,8 @@ TEST(KeptPieces, AnyPartOfThemGivesTheSameAnswer) {
   // And they are what the answer rests on: a mark in every row of one kind changes it.
   for (const std::size_t marked : {0U, 4U, 6U}) {
     const auto changed = std::make_shared<KeptRows>("", "");
-    for (const auto& [piece, row] : kept->rows()) {
+    for (const std::size_t piece : kept->pieces()) {
+      const Json row = *kept->find(piece);
       Json other = row;
       if (piece / first_beside_calibration == marked && row.size() > 1) {
         if (marked == 0) {
@@ -105,10 +107,10 @@ TEST(KeptPieces, HaveNumbersOfTheirOwn) {
 
 TEST(KeptPieces, NumbersComeBackWhateverTheyAre) {
   const std::vector<double> values = {-0.0, 1.0 / 3.0, 5e-324, INFINITY, -INFINITY};
-  const std::vector<double> back = row_of(Json::parse(row_json(values).dump()));
+  const std::vector<double> back = row_numbers(Json::parse(row_json(values).dump()));
   EXPECT_EQ(back, values);
   EXPECT_TRUE(std::signbit(back.front()));
-  EXPECT_TRUE(std::isnan(row_of(Json::parse(row_json({std::nan("")}).dump())).front()));
+  EXPECT_TRUE(std::isnan(row_numbers(Json::parse(row_json({std::nan("")}).dump())).front()));
 }
 
 }  // namespace

@@ -1,42 +1,26 @@
 // The bootstrap as a run: extended, stopped and continued, counting and locating what fails.
 #include "uncertainty/bootstrap.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
+#include <memory>
 
 #include "analysis/analysis.hpp"
-#include "core/files.hpp"
+#include "core/resumable.hpp"
 #include "estimate/impact_problem.hpp"
 #include "support/noisy_case.hpp"
-#include "support/temporary_folder.hpp"
+#include "uncertainty/capture_interval.hpp"
 #include "uncertainty/locate_failures.hpp"
+#include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
 namespace {
 
-namespace fs = std::filesystem;
 using synthetic::Case;
 using synthetic::noisy_case;
 using synthetic::small;
-
-/// A folder for kept replicates.
-struct Folder : support::TemporaryFolder {
-  fs::path file() const { return path() / "replicates.json"; }
-};
-
-/// What a file of replicates gives to an empty table.
-ReplicateTable loaded(const fs::path& file, const std::string& key, std::size_t slots,
-                      std::size_t derived = 0) {
-  ReplicateTable table;
-  table.slots = slots;
-  table.derived = derived;
-  load_replicates(file, key, table);
-  return table;
-}
 
 TEST(Bootstrap, RefitsEndAtTheirMinimum) {
   const Case made = noisy_case();
@@ -77,164 +61,56 @@ TEST(Bootstrap, ExtendingIsTheSameAsOneRun) {
   }
 }
 
-TEST(ReplicateTable, EveryDigitComesBackUnderItsKeyOnly) {
-  const Folder folder;
-  ReplicateTable table;
-  table.slots = 2;
-  table.grow(4);
-  table.state = {ReplicateTable::State::usable, ReplicateTable::State::not_run,
-                 ReplicateTable::State::failed, ReplicateTable::State::usable};
-  table.theta = {1.0 / 3.0, 1e-300, 0, 0, 0, 0, M_PI, 0.1};
-  table.std_error = {0.1 + 0.2, 0, 0, 0, 0, 0, 1e17 + 1, 5e-324};
-  save_replicates(folder.file(), "key", table);
-  const ReplicateTable back = loaded(folder.file(), "key", 2);
-  EXPECT_EQ(back.state, table.state);
-  EXPECT_EQ(back.theta, table.theta);
-  EXPECT_EQ(back.std_error, table.std_error);
-  EXPECT_EQ(back.finished(), 3U);
-  EXPECT_EQ(loaded(folder.file(), "other", 2).finished(), 0U);
-  EXPECT_EQ(loaded(folder.file(), "key", 3).finished(), 0U);
-  // Errors of what is derived come back beside them, and only together.
-  table.derived = 1;
-  table.std_error = {1, 2, 3, 0, 0, 0, 0, 0, 0, 4, 5, 6.5};
-  save_replicates(folder.file(), "key", table);
-  EXPECT_EQ(loaded(folder.file(), "key", 2, 1).std_error, table.std_error);
-  EXPECT_EQ(loaded(folder.file(), "key", 2).finished(), 0U);
-}
-
-TEST(ReplicateTable, DamagedFilesAreNotTrusted) {
-  const Folder folder;
-  // One row is promised, and the bytes and their sum are right.
-  const auto holding = [](const std::string& rows) {
-    return fmt::format(R"({{"key": "key", "rows": 1, "bytes": {}, "sha256": "{}"}})"
-                       "\n{}",
-                       rows.size(), sha256_hex(rows), rows);
-  };
-  folder.write("replicates.json", holding("[0, [1], [1]]\n"));
-  ASSERT_EQ(loaded(folder.file(), "key", 1).finished(), 1U);
-  for (const std::string& text :
-       {std::string(), std::string("{"), std::string("[1]"), std::string(R"({"key": "key"})"),
-        std::string(R"({"key": "key", "rows": 1})"
-                    "\n[0, [1], [1]]\n"),
-        holding(""), holding("[0, [1], []]"), holding("[-1]"), holding("7"),
-        holding("[99999999999]"), holding(R"([0, ["a"], [1]])"), holding("[0]\n[1]"),
-        holding("[0, [1], [1]]\n[0, [1]"), holding("[0, [1], [1]]\n") + "\n",
-        holding("[0, [1], [1]]\n").replace(holding("[0, [1], [1]]\n").size() - 4, 1, "2")}) {
-    folder.write("replicates.json", text);
-    EXPECT_EQ(loaded(folder.file(), "key", 1).finished(), 0U) << text;
-  }
-}
-
-TEST(ReplicateTable, FilesAddUp) {
-  const Folder folder;
-  ReplicateTable table;
-  table.slots = 1;
-  table.grow(2);
-  table.state[1] = ReplicateTable::State::usable;
-  table.theta = {0, 4};
-  table.std_error = {0, 5};
-  ReplicateTable other;
-  other.slots = 1;
-  other.grow(3);
-  other.state = {ReplicateTable::State::failed, ReplicateTable::State::not_run,
-                 ReplicateTable::State::usable};
-  other.theta = {0, 0, 6};
-  other.std_error = {0, 0, 7};
-  save_replicates(folder.file(), "key", other);
-  load_replicates(folder.file(), "key", table);
-  EXPECT_EQ(table.state, (std::vector<ReplicateTable::State>{ReplicateTable::State::failed,
-                                                             ReplicateTable::State::usable,
-                                                             ReplicateTable::State::usable}));
-  EXPECT_EQ(table.theta, (std::vector<double>{0, 4, 6}));
-  EXPECT_EQ(table.std_error, (std::vector<double>{0, 5, 7}));
-}
-
-TEST(Bootstrap, ShardsRunTheirOwnReplicatesAndNoOther) {
+TEST(Bootstrap, TakesOverKeptReplicatesAndRunsTheOthers) {
   const Case c = noisy_case();
-  const Folder folder;
-  UncertaintyOptions options = small(1);
-  Bootstrap whole(c.fitted, {}, options);
-  whole.extend(20);
-  options.keep = folder.path() / "unfinished.jsonl";
-  std::vector<fs::path> parts;
-  for (std::size_t number = 1; number <= 3; ++number) {
-    options.shard = {number, 3};
-    Bootstrap own(c.fitted, {}, options);
-    own.extend(20);
-    EXPECT_EQ(own.table().finished(), number == 3 ? 6U : 7U);
-    for (std::size_t i = 0; i < 20; ++i) {
-      EXPECT_EQ(own.table().state[i] != ReplicateTable::State::not_run, i % 3 == number - 1) << i;
-    }
-    parts.push_back(folder.path() / std::to_string(number));
-    save_replicates(parts.back(), own.key(), own.table());
-  }
-  UncertaintyOptions all = small(1);
-  all.parts = parts;
-  // A mark in one part shows that its replicates are taken over, not made anew.
-  ReplicateTable marked = loaded(parts[1], key_of_bootstrap(c.fitted, options), 3);
-  marked.theta[3 * 4] = 0.125;
-  Bootstrap merged(c.fitted, {}, all);
-  merged.extend(20);
-  EXPECT_EQ(merged.result().theta, whole.result().theta);
-  EXPECT_EQ(merged.result().std_error, whole.result().std_error);
-  save_replicates(parts[1], key_of_bootstrap(c.fitted, options), marked);
-  Bootstrap with_mark(c.fitted, {}, all);
-  with_mark.extend(20);
-  EXPECT_EQ(with_mark.result().theta[4][0], 0.125);
-  EXPECT_EQ(with_mark.result().theta[5], whole.result().theta[5]);
-}
-
-TEST(Bootstrap, GoesOnFromFinishedReplicates) {
-  const Case c = noisy_case();
-  const Folder folder;
   UncertaintyOptions options = small(0);
-  options.keep = folder.file();
+  Bootstrap whole(c.fitted, {}, options);
+  whole.extend(12);
+  options.kept = std::make_shared<KeptRows>();
   Bootstrap first(c.fitted, {}, options);
   first.extend(12);
-  const BootstrapResult whole = first.result();
-  // A quick run writes nothing by itself. Put a mark into a file of finished replicates: it shows
-  // whether they are taken over or made anew.
-  EXPECT_FALSE(fs::exists(folder.file()));
-  ReplicateTable table;
-  table.slots = 3;
-  table.grow(5);
-  for (std::size_t i = 0; i < 5; ++i) table.state[i] = ReplicateTable::State::usable;
-  table.theta.assign(15, 0.125);
-  save_replicates(folder.file(), first.key(), table);
+  EXPECT_EQ(options.kept->size(), 12U);
+  // A mark in a row shows that it is taken over; a row of another length is not.
+  std::vector<double> marked = row_numbers(*options.kept->find(4));
+  EXPECT_EQ(first.row(4), *options.kept->find(4));
+  marked[0] = 0.125;
+  options.kept->put(4, row_json(marked));
+  options.kept->put(5, row_json({0.125}));
   Bootstrap second(c.fitted, {}, options);
+  second.extend(6);
   second.extend(12);
-  EXPECT_EQ(second.result().theta[4], std::vector<double>(3, 0.125));
-  EXPECT_EQ(second.result().theta[5], whole.theta[5]);
-  // Another seed, scheme, point or program is another bootstrap.
-  UncertaintyOptions other = options;
-  other.seed = 2;
-  EXPECT_NE(Bootstrap(c.fitted, {}, other).key(), first.key());
-  other = options;
-  other.scheme = Scheme::wild;
-  EXPECT_NE(Bootstrap(c.fitted, {}, other).key(), first.key());
-  other = options;
-  other.keep_key = "a later version";
-  EXPECT_NE(Bootstrap(c.fitted, {}, other).key(), first.key());
-  Case moved = c;
-  moved.fitted.data.points[0].restitution += 1e-15;
-  EXPECT_NE(Bootstrap(moved.fitted, {}, options).key(), first.key());
-  // And so are other settings of the noise, which every replicate settles anew.
-  const auto key_with = [&](const auto& change) {
-    Case changed = c;
-    change(changed.fitted.data);
-    return Bootstrap(changed.fitted, {}, options).key();
-  };
-  for (const auto& key : {
-           key_with([](Observations& data) { data.sd_stated = false; }),
-           key_with([](Observations& data) { data.spec.variance = VarianceFunction::constant; }),
-           key_with([](Observations& data) { data.spec.student = true; }),
-           key_with([](Observations& data) { data.spec.velocity_relative_sd = 0.01; }),
-           key_with([](Observations& data) { data.noise.variance = VarianceFunction::steep; }),
-           key_with([](Observations& data) { data.points[0].velocity_sd = 0.01; }),
-           key_with([](Observations& data) { data.points[0].events = 5; }),
-       }) {
-    EXPECT_NE(key, first.key());
+  EXPECT_EQ(second.result().theta[4][0], 0.125);
+  EXPECT_EQ(second.result().std_error, whole.result().std_error);
+  for (const std::size_t i : {3U, 5U, 11U}) {
+    EXPECT_EQ(second.result().theta[i], whole.result().theta[i]);
   }
+}
+
+TEST(Bootstrap, ReplicatesAsPiecesGiveTheSameResult) {
+  const Case c = noisy_case();
+  UncertaintyOptions options = small(9);
+  const UncertaintyResult whole = assess_uncertainty(c.fitted, c.datasets, options);
+  UncertaintyOptions shared = options;
+  shared.kept = std::make_shared<KeptRows>();
+  resumable(
+      bootstrap_pieces(c.fitted,
+                       capture_estimates(noise_alternatives(c.fitted), options.level, c.datasets),
+                       options),
+      *shared.kept);
+  ASSERT_EQ(shared.kept->size(), static_cast<std::size_t>(options.replicates));
+  const UncertaintyResult merged = assess_uncertainty(c.fitted, c.datasets, shared);
+  EXPECT_EQ(merged.bootstrap.theta, whole.bootstrap.theta);
+  EXPECT_EQ(merged.bootstrap.std_error, whole.bootstrap.std_error);
+  EXPECT_EQ(merged.bootstrap.capture_velocity, whole.bootstrap.capture_velocity);
+  EXPECT_EQ(merged.bootstrap.capture_error, whole.bootstrap.capture_error);
+}
+
+TEST(Bootstrap, DigitsOfAFitDifferWithItsLastDigit) {
+  Case c = noisy_case();
+  const std::string digits = digits_of(c.fitted);
+  EXPECT_EQ(digits_of(c.fitted), digits);
+  c.fitted.theta[0] = std::nextafter(c.fitted.theta[0], INFINITY);
+  EXPECT_NE(digits_of(c.fitted), digits);
 }
 
 TEST(Failures, TheDisturbedPointIsFound) {

@@ -4,7 +4,7 @@ its parameters?
     import recoil
     result = recoil.fit("fits/dahneke1975-quartz.toml")
     result.parameters.C_H.value, result.parameters.C_H.intervals.bca
-    result.plot_restitution()
+    result.plot()
 
 The functions are those of the command; results have the names of its JSON files and the same
 digits. ``recoil help python`` is the page of the manual.

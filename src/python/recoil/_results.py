@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
 from . import _recoil
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
-from ._pictures import DiagnosisPictures, FitPictures, MixturePictures, PairingPictures
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     import pandas
+    from matplotlib.axes import Axes
 
     from ._impacts import Array
 
@@ -57,6 +57,23 @@ class _Result:
 
     def __str__(self) -> str:
         return self._text
+
+
+class _WithPictures(_Result):
+    """A result with the pictures of its report."""
+
+    _pictures: _recoil.Pictures
+
+    @property
+    def pictures(self) -> dict[str, str]:
+        """The name and title of every picture."""
+        return self._pictures.titles()
+
+    def svg(self, name: str) -> str:
+        """The picture of that name as SVG, drawn by gnuplot."""
+        if name not in self.pictures:
+            raise ValueError(f"no picture {name!r}; there are {', '.join(self.pictures)}")
+        return self._pictures.svg(name)
 
 
 def write_whole(path: Path, text: str) -> None:
@@ -107,7 +124,7 @@ class Parameter:
         return f"<Parameter {self.name} = {self.value} {error} [{self.unit}]>"
 
 
-class FitResult(FitPictures, _Result):
+class FitResult(_WithPictures):
     """A fit: the names of fit.json are attributes (``result.parameters.C_H.value``,
     ``result.goodness.chi2``, ``result.derived.capture_velocity[0].interval``); ``recoil help
     fit-json`` lists them. Names of lmfit's ModelResult come beside."""
@@ -136,6 +153,7 @@ class FitResult(FitPictures, _Result):
         self._json = analysis.json()
         self._text = analysis.text()
         self._fitted = Model(analysis.model())
+        self._pictures = analysis.pictures()
 
     # -- what can be done with it --
 
@@ -192,8 +210,34 @@ class FitResult(FitPictures, _Result):
         """Writes the page of ``recoil report``: one HTML file, pictures (by gnuplot) inside."""
         write_whole(Path(file), self._analysis.page())
 
-    def _read_pictures(self) -> str:
-        return self._analysis.pictures()
+    def plot(self, ax: "Optional[Axes]" = None) -> "Axes":
+        """Draws e against V with matplotlib: the points with their errors, the fit and its band,
+        one colour for each series. On ``ax``, or on a figure of its own; returns the axes."""
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            ax = plt.figure().add_subplot()
+        series = dict.fromkeys((row.dataset, row.series) for row in self.residuals)
+        for number, (dataset, name) in enumerate(series):
+            colour = f"C{number % 10}"
+            points = [r for r in self.residuals if (r.dataset, r.series) == (dataset, name)]
+            curve = [r for r in self.curve if (r.dataset, r.series) == (dataset, name)]
+            ax.errorbar(
+                _numbers([p.incident_velocity for p in points]),
+                _numbers([p.restitution for p in points]),
+                yerr=_numbers([p.sd_used for p in points]),
+                fmt="o", color=colour, label=name or dataset,
+            )
+            velocity = _numbers([r.incident_velocity for r in curve])
+            ax.plot(velocity, _numbers([r.restitution for r in curve]), color=colour)
+            bands = [r.band or [None, None] for r in curve]
+            lower, upper = (_numbers([band[end] for band in bands]) for end in (0, 1))
+            ax.fill_between(velocity, lower, upper, color=colour, alpha=0.2, linewidth=0)
+        ax.set(xscale="log", xlabel="incident velocity V [m/s]", ylabel="restitution e")
+        ax.legend()
+        return ax
+
+    plot_fit = plot
 
     # -- lmfit's names --
 
@@ -291,7 +335,7 @@ class FitResult(FitPictures, _Result):
         return self._analysis.summary()
 
 
-class Diagnosis(DiagnosisPictures, _Result):
+class Diagnosis(_WithPictures):
     """What the model gets wrong: the names of diagnosis.json are attributes (``verdict``,
     ``named``, ``candidates``); ``recoil help diagnosis-json`` lists them."""
 
@@ -311,6 +355,7 @@ class Diagnosis(DiagnosisPictures, _Result):
         self._diagnosis = diagnosis
         self._json = diagnosis.json()
         self._text = diagnosis.text()
+        self._pictures = diagnosis.pictures()
 
     def report(self) -> str:
         """What ``recoil diagnose`` prints."""
@@ -325,9 +370,6 @@ class Diagnosis(DiagnosisPictures, _Result):
         write_whole(path, self._json)
         return path
 
-    def _read_pictures(self) -> str:
-        return self._diagnosis.pictures()
-
     def __repr__(self) -> str:
         return f"<recoil.Diagnosis: {self.verdict} {', '.join(self.named)}>"
 
@@ -335,16 +377,13 @@ class Diagnosis(DiagnosisPictures, _Result):
         return self._diagnosis.summary()
 
 
-class Prediction(MixturePictures, _Result):
+class Prediction(_WithPictures):
     """A mixture of sizes: the names of predict.json are attributes."""
 
     def __init__(self, predicted: _recoil.Predicted) -> None:
-        self._predicted = predicted
         self._json = predicted.json
         self._text = predicted.text
-
-    def _read_pictures(self) -> str:
-        return self._predicted.pictures
+        self._pictures = predicted.pictures
 
     def __repr__(self) -> str:
         return f"<recoil.Prediction of {self.facts.fit}>"
@@ -363,13 +402,14 @@ class Comparison(_Result):
         return iter(self.facts.fits)
 
 
-class Pairing(PairingPictures, _Result):
+class Pairing(_WithPictures):
     """Impacts found in passages: the names of the JSON of ``recoil pair`` are attributes."""
 
     def __init__(self, texts: _recoil.PairTexts) -> None:
         self._texts = texts
         self._json = texts.json
         self._text = texts.text
+        self._pictures = texts.pictures
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The points as a frame, one row each, columns as in points.csv (diameters in um,
@@ -391,9 +431,6 @@ class Pairing(PairingPictures, _Result):
         path = Path(file)
         write_whole(path, self._texts.points)
         return path
-
-    def _read_pictures(self) -> str:
-        return self._texts.pictures
 
     def __repr__(self) -> str:
         return f"<recoil.Pairing: {self._texts.points.count(chr(10)) - 1} points>"

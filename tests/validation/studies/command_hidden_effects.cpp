@@ -39,14 +39,16 @@ std::vector<hidden::Answered> answers_to(const std::vector<hidden::CaseOrder>& o
   {
     const InterruptGuard guard;
     Progress progress("hidden effects", orders.size());
-    std::atomic<std::size_t> next = 0;  // threads take cases in the order of the plan
-    parallel_over(orders.size(), options.run.threads, [&](std::size_t) {
-      const std::size_t i = next++;
-      if (stop_requested()) return;
-      asked[i] = late() ? hidden::kept_answer(orders[i], options.run.keep)
-                        : hidden::ask(orders[i], options.binary, options.run.keep);
-      progress.advance();
-    });
+    std::atomic<std::size_t> next = 0;  // in the order of the plan, whoever is free
+    try {
+      parallel_over(orders.size(), options.run.threads, [&](std::size_t) {
+        const std::size_t i = next++;
+        asked[i] = late() ? hidden::kept_answer(orders[i], options.run.keep)
+                          : hidden::ask(orders[i], options.binary, options.run.keep);
+        progress.advance();
+      });
+    } catch (const CalledOff&) {  // by a signal
+    }
   }
   if (stop_requested()) {
     throw ComputationError(options.run.keep.empty()

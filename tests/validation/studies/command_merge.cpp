@@ -3,13 +3,10 @@
 #include <memory>
 #include <sstream>
 
-#include "core/arithmetic.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/program.hpp"
-#include "core/row_file.hpp"
+#include "core/resumable.hpp"
 #include "analysis/analysis.hpp"
-#include "report/words_parts.hpp"
 #include "validation/studies/commands.hpp"
 #include "validation/studies/study_list.hpp"
 
@@ -28,29 +25,23 @@ struct StudyMerge {
 /// A shard is one piece: its designs or cases are files of their own in the same folder.
 Origin origin_of_study(const std::string& command, std::size_t shards) {
   std::istringstream split(command);
-  Origin origin;
-  for (std::string word; split >> word;) origin.command.push_back(word);
-  origin.folder = fs::current_path().string();
-  origin.version = version();
-  origin.program = sha256_of_file("/proc/self/exe");
-  origin.inputs = study_key(".", command);
-  origin.pieces = shards;
-  origin.arithmetic = arithmetic_fingerprint();
-  return origin;
+  std::vector<std::string> words;
+  for (std::string word; split >> word;) words.push_back(word);
+  return origin_here(words, study_key(".", command), 0, shards, "");
 }
 
 void merge_study(const StudyMerge& flags) {
-  const std::vector<PartFile> parts = parts_of_one_origin(flags.folder);
-  const MissingShards missing = missing_in(parts, arithmetic_fingerprint());
+  const std::vector<Part> parts = parts_in(flags.folder);
   if (flags.missing) {
-    if (!missing.numbers.empty()) fmt::print("--array={}\n", array_list(missing.numbers));
+    const std::string missing = array_list(missing_shards(parts).numbers);
+    if (!missing.empty()) fmt::print("--array={}\n", missing);
     return;
   }
   std::string command;
   for (const std::string& word : parts.front().origin.command) {
     command += (command.empty() ? "" : " ") + word;
   }
-  parts_of(origin_of_study(command, parts.front().origin.pieces), flags.folder);
+  rows_of_parts(flags.folder, origin_of_study(command, parts.front().origin.pieces));
   std::vector<std::string> words = parts.front().origin.command;
   words.insert(words.end(), {"--keep", flags.folder});
   if (!flags.out.empty()) words.insert(words.end(), {"--out", flags.out});
@@ -81,9 +72,10 @@ bool wrote_part(const StudyRun& run) {
   if (run.shard.empty()) return false;
   const Shard shard = *shard_named(run.shard);
   const Origin origin = origin_of_study(run.command, shard.of);
-  const fs::path file = part_path(run.keep, origin, shard);
-  write_rows(file, part_head(origin, shard), {Json::array({shard.number - 1})});
-  fmt::print("{}: written\n", file.string());
+  KeptRows kept;
+  kept.put(shard.number - 1, true);
+  write_part(kept, run.keep, origin, shard);
+  fmt::print("{}: written\n", part_path(run.keep, origin, shard).string());
   return true;
 }
 
