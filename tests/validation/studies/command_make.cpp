@@ -55,7 +55,7 @@ void make_one(const Study& study) {
 
 StudyStamp StudyRun::stamp() const {
   const std::string study = out.empty() ? "" : fs::path(out).stem().string();
-  return {study, "recoil_study " + command, study_key(".", command), ""};
+  return {study, "recoil_study " + command, study_key(".", command)};
 }
 
 void add_run_options(CLI::App& command, StudyRun& run) {
