@@ -16,7 +16,7 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/predictor.hpp"
 #include "experiment/import.hpp"
-#include "experiment/option_values.hpp"
+#include "experiment/import_table.hpp"
 
 namespace recoil {
 namespace {

@@ -4,22 +4,74 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
-#include "data/dataset.hpp"
 #include "data/text.hpp"
-#include "experiment/import_columns.hpp"
-#include "experiment/import_diameters.hpp"
 #include "experiment/import_digitised.hpp"
 #include "experiment/import_flights.hpp"
 #include "experiment/import_package.hpp"
-#include "experiment/option_values.hpp"
+#include "experiment/import_table.hpp"
 
 namespace recoil {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// `map`, completed by the entries for columns of the file that the replaced package describes.
+std::vector<std::string> completed_map(const ImportRequest& request,
+                                       const std::vector<std::string>& package_map) {
+  std::vector<std::string> map = request.map;
+  std::set<std::string> mapped;
+  for (const std::string& entry : split_lists(map)) {
+    if (const auto pair = split_pair(entry)) mapped.insert(pair->first);
+  }
+  std::set<std::string> columns;
+  const CsvRow header = import_rows(request.file).front();
+  for (const CsvField& cell : header) columns.insert(cell.text);
+  for (const std::string& entry : package_map) {
+    const auto pair = split_pair(entry);
+    const std::string column = pair->second.substr(0, pair->second.find(':'));
+    if (columns.contains(column) && !mapped.contains(pair->first)) map.push_back(entry);
+  }
+  return map;
+}
+
+/// Any table: its quantities are those of a dataset.
+/// @param package_map entries for columns that the replaced dataset describes
+ImportedPoints read_columns(const ImportRequest& request,
+                            const std::vector<std::string>& package_map) {
+  std::vector<ImportQuantity> known;
+  for (const Quantity quantity : values_of<Quantity>()) {
+    known.push_back(
+        {to_string(quantity), dimension_of(quantity), quantity == Quantity::incident_velocity});
+  }
+  const ImportTable table(request.file, completed_map(request, package_map), known);
+  if (table.has("restitution") == table.has("rebound_velocity")) {
+    throw InputError({request.file.string(), 1, 1},
+                     table.has("restitution") ? "both restitution and rebound_velocity are there"
+                                              : "which column is the rebound?",
+                     table.has("restitution") ? "they could contradict each other" : "",
+                     "name one with --map restitution=COLUMN or rebound_velocity=COLUMN:m/s");
+  }
+  ImportedPoints out;
+  for (std::size_t r = 0; r < table.size(); ++r) {
+    ImportedPoint point;
+    point.line = table.line(r);
+    point.series = table.text(r, "series");
+    if (point.series.empty()) point.series = default_series(request);
+    point.setting = table.text(r, "setting");
+    table.needed(r, "incident_velocity");
+    for (const ImportQuantity& quantity : known) {
+      if (quantity.dimension == Dimension::text) continue;
+      point.value[*value_named<Quantity>(quantity.name)] = table.value(r, quantity.name);
+    }
+    out.points.push_back(point);
+  }
+  const std::vector<std::string> unused = table.unused();
+  if (!unused.empty()) out.notes.push_back({ImportRemark::columns_not_used, unused});
+  return out;
+}
 
 ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
                               const std::vector<std::string>& package_map) {
@@ -36,26 +88,26 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
   return read_columns(request, package_map);
 }
 
-/// The scatter of the experiment on top of what the readings contribute.
+/// Adds the scatter of the experiment to the errors of the readings.
 void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& points) {
   const StatedError scatter = stated_error(request.scatter, Dimension::ratio, "--scatter");
   if (!scatter.stated()) return;
   for (ImportedPoint& point : points) {
-    if (!point.restitution && !point.rebound_velocity) continue;
-    const double e =
-        point.restitution ? *point.restitution : *point.rebound_velocity / point.velocity;
-    const double sd = std::hypot(point.restitution_sd.value_or(0.0), scatter.of(e));
-    if (sd > 0.0) point.restitution_sd = sd;
+    const auto e = point.restitution();
+    if (!e) continue;
+    auto& error = point.value[Quantity::restitution_sd];
+    const double sd = std::hypot(error.value_or(0.0), scatter.of(*e));
+    if (sd > 0.0) error = sd;
   }
 }
 
-/// Messages of the dataset reader speak of files that nobody has seen yet: points at the line of
-/// the imported file from which a point came.
-[[noreturn]] void blame_the_source(const InputError& error, const ImportRequest& request,
-                                   const fs::path& points_file,
-                                   const std::vector<ImportedPoint>& points) {
+/// Throws an error of the dataset that is not written yet again, with the line of the imported file
+/// from which the point comes.
+[[noreturn]] void fail_in_source(const InputError& error, const ImportRequest& request,
+                                 const fs::path& points_file,
+                                 const std::vector<ImportedPoint>& points) {
   const Location& at = error.where();
-  // Nothing in the file is to blame for a material.
+  // Errors of materials have no place in the imported file.
   Location place{at.file == points_file.string() ? request.file.string() : std::string()};
   const auto row = static_cast<std::size_t>(at.line) - 2;
   if (at.file == points_file.string() && at.line >= 2 && row < points.size()) {
@@ -79,7 +131,8 @@ void require_free(const ImportRequest& request) {
   }
 }
 
-/// Points that a recipe made do not become digitised by being imported.
+/// Refuses points of the reconstruction that is to be replaced: importing does not make them
+/// digitised.
 void refuse_reconstructed_points(const ImportRequest& request, const Dataset& imported) {
   const Dataset before = load_dataset(request.into);
   const auto known = [&](const ImpactPoint& point) {
@@ -94,11 +147,11 @@ void refuse_reconstructed_points(const ImportRequest& request, const Dataset& im
   throw InputError(
       {request.file.string()},
       fmt::format("{} of {} points are those of the reconstruction", same, imported.points.size()),
-      "a recipe made them; nobody measured or digitised them",
+      "a recipe made them; they were not measured or digitised",
       "import points of an experiment, or give --provenance synthetic");
 }
 
-/// Keeps the recipe of a former reconstruction where nothing takes it for the folder's.
+/// Renames the recipe of a former reconstruction, so that it does not count as the folder's own.
 void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
   std::error_code failed;
   if (!fs::exists(folder / recipe_name, failed)) return;
@@ -114,7 +167,7 @@ void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
 
 ImportResult import_points(const ImportRequest& request) {
   require_free(request);
-  read_text_file(request.file);  // a missing file is complained of before anything is asked for
+  read_text_file(request.file);  // a missing file is reported before missing options
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();
   ImportResult result;
@@ -131,14 +184,14 @@ ImportResult import_points(const ImportRequest& request) {
   try {
     result.dataset = parse_dataset(package, points.csv, request.into);
   } catch (const InputError& error) {
-    blame_the_source(error, request, points_file, imported.points);
+    fail_in_source(error, request, points_file, imported.points);
   }
   if (existing && existing->provenance == Provenance::reconstruction &&
       result.dataset.provenance != Provenance::synthetic) {
     refuse_reconstructed_points(request, result.dataset);
   }
-  // Should the run be cut short in between, new points stand under the old label, which claims no
-  // more than they are; without a package the folder is no dataset yet.
+  // The points are written first: if the program ends in between, the old label claims no more than
+  // the new points are, and without a package the folder is not yet a dataset.
   require_writable_folder(request.into);
   write_whole_files({{points_file, points.csv}, {request.into / package_file_name, package}});
   set_recipe_aside(request.into, result.notes);

@@ -13,11 +13,11 @@
 
 namespace recoil {
 
-/// What the file to be imported holds.
+/// The content of the file to be imported.
 enum class ImportFormat {
   webplotdigitizer,  ///< points read off a figure, one or several series
   heights,           ///< drop and rebound heights
-  intervals,         ///< times between, or of, successive bounces
+  intervals,         ///< times of successive bounces, or between them
   csv,               ///< any table, with a map of its columns
 };
 
@@ -28,13 +28,13 @@ struct NamesOf<ImportFormat> {
                                                             "intervals", "csv"};
 };
 
-/// What to import, and everything that the file itself cannot tell, as on the command line. Values
-/// with units are words such as "4.9um", errors are "2%" (of the value) or "0.5mm".
+/// What to import, and what the file does not state, as on the command line. Values with units are
+/// words such as "4.9um", errors are "2%" (of the value) or "0.5mm".
 struct ImportRequest {
   std::filesystem::path file;
   ImportFormat format = ImportFormat::csv;
   std::filesystem::path into;  ///< the dataset's folder
-  bool replace = false;        ///< the points of a dataset that is already there
+  bool replace = false;        ///< replace the points of the dataset in the folder
 
   std::vector<std::string> map;        ///< "quantity=column:unit"
   std::vector<std::string> diameters;  ///< "4.9um" for all, "SERIES=4.9um" for one
@@ -46,13 +46,13 @@ struct ImportRequest {
   std::filesystem::path like;             ///< a dataset whose materials are the same
   std::optional<double> adhesion_energy;  ///< [J/m2]; 0: no adhesion
 
-  std::optional<Provenance> provenance;  ///< that of the format when it is not stated
+  std::optional<Provenance> provenance;  ///< if not stated, that of the format
   std::string title;
   std::vector<std::string> sources;
 
   std::vector<std::string> axes;  ///< "x=log,1,100" or "y=linear,0,1,600px"
   std::string reading_error;      ///< "0.5%" of an axis, or "2px"
-  std::string scatter;            ///< of e, beside the errors of the reading
+  std::string scatter;            ///< of e, in addition to the errors of the reading
   double captured_below = 0.0;    ///< a restitution below this is a capture [1]
 
   std::string drop_error, rebound_error;   ///< of the heights
@@ -63,7 +63,7 @@ struct ImportRequest {
   std::optional<double> temperature;       ///< [K]
 };
 
-/// What was assumed, left out or found by a check.
+/// An assumption, an omission or the result of a check.
 enum class ImportRemark {
   diameter_not_used,     ///< --diameter, though every point has its own
   diameters_from_names,  ///< `names`: the series whose names hold their diameters
@@ -74,10 +74,10 @@ enum class ImportRemark {
   no_drop_error,
   without_air,      ///< heights: V = sqrt(2 g h)
   same_point,       ///< heights: both of the same point of the ball
-  air_drag,         ///< `air`: what the air's drag makes of e
-  turbulent_air,    ///< `air`: faster than the law of drag knows
+  air_drag,         ///< `air`: the effect of the air's drag on e
+  turbulent_air,    ///< `air`: faster than the range of the drag law
   bounces_missing,  ///< `count` pairs of intervals left out
-  release_heights,  ///< `releases`: a check, no point rests on them
+  release_heights,  ///< `releases`: a check, no point depends on them
   shared_bounces,   ///< errors of successive points are not independent
   no_source,
   licence_removed,  ///< that of the reconstruction
@@ -90,10 +90,10 @@ struct ReleaseCheck {
   double height = 0.0;   ///< as stated [m]
   double first = 0.0;    ///< mean e of the first bounce, with the stated height [1]
   double second = 0.0;   ///< mean e of the second [1]
-  double missing = 0.0;  ///< by how much the ball seems to have fallen further [m]
+  double missing = 0.0;  ///< by how much the ball seems to have fallen farther [m]
 };
 
-/// What the drag of the air does to a restitution that is read without it.
+/// The effect of the drag of the air on a restitution that is read without it.
 struct AirShare {
   double pressure = 0.0;                ///< [Pa]
   double temperature = 0.0;             ///< [K]
@@ -121,14 +121,13 @@ struct ImportResult {
 /// datapackage.json, each whole or not at all; nothing is written before both are known to be
 /// valid.
 ///
-/// With `replace` the package that is there keeps its name, its materials and its other resources.
-/// An override of K, W_A or f0 that contradicts the materials is never taken over, neither from it
-/// nor from `like`.
-/// When it was a reconstruction, its recipe.toml is kept aside as recipe-set-aside.toml (no command
-/// takes it for the folder's recipe any more; recipes of other folders may still compare with it).
+/// With `replace` the existing package keeps its name, its materials and its other resources. An
+/// override of K, W_A or f0 that contradicts the materials is never taken over, neither from it nor
+/// from `like`. The recipe.toml of a reconstruction is renamed to recipe-set-aside.toml: it is no
+/// longer the folder's recipe, but recipes of other folders may still compare with it.
 ///
-/// @throws InputError for a mistake in the file, and with the name of the option for whatever only
-///   the user can know and has not said.
+/// @throws InputError for a mistake in the file, and for missing information with the name of the
+///   option that states it.
 ImportResult import_points(const ImportRequest& request);
 
 }  // namespace recoil

@@ -6,111 +6,39 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <tuple>
+#include <utility>
 
-#include "core/error.hpp"
-#include "data/limits.hpp"
 #include "data/text.hpp"
-#include "experiment/import_diameters.hpp"
-#include "experiment/import_table.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr double thinnest_air = 1e-3;     // [Pa]
-constexpr double slowest_gravity = 1e-3;  // [m/s2]
-constexpr double fastest_gravity = 1e3;
+constexpr double thinnest_air = 1e-3;  // [Pa]
+constexpr Range gravities{1e-3, 1e3, "m/s2"};
 
-std::string fallback_series(const ImportRequest& request) {
-  return request.series.empty() ? request.file.stem().string() : request.series;
+/// --gravity [m/s2].
+double gravity_of(const ImportRequest& request) {
+  const auto value = parse_number(request.gravity);
+  if (value && gravities.contains(*value)) return *value;
+  throw InputError(
+      {}, fmt::format("--gravity {} is not an acceleration in m/s2", quote(request.gravity)), "",
+      "write 9.80665 for standard gravity");
 }
 
-void require_positive(const ImportTable& table, std::size_t row, const std::string& quantity,
-                      double value) {
-  if (value > 0.0) return;
-  table.fail(row, quantity, fmt::format("{} = {:g}", quantity, value), "it has to be positive",
-             "correct it or remove the row");
-}
-
-/// The flights of one launch, in order.
-struct Flight {
-  double duration = 0.0;  ///< [s]
-  double bounce = 0.0;    ///< number of the bounce with which it begins
-  std::size_t row = 0;
-};
-
-/// One bounce as its time is given.
-struct Bounce {
-  double time = 0.0;             ///< [s]
-  std::optional<double> number;  ///< where bounces are counted
-};
-
-struct Launch {
-  std::string name;
-  std::optional<double> release;  ///< [m]
-  std::optional<double> diameter;
-  std::vector<Flight> flights;
-};
-
-std::vector<Launch> gather_launches(const ImportTable& table, const ImportRequest& request) {
-  std::vector<Launch> launches;
-  std::map<std::string, std::size_t> index;
-  std::map<std::string, Bounce> last;  // of each launch, when times are given
-  const bool times = table.has("time");
-  for (std::size_t r = 0; r < table.size(); ++r) {
-    std::string name = table.text(r, "launch");
-    if (name.empty()) name = fallback_series(request);
-    const auto [known, added] = index.try_emplace(name, launches.size());
-    if (added) launches.push_back({name, {}, {}, {}});
-    Launch& launch = launches[known->second];
-    if (added) {
-      launch.release = table.value(r, "release_height");
-      launch.diameter = table.value(r, "diameter");
-    }
-    const std::string quantity = times ? "time" : "interval";
-    double duration = table.needed(r, quantity);
-    const std::optional<double> number = table.value(r, "bounce");
-    if (times) {
-      const auto [before, first] = last.try_emplace(name, Bounce{duration, number});
-      if (first) continue;  // it begins the first flight
-      const Bounce now{duration, number};
-      duration -= before->second.time;
-      const bool missed =
-          number && before->second.number && *number != *before->second.number + 1.0;
-      before->second = now;
-      if (missed) continue;
-    }
-    require_positive(table, r, quantity, duration);
-    const double bounce = number.value_or(static_cast<double>(launch.flights.size() + 1));
-    launch.flights.push_back({duration, bounce, r});
-  }
-  for (Launch& launch : launches) {
-    std::stable_sort(launch.flights.begin(), launch.flights.end(),
-                     [](const Flight& a, const Flight& b) { return a.bounce < b.bounce; });
-    const auto twice =
-        std::adjacent_find(launch.flights.begin(), launch.flights.end(),
-                           [](const Flight& a, const Flight& b) { return a.bounce == b.bounce; });
-    if (twice != launch.flights.end()) {
-      table.fail(std::next(twice)->row, "bounce",
-                 fmt::format("bounce {:g} of launch '{}' appears here and on line {}",
-                             twice->bounce, launch.name, table.line(twice->row)),
-                 "the ratio of intervals of two launches is not a restitution",
-                 "if several columns name a launch, join them: --map launch=COLUMN+COLUMN");
-    }
-  }
-  return launches;
-}
-
-/// The spheres of one import in their air, and what it does to e.
-class Reduction {
+/// The flights of the spheres of one import, and the effect of the air on e.
+class Flights {
  public:
-  Reduction(const ImportRequest& request, const SphereInAir& sphere, double gravity)
-      : request_(request), sphere_(sphere), gravity_(gravity) {}
+  Flights(const ImportRequest& request, const SphereInAir& sphere)
+      : request_(request), sphere_(sphere), gravity_(gravity_of(request)) {}
 
-  /// The flights of a sphere of `series`; nothing in vacuum, and where size, density or air are
-  /// unknown or impossible (the dataset is refused then).
-  std::optional<AirFlight> flights_of(const std::string& series,
-                                      const std::optional<double>& in_file) const {
-    const std::optional<double> diameter = known_diameter(request_, series, in_file);
+  double gravity() const { return gravity_; }
+
+  /// The flights of a sphere of `series` in air; nullopt in vacuum, and where size, density or air
+  /// are unknown or impossible (the dataset is refused then).
+  std::optional<AirFlight> in_air(const std::string& series,
+                                  const std::optional<double>& diameter_in_file) const {
+    const auto diameter = known_diameter(request_, series, diameter_in_file);
     const bool possible = diameter && limits::diameter.contains(*diameter) &&
                           limits::density.contains(sphere_.density) && air_acts(sphere_.air) &&
                           limits::pressure.contains(sphere_.air.pressure) &&
@@ -119,33 +47,32 @@ class Reduction {
     return AirFlight(sphere_.air, *diameter, sphere_.density, gravity_);
   }
 
-  /// Keeps what the air did to one point. @param plain e as it would be in vacuum
-  void add(const ImportTable& table, std::size_t row, const std::string& quantity,
-           const AirFlight& flights, const ImportedPoint& point, double plain) {
-    const double e = *point.restitution;
-    if (!(e <= limits::restitution.upper) && plain <= limits::restitution.upper) {
-      table.fail(
-          row, quantity,
-          fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
-                      sphere_.air.pressure),
-          "a sphere of this size and density could not have flown so far",
-          "check the units in --map, --diameter and the density, or write --ambient-pressure 0 "
-          "for vacuum");
+  /// Notes the effect of the air on one point. @param in_vacuum e as it would be in vacuum
+  void note_drag(const ImportTable& table, std::size_t row, const std::string& quantity,
+                 const AirFlight& air, double velocity, double e, double in_vacuum) {
+    constexpr double largest = limits::restitution.upper;
+    if (!(e <= largest) && in_vacuum <= largest) {
+      table.fail(row, quantity,
+                 fmt::format("restitution = {:.3g} when the drag of air at {:g} Pa is taken out", e,
+                             sphere_.air.pressure),
+                 "a sphere of this size and density could not have flown so far",
+                 "check the units in --map, --diameter and the density, or write "
+                 "--ambient-pressure 0 for vacuum");
     }
-    const double share = e > 0.0 ? 1.0 - plain / e : 0.0;
-    if (!any_ || point.velocity < share_.slow) {
-      share_.slow = point.velocity;
+    const double share = e > 0.0 ? 1.0 - in_vacuum / e : 0.0;
+    if (!any_ || velocity < share_.slow) {
+      share_.slow = velocity;
       share_.slow_share = share;
     }
-    if (!any_ || point.velocity > share_.fast) {
-      share_.fast = point.velocity;
+    if (!any_ || velocity > share_.fast) {
+      share_.fast = velocity;
       share_.fast_share = share;
     }
-    share_.reynolds = std::max(share_.reynolds, flights.reynolds(point.velocity));
+    share_.reynolds = std::max(share_.reynolds, air.reynolds(velocity));
     any_ = true;
   }
 
-  void note(std::vector<ImportNote>& notes) const {
+  void add_notes(std::vector<ImportNote>& notes) const {
     if (!any_) return;
     ImportNote note{ImportRemark::air_drag};
     note.air = share_;
@@ -165,52 +92,237 @@ class Reduction {
   AirShare share_;
 };
 
-/// What the first two flights say of the height from which the ball was released, were its first
-/// bounce like its second.
-std::vector<ReleaseCheck> release_check(const std::vector<Launch>& launches, double gravity,
-                                        const Reduction& reduction) {
-  struct Sum {
-    double first = 0.0;    // e of the first bounce, with the stated height
-    double second = 0.0;   // e of the second
-    double missing = 0.0;  // of the height [m]
-    double count = 0.0;
-  };
-  std::map<double, Sum> by_height;
+/// One drop, or all drops of one sphere from the same height.
+struct Drops {
+  std::string series;
+  std::optional<double> diameter;  ///< [m], as the file states it
+  double velocity = 0.0;           ///< [m/s]
+  double height = 0.0;             ///< [m]
+  double height_sd = 0.0;          ///< [m]
+  double rebound_sd = 0.0;         ///< of one rebound height [m]
+  std::vector<double> e;           ///< of the rebounds
+  std::vector<double> in_vacuum;   ///< e as it would be in vacuum
+  double captured = 0.0;           ///< number of captures
+  int line = 0;
+};
+
+struct HeightErrors {
+  StatedError drop;
+  StatedError rebound;
+};
+
+Drops read_drop(const ImportTable& table, std::size_t r, const ImportRequest& request,
+                const HeightErrors& errors, Flights& flights) {
+  Drops drop;
+  drop.height = table.positive(r, "drop_height");
+  const double rebound = table.needed(r, "rebound_height");
+  if (rebound < 0.0) table.positive(r, "rebound_height");
+  drop.series = table.text(r, "series");
+  if (drop.series.empty()) drop.series = default_series(request);
+  drop.diameter = table.value(r, "diameter");
+  drop.line = table.line(r);
+  drop.height_sd = table.value(r, "drop_height_sd").value_or(errors.drop.of(drop.height));
+  drop.rebound_sd = table.value(r, "rebound_height_sd").value_or(errors.rebound.of(rebound));
+  const double in_vacuum = std::sqrt(rebound / drop.height);
+  const auto air = flights.in_air(drop.series, drop.diameter);
+  drop.velocity =
+      air ? air->fall(drop.height).speed : std::sqrt(2.0 * flights.gravity() * drop.height);
+  const double e = air ? air->launch_for_height(rebound) / drop.velocity : in_vacuum;
+  if (!(rebound > 0.0) || e < request.captured_below) {
+    drop.captured = 1.0;
+    return drop;
+  }
+  drop.e = {e};
+  drop.in_vacuum = {in_vacuum};
+  if (air) flights.note_drag(table, r, "rebound_height", *air, drop.velocity, e, in_vacuum);
+  return drop;
+}
+
+/// Joins the drops of one sphere from the same height, in the order of the file.
+std::vector<Drops> joined(const std::vector<Drops>& drops) {
+  std::vector<Drops> groups;
+  std::map<std::tuple<std::string, double, std::optional<double>>, std::size_t> index;
+  for (const Drops& drop : drops) {
+    const auto [known, added] =
+        index.try_emplace({drop.series, drop.height, drop.diameter}, groups.size());
+    if (added) {
+      groups.push_back(drop);
+      continue;
+    }
+    Drops& group = groups[known->second];
+    if (group.e.empty()) group.rebound_sd = drop.rebound_sd;
+    group.e.insert(group.e.end(), drop.e.begin(), drop.e.end());
+    group.in_vacuum.insert(group.in_vacuum.end(), drop.in_vacuum.begin(), drop.in_vacuum.end());
+    group.captured += drop.captured;
+  }
+  return groups;
+}
+
+/// The mean of the drops. Their error is that of the rebound heights, as stated or as the
+/// repetitions show it, whichever is larger, and that of the drop height, which they share.
+ImportedPoint mean_of(const Drops& drops) {
+  ImportedPoint point;
+  point.series = drops.series;
+  point.line = drops.line;
+  point.value[Quantity::diameter] = drops.diameter;
+  point.value[Quantity::incident_velocity] = drops.velocity;
+  if (drops.height_sd > 0.0) {
+    point.value[Quantity::velocity_sd] = 0.5 * drops.velocity * drops.height_sd / drops.height;
+  }
+  if (drops.e.empty()) return point;
+  const double n = static_cast<double>(drops.e.size());
+  double mean = 0.0;
+  for (const double e : drops.e) mean += e / n;
+  double in_vacuum = 0.0;
+  for (const double e : drops.in_vacuum) in_vacuum += e / n;
+  double squares = 0.0;
+  for (const double e : drops.e) squares += (e - mean) * (e - mean);
+  double own =
+      drops.rebound_sd / (2.0 * drops.height * in_vacuum) * (mean / in_vacuum) / std::sqrt(n);
+  if (drops.e.size() > 1) own = std::max(own, std::sqrt(squares / (n - 1.0) / n));
+  const double sd = std::hypot(own, 0.5 * mean * drops.height_sd / drops.height);
+  point.value[Quantity::restitution] = mean;
+  if (sd > 0.0) point.value[Quantity::restitution_sd] = sd;
+  return point;
+}
+
+/// A flight between two bounces.
+struct Flight {
+  double duration = 0.0;  ///< [s]
+  double bounce = 0.0;    ///< number of the bounce with which it begins
+  std::size_t row = 0;
+};
+
+/// The flights of one ball after its release.
+struct Launch {
+  std::string name;
+  std::optional<double> release;  ///< height [m]
+  std::optional<double> diameter;
+  std::vector<Flight> flights;  ///< by number of the bounce
+};
+
+/// The time of a bounce, and its number where bounces are counted.
+struct Bounce {
+  double time = 0.0;  ///< [s]
+  std::optional<double> number;
+};
+
+/// Sorts the flights by the number of their bounce. @throws InputError for a number that is there
+/// twice.
+void sort_flights(const ImportTable& table, Launch& launch) {
+  std::vector<Flight>& flights = launch.flights;
+  std::stable_sort(flights.begin(), flights.end(),
+                   [](const Flight& a, const Flight& b) { return a.bounce < b.bounce; });
+  const auto twice =
+      std::adjacent_find(flights.begin(), flights.end(),
+                         [](const Flight& a, const Flight& b) { return a.bounce == b.bounce; });
+  if (twice == flights.end()) return;
+  table.fail(std::next(twice)->row, "bounce",
+             fmt::format("bounce {:g} of launch '{}' appears here and on line {}", twice->bounce,
+                         launch.name, table.line(twice->row)),
+             "the ratio of intervals of two launches is not a restitution",
+             "if several columns name a launch, join them: --map launch=COLUMN+COLUMN");
+}
+
+std::vector<Launch> read_launches(const ImportTable& table, const ImportRequest& request) {
+  std::vector<Launch> launches;
+  std::map<std::string, std::size_t> index;
+  std::map<std::string, Bounce> last;  // of each launch, when times are given
+  for (std::size_t r = 0; r < table.size(); ++r) {
+    std::string name = table.text(r, "launch");
+    if (name.empty()) name = default_series(request);
+    const auto [known, added] = index.try_emplace(name, launches.size());
+    if (added) {
+      launches.push_back({name, table.value(r, "release_height"), table.value(r, "diameter"), {}});
+    }
+    Launch& launch = launches[known->second];
+    const std::optional<double> number = table.value(r, "bounce");
+    double duration = 0.0;
+    if (table.has("interval")) {
+      duration = table.positive(r, "interval");
+    } else {
+      const Bounce now{table.needed(r, "time"), number};
+      const auto [before, first] = last.try_emplace(name, now);
+      if (first) continue;  // it begins the first flight
+      const Bounce previous = std::exchange(before->second, now);
+      if (number && previous.number && *number != *previous.number + 1.0) continue;  // one missed
+      duration = now.time - previous.time;
+      if (!(duration > 0.0)) {
+        table.fail(r, "time", fmt::format("time = {:g}", duration), "it has to be positive",
+                   "correct it or remove the row");
+      }
+    }
+    const double bounce = number.value_or(static_cast<double>(launch.flights.size() + 1));
+    launch.flights.push_back({duration, bounce, r});
+  }
+  for (Launch& launch : launches) sort_flights(table, launch);
+  return launches;
+}
+
+/// The release height that the first two flights imply if the first bounce was like the second.
+std::vector<ReleaseCheck> release_checks(const std::vector<Launch>& launches,
+                                         const Flights& flights) {
+  const double g = flights.gravity();
+  std::map<double, std::vector<ReleaseCheck>> by_height;
   for (const Launch& launch : launches) {
     if (!launch.release || launch.flights.size() < 2 || !(*launch.release > 0.0)) continue;
     if (launch.flights[1].bounce != launch.flights[0].bounce + 1.0) continue;
     const double height = *launch.release;
-    double first = 0.5 * gravity * launch.flights[0].duration / std::sqrt(2.0 * gravity * height);
-    double second = launch.flights[1].duration / launch.flights[0].duration;
-    double missing = (first * first / (second * second) - 1.0) * height;
-    if (const auto air = reduction.flights_of(launch.name, launch.diameter)) {
-      const double up = air->launch_for_duration(launch.flights[0].duration);
-      first = up / air->fall(height).speed;
-      second = air->launch_for_duration(launch.flights[1].duration) / air->return_speed(up);
-      missing = air->fall_to_reach(up / second) - height;
-      if (!std::isfinite(missing)) continue;
+    const double t0 = launch.flights[0].duration;
+    const double t1 = launch.flights[1].duration;
+    ReleaseCheck check{height, 0.5 * g * t0 / std::sqrt(2.0 * g * height), t1 / t0, 0.0};
+    check.missing = (check.first * check.first / (check.second * check.second) - 1.0) * height;
+    if (const auto air = flights.in_air(launch.name, launch.diameter)) {
+      const double up = air->launch_for_duration(t0);
+      check.first = up / air->fall(height).speed;
+      check.second = air->launch_for_duration(t1) / air->return_speed(up);
+      check.missing = air->fall_to_reach(up / check.second) - height;
+      if (!std::isfinite(check.missing)) continue;
     }
-    Sum& sum = by_height[height];
-    sum.first += first;
-    sum.second += second;
-    sum.missing += missing;
-    sum.count += 1.0;
+    by_height[height].push_back(check);
   }
-  std::vector<ReleaseCheck> checks;
-  for (const auto& [height, sum] : by_height) {
-    checks.push_back(
-        {height, sum.first / sum.count, sum.second / sum.count, sum.missing / sum.count});
+  std::vector<ReleaseCheck> means;
+  for (const auto& [height, checks] : by_height) {
+    ReleaseCheck sum{height};
+    for (const ReleaseCheck& check : checks) {
+      sum.first += check.first;
+      sum.second += check.second;
+      sum.missing += check.missing;
+    }
+    const auto count = static_cast<double>(checks.size());
+    means.push_back({height, sum.first / count, sum.second / count, sum.missing / count});
   }
-  return checks;
+  return means;
 }
 
-/// --gravity [m/s2].
-double gravity_of(const ImportRequest& request) {
-  const auto value = parse_number(request.gravity);
-  if (value && *value >= slowest_gravity && *value <= fastest_gravity) return *value;
-  throw InputError(
-      {}, fmt::format("--gravity {} is not an acceleration in m/s2", quote(request.gravity)), "",
-      "write 9.80665 for standard gravity");
+/// The bounce between two successive flights.
+ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch& launch,
+                             const ImportTable& table, const StatedError& time, Flights& flights) {
+  const double g = flights.gravity();
+  const double e_vacuum = back.duration / in.duration;
+  const double v_vacuum = 0.5 * g * in.duration;
+  double e = e_vacuum;
+  double v = v_vacuum;
+  if (const auto air = flights.in_air(launch.name, launch.diameter)) {
+    v = air->return_speed(air->launch_for_duration(in.duration));
+    e = air->launch_for_duration(back.duration) / v;
+    flights.note_drag(table, back.row, table.has("time") ? "time" : "interval", *air, v, e,
+                      e_vacuum);
+  }
+  ImportedPoint point;
+  point.series = launch.name;
+  point.line = table.line(back.row);
+  point.value[Quantity::diameter] = launch.diameter;
+  point.value[Quantity::incident_velocity] = v;
+  point.value[Quantity::restitution] = e;
+  if (time.stated()) {
+    const double tau = time.of(in.duration);
+    const double sd_vacuum =
+        tau / in.duration * std::sqrt(2.0 * (1.0 + e_vacuum + e_vacuum * e_vacuum));
+    point.value[Quantity::restitution_sd] = sd_vacuum * (e / e_vacuum);
+    point.value[Quantity::velocity_sd] = g * tau / std::sqrt(2.0) * (v / v_vacuum);
+  }
+  return point;
 }
 
 }  // namespace
@@ -225,106 +337,42 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
                            {"rebound_height", Dimension::length, true},
                            {"drop_height_sd", Dimension::length},
                            {"rebound_height_sd", Dimension::length}});
-  const StatedError drop = stated_error(request.drop_error, Dimension::length, "--drop-error");
-  const StatedError rebound =
-      stated_error(request.rebound_error, Dimension::length, "--rebound-error");
-  const double g = gravity_of(request);
-  Reduction reduction(request, sphere, g);
-  ImportedPoints out;
-  struct Group {
-    ImportedPoint point;
-    double drop = 0.0;
-    double drop_sd = 0.0;
-    double rebound_sd = 0.0;
-    std::vector<double> e;      // of those that came back
-    std::vector<double> plain;  // e as it would be in vacuum
-    double captured = 0.0;
-  };
-  std::vector<Group> groups;
+  const HeightErrors errors = {
+      stated_error(request.drop_error, Dimension::length, "--drop-error"),
+      stated_error(request.rebound_error, Dimension::length, "--rebound-error")};
+  Flights flights(request, sphere);
+  std::vector<Drops> drops;
   for (std::size_t r = 0; r < table.size(); ++r) {
-    const double h1 = table.needed(r, "drop_height");
-    const double h2 = table.needed(r, "rebound_height");
-    require_positive(table, r, "drop_height", h1);
-    if (h2 < 0.0) require_positive(table, r, "rebound_height", h2);
-    Group group;
-    group.point.series = table.text(r, "series");
-    if (group.point.series.empty()) group.point.series = fallback_series(request);
-    group.point.diameter = table.value(r, "diameter");
-    group.point.line = table.line(r);
-    group.drop = h1;
-    group.drop_sd = table.value(r, "drop_height_sd").value_or(drop.of(h1));
-    group.rebound_sd = table.value(r, "rebound_height_sd").value_or(rebound.of(h2));
-    const double plain = std::sqrt(h2 / h1);
-    group.point.velocity = std::sqrt(2.0 * g * h1);
-    const auto air = reduction.flights_of(group.point.series, group.point.diameter);
-    if (air) group.point.velocity = air->fall(h1).speed;
-    const double e = air ? air->launch_for_height(h2) / group.point.velocity : plain;
-    if (h2 > 0.0 && e >= request.captured_below) {
-      group.plain = {plain};
-      group.e = {e};
-      group.point.restitution = e;
-      if (air) reduction.add(table, r, "rebound_height", *air, group.point, plain);
-    } else {
-      group.captured = 1.0;
-    }
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& other) {
-      return other.drop == h1 && other.point.series == group.point.series &&
-             other.point.diameter == group.point.diameter;
-    });
-    if (request.average && same != groups.end()) {
-      if (same->e.empty()) same->rebound_sd = group.rebound_sd;
-      same->e.insert(same->e.end(), group.e.begin(), group.e.end());
-      same->plain.insert(same->plain.end(), group.plain.begin(), group.plain.end());
-      same->captured += group.captured;
-    } else {
-      groups.push_back(std::move(group));
-    }
+    drops.push_back(read_drop(table, r, request, errors, flights));
   }
-  // Where the table has captures, those that came back are no gaps either.
-  const bool counted = std::any_of(groups.begin(), groups.end(),
-                                   [](const Group& group) { return group.captured > 0.0; });
+  if (request.average) drops = joined(drops);
+  // Where the table has captures, rows without one have counted none.
+  const bool counted =
+      std::any_of(drops.begin(), drops.end(), [](const Drops& d) { return d.captured > 0.0; });
+  std::map<std::pair<std::string, double>, int> groups_of_height;
+  for (const Drops& d : drops) ++groups_of_height[{d.series, d.height}];
+  ImportedPoints out;
   bool few = false;
-  for (Group& group : groups) {
-    const double n = static_cast<double>(group.e.size());
-    double mean = 0.0;
-    for (const double e : group.e) mean += e / n;
-    double plain = 0.0;
-    for (const double e : group.plain) plain += e / n;
-    double square = 0.0;
-    for (const double e : group.e) square += (e - mean) * (e - mean);
-    // The error of the rebound: as stated, or what the repetitions show, whichever is larger.
-    double own = 0.0;
-    if (mean > 0.0) {
-      own = group.rebound_sd / (2.0 * group.drop * plain) * (mean / plain) / std::sqrt(n);
+  for (const Drops& d : drops) {
+    ImportedPoint point = mean_of(d);
+    few = few || (d.e.size() > 1 && d.e.size() < 5);
+    if (request.average || counted) {
+      point.value[Quantity::events] = static_cast<double>(d.e.size()) + d.captured;
     }
-    if (group.e.size() > 1) own = std::max(own, std::sqrt(square / (n - 1.0) / n));
-    few = few || (group.e.size() > 1 && group.e.size() < 5);
-    const double shared = 0.5 * mean * group.drop_sd / group.drop;
-    const double sd = std::hypot(own, shared);
-    group.point.restitution = n > 0.0 ? std::optional(mean) : std::nullopt;
-    if (sd > 0.0) group.point.restitution_sd = sd;
-    if (group.drop_sd > 0.0) {
-      group.point.velocity_sd = 0.5 * group.point.velocity * group.drop_sd / group.drop;
-    }
-    if (request.average || counted) group.point.events = n + group.captured;
-    if (counted) group.point.captured = group.captured;
+    if (counted) point.value[Quantity::captured] = d.captured;
     // Drops from one height share the error with which it was set.
-    const auto of_the_height = std::count_if(groups.begin(), groups.end(), [&](const Group& other) {
-      return other.drop == group.drop && other.point.series == group.point.series;
-    });
-    if (of_the_height > 1) {
-      group.point.setting =
-          fmt::format("{} from {:.6g} mm", group.point.series, group.drop / units::mm);
+    if (groups_of_height[{d.series, d.height}] > 1) {
+      point.setting = fmt::format("{} from {:.6g} mm", d.series, d.height / units::mm);
     }
-    out.points.push_back(group.point);
+    out.points.push_back(point);
   }
   if (few) out.notes.push_back({ImportRemark::few_drops});
-  if (!drop.stated() && !table.has("drop_height_sd")) {
+  if (!errors.drop.stated() && !table.has("drop_height_sd")) {
     out.notes.push_back({ImportRemark::no_drop_error});
   }
   out.notes.push_back(
       {air_acts(sphere.air) ? ImportRemark::same_point : ImportRemark::without_air});
-  reduction.note(out.notes);
+  flights.add_notes(out.notes);
   return out;
 }
 
@@ -343,45 +391,20 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
                           : "which column has the intervals?",
         "", "name one with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
   }
-  const bool times = table.has("time");
   const StatedError time = stated_error(request.time_error, Dimension::time, "--time-error");
-  const double g = gravity_of(request);
-  const std::vector<Launch> launches = gather_launches(table, request);
-  Reduction reduction(request, sphere, g);
+  Flights flights(request, sphere);
+  const std::vector<Launch> launches = read_launches(table, request);
   ImportedPoints out;
   std::size_t gaps = 0;
   for (const Launch& launch : launches) {
-    const auto air = reduction.flights_of(launch.name, launch.diameter);
     for (std::size_t i = 0; i + 1 < launch.flights.size(); ++i) {
       const Flight& in = launch.flights[i];
       const Flight& back = launch.flights[i + 1];
-      if (back.bounce != in.bounce + 1.0) {
+      if (back.bounce == in.bounce + 1.0) {
+        out.points.push_back(bounce_between(in, back, launch, table, time, flights));
+      } else {
         ++gaps;
-        continue;
       }
-      ImportedPoint point;
-      point.series = launch.name;
-      point.diameter = launch.diameter;
-      point.line = table.line(back.row);
-      point.velocity = 0.5 * g * in.duration;
-      const double e = back.duration / in.duration;
-      point.restitution = e;
-      if (time.stated()) {
-        const double tau = time.of(in.duration);
-        point.restitution_sd = tau / in.duration * std::sqrt(2.0 * (1.0 + e + e * e));
-        point.velocity_sd = g * tau / std::sqrt(2.0);
-      }
-      if (air) {
-        const double plain_velocity = point.velocity;
-        point.velocity = air->return_speed(air->launch_for_duration(in.duration));
-        point.restitution = air->launch_for_duration(back.duration) / point.velocity;
-        reduction.add(table, back.row, times ? "time" : "interval", *air, point, e);
-        if (time.stated()) {
-          *point.restitution_sd *= *point.restitution / e;
-          *point.velocity_sd *= point.velocity / plain_velocity;
-        }
-      }
-      out.points.push_back(point);
     }
   }
   if (out.points.empty()) {
@@ -390,9 +413,9 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
                      "state with --map launch=COLUMN which rows belong together");
   }
   if (gaps > 0) out.notes.push_back({ImportRemark::bounces_missing, {}, gaps});
-  const std::vector<ReleaseCheck> releases = release_check(launches, g, reduction);
+  const std::vector<ReleaseCheck> releases = release_checks(launches, flights);
   if (!releases.empty()) out.notes.push_back({ImportRemark::release_heights, {}, 0, releases});
-  reduction.note(out.notes);
+  flights.add_notes(out.notes);
   out.notes.push_back({ImportRemark::shared_bounces});
   return out;
 }

@@ -5,14 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/units.hpp"
-#include "data/csv.hpp"
-#include "data/datapackage.hpp"
-#include "data/dataset.hpp"
 #include "data/text.hpp"
-#include "experiment/option_values.hpp"
 
 namespace recoil {
 namespace {
@@ -74,7 +68,7 @@ Provenance provenance_for(const ImportRequest& request,
                    "give --provenance measured, or digitised if they were read off a figure");
 }
 
-/// Conditions that are stated, and those that the flights are reduced with.
+/// Writes the stated conditions; flights without any are through standard air.
 void put_conditions(const ImportRequest& request, Json& system) {
   const bool flights =
       request.format == ImportFormat::heights || request.format == ImportFormat::intervals;
@@ -89,7 +83,7 @@ void put_conditions(const ImportRequest& request, Json& system) {
   put("temperature", request.temperature, Air().temperature);
 }
 
-/// Fit for a Frictionless name.
+/// The name of the folder as a Frictionless name.
 std::string name_for(const std::filesystem::path& folder) {
   const std::filesystem::path plain = std::filesystem::absolute(folder).lexically_normal();
   std::string name = (plain.has_filename() ? plain : plain.parent_path()).filename().string();
@@ -156,7 +150,39 @@ Json sources_of(const ImportRequest& request, const std::optional<ExistingPackag
   return sources;
 }
 
-std::string number_text(double value) { return fmt::format("{:.9g}", value); }
+/// A column of points.csv.
+struct Output {
+  Quantity quantity;
+  std::string type;
+  std::string unit;     ///< empty for counts and texts
+  double factor = 1.0;  ///< to SI
+};
+
+/// The column of a quantity; diameters are in mm where all are a millimetre or more, else in um.
+Output output_of(Quantity quantity, bool millimetres) {
+  for (const Condition condition : values_of<Condition>()) {
+    if (quantity_of(condition) != quantity) continue;
+    return {quantity, "number", std::string(info_of(condition).unit)};
+  }
+  const Dimension dimension = dimension_of(quantity);
+  switch (dimension) {
+    case Dimension::text:
+      return {quantity, "string", ""};
+    case Dimension::count:
+      return {quantity, "integer", ""};
+    case Dimension::length:
+      return {quantity, "number", millimetres ? "mm" : "um", millimetres ? units::mm : units::um};
+    default:
+      return {quantity, "number", unit_names(dimension).front()};
+  }
+}
+
+std::string cell_of(const ImportedPoint& point, const Output& output) {
+  if (output.quantity == Quantity::series) return csv_cell(point.series);
+  if (output.quantity == Quantity::setting) return csv_cell(point.setting);
+  const auto value = point.value[output.quantity];
+  return value ? fmt::format("{:.9g}", *value / output.factor) : "";
+}
 
 }  // namespace
 
@@ -179,76 +205,32 @@ std::optional<ExistingPackage> existing_package(const std::filesystem::path& fol
 }
 
 PointsText points_text(const std::vector<ImportedPoint>& points) {
-  struct Output {
-    const char* name;
-    std::string unit;
-    double factor;
-    std::optional<double> (*value)(const ImportedPoint&);
-  };
-  const bool large = std::all_of(points.begin(), points.end(), [](const ImportedPoint& p) {
-    return p.diameter.value_or(0.0) >= units::mm;
-  });
-  const double length = large ? units::mm : units::um;
-  const std::string length_name = large ? "mm" : "um";
-  const bool rebound = std::any_of(points.begin(), points.end(), [](const ImportedPoint& p) {
-    return p.rebound_velocity.has_value();
-  });
-  const std::vector<Output> outputs = {
-      {"diameter", length_name, length, [](const ImportedPoint& p) { return p.diameter; }},
-      {"incident_velocity", "m/s", 1.0,
-       [](const ImportedPoint& p) { return std::optional<double>(p.velocity); }},
-      {rebound ? "rebound_velocity" : "restitution", rebound ? "m/s" : "1", 1.0,
-       rebound ? +[](const ImportedPoint& p) { return p.rebound_velocity; }
-               : +[](const ImportedPoint& p) { return p.restitution; }},
-      {"restitution_sd", "1", 1.0, [](const ImportedPoint& p) { return p.restitution_sd; }},
-      {"velocity_sd", "m/s", 1.0, [](const ImportedPoint& p) { return p.velocity_sd; }},
-      {"diameter_sd", length_name, length, [](const ImportedPoint& p) { return p.diameter_sd; }},
-      {"events", "", 1.0, [](const ImportedPoint& p) { return p.events; }},
-      {"captured", "", 1.0, [](const ImportedPoint& p) { return p.captured; }},
-  };
-  PointsText text;
-  text.fields.push_back(package_field("series", "string", ""));
-  text.csv = "series";
-  std::vector<const Output*> used;
-  for (const Output& output : outputs) {
-    const bool any = std::any_of(points.begin(), points.end(), [&](const ImportedPoint& p) {
-      return output.value(p).has_value();
+  const auto any = [&](Quantity quantity) {
+    return std::any_of(points.begin(), points.end(), [&](const ImportedPoint& point) {
+      return quantity == Quantity::setting ? !point.setting.empty()
+                                           : point.value[quantity].has_value();
     });
-    const bool always = std::string_view(output.name).starts_with("re") && output.factor == 1.0 &&
-                        std::string_view(output.name) != "restitution_sd";
-    if (!any && !always) continue;
-    used.push_back(&output);
-    text.csv += fmt::format(",{}", output.name);
-    text.fields.push_back(
-        package_field(output.name, output.unit.empty() ? "integer" : "number", output.unit));
-  }
-  const bool settings = std::any_of(points.begin(), points.end(),
-                                    [](const ImportedPoint& p) { return !p.setting.empty(); });
-  if (settings) {
-    text.csv += ",setting";
-    text.fields.push_back(package_field("setting", "string", ""));
-  }
-  std::vector<Condition> conditions;  // that are stated of some point
-  for (const Condition condition : values_of<Condition>()) {
-    if (std::any_of(points.begin(), points.end(),
-                    [&](const ImportedPoint& p) { return p.conditions.of(condition); })) {
-      conditions.push_back(condition);
-      text.csv += fmt::format(",{}", name_of(condition));
-      text.fields.push_back(package_field(std::string(name_of(condition)), "number",
-                                          std::string(info_of(condition).unit)));
-    }
+  };
+  const bool millimetres =
+      std::all_of(points.begin(), points.end(), [](const ImportedPoint& point) {
+        return point.value[Quantity::diameter].value_or(0.0) >= units::mm;
+      });
+  PointsText text;
+  std::vector<Output> outputs;
+  for (const Quantity quantity : values_of<Quantity>()) {
+    const bool always = quantity == Quantity::series ||
+                        (quantity == Quantity::restitution && !any(Quantity::rebound_velocity));
+    if (!always && !any(quantity)) continue;
+    const Output output = output_of(quantity, millimetres);
+    text.fields.push_back(package_field(to_string(quantity), output.type, output.unit));
+    text.csv += fmt::format("{}{}", outputs.empty() ? "" : ",", name_of(quantity));
+    outputs.push_back(output);
   }
   text.csv += '\n';
   for (const ImportedPoint& point : points) {
-    text.csv += csv_cell(point.series);
-    for (const Output* output : used) {
-      const auto value = output->value(point);
-      text.csv += value ? "," + number_text(*value / output->factor) : std::string(",");
-    }
-    if (settings) text.csv += "," + csv_cell(point.setting);
-    for (const Condition condition : conditions) {
-      const auto value = point.conditions.of(condition);
-      text.csv += value ? "," + number_text(*value) : std::string(",");
+    for (const Output& output : outputs) {
+      if (output.quantity != Quantity::series) text.csv += ',';
+      text.csv += cell_of(point, output);
     }
     text.csv += '\n';
   }

@@ -5,12 +5,11 @@
 
 #include "core/json.hpp"
 #include "experiment/import_flights.hpp"
-#include "experiment/imported_points.hpp"
 
 /// The two files of an imported dataset.
 namespace recoil {
 
-/// datapackage.json of the folder that is to be replaced.
+/// datapackage.json of the folder whose points are to be replaced.
 struct ExistingPackage {
   Json json;
   Provenance provenance = Provenance::measured;
@@ -18,7 +17,7 @@ struct ExistingPackage {
   std::vector<std::string> map;  ///< its columns as entries of --map
 };
 
-/// @throws InputError when it is there and not valid.
+/// nullopt when the folder has none. @throws InputError when it is not valid.
 std::optional<ExistingPackage> existing_package(const std::filesystem::path& folder);
 
 /// points.csv: um (or mm from a millimetre on), m/s; only columns with a value.
@@ -28,14 +27,14 @@ struct PointsText {
 };
 PointsText points_text(const std::vector<ImportedPoint>& points);
 
-/// What stands under the key `recoil` of the new datapackage.json: provenance, materials and the
+/// The object under the key `recoil` of the new datapackage.json: provenance, materials and the
 /// overrides that do not contradict them, conditions. Flights are through air of 101325 Pa and 293
-/// K unless the request or the package that is replaced say otherwise.
-/// @throws InputError that names the option for a material or provenance that nobody stated.
+/// K unless the request or the replaced package states other conditions.
+/// @throws InputError that names the option for a missing material or provenance.
 Json imported_system(const ImportRequest& request, const std::optional<ExistingPackage>& existing,
                      std::vector<ImportNote>& notes);
 
-/// What the readers of flights need of it.
+/// The sphere and the air that `system` states.
 SphereInAir sphere_in_air(const Json& system);
 
 /// datapackage.json.

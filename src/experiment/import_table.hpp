@@ -4,19 +4,76 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/units.hpp"
 #include "data/csv.hpp"
-#include "experiment/option_values.hpp"
+#include "data/datapackage.hpp"
+#include "experiment/import.hpp"
 
+/// What the readers of all import formats share: words of the command line, tables whose columns
+/// --map names, and the points that they make.
 namespace recoil {
+
+/// "4.9um", "4.9 um" -> 4.9e-6. @param option names it in messages: "--diameter"
+/// @throws InputError when it is not a number with a unit of this dimension.
+double value_with_unit(const std::string& word, Dimension dimension, const std::string& option);
+
+/// One standard deviation, relative to the value or absolute.
+struct StatedError {
+  double relative = 0.0;  ///< [1]
+  double absolute = 0.0;  ///< SI
+
+  bool stated() const { return relative > 0.0 || absolute > 0.0; }
+  double of(double value) const { return relative * value + absolute; }
+};
+
+/// "2%" is relative, "0.5mm" absolute, an empty word states nothing. Restitutions are given without
+/// a unit. @throws InputError
+StatedError stated_error(const std::string& word, Dimension dimension, const std::string& option);
+
+/// Splits at commas that are not inside quotation marks, blanks around the parts dropped.
+std::vector<std::string> split_list(std::string_view text);
+
+/// All parts of options that may be given several times, each a list.
+std::vector<std::string> split_lists(const std::vector<std::string>& lists);
+
+/// "name=value" at the first '='; nullopt when there is none.
+std::optional<std::pair<std::string, std::string>> split_pair(const std::string& word);
+
+/// An imported point, SI.
+struct ImportedPoint {
+  std::string series;
+  std::string setting;                              ///< empty where the file has none
+  PerValue<Quantity, std::optional<double>> value;  ///< of all quantities but texts
+  int line = 0;                                     ///< in the file
+
+  /// e, from the rebound velocity where that is given; nullopt where all were captured.
+  std::optional<double> restitution() const;
+};
+
+struct ImportedPoints {
+  std::vector<ImportedPoint> points;
+  std::vector<ImportNote> notes;
+};
+
+/// The name of the series where the file has none: --series, or the name of the file.
+std::string default_series(const ImportRequest& request);
+
+/// The diameter of a sphere of `series` [m]: that of the file, or of --diameter, or of the name of
+/// the series ("2.58 um", "d = 4.9um on Mo"); nullopt when it is not stated.
+std::optional<double> known_diameter(const ImportRequest& request, const std::string& series,
+                                     std::optional<double> in_file);
+
+/// Gives every point its diameter and its error.
+/// @throws InputError for a point without one, and for a --diameter that no series has.
+void settle_diameters(const ImportRequest& request, ImportedPoints& imported);
 
 /// Rows of a delimited file; commas, semicolons and tabs are told apart by the first line.
 /// @throws InputError when the file has no rows.
 std::vector<CsvRow> import_rows(const std::filesystem::path& file);
-
-/// A number in a cell. @throws InputError where it stands
-double import_number(const CsvField& cell, const std::string& file, const std::string& what);
 
 /// A quantity that a format knows.
 struct ImportQuantity {
@@ -37,10 +94,12 @@ class ImportTable {
   std::size_t size() const { return rows_.size(); }
   bool has(const std::string& quantity) const { return columns_.contains(quantity); }
 
-  /// In SI; nothing when the cell is empty or there is no such column. @throws InputError
+  /// In SI; nullopt when the cell is empty or there is no such column. @throws InputError
   std::optional<double> value(std::size_t row, const std::string& quantity) const;
-  /// The same of a quantity that every row needs.
+  /// The same for a quantity that every row needs.
   double needed(std::size_t row, const std::string& quantity) const;
+  /// @throws InputError unless it is positive.
+  double positive(std::size_t row, const std::string& quantity) const;
   std::string text(std::size_t row, const std::string& quantity) const;
   int line(std::size_t row) const { return rows_[row].front().line; }
 
@@ -54,15 +113,18 @@ class ImportTable {
  private:
   struct Source {
     std::vector<std::size_t> at;  ///< columns
-    Dimension dimension = Dimension::text;
     double factor = 1.0;
   };
 
-  void add(const std::string& entry, const std::vector<ImportQuantity>& known);
+  void read_map(const std::string& entry);
+  void find_columns_by_name();
+  std::vector<std::string> header_names() const;
   std::size_t column_named(const std::string& name) const;
-  double unit_of(const ImportQuantity& quantity, const std::string& unit, std::size_t column) const;
+  double factor_of(const ImportQuantity& quantity, const std::string& unit,
+                   std::size_t column) const;
 
   std::string file_;
+  std::vector<ImportQuantity> known_;
   CsvRow header_;
   std::vector<CsvRow> rows_;
   std::map<std::string, Source> columns_;
