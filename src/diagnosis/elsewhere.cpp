@@ -95,7 +95,7 @@ void guess_the_contact(Elsewhere& there, std::size_t like) {
   const double derived = derived_adhesion(model, like);
   const double factor = derived > 0.0 ? derived_adhesion(model, target) / derived : 0.0;
   const double adhesion = factor * there.theta[model.slot_adhesion[like]];
-  const bool ring = model.adhesion == AdhesionLaw::ring;
+  const bool ring = traits(model.adhesion).by_force;
   const double log_sd = (ring ? 1.0 : 1.5) * log_sd_of_other_adhesion;  // of f0, or of W
   const bool by_constants = follows_materials(model, target);
   guess(there, model.slot_adhesion[target], adhesion, by_constants ? 0.0 : log_sd * adhesion);

@@ -205,7 +205,7 @@ std::vector<Figure> adhesion_force_figures(const Analysis& analysis) {
       refined = true;
     }
     const Interval interval = recommended_interval(intervals_of(analysis, slot));
-    if (interval.available() && model.adhesion == AdhesionLaw::ring) {
+    if (interval.available() && traits(model.adhesion).by_force) {
       plot::Points free{{contact.reference_diameter / 2.0 / units::um}, {f0}};
       free.lower = {*interval.lower};
       free.upper = {*interval.upper};

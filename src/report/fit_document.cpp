@@ -131,29 +131,6 @@ Section provenance_section(const Analysis& a) {
   return section;
 }
 
-Sentence equation_words(AdhesionLaw law) {
-  switch (law) {
-    case AdhesionLaw::ring:
-      return say(
-          "Hertz contact with ring adhesion 2 pi {a} {f0} and damping {C_H}, {C_A} (Li, "
-          "Dunn & Brach 1999, eq. 5)");
-    case AdhesionLaw::jkr:
-      return say(
-          "Contact of Johnson, Kendall & Roberts (1971) with the work of adhesion {W}; "
-          "damping {C_H} on its elastic part, {C_A} on its adhesive part");
-    case AdhesionLaw::dmt:
-      return say(
-          "Hertz contact under the constant pull 2 pi {W} r of Derjaguin, Muller & Toporov "
-          "(1975); damping {C_H} on its elastic part, {C_A} on its adhesive part");
-    case AdhesionLaw::maugis:
-      return say(
-          "Contact of Maugis (1992), between JKR and DMT, with the work of adhesion {W} over a "
-          "range that follows from the separation; damping {C_H} on its elastic part, {C_A} on its "
-          "adhesive part");
-  }
-  return {};
-}
-
 Section model_section(const Analysis& a) {
   Section section{"model", "Model"};
   std::vector<std::pair<Sentence, Cell>> entries = {
@@ -167,7 +144,7 @@ Section model_section(const Analysis& a) {
     const std::string of = a.datasets.size() > 1 ? a.datasets[d].id + ": " : "";
     entries.emplace_back("sizes", Sentence(of + mixed_sizes_words(*a.datasets[d].mixed_sizes)));
   }
-  section.blocks = {Paragraph{equation_words(a.fitted.model.adhesion)}, items(entries)};
+  section.blocks = {Paragraph{say(traits(a.fitted.model.adhesion).description)}, items(entries)};
   for (std::size_t k = 0; k < a.datasets.size() && k < a.fitted.model.contacts.size(); ++k) {
     section.blocks.emplace_back(contact_table(a, k));
   }
