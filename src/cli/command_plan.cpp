@@ -78,7 +78,7 @@ void assume(const std::string& name, double value, const FitSpec& spec, ImpactMo
   if (found) return;
   throw InputError({}, fmt::format("--{} is no parameter of this fit", name),
                    fmt::format("its law of adhesion is {}", to_string(spec.adhesion)),
-                   spec.adhesion == AdhesionLaw::ring ? "give --f0" : "give --W");
+                   traits(spec.adhesion).by_force ? "give --f0" : "give --W");
 }
 
 void run_plan(PlanFlags flags) {

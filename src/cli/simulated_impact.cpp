@@ -17,9 +17,9 @@
 namespace recoil {
 namespace {
 
-/// What an impact loses without any damping: under jkr and maugis the work between the jumps.
+/// The energy that an impact loses without any damping: the work between the jumps.
 double lost_by_jumps(ImpactGroups groups, ImpactOptions options) {
-  if (options.adhesion != AdhesionLaw::jkr && options.adhesion != AdhesionLaw::maugis) return 0.0;
+  if (!traits(options.adhesion).jumps) return 0.0;
   groups.alpha = groups.gamma = groups.kappa = 0.0;
   options.budget = options.gradient = false;
   const ImpactResult undamped = simulate_impact(groups, options);

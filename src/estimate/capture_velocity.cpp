@@ -8,27 +8,11 @@
 namespace recoil {
 namespace {
 
-bool captures_without_damping(AdhesionLaw law) {
-  return law == AdhesionLaw::jkr || law == AdhesionLaw::maugis;
-}
-
-/// Small damping: V*^2 = 2 J (C_A + 2 C_H) V_a^3 with J = 0.827350 for the ring law and 0.100802
-/// for DMT (rebound; twice C_A in both phases). JKR captures without damping, at V*^2 = 0.128707
-/// V_a^2, to which its dampings add 2 (0.344548 C_A + 0.670639 C_H) V_a^3, and 2 (0.310699) C_A
-/// V_a^3 of the way in. The integrals are those of the forces along the path of a sphere that just
-/// parts. Of `maugis`, between JKR and DMT, it is a start for the search only.
+/// V*^2 to first order in the dampings: where the search starts.
 double weakly_damped_square(const ImpactModel& model, const ImpactConditions& c) {
-  const double damping =
-      (model.phase == AdhesionDampingPhase::both ? 2.0 : 1.0) * c.adhesion_damping +
-      2.0 * c.hertz_damping;
-  const double scale = adhesion_velocity(c);
-  if (captures_without_damping(model.adhesion)) {
-    const double by_C_A = model.phase == AdhesionDampingPhase::both ? 0.655247 : 0.344548;
-    const double loss = by_C_A * c.adhesion_damping + 0.670639 * c.hertz_damping;
-    return (0.128707 + 2.0 * loss * scale) * scale * scale;
-  }
-  const double J = model.adhesion == AdhesionLaw::ring ? 0.827350 : 0.100802;
-  return 2.0 * J * damping * scale * scale * scale;
+  return traits(model.adhesion)
+      .capture_square(c.hertz_damping, c.adhesion_damping,
+                      model.phase == AdhesionDampingPhase::both, adhesion_velocity(c));
 }
 
 /// The search for one capture velocity, one evaluation of e^2 at a time.
@@ -47,8 +31,8 @@ class CaptureSearch {
     if (extended_) {
       // Mechanisms may capture what the base model lets go.
       if (!(scale_ > 0.0)) scale_ = 1.0;
-    } else if (!(scale_ > 0.0) || (!captures_without_damping(model.adhesion) &&
-                                   c.hertz_damping == 0.0 && c.adhesion_damping == 0.0)) {
+    } else if (!(scale_ > 0.0) || (!traits(model.adhesion).jumps && c.hertz_damping == 0.0 &&
+                                   c.adhesion_damping == 0.0)) {
       result_.found = true;  // conservative: everything comes back
       done_ = true;
       return;

@@ -225,7 +225,7 @@ class FitReader : private TomlReader {
   }
 
   void read_separation(const toml::node& node) {
-    if (fit_.spec.adhesion != AdhesionLaw::maugis) {
+    if (!traits(fit_.spec.adhesion).has_range) {
       fail(
           node,
           fmt::format("'separation' is stated with adhesion = \"{}\"", name_of(fit_.spec.adhesion)),
@@ -286,7 +286,7 @@ class FitReader : private TomlReader {
     const AdhesionLaw law = fit_.spec.adhesion;
     const Parameter& right = base_parameters(law)[2];
     const Parameter& wrong =
-        base_parameters(law == AdhesionLaw::ring ? AdhesionLaw::jkr : AdhesionLaw::ring)[2];
+        base_parameters(traits(law).by_force ? AdhesionLaw::jkr : AdhesionLaw::ring)[2];
     const toml::node* const node = parameters.get(wrong.name);
     if (node == nullptr) return;
     fail(*node,

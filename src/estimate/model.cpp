@@ -173,9 +173,9 @@ void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
     const ParameterSlot& adhesion = model.slots[model.slot_adhesion[d]];
     const bool follows = adhesion.derived && !adhesion.free && adhesion.initial > 0.0;
     for (const MaterialSlope& slope : law.slopes(stated)) {
-      const double by_force = !follows                              ? 0.0
-                              : model.adhesion == AdhesionLaw::ring ? slope.adhesion_force
-                                                                    : slope.adhesion_energy;
+      const double by_force = !follows                          ? 0.0
+                              : traits(model.adhesion).by_force ? slope.adhesion_force
+                                                                : slope.adhesion_energy;
       const bool in_chain = (uses_energy && slope.adhesion_energy != 0.0) ||
                             (!model.chain.empty() && slope.wave_mobility != 0.0);
       if (slope.density != 0.0 || slope.stiffness != 0.0 || by_force != 0.0 || in_chain) {
@@ -196,7 +196,7 @@ bool is_exact(const ImpactModel& model, std::size_t dataset) {
 /// Does `dataset` state its adhesion, without an error? Then no constant moves it.
 bool states_exact_adhesion(const ImpactModel& model, std::size_t dataset) {
   const ContactProperties& contact = model.contacts[dataset];
-  const bool ring = model.adhesion == AdhesionLaw::ring;
+  const bool ring = traits(model.adhesion).by_force;
   const bool stated = ring ? contact.adhesion_force != contact.adhesion_force_derived
                            : contact.adhesion_energy != contact.adhesion_energy_derived;
   const Constant own = ring ? Constant::adhesion_force_f0 : Constant::adhesion_energy;
@@ -305,14 +305,14 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
 
 double derived_adhesion(const ImpactModel& model, std::size_t dataset) {
   const ContactProperties& contact = model.contacts[dataset];
-  return model.adhesion == AdhesionLaw::ring ? contact.adhesion_force : contact.adhesion_energy;
+  return traits(model.adhesion).by_force ? contact.adhesion_force : contact.adhesion_energy;
 }
 
 double adhesion_force_under(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset) {
   const std::size_t slot = model.slot_adhesion[dataset];
   const double value = theta[slot];
-  const bool ring = model.adhesion == AdhesionLaw::ring;
+  const bool ring = traits(model.adhesion).by_force;
   const ContactProperties& contact = model.contacts[dataset];
   if (!is_exact(model, dataset)) {
     const MaterialState now = materials_under(model, theta, dataset);
@@ -351,7 +351,7 @@ double adhesion_value_under(const ImpactModel& model, std::span<const double> th
                             std::size_t dataset) {
   const double value = theta[model.slot_adhesion[dataset]];
   if (!follows_materials(model, dataset)) return value;
-  if (model.adhesion == AdhesionLaw::ring) return adhesion_force_under(model, theta, dataset);
+  if (traits(model.adhesion).by_force) return adhesion_force_under(model, theta, dataset);
   return value * materials_under(model, theta, dataset).adhesion_energy /
          model.contacts[dataset].adhesion_energy;
 }
@@ -388,7 +388,7 @@ std::vector<MaterialSlope> material_slopes(const ImpactModel& model, std::span<c
   std::vector<MaterialSlope> slopes = model.materials[dataset].slopes(model.constants_of(theta));
   const bool follows = follows_materials(model, dataset);
   for (MaterialSlope& slope : slopes) {
-    if (model.adhesion != AdhesionLaw::ring) {
+    if (!traits(model.adhesion).by_force) {
       slope.adhesion_force =
           slope.stiffness / 3.0 + (follows ? 2.0 / 3.0 * slope.adhesion_energy : 0.0);
     } else if (!follows) {
@@ -413,7 +413,7 @@ Surroundings surroundings_under(const ImpactModel& model, std::span<const double
 
 double adhesion_force_slope(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset) {
-  if (model.adhesion == AdhesionLaw::ring) {
+  if (traits(model.adhesion).by_force) {
     const double value = theta[model.slot_adhesion[dataset]];
     return is_exact(model, dataset) || value == 0.0
                ? 1.0

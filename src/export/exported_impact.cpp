@@ -65,18 +65,13 @@ bool same(std::span<const double> one, std::span<const double> other) {
   return true;
 }
 
-/// The laws of adhesion that ContactForce has.
-bool knows(AdhesionLaw law) {
-  return law == AdhesionLaw::ring || law == AdhesionLaw::jkr || law == AdhesionLaw::dmt;
-}
-
 /// The force that the chain leaves to the equation of motion, as a sphere in the middle of the
 /// range meets it.
 ContactForce force_at(const ImpactModel& model, std::span<const double> theta,
                       const ExportRequest& request) {
   const double middle = std::sqrt(request.slowest * request.fastest);
   const ImpactConditions c = conditions_at(model, theta, request.dataset, request.diameter, middle);
-  const AdhesionLaw law = knows(model.adhesion) ? model.adhesion : AdhesionLaw::ring;
+  const AdhesionLaw law = traits(model.adhesion).exportable ? model.adhesion : AdhesionLaw::ring;
   ContactForce force = {law,       model.phase,     0.5 * c.diameter,
                         c.density, c.stiffness,     c.adhesion_force,
                         0.0,       c.hertz_damping, c.adhesion_damping};
@@ -192,7 +187,7 @@ ExportedImpact exported_impact(const ImpactModel& model, std::span<const double>
   out.capture_velocity = out.captures ? capture.value : 0.0;
   out.force = force_at(model, values, request);
   const std::vector<double> alone = restitution_under(out.force, out.velocity);
-  out.force_is_all = knows(model.adhesion) && same(alone, out.restitution);
+  out.force_is_all = traits(model.adhesion).exportable && same(alone, out.restitution);
   out.shortest_contact = contact_time_under(out.force, request.fastest);
   out.longest_contact = 0.0;
   for (std::size_t k = 0; k < out.velocity.size(); k += 20) {

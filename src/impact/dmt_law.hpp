@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "impact/force_law.hpp"
 
@@ -16,6 +17,22 @@ namespace recoil {
 /// p = 2 pi W r n_c / (m V^2) = beta^(3/2) / 3, where beta is that of the f0 that eqs 9 and 10 have
 /// for this W: all laws depend on the same three groups.
 struct DmtLaw : HertzRadius {
+  static constexpr std::string_view equation = "Derjaguin, Muller & Toporov (1975), damped";
+  static constexpr std::string_view description =
+      "Hertz contact under the constant pull 2 pi {W} r of Derjaguin, Muller & Toporov (1975); "
+      "damping {C_H} on its elastic part, {C_A} on its adhesive part";
+  static constexpr std::string_view elastic_part = "Hertz";
+  static constexpr std::string_view adhesive_part =
+      "2 pi W r while the bodies touch (Derjaguin, Muller & Toporov 1975, in the form of Maugis "
+      "2000)";
+  static constexpr std::string_view undamped_loss = "loses nothing";
+  static constexpr bool by_force = false, jumps = false, has_range = false;
+  static constexpr bool attracts_at_distance = false, has_dashpot = true, exportable = true;
+  static constexpr bool quick_to_fit = true;
+  static double capture_square(double C_H, double C_A, bool both_phases, double scale) {
+    return small_damping_square(0.100802, C_H, C_A, both_phases, scale);
+  }
+
   static constexpr unsigned groups = 3;  ///< alpha, p, gamma
   static constexpr unsigned constants = 0;
   static constexpr std::array<std::size_t, groups> places = {0, 1, 2};
@@ -48,8 +65,11 @@ struct DmtLaw : HertzRadius {
     const Q hertz = 0.4 * (x * x * q);
     return hertz + (-x) * p;
   }
-  /// Damping that is critical about the bottom does not hold a fast sphere here, as it does not
-  /// grow with the contact: whether one creeps into the well has to be followed.
+  static bool admits(const ImpactGroups&) { return true; }
+  static bool vanishes(const ImpactGroups&) { return false; }
+  /// Not known without integration: damping that is critical about the bottom does not hold a fast
+  /// sphere here, as it does not grow with the contact.
+  static bool creeps(const ImpactGroups&) { return false; }
   static double depth(const ImpactGroups& g) { return -0.6 * std::pow(strength(g), 5.0 / 3.0); }
 
   static ContactForces<double, double, double, double> forces(double q, double u, double acts,
@@ -63,6 +83,17 @@ struct DmtLaw : HertzRadius {
   }
   static double cusp_radius(const ImpactGroups& g, double energy) {
     return std::sqrt(energy / std::max(strength(g), 0.5));
+  }
+
+  /// P = a^3 - 2, n = a^2; the coordinate is a.
+  template <class T>
+  static LawPlace<T> place_at(const T& a, const T&) {
+    const T square = a * a;
+    const T stored = 0.4 * (square * square * a);
+    return {stored + -2.0 * square, square, stored};
+  }
+  static DeepestSearch deepest_search(double strength, double) {
+    return {.from = std::cbrt(2.0), .to = 4.0 + std::pow(1.25 / strength, 0.2) * 2.0};
   }
 };
 

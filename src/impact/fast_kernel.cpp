@@ -9,10 +9,7 @@
 #include <cstdint>
 #include <experimental/simd>
 
-#include "impact/dmt_law.hpp"
-#include "impact/force_law.hpp"
-#include "impact/jkr_law.hpp"
-#include "impact/maugis_law.hpp"
+#include "impact/laws.hpp"
 #include "impact/phase_solver.hpp"
 #include "impact/step_solver.hpp"
 #include "impact/with_dashpot.hpp"
@@ -119,29 +116,18 @@ void simulate_under(std::span<const ImpactGroups> groups, const ImpactOptions& o
   }
 }
 
-template <class Law>
-void simulate_by(std::span<const ImpactGroups> groups, const ImpactOptions& options,
-                 std::span<ImpactResult> results) {
-  if (options.dashpot) return simulate_under<WithDashpot<Law>>(groups, options, results);
-  simulate_under<Law>(groups, options, results);
-}
-
 }  // namespace
 
 std::size_t lanes() { return RECOIL_LANES; }
 
 void simulate(std::span<const ImpactGroups> groups, const ImpactOptions& options,
               std::span<ImpactResult> results) {
-  switch (options.adhesion) {
-    case AdhesionLaw::ring:
-      return simulate_by<RingAdhesionLaw>(groups, options, results);
-    case AdhesionLaw::jkr:
-      return simulate_by<JkrLaw>(groups, options, results);
-    case AdhesionLaw::dmt:
-      return simulate_by<DmtLaw>(groups, options, results);
-    case AdhesionLaw::maugis:
-      return simulate_under<MaugisLaw>(groups, options, results);
-  }
+  with_law(options.adhesion, [&]<class Law>() {
+    if constexpr (Law::has_dashpot) {
+      if (options.dashpot) return simulate_under<WithDashpot<Law>>(groups, options, results);
+    }
+    simulate_under<Law>(groups, options, results);
+  });
 }
 
 }  // namespace recoil::RECOIL_KERNEL

@@ -6,11 +6,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "impact/admissible.hpp"
 #include "impact/fast_kernel.hpp"
-#include "impact/force_law.hpp"
-#include "impact/impact.hpp"
-#include "impact/jkr_law.hpp"
+#include "impact/laws.hpp"
 #include "impact/reference_solver.hpp"
 
 namespace recoil {
@@ -41,7 +38,7 @@ bool gives_the_digits_of(const FastKernel& baseline, const FastKernel& kernel) {
     options.dashpot = kappa > 0.0;
     for (ImpactGroups& impact : impacts) impact.kappa = kappa;
     for (const AdhesionLaw law : values_of<AdhesionLaw>()) {
-      if (options.dashpot && law == AdhesionLaw::maugis) continue;
+      if (options.dashpot && !traits(law).has_dashpot) continue;
       options.adhesion = law;
       if (!agrees()) return false;
     }
@@ -72,16 +69,8 @@ bool answer_at_once(const ImpactGroups& groups, const ImpactOptions& options,
     result.gradient[1] = 0.0;
     return true;
   }
-  switch (options.adhesion) {
-    case AdhesionLaw::ring:
-      return rests_at_once<RingAdhesionLaw>(groups, result);
-    case AdhesionLaw::jkr:
-      return groups.kappa == 0.0 && rests_at_once<JkrLaw>(groups, result);
-    case AdhesionLaw::dmt:
-    case AdhesionLaw::maugis:
-      return false;  // where damping is critical is not known
-  }
-  return false;
+  return with_law(options.adhesion,
+                  [&]<class Law>() { return rests_at_once<Law>(groups, result); });
 }
 
 long simulate_run(std::span<const ImpactGroups> groups, const ImpactOptions& options,

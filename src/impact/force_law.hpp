@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 
 #include "impact/impact.hpp"
 
@@ -81,6 +82,30 @@ struct LawPath {
   bool seam = false;
 };
 
+/// A place on the path of an undamped impact, in the units of Maugis: energies in pi W r (pi^2 W^2
+/// r / K^2)^(1/3), contact radii in (pi W r^2 / K)^(1/3).
+template <class T>
+struct LawPlace {
+  T energy;  ///< of the bodies and the adhesion
+  T square;  ///< a^2
+  T stored;  ///< elastic energy of the bodies, without that of the surfaces
+};
+
+/// Where deepest_contact looks for the deepest place of an undamped impact: in the coordinate of
+/// `place_at` of the law.
+struct DeepestSearch {
+  double start_energy = 0.0;        ///< where the impact begins
+  double start_energy_slope = 0.0;  ///< its derivative in lambda
+  double from = 0.0, to = 0.0;      ///< the deepest place lies between
+};
+
+/// V*^2 [m2/s2] of a law that loses nothing without damping: the loss is J times the damping.
+inline double small_damping_square(double J, double C_H, double C_A, bool both_phases,
+                                   double scale) {
+  const double damping = (both_phases ? 2.0 : 1.0) * C_A + 2.0 * C_H;
+  return 2.0 * J * damping * scale * scale * scale;
+}
+
 /// What laws have in common whose contact has the radius of Hertz, x = q^2.
 struct HertzRadius {
   /// A dashpot along the contact radius, the force -kappa x^(1/2) u, adds -kappa u times this to
@@ -101,6 +126,21 @@ struct HertzRadius {
 /// After q and u its functions take `groups` numbers, in which the gradient is asked for, and
 /// `constants`, in which it is not. `strength` is the law's own measure of the adhesion.
 struct RingAdhesionLaw : HertzRadius {
+  static constexpr std::string_view equation = "Li, Dunn & Brach (1999), eq. 5";
+  static constexpr std::string_view description =
+      "Hertz contact with ring adhesion 2 pi {a} {f0} and damping {C_H}, {C_A} (Li, Dunn & Brach "
+      "1999, eq. 5)";
+  static constexpr std::string_view elastic_part = "Hertz, K r^(1/2) n^(3/2)";
+  static constexpr std::string_view adhesive_part =
+      "2 pi a f0 along the edge of the contact (Li, Dunn & Brach 1999, eq. 5)";
+  static constexpr std::string_view undamped_loss = "loses nothing";
+  static constexpr bool by_force = true, jumps = false, has_range = false;
+  static constexpr bool attracts_at_distance = false, has_dashpot = true, exportable = true;
+  static constexpr bool quick_to_fit = true;
+  static double capture_square(double C_H, double C_A, bool both_phases, double scale) {
+    return small_damping_square(0.827350, C_H, C_A, both_phases, scale);
+  }
+
   static constexpr unsigned groups = 3;  ///< alpha, beta, gamma
   static constexpr unsigned constants = 0;
   static constexpr std::array<std::size_t, groups> places = {0, 1, 2};  ///< in ImpactResult
@@ -127,6 +167,8 @@ struct RingAdhesionLaw : HertzRadius {
   static constexpr auto potential(const Q& q, const Alpha&, const Beta& beta, const Gamma&) {
     return potential_energy(q, beta);
   }
+  static bool admits(const ImpactGroups&) { return true; }
+  static bool vanishes(const ImpactGroups&) { return false; }
   static bool creeps(const ImpactGroups& g) { return creeps_into_the_well(g); }
   static double depth(const ImpactGroups& g) { return well_depth(g.beta); }
 

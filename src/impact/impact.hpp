@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/names.hpp"
+#include "impact/adhesion_law.hpp"
 #include "impact/groups.hpp"
 
 namespace recoil {
@@ -17,19 +18,6 @@ enum class AdhesionDampingPhase { rebound, both };
 template <>
 struct NamesOf<AdhesionDampingPhase> {
   static constexpr std::array<std::string_view, 2> names = {"rebound", "both"};
-};
-
-/// What holds sphere and surface together; the elastic part is Hertz's or, in JKR, its own.
-enum class AdhesionLaw {
-  ring,   ///< the paper's: a force 2 pi a f0 along the edge of the contact (RingAdhesionLaw)
-  jkr,    ///< JkrLaw
-  dmt,    ///< DmtLaw
-  maugis  ///< MaugisLaw, between the two
-};
-
-template <>
-struct NamesOf<AdhesionLaw> {
-  static constexpr std::array<std::string_view, 4> names = {"ring", "jkr", "dmt", "maugis"};
 };
 
 /// How an impact ended. The last two carry no answer and are never turned into numbers.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "impact/force_law.hpp"
 
@@ -24,6 +25,25 @@ namespace recoil {
 /// 5000 V_a) the slope in beta goes with beta^(-1/4), and the solvers agree on it to 1e-4 of
 /// itself.
 struct JkrLaw {
+  static constexpr std::string_view equation = "Johnson, Kendall & Roberts (1971), damped";
+  static constexpr std::string_view description =
+      "Contact of Johnson, Kendall & Roberts (1971) with the work of adhesion {W}; damping {C_H} "
+      "on "
+      "its elastic part, {C_A} on its adhesive part";
+  static constexpr std::string_view elastic_part = "K a^3 / r";
+  static constexpr std::string_view adhesive_part =
+      "(6 pi W K a^3)^(1/2) (Johnson, Kendall & Roberts 1971)";
+  static constexpr std::string_view undamped_loss = "loses 7.0922 (W^5 r^4 / E*^2)^(1/3)";
+  static constexpr bool by_force = false, jumps = true, has_range = false;
+  static constexpr bool attracts_at_distance = false, has_dashpot = true, exportable = true;
+  static constexpr bool quick_to_fit = true;
+  /// The integrals of the forces along the path of a sphere that just parts.
+  static double capture_square(double C_H, double C_A, bool both_phases, double scale) {
+    const double by_C_A = both_phases ? 0.655247 : 0.344548;
+    const double loss = by_C_A * C_A + 0.670639 * C_H;
+    return (0.128707 + 2.0 * loss * scale) * scale * scale;
+  }
+
   static constexpr unsigned groups = 3;  ///< alpha, lambda, gamma
   static constexpr unsigned constants = 0;
   static constexpr std::array<std::size_t, groups> places = {0, 1, 2};
@@ -71,11 +91,14 @@ struct JkrLaw {
         (q * q);
     return polynomial * lambda;
   }
-  /// Of the small motions about the bottom of the well, where n'' = -(9/10) b^(2/3) (n - n_0) -
-  /// (alpha + gamma) b^2 n', b = beta^(3/4).
+  static bool admits(const ImpactGroups&) { return true; }
+  /// Below, adhesion changes e by less than 1e-10 at any damping that lets a sphere come back.
+  static bool vanishes(const ImpactGroups& g) { return g.beta < 1e-14; }
+  /// Overdamped small motions about the bottom of the well, where n'' = -(9/10) b^(2/3) (n - n_0) -
+  /// (alpha + gamma) b^2 n', b = beta^(3/4). Not known where a dashpot acts.
   static bool creeps(const ImpactGroups& g) {
     const double fourth_root = std::sqrt(std::sqrt(g.beta));
-    return (g.alpha + g.gamma) * g.beta * fourth_root >= 2.0 * std::sqrt(0.9);
+    return g.kappa == 0.0 && (g.alpha + g.gamma) * g.beta * fourth_root >= 2.0 * std::sqrt(0.9);
   }
   static double depth(const ImpactGroups& g) {
     return potential(path_of(g).resting, 0.0, strength(g), 0.0);
@@ -122,8 +145,28 @@ struct JkrLaw {
     return std::sqrt(energy / std::max(7.5 * strength(g), 0.5));
   }
 
-  /// Below, adhesion changes e by less than 1e-10 at any damping that lets a sphere come back.
-  static constexpr double least_beta = 1e-14;
+  /// P = a^3 - (6 a^3)^(1/2), n = a^2 - (2/3) (6 a)^(1/2); the coordinate is a. As in
+  /// MaugisContact, 3 E = P n - a^2 + M, M half of a^2 times the mean squares 2/5 (Hertz) and 2/3
+  /// (a flat punch); E - M is half of the energy that the bodies store.
+  template <class T>
+  static LawPlace<T> place_at(const T& a, const T&) {
+    using std::sqrt;
+    const double root6 = std::sqrt(6.0);
+    const T root = sqrt(a);
+    const T square = a * a;
+    const T hertz = square * a;
+    const T pull = root6 * (a * root);
+    const T n = square + -((2.0 / 3.0 * root6) * root);
+    const T moment = (0.5 * square) * (0.4 * hertz + -(2.0 / 3.0 * pull));
+    const T energy = (1.0 / 3.0) * (n * (hertz + -pull) + -square + moment);
+    return {energy, square, 2.0 * (energy + -moment)};
+  }
+  static DeepestSearch deepest_search(double strength, double) {
+    const double touch = std::cbrt(8.0 / 3.0);
+    return {.start_energy = place_at(touch, 0.0).energy,
+            .from = std::cbrt(6.0),
+            .to = 4.0 + std::pow(1.25 / strength, 0.2) * 2.0};
+  }
 };
 
 }  // namespace recoil

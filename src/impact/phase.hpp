@@ -126,7 +126,7 @@ struct Phase {
 
   /// The integral of D dsigma.
   [[gnu::always_inline]] Pack held() const {
-    Nodes<Pack> values;
+    Nodes<Pack> values = {};
     for (std::size_t i = 0; i < rule.count; ++i) values[i] = damping[i] * slowness[i];
     return row_times(rule.weight, values, rule.count);
   }

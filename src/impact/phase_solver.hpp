@@ -262,7 +262,7 @@ class PhaseSolver {
   /// How much changes of the energy shrink, and the gradient of half of e^2.
   [[gnu::flatten]] void follow_both(const Phase<Pack>& in, const Phase<Pack>& out) {
     const std::size_t count = in.rule.count;
-    Nodes<Pack> held_in, held_out;
+    Nodes<Pack> held_in = {}, held_out = {};
     for (std::size_t i = 0; i < count; ++i) held_in[i] = in.damping[i] * in.slowness[i];
     for (std::size_t i = 0; i < count; ++i) held_out[i] = out.damping[i] * out.slowness[i];
     held_out_ = row_times(out.rule.weight, held_out, count);

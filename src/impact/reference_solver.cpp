@@ -12,12 +12,7 @@
 #include <sundials/sundials_context.hpp>
 #include <utility>
 
-#include "impact/admissible.hpp"
-#include "impact/dmt_law.hpp"
-#include "impact/force_law.hpp"
-#include "impact/impact.hpp"
-#include "impact/jkr_law.hpp"
-#include "impact/maugis_law.hpp"
+#include "impact/laws.hpp"
 #include "impact/with_dashpot.hpp"
 
 namespace recoil {
@@ -70,7 +65,7 @@ auto with_values(const Field<Law>& f, Act act) {
 }
 
 template <class Law>
-constexpr bool has_dashpot = Law::places.back() == 3;
+constexpr bool has_dashpot = Law::places.back() == place_of_kappa;
 
 /// The dashpot's power over u^2.
 template <class Law>
@@ -308,7 +303,7 @@ class Integration {
       sensitivity_owner_[i].reset(N_VNew_Serial(2, context_));
       sensitivity_[i] = sensitivity_owner_[i].get();
       N_VConst(0.0, sensitivity_[i]);
-      if (Law::places[i] == 4) NV_Ith_S(sensitivity_[i], 0) = field_.path.range_slope;
+      if (Law::places[i] == place_of_range) NV_Ith_S(sensitivity_[i], 0) = field_.path.range_slope;
     }
     std::array<double, Law::groups> absolutes = {};
     absolutes.fill(absolute);
@@ -425,13 +420,6 @@ ImpactResult simulate(const ImpactGroups& groups, const ImpactOptions& options,
   return result;
 }
 
-template <class Law>
-ImpactResult simulate_by(const ImpactGroups& groups, const ImpactOptions& options,
-                         std::vector<ImpactMoment>* history) {
-  return options.dashpot ? simulate<WithDashpot<Law>>(groups, options, history)
-                         : simulate<Law>(groups, options, history);
-}
-
 }  // namespace
 
 double EnergyBudget::audit() const {
@@ -448,17 +436,12 @@ ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& op
     result.gradient[1] = 0.0;
     return result;
   }
-  switch (options.adhesion) {
-    case AdhesionLaw::ring:
-      return simulate_by<RingAdhesionLaw>(groups, options, history);
-    case AdhesionLaw::dmt:
-      return simulate_by<DmtLaw>(groups, options, history);
-    case AdhesionLaw::jkr:
-      return simulate_by<JkrLaw>(groups, options, history);
-    case AdhesionLaw::maugis:
-      return simulate<MaugisLaw>(groups, options, history);
-  }
-  return result;
+  return with_law(options.adhesion, [&]<class Law>() {
+    if constexpr (Law::has_dashpot) {
+      if (options.dashpot) return simulate<WithDashpot<Law>>(groups, options, history);
+    }
+    return simulate<Law>(groups, options, history);
+  });
 }
 
 }  // namespace recoil

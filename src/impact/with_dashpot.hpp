@@ -26,7 +26,7 @@ struct WithDashpot {
   static constexpr std::array<std::size_t, groups> places = [] {
     std::array<std::size_t, groups> all = {};
     for (std::size_t k = 0; k < Law::groups; ++k) all[k] = Law::places[k];
-    all[Law::groups] = 3;
+    all[Law::groups] = place_of_kappa;
     return all;
   }();
   static constexpr double tolerance_share = Law::tolerance_share;
@@ -116,12 +116,12 @@ template <class Law>
   std::array<double, 5> gradient = {};
   for (std::size_t k = 0; k < Law::groups; ++k) gradient[Law::places[k]] = by[k];
   gradient[1] *= Law::strength_slope(g);
-  if constexpr (Law::places.back() == 3) {
+  if constexpr (Law::places.back() == place_of_kappa) {
     const double unit = Law::dashpot_unit(g);
     if (Law::dashpot_power != 0.0 && g.beta > 0.0) {
-      gradient[1] += gradient[3] * g.kappa * unit * Law::dashpot_power / g.beta;
+      gradient[1] += gradient[place_of_kappa] * g.kappa * unit * Law::dashpot_power / g.beta;
     }
-    gradient[3] *= unit;
+    gradient[place_of_kappa] *= unit;
   }
   return gradient;
 }

@@ -45,8 +45,6 @@ Mechanism bulk_viscoelastic() {
                                       return std::numbers::pi * own[0] /
                                              sphere.hertz_contact_time();
                                     }}}},
-      .refused = {{AdhesionLaw::maugis,
-                   "its force does not vanish where that contact parts, which is not worked out"}},
   });
 }
 

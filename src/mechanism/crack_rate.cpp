@@ -193,8 +193,10 @@ Mechanism crack_rate() {
                       .plausible = {0.2, 0.8, "0.3 to 0.7 are measured for polymers"},
                       .free = false}},
       .needs_adhesion = true,
-      .refused = {{AdhesionLaw::maugis, "the crack has no edge there, but a zone of its own width"},
-                  {AdhesionLaw::dmt, "a contact of DMT has no crack at its edge"}},
+      .refused = [](AdhesionLaw law) -> std::string_view {
+        if (law == AdhesionLaw::ring || law == AdhesionLaw::jkr) return {};
+        return "such a contact has no crack with a sharp edge";
+      },
   });
 }
 

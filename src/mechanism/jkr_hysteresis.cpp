@@ -62,9 +62,11 @@ Mechanism jkr_hysteresis() {
                      "below it a contact jumps neither in nor out, and no hysteresis is expected",
                  .of = tabor_parameter}}},
       .needs_adhesion = true,
-      .refused = {{AdhesionLaw::jkr, "that law loses this work by itself: it would count twice"},
-                  {AdhesionLaw::maugis, "that law loses this work by itself: it would count twice"},
-                  {AdhesionLaw::dmt, "a DMT contact separates as it formed, without a jump"}},
+      .refused = [](AdhesionLaw law) -> std::string_view {
+        if (law == AdhesionLaw::ring) return {};
+        return traits(law).jumps ? "that law loses this work by itself: it would count twice"
+                                 : "such a contact separates as it formed, without a jump";
+      },
   });
 }
 

@@ -48,12 +48,6 @@ struct TakenAway {
   std::string_view doing;  ///< in a laboratory: "pump the chamber"
 };
 
-/// A law of adhesion beside which a mechanism makes no sense, and why.
-struct RefusedBeside {
-  AdhesionLaw law;
-  std::string_view why;
-};
-
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;
@@ -73,7 +67,9 @@ struct MechanismInfo {
   /// The ways of measuring that can have it; empty: all.
   std::vector<Method> methods = {};
   std::optional<TakenAway> taken_away = {};  ///< by what, where a condition does it
-  std::vector<RefusedBeside> refused = {};
+  /// Why it makes no sense beside a law of adhesion; empty when it does. Null: beside none it is
+  /// refused.
+  std::string_view (*refused)(AdhesionLaw law) = nullptr;
 };
 
 /// The law of a mechanism for one number type; null where it does nothing. `own` holds its
@@ -102,7 +98,7 @@ struct Mechanism {
   std::tuple<MechanismLaw<double>, MechanismLaw<FewDirections>, MechanismLaw<SomeDirections>,
              MechanismLaw<SeveralDirections>, MechanismLaw<ManyDirections>>
       laws;
-  bool dashpot = false;  ///< sets Encounter::relaxation
+  bool dashpot = false;  ///< sets Encounter::relaxation: refused where the law has no dashpot
 
   template <class T>
   const MechanismLaw<T>& law() const {
@@ -120,10 +116,10 @@ struct Mechanism {
   bool spreads() const { return law<double>().vary != nullptr; }
   /// Why it cannot stand beside this law of adhesion; empty when it can.
   std::string_view refusal(AdhesionLaw adhesion) const {
-    for (const RefusedBeside& refused : info.refused) {
-      if (refused.law == adhesion) return refused.why;
+    if (dashpot && !traits(adhesion).has_dashpot) {
+      return "its force does not vanish where that contact parts, which is not worked out";
     }
-    return {};
+    return info.refused == nullptr ? std::string_view() : info.refused(adhesion);
   }
   bool works_with(AdhesionLaw adhesion) const { return refusal(adhesion).empty(); }
   bool is_batch() const { return info.place == MechanismPlace::batch; }

@@ -52,7 +52,7 @@ const std::vector<Parameter>& base_parameters(AdhesionLaw law) {
        .log_scale = true,
        .role = ParameterRole::adhesion_energy},
   };
-  return law == AdhesionLaw::ring ? all : by_energy;
+  return traits(law).by_force ? all : by_energy;
 }
 
 const Parameter& parameter_of(Body body, Constant constant) {

@@ -39,8 +39,10 @@ Mechanism van_der_waals_approach() {
                           "organic solids have 0.5e-19 J, oxides 1e-19 J, metals 3e-19 to 5e-19 J "
                           "(Israelachvili, Intermolecular and Surface Forces)"},
             .starts = {1e-20, 1e-18}}},
-      .refused = {{AdhesionLaw::maugis,
-                   "that law has the attraction before contact itself: it would count twice"}},
+      .refused = [](AdhesionLaw law) -> std::string_view {
+        if (!traits(law).attracts_at_distance) return {};
+        return "that law has the attraction before contact itself: it would count twice";
+      },
   });
 }
 

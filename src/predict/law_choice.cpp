@@ -89,8 +89,7 @@ std::vector<LawFit> fit_under_every_law(const FitSpec& spec, const std::vector<D
                                         const FitResult& own) {
   std::vector<AdhesionLaw> laws = {spec.adhesion};
   for (const AdhesionLaw law : values_of<AdhesionLaw>()) {
-    // Fits under maugis can take minutes: only where they are asked for.
-    if (law != spec.adhesion && law != AdhesionLaw::maugis) laws.push_back(law);
+    if (law != spec.adhesion && traits(law).quick_to_fit) laws.push_back(law);
   }
   std::vector<LawFit> fits;
   for (const AdhesionLaw law : laws) {

@@ -99,9 +99,8 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
     add(ValidityQuantity::pressure_yield, pressure / yield, 1.0).yield_pressure = yield;
   }
   const double f0 = view.encounter.adhesion_force;
-  // Maugis's law holds at any.
   const bool adheres = f0 > 0.0 && !without_adhesion(model, point.dataset);
-  if (adheres && model.adhesion != AdhesionLaw::maugis) {
+  if (adheres && !traits(model.adhesion).has_range) {
     // eq. 12: f0^3 = 9 W^2 K r / (2 pi)
     const double work = std::sqrt(2.0 * pi * f0 * f0 * f0 / (9.0 * contact.stiffness * radius));
     const double tabor =

@@ -211,7 +211,7 @@ window.recoil = (() => {
 
   // e^2 of one impact; after a capture twice the energy at the outer turning point over m V^2,
   // below 0. NaN where it cannot be followed.
-  function fly(law, bothPhases) {
+  function integrate(law, bothPhases) {
     const floor = 2 * law.potential(law.resting);
     if (law.creeps) return floor;
     const tolerance = 1e-13, most = 20000;
@@ -252,7 +252,7 @@ window.recoil = (() => {
   // f0 [N/m] at `diameter` [m]: the parameter's own, or that of W by eqs 9 and 10 of the paper,
   // growing with r^(1/3).
   function adhesionForce(values, diameter) {
-    const force = values.law === "ring"
+    const force = lawOf(values).byForce
         ? values.adhesion
         : Math.pow(6 * Math.PI * values.adhesion, 2 / 3) *
               Math.cbrt(values.stiffness * values.reference_diameter / 2) / (2 * Math.PI);
@@ -266,20 +266,31 @@ window.recoil = (() => {
            Math.pow(values.stiffness, -0.75) * Math.pow(mass, -0.5);
   }
 
+  // The laws of adhesion that this script computes. Another law throws.
+  const laws = {
+    ring: {byForce: true, jumps: false, vanishes: () => false, contact: ring},
+    dmt: {byForce: false, jumps: false, vanishes: () => false, contact: dmt},
+    jkr: {byForce: false, jumps: true, vanishes: beta => beta < 1e-14, contact: jkr},
+    maugis: {byForce: false, jumps: true, contact: maugis,
+             vanishes: (beta, lambda) => beta < 1e-8 || lambda < 1e-6}
+  };
+  function lawOf(values) {
+    if (!(values.law in laws)) throw new Error("unknown law of adhesion: " + values.law);
+    return laws[values.law];
+  }
+
   // e^2 at V [m/s] and diameter [m]. `values`: law, phase, C_H and C_A [s/m], adhesion (f0 [N/m] or
   // W [J/m2]), stiffness [Pa], density [kg/m3], reference_diameter and separation [m].
   function restitutionSquared(velocity, diameter, values) {
     const beta = Math.pow(adhesionVelocity(values, diameter) / velocity, 0.8);
     const alpha = values.C_H * velocity, gamma = values.C_A * velocity;
     const both = values.phase === "both";
-    if (values.law === "dmt") return fly(dmt(alpha, beta, gamma), both);
-    if (values.law === "jkr" && beta >= 1e-14) return fly(jkr(alpha, beta, gamma), both);
-    if (values.law === "maugis") {
-      const lambda = 4 * Math.pow(6, -2 / 3) * 16 / (9 * Math.sqrt(3)) *
-                     adhesionForce(values, diameter) / (values.stiffness * values.separation);
-      if (beta >= 1e-8 && lambda >= 1e-6) return fly(maugis(alpha, beta, gamma, lambda), both);
-    }
-    return fly(ring(alpha, values.law === "ring" ? beta : 0, gamma), both);
+    const lambda = 4 * Math.pow(6, -2 / 3) * 16 / (9 * Math.sqrt(3)) *
+                   adhesionForce(values, diameter) / (values.stiffness * values.separation);
+    const law = lawOf(values);
+    const contact = law.vanishes(beta, lambda) ? ring(alpha, 0, gamma)
+                                               : law.contact(alpha, beta, gamma, lambda);
+    return integrate(contact, both);
   }
 
   function restitution(velocity, diameter, values) {
@@ -289,8 +300,7 @@ window.recoil = (() => {
   // The largest velocity [m/s] that is captured; 0: all come back, NaN: none does.
   function captureVelocity(diameter, values) {
     const scale = adhesionVelocity(values, diameter);
-    const jumps = values.law === "jkr" || values.law === "maugis";
-    if (!(scale > 0) || (!jumps && values.C_H === 0 && values.C_A === 0)) return 0;
+    if (!(scale > 0) || (!lawOf(values).jumps && values.C_H === 0 && values.C_A === 0)) return 0;
     const captured = v => !(restitutionSquared(v, diameter, values) > 0);
     let low = 0.3 * scale, high = low;
     while (captured(high) && high < 1e6 * scale) high *= 2;
@@ -468,8 +478,8 @@ window.recoil = (() => {
     const own = {
       C_H: control("C_H", "s/m", panel.C_H, 1e-3, 100, 0, change),
       C_A: control("C_A", "s/m", panel.C_A, 1e-2, 100, 0, change),
-      adhesion: control(panel.adhesion_name, panel.law === "ring" ? adhesionUnit : "J/m²",
-                        panel.adhesion, panel.law === "ring" ? 1 : 0.05, 10, 0, change),
+      adhesion: control(panel.adhesion_name, lawOf(panel).byForce ? adhesionUnit : "J/m²",
+                        panel.adhesion, lawOf(panel).byForce ? 1 : 0.05, 10, 0, change),
       diameter: control("diameter", "µm", panel.diameter * 1e6, 1, 5, 1e-6, change)
     };
     const back = element("button", {type: "button", textContent: "Back to the fit"});

@@ -401,7 +401,7 @@ Table materials_table(const Analysis& a, std::size_t k) {
 Table contact_table(const Analysis& a, std::size_t k) {
   const ImpactSystem& system = a.datasets[k].system;
   const ContactProperties& contact = a.fitted.model.contacts[k];
-  const bool by_force = a.fitted.model.adhesion == AdhesionLaw::ring;
+  const bool by_force = traits(a.fitted.model.adhesion).by_force;
   const bool adhesion_free = a.fitted.model.slots[a.fitted.model.slot_adhesion[k]].free;
   const auto origin = [](bool stated) { return stated ? "stated" : "derived"; };
   Table table;

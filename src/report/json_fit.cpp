@@ -90,27 +90,13 @@ File::Options options_of(const Analysis& a) {
   return out;
 }
 
-std::string equation_of(AdhesionLaw law) {
-  switch (law) {
-    case AdhesionLaw::ring:
-      return "Li, Dunn & Brach (1999), eq. 5";
-    case AdhesionLaw::jkr:
-      return "Johnson, Kendall & Roberts (1971), damped";
-    case AdhesionLaw::dmt:
-      return "Derjaguin, Muller & Toporov (1975), damped";
-    case AdhesionLaw::maugis:
-      return "Maugis (1992), damped";
-  }
-  return {};
-}
-
 File::Model model_of(const Analysis& a) {
   const ImpactModel& model = a.fitted.model;
   File::Model out;
-  out.equation = equation_of(model.adhesion);
+  out.equation = std::string(traits(model.adhesion).equation);
   out.adhesion = model.adhesion;
   out.adhesion_damping_phase = model.phase;
-  if (model.adhesion == AdhesionLaw::maugis) out.separation_m = model.separation;
+  if (traits(model.adhesion).has_range) out.separation_m = model.separation;
   for (std::size_t k = 0; k < a.datasets.size(); ++k) {
     const ContactProperties& contact = model.contacts[k];
     const ImpactConditions conditions = reference_conditions(a, k, 1.0);

@@ -187,7 +187,7 @@ Quantity adhesion_quantity(const ImpactModel& model, std::size_t dataset) {
     Quantity::At at{adhesion_value_under(model, theta, dataset),
                     std::vector<double>(theta.size(), 0.0)};
     for (const MaterialSlope& slope : material_slopes(model, theta, dataset)) {
-      const bool ring = model.adhesion == AdhesionLaw::ring;
+      const bool ring = traits(model.adhesion).by_force;
       at.gradient[model.first_constant() + slope.index] =
           at.value * (ring ? slope.adhesion_force : slope.adhesion_energy);
     }

@@ -103,7 +103,7 @@ std::vector<Meaning> combinations_of(const FitResult& fitted) {
     const double total = fitted.theta[A] + 2.0 * fitted.theta[H];
     if (!(total > 0.0)) continue;
     // V_a ~ f0^(5/4), and f0 ~ W^(2/3) where W is the parameter.
-    const double per_force = model.adhesion == AdhesionLaw::ring ? 1.0 : 2.0 / 3.0;
+    const double per_force = traits(model.adhesion).by_force ? 1.0 : 2.0 / 3.0;
     std::vector<double> near(fitted.theta.size(), 0.0);
     near[f] = 3.75 * per_force;
     near[A] += fitted.theta[A] / total;

@@ -1,4 +1,4 @@
-#include "impact/maugis_path.hpp"
+#include "impact/maugis_law.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,6 @@
 #include <numbers>
 
 #include "core/roots.hpp"
-#include "impact/maugis_contact.hpp"
-#include "impact/partial.hpp"
 
 namespace recoil {
 namespace {
@@ -67,6 +65,19 @@ MaugisPath found(double lambda) {
 }
 
 }  // namespace
+
+DeepestSearch MaugisLaw::deepest_search(double strength, double lambda) {
+  const MaugisPath path = maugis_path(lambda);
+  using Varied = Partial<double, 3U>;  // s and lambda
+  const Varied energy =
+      place_at(variable<0>(path.start) + Varied{}, variable<1>(lambda) + Varied{}).energy;
+  // Far in, a = (5 / (4 Lambda))^(1/5), and s is below (1 + lambda) (1 + a).
+  const double radius = 2.0 + std::pow(1.25 / strength, 0.2) + std::cbrt(2.0 / lambda);
+  return {.start_energy = energy.value,
+          .start_energy_slope = energy.derivative<1>() + energy.derivative<0>() * path.start_slope,
+          .from = std::max(path.start, path.resting),
+          .to = 4.0 * (1.0 + lambda) * radius};
+}
 
 MaugisPath maugis_path(double lambda) {
   // The points of a fit have few lambda, and each is asked for many times.
