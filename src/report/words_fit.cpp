@@ -8,6 +8,7 @@
 
 #include "estimate/reweighting.hpp"
 #include "estimate/shared_settings.hpp"
+#include "impact/adhesion_law.hpp"
 #include "report/format.hpp"
 #include "report/words_dataset.hpp"
 #include "report/words_uncertainty.hpp"
@@ -210,19 +211,7 @@ Sentence point_words(const MeasuredPoint& point) {
 
 }  // namespace
 
-Sentence equation_words(AdhesionLaw law) {
-  switch (law) {
-    case AdhesionLaw::ring:
-      return say("Hertz contact with ring adhesion 2 pi {a} {f0} (Li, Dunn & Brach 1999, eq. 5)");
-    case AdhesionLaw::jkr:
-      return "Johnson, Kendall & Roberts (1971), damped";
-    case AdhesionLaw::dmt:
-      return "Derjaguin, Muller & Toporov (1975), damped";
-    case AdhesionLaw::maugis:
-      return "Maugis (1992), damped";
-  }
-  return {};
-}
+Sentence equation_words(AdhesionLaw law) { return say(traits(law).description); }
 
 Sentence quality_words(const FitResult& f) {
   if (!f.data.sd_stated) {
