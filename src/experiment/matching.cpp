@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t none = SIZE_MAX;
 
-/// Greedy choice, then exchanges along paths of three links: a free `from`, its `to` taken by
-/// another `from`, and for that one another free `to`.
+/// Greedy choice, then exchanges along paths of three links: a free `from`, its `to` that another
+/// `from` holds, and a free `to` for that one.
 class Chooser {
  public:
   Chooser(const std::vector<Link>& links, std::size_t passages)
@@ -39,8 +39,12 @@ class Chooser {
     }
   }
 
-  void take_given(const std::vector<std::size_t>& chosen) {
-    for (const std::size_t i : chosen) take(i);
+  std::vector<Link> chosen() const {
+    std::vector<Link> result;
+    for (const std::size_t i : by_from_) {
+      if (i != none) result.push_back(links_[i]);
+    }
+    return result;
   }
 
   double exchanged() const {
@@ -51,7 +55,7 @@ class Chooser {
       for (std::size_t a = start_[from]; a < start_[from + 1]; ++a) {
         const Link& cross = links_[list_[a]];
         const std::size_t theirs = by_to_[cross.to];
-        if (theirs == none || links_[theirs].from <= from) continue;  // each two once
+        if (theirs == none || links_[theirs].from <= from) continue;  // each pair once
         const std::uint32_t holder = links_[theirs].from;
         for (std::size_t b = start_[holder]; b < start_[holder + 1]; ++b) {
           const Link& back = links_[list_[b]];
@@ -62,14 +66,6 @@ class Chooser {
       }
     }
     return expected;
-  }
-
-  std::vector<std::size_t> chosen() const {
-    std::vector<std::size_t> result;
-    for (const std::size_t i : by_from_) {
-      if (i != none) result.push_back(i);
-    }
-    return result;
   }
 
  private:
@@ -111,19 +107,11 @@ class Chooser {
 
 }  // namespace
 
-std::vector<std::size_t> choose_links(const std::vector<Link>& links, std::size_t passages,
-                                      double price) {
+Matching match(const std::vector<Link>& links, std::size_t passages, double price) {
   Chooser chooser(links, passages);
   chooser.take_by_cost();
   chooser.exchange(price);
-  return chooser.chosen();
-}
-
-double expected_exchanged(const std::vector<Link>& links, const std::vector<std::size_t>& chosen,
-                          std::size_t passages) {
-  Chooser chooser(links, passages);
-  chooser.take_given(chosen);
-  return chooser.exchanged();
+  return {chooser.chosen(), chooser.exchanged()};
 }
 
 }  // namespace recoil

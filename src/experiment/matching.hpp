@@ -15,21 +15,20 @@ struct Link {
   double second = 0.0;     ///< ln of the ratio of the diameters
 };
 
-/// Chooses links such that every passage is used at most once as `from` and once as `to`: as many
-/// as possible of low cost. The links are taken by ascending cost; where taking one has left two
-/// others without a partner that together fit nearly as well, the exchange is made when it pairs
-/// more passages for at most `price` more cost. O(n log n) for n links.
-///
+/// Links of which each passage is in at most one as `from` and in at most one as `to`.
+struct Matching {
+  std::vector<Link> links;  ///< ascending in `from`
+  /// How many are expected to be wrong because two links should have exchanged their partners: over
+  /// all pairs of links that could, 2 p with p = 1 / (1 + exp(D / 2)) and D the cost of the
+  /// exchange (the odds of two sets of normal deviations).
+  double exchanged = 0.0;
+};
+
+/// Chooses as many links of low cost as possible. The links are taken by ascending cost; where that
+/// leaves a passage without a partner although an exchange with a neighbour would pair both, the
+/// exchange is made if it costs at most `price` more. O(n log n) for n links.
 /// @param passages indices lie below this.
 /// @param price the cost at which a link is as good as none.
-/// @returns the indices of the chosen links, ascending in `from`.
-std::vector<std::size_t> choose_links(const std::vector<Link>& links, std::size_t passages,
-                                      double price);
-
-/// How many of the `chosen` links are expected to be wrong because two of them had exchanged their
-/// partners: over all pairs of chosen links that could, 2 p with p = 1 / (1 + exp(D / 2)) and D the
-/// cost of the exchange (the odds of two sets of normal deviations).
-double expected_exchanged(const std::vector<Link>& links, const std::vector<std::size_t>& chosen,
-                          std::size_t passages);
+Matching match(const std::vector<Link>& links, std::size_t passages, double price);
 
 }  // namespace recoil

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -37,6 +38,39 @@ double densest(std::vector<double> values, double width) {
 }
 
 }  // namespace
+
+LocalSpread::LocalSpread(const std::vector<double>& x, const std::vector<double>& deviation,
+                         double lowest, double highest) {
+  constexpr std::size_t least = 60;
+  constexpr std::size_t most_classes = 8;
+  const std::size_t classes = std::clamp<std::size_t>(x.size() / least, 1, most_classes);
+  std::vector<std::size_t> order(x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
+  for (std::size_t k = 0; k < classes; ++k) {
+    const std::size_t begin = k * x.size() / classes;
+    const std::size_t end = (k + 1) * x.size() / classes;
+    std::vector<double> places;
+    std::vector<double> values;
+    for (std::size_t i = begin; i < end; ++i) {
+      places.push_back(x[order[i]]);
+      values.push_back(deviation[order[i]]);
+    }
+    x_.push_back(median(places));
+    sd_.push_back(std::clamp(robust_sd(std::move(values)), lowest, highest));
+  }
+}
+
+double LocalSpread::at(double x) const {
+  if (x <= x_.front()) return sd_.front();
+  if (x >= x_.back()) return sd_.back();
+  const auto above = std::upper_bound(x_.begin(), x_.end(), x);
+  const auto i = static_cast<std::size_t>(above - x_.begin());
+  const double share = (x - x_[i - 1]) / (x_[i] - x_[i - 1]);
+  return sd_[i - 1] + share * (sd_[i] - sd_[i - 1]);
+}
+
+double LocalSpread::largest() const { return *std::max_element(sd_.begin(), sd_.end()); }
 
 std::vector<Link> pair_candidates(const std::vector<Passage>& passages,
                                   const PairingOptions& options) {
@@ -105,18 +139,18 @@ Refined refine_height(const std::vector<Link>& candidates, const std::vector<Pas
     result.model.log_height = densest(std::move(heights), 0.1);
   }
   for (int round = 0; round < 4; ++round) {
-    const std::vector<Link> links = agreeing(candidates, passages, result.model);
-    const std::vector<std::size_t> chosen = choose_links(links, passages.size(), worst_link);
-    if (chosen.size() < fewest_to_refine) return result;
+    const std::vector<Link> links =
+        match(agreeing(candidates, passages, result.model), passages.size(), worst_link).links;
+    if (links.size() < fewest_to_refine) return result;
     std::vector<double> heights;
     std::vector<double> sizes;
     std::vector<double> log_up;
     std::vector<double> log_diameter;
-    for (const std::size_t i : chosen) {
-      heights.push_back(links[i].first);
-      sizes.push_back(links[i].second);
-      log_up.push_back(std::log(-passages[links[i].to].velocity));
-      log_diameter.push_back(std::log(passages[links[i].from].diameter));
+    for (const Link& link : links) {
+      heights.push_back(link.first);
+      sizes.push_back(link.second);
+      log_up.push_back(std::log(-passages[link.to].velocity));
+      log_diameter.push_back(std::log(passages[link.from].diameter));
     }
     result.model.height_sd = LocalSpread(log_up, heights, lowest_sd, highest_height_sd);
     result.model.diameter_sd =
@@ -125,9 +159,9 @@ Refined refine_height(const std::vector<Link>& candidates, const std::vector<Pas
     result.diameter_spread = robust_sd(sizes);
     if (!options.refine) continue;
     result.model.log_height = median(heights);
-    // of a median of normal numbers
-    result.log_height_sd = std::sqrt(M_PI / 2.0) * result.height_spread /
-                           std::sqrt(static_cast<double>(chosen.size()));
+    // the standard error of a median of normal numbers
+    result.log_height_sd =
+        std::sqrt(M_PI / 2.0) * result.height_spread / std::sqrt(static_cast<double>(links.size()));
     result.refined = true;
   }
   return result;

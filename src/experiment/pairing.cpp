@@ -10,25 +10,15 @@
 namespace recoil {
 namespace {
 
-constexpr std::uint32_t nobody = UINT32_MAX;
+constexpr std::uint32_t none = UINT32_MAX;
 
-struct Pairs {
-  std::vector<Link> links;
-  double exchanged = 0.0;  ///< expected to be wrong by exchange
-};
-
-Pairs pairs_of(const std::vector<Passage>& passages, const std::vector<Link>& candidates,
-               const PairingModel& model) {
-  const std::vector<Link> links = agreeing(candidates, passages, model);
-  const std::vector<std::size_t> chosen = choose_links(links, passages.size(), worst_link);
-  Pairs pairs;
-  for (const std::size_t i : chosen) pairs.links.push_back(links[i]);
-  pairs.exchanged = expected_exchanged(links, chosen, passages.size());
-  return pairs;
+Matching match_pairs(const std::vector<Passage>& passages, const std::vector<Link>& candidates,
+                     const PairingModel& model) {
+  return match(agreeing(candidates, passages, model), passages.size(), worst_link);
 }
 
-/// Every `stride`-th passage down again at a time when it does not belong, among the real ones:
-/// whatever partner it finds it has found by chance, against the competition of the real ones.
+/// How often a passage down finds a partner by chance: every n-th one is added to the stream again,
+/// 1.7 s away, where it does not belong and competes with the true passages.
 struct DecoyCount {
   std::size_t tried = 0;
   std::size_t paired = 0;
@@ -45,7 +35,6 @@ DecoyCount try_decoys(const std::vector<Passage>& passages, const PairingOptions
     bool decoy;
   };
   std::vector<Marked> mixed;
-  std::vector<Passage> foreign;
   std::size_t series_begin = 0;
   DecoyCount count;
   std::size_t seen = 0;
@@ -66,24 +55,23 @@ DecoyCount try_decoys(const std::vector<Passage>& passages, const PairingOptions
   std::vector<Passage> stream;
   stream.reserve(mixed.size());
   for (const Marked& marked : mixed) stream.push_back(marked.passage);
-  for (const Link& link : pairs_of(stream, pair_candidates(stream, options), model).links) {
+  for (const Link& link : match_pairs(stream, pair_candidates(stream, options), model).links) {
     if (mixed[link.from].decoy) ++count.paired;
   }
   return count;
 }
 
-/// The number of every passage down: 1 from the dispenser, else one more than what it follows.
+/// Numbers the passages down: 1 from the dispenser, else one more than the passage that it follows.
 class Chains {
  public:
-  explicit Chains(std::size_t passages) : previous_(passages, nobody), number_(passages, 0) {}
+  explicit Chains(std::size_t passages) : previous_(passages, none), number_(passages, 0) {}
 
   void follow(std::uint32_t later, std::uint32_t earlier) { previous_[later] = earlier; }
 
-  /// @param earlier_of an orphan rebound is at least of a first impact.
   int number(std::uint32_t down) {
     std::vector<std::uint32_t> chain;
     std::uint32_t at = down;
-    while (number_[at] == 0 && previous_[at] != nobody) {
+    while (number_[at] == 0 && previous_[at] != none) {
       chain.push_back(at);
       at = previous_[at];
     }
@@ -112,41 +100,39 @@ Impact impact_of(const std::vector<Passage>& passages, const Link& pair, double 
   return impact;
 }
 
-}  // namespace
+/// The candidates, the model that they refine, and the options with the height at which they were
+/// sought.
+struct Search {
+  PairingOptions options;
+  std::vector<Link> candidates;
+  Refined refined;
+};
 
-double PairingResult::purity() const {
-  if (impacts.empty()) return 1.0;
-  return std::max(0.0, 1.0 - expected_false / static_cast<double>(impacts.size()));
+Search search_pairs(const std::vector<Passage>& passages, const PairingOptions& options) {
+  Search search{options, pair_candidates(passages, options), {}};
+  search.refined = refine_height(search.candidates, passages, options);
+  const PairingModel& model = search.refined.model;
+  const double reach = std::abs(model.log_height) + widest_agreement * model.height_sd.largest();
+  if (search.refined.refined && reach > std::log(options.height_range)) {
+    // The height lies near an end of the range, which cuts pairs off: search again about it.
+    search.options.height *= std::exp(model.log_height);
+    search.candidates = pair_candidates(passages, search.options);
+    search.refined = refine_height(search.candidates, passages, search.options);
+  }
+  return search;
 }
 
-PairingResult pair_passages(const std::vector<Passage>& passages, const PairingOptions& given) {
-  PairingResult result;
-  result.options = given;
-  for (const Passage& passage : passages) ++(passage.velocity > 0.0 ? result.down : result.up);
+/// The number of every passage down, and which unpaired ones came back from an unseen rebound.
+struct Later {
+  Chains chains;
+  std::vector<bool> came_back;
+};
 
-  PairingOptions options = given;
-  std::vector<Link> candidates = pair_candidates(passages, options);
-  Refined refined = refine_height(candidates, passages, options);
-  const double reach =
-      std::abs(refined.model.log_height) + widest_agreement * refined.model.height_sd.largest();
-  if (refined.refined && reach > std::log(options.height_range)) {
-    // The height lies near an end of the range, which cuts pairs off: search again about it.
-    options.height *= std::exp(refined.model.log_height);
-    candidates = pair_candidates(passages, options);
-    refined = refine_height(candidates, passages, options);
-  }
-  result.candidates = static_cast<double>(candidates.size()) /
-                      static_cast<double>(std::max<std::size_t>(result.down, 1));
-  const PairingModel& model = refined.model;
-  result.height = options.height * std::exp(model.log_height);
-  result.height_sd = result.height * refined.log_height_sd;
-  result.refined = refined.refined;
-  result.height_spread = refined.height_spread;
-  result.diameter_spread = refined.diameter_spread;
-
-  const Pairs found = pairs_of(passages, candidates, model);
-  const std::vector<Link>& pairs = found.links;
-  std::vector<std::uint32_t> down_of(passages.size(), nobody);  // passage up -> its passage down
+/// @param pairs the links between passages down and passages up
+Later find_later_impacts(const std::vector<Passage>& passages, const Search& search,
+                         const std::vector<Link>& pairs, PairingResult& result) {
+  Later later{Chains(passages.size()), std::vector<bool>(passages.size(), false)};
+  std::vector<std::uint32_t> down_of(passages.size(), none);  // passage up -> its passage down
   std::vector<bool> open_down(passages.size(), false);
   std::vector<bool> open_next(passages.size(), false);
   for (std::size_t i = 0; i < passages.size(); ++i) {
@@ -156,65 +142,98 @@ PairingResult pair_passages(const std::vector<Passage>& passages, const PairingO
     down_of[pair.to] = pair.from;
     open_down[pair.from] = false;
   }
-  result.orphans = result.up - pairs.size();
-  result.missed_share =
-      result.up > 0 ? static_cast<double>(result.orphans) / static_cast<double>(result.up) : 0.0;
-
-  // An orphan rebound stands for its own passage down, which went unseen.
-  Chains chains(passages.size());
-  const Followers returns = find_returns(passages, options, model);
+  const PairingModel& model = search.refined.model;
+  const Followers returns = find_returns(passages, search.options, model);
   result.returns = returns.links.size();
   result.expected_returns = returns.by_chance;
   result.returns_usable = returns.usable || returns.links.empty();
   // Few returns say less than the flight times, which scatter by at least 1 / sqrt(2) of it.
-  result.velocity_spread = velocity_scatter(returns, options);
+  result.velocity_spread = velocity_scatter(returns, search.options);
   if (result.height_spread > 0.0) {
     result.velocity_spread =
         std::min(result.velocity_spread, std::sqrt(2.0) * result.height_spread);
   }
-  std::vector<bool> came_back(passages.size(), false);
-  if (returns.usable) {
-    for (const Link& link : returns.links) {
-      const std::uint32_t earlier = down_of[link.from];
-      chains.follow(link.to, earlier != nobody ? earlier : link.from);
-      open_next[link.to] = false;
-    }
-    const Followers unseen =
-        find_unseen(passages, options, model, open_down, open_next, result.velocity_spread);
-    for (const Link& link : unseen.usable ? unseen.links : std::vector<Link>{}) {
-      chains.follow(link.to, link.from);
-      came_back[link.from] = true;
-    }
+  if (!returns.usable) return later;
+  for (const Link& link : returns.links) {
+    // An orphan rebound takes the place of its own passage down, which was not seen.
+    const std::uint32_t earlier = down_of[link.from];
+    later.chains.follow(link.to, earlier != none ? earlier : link.from);
+    open_next[link.to] = false;
   }
+  const Followers unseen =
+      find_unseen(passages, search.options, model, open_down, open_next, result.velocity_spread);
+  for (const Link& link : unseen.usable ? unseen.links : std::vector<Link>{}) {
+    later.chains.follow(link.to, link.from);
+    later.came_back[link.from] = true;
+  }
+  return later;
+}
 
-  const double threshold = options.threshold.value_or(0.0);
+void list_impacts(const std::vector<Passage>& passages, const std::vector<Link>& pairs,
+                  Later& later, PairingResult& result) {
+  const PairingOptions& options = result.options;
+  const auto used = [&](std::uint32_t down, int number) {
+    return (options.keep_later || number == 1) &&
+           passages[down].velocity >= options.threshold.value_or(0.0);
+  };
+  std::vector<bool> paired(passages.size(), false);
   for (const Link& pair : pairs) {
+    paired[pair.from] = true;
     Impact impact = impact_of(passages, pair, result.height);
-    impact.number = chains.number(pair.from);
-    impact.used = (options.keep_later || impact.number == 1) &&
-                  passages[pair.from].velocity >= threshold &&
-                  impact.angle <= options.angle.value_or(M_PI);
+    impact.number = later.chains.number(pair.from);
+    impact.used = used(pair.from, impact.number) && impact.angle <= options.angle.value_or(M_PI);
     result.impacts.push_back(impact);
   }
-  for (std::size_t i = 0; i < passages.size(); ++i) {
-    if (!open_down[i]) continue;
+  for (std::uint32_t i = 0; i < passages.size(); ++i) {
+    if (passages[i].velocity <= 0.0 || paired[i]) continue;
     Unpaired lone;
-    lone.down = static_cast<std::uint32_t>(i);
+    lone.down = i;
     lone.incident = flight::surface_velocity(passages[i].velocity, result.height);
-    lone.number = chains.number(lone.down);
-    lone.came_back = came_back[i];
-    lone.used = (options.keep_later || lone.number == 1) && passages[i].velocity >= threshold;
+    lone.number = later.chains.number(i);
+    lone.came_back = later.came_back[i];
+    lone.used = used(i, lone.number);
     result.unpaired.push_back(lone);
   }
+}
 
-  const DecoyCount decoys = try_decoys(passages, options, model, result.down);
+}  // namespace
+
+double PairingResult::purity() const {
+  if (impacts.empty()) return 1.0;
+  return std::max(0.0, 1.0 - expected_false / static_cast<double>(impacts.size()));
+}
+
+PairingResult pair_passages(const std::vector<Passage>& passages, const PairingOptions& options) {
+  PairingResult result;
+  result.options = options;
+  for (const Passage& passage : passages) ++(passage.velocity > 0.0 ? result.down : result.up);
+
+  const Search search = search_pairs(passages, options);
+  const PairingModel& model = search.refined.model;
+  result.candidates = static_cast<double>(search.candidates.size()) /
+                      static_cast<double>(std::max<std::size_t>(result.down, 1));
+  result.height = search.options.height * std::exp(model.log_height);
+  result.height_sd = result.height * search.refined.log_height_sd;
+  result.refined = search.refined.refined;
+  result.height_spread = search.refined.height_spread;
+  result.diameter_spread = search.refined.diameter_spread;
+
+  const Matching pairs = match_pairs(passages, search.candidates, model);
+  result.orphans = result.up - pairs.links.size();
+  result.missed_share =
+      result.up > 0 ? static_cast<double>(result.orphans) / static_cast<double>(result.up) : 0.0;
+  Later later = find_later_impacts(passages, search, pairs.links, result);
+  list_impacts(passages, pairs.links, later, result);
+
+  const DecoyCount decoys = try_decoys(passages, search.options, model, result.down);
   result.decoys = decoys.tried;
   if (decoys.tried > 0) {
     result.decoy_share = static_cast<double>(decoys.paired) / static_cast<double>(decoys.tried);
     // n passages without a true partner leave n (1 - q) unpaired.
     const double chance = result.decoy_share / std::max(1.0 - result.decoy_share, 1e-3) *
                           static_cast<double>(result.unpaired.size());
-    result.expected_false = std::min(chance + found.exchanged, static_cast<double>(pairs.size()));
+    result.expected_false =
+        std::min(chance + pairs.exchanged, static_cast<double>(pairs.links.size()));
   }
   return result;
 }

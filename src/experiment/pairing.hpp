@@ -10,7 +10,7 @@
 
 namespace recoil {
 
-/// How passages are paired. Each default is explained by `recoil pair --help`.
+/// How passages are paired. `recoil pair --help` explains each default.
 struct PairingOptions {
   double height = 1e-3;       ///< first estimate of the probe plane's height above the surface [m]
   double height_range = 1.5;  ///< the true height lies within this factor of it [1]
@@ -46,7 +46,7 @@ struct Unpaired {
   bool used = true;        ///< as for Impact
 };
 
-/// What was found, and how far it can be trusted.
+/// The impacts and their reliability.
 struct PairingResult {
   PairingOptions options;
   std::vector<Impact> impacts;     ///< all pairs, by series and time of the incident passage
@@ -61,15 +61,15 @@ struct PairingResult {
   double height_spread = 0.0;    ///< scatter of one pair's implied height [1]
   double diameter_spread = 0.0;  ///< scatter of ln(d_up / d_down), the middle one [1]
 
-  double velocity_spread = 0.0;  ///< relative scatter of one velocity, as the returns show it [1]
+  double velocity_spread = 0.0;  ///< relative scatter of one velocity, from the returns [1]
 
   double decoy_share = 0.0;  ///< share of foreign passages down that find a partner by chance [1]
   std::size_t decoys = 0;    ///< how many were tried
-  double expected_false = 0.0;  ///< pairs that are chance, estimated from it
+  double expected_false = 0.0;  ///< number of pairs by chance, estimated from it
 
   std::size_t returns = 0;        ///< rebounds that were seen coming down again
   double expected_returns = 0.0;  ///< the same counted at a wrong time: chance
-  bool returns_usable = true;     ///< they stand out of chance, and are used
+  bool returns_usable = true;     ///< they exceed chance, and are used
   double missed_share = 0.0;      ///< share of passages that go unseen: orphans / passages up [1]
   double candidates = 0.0;        ///< pairs that were possible, per passage down [1]
 

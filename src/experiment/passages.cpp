@@ -11,10 +11,8 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/csv.hpp"
-#include "data/dataset.hpp"
-#include "data/limits.hpp"
+#include "data/datapackage.hpp"
 #include "data/text.hpp"
-#include "experiment/passage_columns.hpp"
 
 namespace recoil {
 namespace {
@@ -41,53 +39,155 @@ void split(std::string_view line, char delimiter, std::vector<std::string_view>&
   }
 }
 
-/// Turns lines into passages and counts what it cannot use.
+/// A field of the passages.
+struct Field {
+  std::string_view name;
+  Dimension dimension;
+  bool needed;
+  double Passage::*place;  ///< null for the series, which is a text
+};
+constexpr std::array<Field, 5> fields = {{
+    {"time", Dimension::time, true, &Passage::time},
+    {"velocity", Dimension::velocity, true, &Passage::velocity},
+    {"tangential_velocity", Dimension::velocity, false, &Passage::tangential},
+    {"diameter", Dimension::length, true, &Passage::diameter},
+    {"series", Dimension::text, false, nullptr},
+}};
+
+/// The column of a field.
+struct FieldColumn {
+  const Field* field = nullptr;
+  std::size_t index = 0;
+  double factor = 1.0;  ///< to SI
+};
+
+/// The statements of the data package about one file.
+struct Stated {
+  std::map<std::string, std::string> units;  ///< column -> unit
+  std::optional<Provenance> provenance;
+  bool found = false;  ///< the package has a resource of this name
+};
+
+Stated read_stated(const std::string& package_text, const std::string& file) {
+  Stated stated;
+  if (package_text.empty()) return stated;
+  const std::filesystem::path path(file);
+  const JsonDocument document(package_text, (path.parent_path() / package_file_name).string());
+  const auto resource = find_resource(document.root(), path.filename().string());
+  if (!resource) return stated;
+  stated.found = true;
+  stated.units = field_units(*resource);
+  const auto recoil = document.root().find("recoil");
+  if (recoil && recoil->find("provenance")) stated.provenance = read_provenance(*recoil);
+  return stated;
+}
+
+void require_fields(const std::map<std::string, std::string>& given, const std::string& option) {
+  std::vector<std::string> names;
+  for (const Field& field : fields) names.emplace_back(field.name);
+  for (const auto& [name, value] : given) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw InputError(
+        {}, fmt::format("{} {}={}: there is no field {}", option, name, value, quote(name)), "",
+        did_you_mean(name, names));
+  }
+}
+
+/// Ties the fields to the columns of the header. Each is the column of its name, or that of
+/// --column; its unit is that of --unit, or else of the data package.
+std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
+                                      const std::string& package_text, const PassageFormat& format,
+                                      PassageTable& table) {
+  require_fields(format.units, "--unit");
+  require_fields(format.columns, "--column");
+  const Stated stated = read_stated(package_text, table.file);
+  table.provenance = stated.provenance;
+  std::vector<FieldColumn> columns;
+  std::vector<bool> used(header.size(), false);
+  for (const Field& field : fields) {
+    const std::string name(field.name);
+    const auto renamed = format.columns.find(name);
+    const std::string& wanted = renamed != format.columns.end() ? renamed->second : name;
+    const auto found = std::find(header.begin(), header.end(), wanted);
+    if (found == header.end()) {
+      if (!field.needed && renamed == format.columns.end()) continue;
+      throw InputError({table.file, 1, 1}, fmt::format("there is no column {}", quote(wanted)),
+                       fmt::format("the columns are {}", listed(header)),
+                       fmt::format("name it with --column {}=NAME", name));
+    }
+    FieldColumn column{&field, static_cast<std::size_t>(found - header.begin())};
+    const Location place = {table.file, 1, static_cast<int>(column.index) + 1};
+    if (std::find(found + 1, header.end(), wanted) != header.end()) {
+      throw InputError(place, fmt::format("two columns are called {}", quote(wanted)), "",
+                       "rename one");
+    }
+    used[column.index] = true;
+    if (field.dimension != Dimension::text) {
+      const bool by_option = format.units.contains(name);
+      if (!by_option && !stated.units.contains(wanted)) {
+        throw InputError(
+            place, fmt::format("the unit of '{}' is not known", name),
+            stated.found ? "datapackage.json beside the file states none"
+                         : "there is no datapackage.json beside the file that lists it",
+            fmt::format("give --unit {}={}", name, fmt::join(unit_names(field.dimension), "|")));
+      }
+      const std::string& unit = by_option ? format.units.at(name) : stated.units.at(wanted);
+      column.factor = known_factor(field.dimension, unit, fmt::format("'{}'", name), place);
+      table.units.push_back({name, unit});
+      table.has_tangential = table.has_tangential || field.place == &Passage::tangential;
+    }
+    columns.push_back(column);
+  }
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    if (!used[i]) table.ignored.push_back(printable(header[i]));
+  }
+  return columns;
+}
+
+/// Turns rows into passages and counts those that it cannot use.
 class PassageReader {
  public:
-  PassageReader(PassageTable& table, PassageColumns columns, double sign)
-      : table_(table), columns_(std::move(columns)), sign_(sign) {}
+  PassageReader(PassageTable& table, std::vector<FieldColumn> columns, std::size_t width,
+                double sign)
+      : table_(table), columns_(std::move(columns)), width_(width), sign_(sign) {}
 
-  void row(const std::vector<std::string_view>& cells, int line) {
+  void read_row(const std::vector<std::string_view>& cells, int line) {
     ++table_.rows;
     Passage passage;
     passage.line = line;
-    const std::string problem = understand(cells, passage);
-    if (problem.empty()) {
-      latest_.resize(table_.series.size(), -INFINITY);
-      double& latest = latest_[passage.series];
-      if (passage.time < latest && table_.unsorted++ == 0) table_.first_unsorted = line;
-      latest = std::max(latest, passage.time);
-      table_.passages.push_back(passage);
+    const std::string problem = read_passage(cells, passage);
+    if (!problem.empty()) {
+      if (table_.damaged++ < most_examples) table_.first_damaged.push_back({line, problem});
       return;
     }
-    if (table_.first_damaged.size() < most_examples)
-      table_.first_damaged.push_back({line, problem});
-    ++table_.damaged;
+    latest_.resize(table_.series.size(), -INFINITY);
+    double& latest = latest_[passage.series];
+    if (passage.time < latest && table_.unsorted++ == 0) table_.first_unsorted = line;
+    latest = std::max(latest, passage.time);
+    table_.passages.push_back(passage);
   }
 
  private:
-  std::string understand(const std::vector<std::string_view>& cells, Passage& passage) {
-    if (cells.size() != columns_.width) {
-      return fmt::format("{} cells, the header has {}", cells.size(), columns_.width);
+  /// @returns the problem of the row, empty if there is none.
+  std::string read_passage(const std::vector<std::string_view>& cells, Passage& passage) {
+    if (cells.size() != width_) {
+      return fmt::format("{} cells, the header has {}", cells.size(), width_);
     }
-    const std::array<std::pair<PassageField, double*>, 4> places = {{
-        {PassageField::time, &passage.time},
-        {PassageField::velocity, &passage.velocity},
-        {PassageField::tangential, &passage.tangential},
-        {PassageField::diameter, &passage.diameter},
-    }};
-    for (const auto& [field, place] : places) {
-      if (!columns_.index[field]) continue;
-      const std::string_view cell = cells[*columns_.index[field]];
+    std::string_view series = "all";
+    for (const FieldColumn& column : columns_) {
+      const std::string_view cell = cells[column.index];
+      if (column.field->place == nullptr) {
+        series = cell;
+        continue;
+      }
       const std::optional<double> value = parse_number(cell);
       if (!value) {
-        return fmt::format("{} is {}", name_of(field),
+        return fmt::format("{} is {}", column.field->name,
                            cell.empty() ? std::string("empty") : quote(printable(cell)));
       }
-      *place = *value * columns_.factor[field];
+      passage.*column.field->place = *value * column.factor;
     }
-    const double speed = std::abs(passage.velocity);
-    if (!limits::velocity.contains(speed)) {
+    if (!limits::velocity.contains(std::abs(passage.velocity))) {
       return fmt::format("velocity = {:g} m/s", passage.velocity);
     }
     if (!(std::abs(passage.tangential) <= limits::velocity.upper)) {
@@ -97,38 +197,37 @@ class PassageReader {
       return fmt::format("diameter = {:g} m", passage.diameter);
     }
     passage.velocity *= sign_;
-    return read_series(cells, passage);
+    return read_series(series, passage);
   }
 
-  std::string read_series(const std::vector<std::string_view>& cells, Passage& passage) {
-    const auto index = columns_.index[PassageField::series];
-    const std::string_view name = index ? cells[*index] : "all";
-    if (!table_.series.empty() && table_.series[last_series_] == name) {
-      passage.series = static_cast<std::uint32_t>(last_series_);
-      return "";
+  std::string read_series(std::string_view name, Passage& passage) {
+    if (table_.series.empty() || table_.series[last_series_] != name) {
+      if (name.empty()) return "series is empty";
+      const std::string text(name);
+      try {
+        require_text(text, "");
+      } catch (const InputError&) {
+        return "series is not UTF-8 text";
+      }
+      if (printable(text) != text) return "series has control characters";
+      const auto [known, added] = index_.try_emplace(text, table_.series.size());
+      if (added) table_.series.push_back(text);
+      last_series_ = known->second;
     }
-    if (name.empty()) return "series is empty";
-    const std::string text(name);
-    try {
-      require_text(text, "");
-    } catch (const InputError&) {
-      return "series is not UTF-8 text";
-    }
-    if (printable(text) != text) return "series has control characters";
-    const auto found = std::find(table_.series.begin(), table_.series.end(), text);
-    last_series_ = static_cast<std::size_t>(found - table_.series.begin());
-    if (found == table_.series.end()) table_.series.push_back(text);
     passage.series = static_cast<std::uint32_t>(last_series_);
     return "";
   }
 
   PassageTable& table_;
-  PassageColumns columns_;
+  std::vector<FieldColumn> columns_;
+  std::size_t width_;
   double sign_;
-  std::vector<double> latest_;  ///< of each series
+  std::vector<double> latest_;  ///< of each series [s]
+  std::map<std::string, std::size_t> index_;
   std::size_t last_series_ = 0;
 };
 
+/// Sorts by series and time and removes repeated rows.
 void sort_and_unite(PassageTable& table) {
   std::vector<Passage>& passages = table.passages;
   const auto content = [](const Passage& e) {
@@ -152,8 +251,8 @@ void sort_and_unite(PassageTable& table) {
   if (table.duplicated > most_examples) table.first_duplicated.resize(most_examples);
 }
 
-/// A file of which most is damage was not understood.
-void require_sense(const PassageTable& table) {
+/// Refuses a file with mostly damaged rows: its delimiter or its units are not those assumed.
+void require_usable(const PassageTable& table) {
   if (table.rows == 0) {
     throw InputError({table.file, 1, 1}, "there is a header but no row below it", "",
                      "write one row for each passage through the probe volume");
@@ -185,22 +284,18 @@ PassageTable parse_passages(const std::string& text, const std::string& file,
       delimiter = delimiter_of(content);
       split(content, delimiter, cells);
       const std::vector<std::string> header(cells.begin(), cells.end());
-      PassageColumns columns = passage_columns(header, file, package_text, format);
-      table.ignored = columns.ignored;
-      table.provenance = columns.provenance;
-      table.units = columns.units;
-      table.has_tangential = columns.index[PassageField::tangential].has_value();
-      reader.emplace(table, std::move(columns), format.positive_away ? -1.0 : 1.0);
+      reader.emplace(table, find_columns(header, package_text, format, table), header.size(),
+                     format.positive_away ? -1.0 : 1.0);
       continue;
     }
     split(content, delimiter, cells);
-    reader->row(cells, line);
+    reader->read_row(cells, line);
   }
   if (!reader) {
     throw InputError({file, 1, 1}, "the file is empty", "",
                      "begin with a line that names the columns: time,velocity,diameter");
   }
-  require_sense(table);
+  require_usable(table);
   sort_and_unite(table);
   return table;
 }

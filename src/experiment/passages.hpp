@@ -42,9 +42,9 @@ struct PassageTable {
   std::size_t rows = 0;             ///< rows below the header
   std::size_t damaged = 0;          ///< left out: cells missing, not numbers, or impossible
   std::vector<BadRow> first_damaged;     ///< up to `most_examples`
-  std::size_t duplicated = 0;            ///< left out: alike in every column to a row that was kept
+  std::size_t duplicated = 0;            ///< left out: equal in every column to a row that was kept
   std::vector<int> first_duplicated;     ///< lines
-  std::size_t unsorted = 0;              ///< came later in the file than a later time; sorted in
+  std::size_t unsorted = 0;              ///< rows out of order in time, which were sorted
   int first_unsorted = 0;                ///< line
   std::vector<std::string> ignored;      ///< columns without a meaning here
   std::optional<Provenance> provenance;  ///< as the data package states it
@@ -53,7 +53,7 @@ struct PassageTable {
 
 inline constexpr std::size_t most_examples = 3;
 
-/// How the columns of an instrument's file are to be understood.
+/// The columns of an instrument's file.
 struct PassageFormat {
   /// Field -> unit; goes before the data package. Fields: time, velocity, tangential_velocity,
   /// diameter, series.

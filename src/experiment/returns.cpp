@@ -14,7 +14,7 @@ constexpr std::size_t fewest_to_narrow = 20;
 constexpr std::size_t most_visits = 400'000'000;  ///< a few seconds; beyond, too crowded to tell
 constexpr double sqrt2 = 1.4142135623730951;
 
-/// One past the last passage of the series of `passages[i]`, for every i: found by stepping.
+/// One past the last passage of the series of `passages[i]`, asked for ascending i.
 class SeriesEnds {
  public:
   explicit SeriesEnds(const std::vector<Passage>& passages) : passages_(passages) {}
@@ -34,7 +34,7 @@ class SeriesEnds {
 
 double squared(double x) { return x * x; }
 
-/// Cost of the agreement in size, or nothing when they disagree.
+/// Cost of the deviation in size; nullopt when the sizes disagree.
 std::optional<double> size_cost(const Passage& a, const Passage& b, const PairingModel& model) {
   const double deviation =
       std::log(b.diameter / a.diameter) / model.diameter_sd.at(std::log(a.diameter));
@@ -42,20 +42,14 @@ std::optional<double> size_cost(const Passage& a, const Passage& b, const Pairin
   return squared(deviation);
 }
 
-std::vector<Link> chosen_of(const std::vector<Link>& links, std::size_t passages) {
-  std::vector<Link> result;
-  for (const std::size_t i : choose_links(links, passages, worst_link)) result.push_back(links[i]);
-  return result;
-}
-
-/// Relative scatter of a passage with `speed`: that of the velocities, and that of the place in the
-/// probe volume where it is taken, which at low speed changes it by g dh / v^2.
+/// Relative scatter of the velocity of a passage with `speed`: that of the measurement, and that of
+/// the height in the probe volume at which it is measured, g dh / v^2.
 double local_scatter(double velocity_sd, double speed, double height, const PairingModel& model) {
   const double place = height * model.height_sd.at(std::log(speed));
   return std::hypot(velocity_sd, std::min(standard_gravity * place / (speed * speed), 0.2));
 }
 
-/// Returns with the time above the plane multiplied by `scale`; nothing when it takes too long.
+/// Returns with the time above the plane multiplied by `scale`; nullopt when that takes too long.
 std::optional<std::vector<Link>> returns_at(const std::vector<Passage>& passages,
                                             const PairingOptions& options,
                                             const PairingModel& model, double velocity_sd,
@@ -94,7 +88,7 @@ std::optional<std::vector<Link>> returns_at(const std::vector<Passage>& passages
           {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(k), cost, lateness, ratio});
     }
   }
-  return chosen_of(links, passages.size());
+  return match(links, passages.size(), worst_link).links;
 }
 
 std::vector<double> sorted_costs(const std::vector<Link>& links) {
@@ -108,8 +102,9 @@ double count_below(const std::vector<double>& sorted, double cost) {
   return static_cast<double>(std::upper_bound(sorted.begin(), sorted.end(), cost) - sorted.begin());
 }
 
-/// Runs `search(scale)` at the right time and at two wrong ones, and keeps the links up to the cost
-/// at which most is gained: a true follower recognised counts 1, one by chance -1.
+/// Runs `search(scale)` at the right time and at two wrong ones, which find links by chance only.
+/// It keeps the links up to the cost with the largest gain: a true follower counts 1, one by chance
+/// -1.
 struct Judged {
   Followers followers;
   double gain = 0.0;
@@ -168,7 +163,7 @@ double velocity_scatter(const Followers& returns, const PairingOptions& options)
 
 Followers find_returns(const std::vector<Passage>& passages, const PairingOptions& options,
                        const PairingModel& model) {
-  // The scatter of the velocities is the one with which most is gained, on a part of the stream.
+  // The scatter of the velocities is the one with the largest gain, on a part of the stream.
   constexpr std::size_t enough = 20000;
   const std::size_t stride = passages.size() / enough + 1;
   double sd = widest_scatter(options);
@@ -216,7 +211,7 @@ Followers find_unseen(const std::vector<Passage>& passages, const PairingOptions
             {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k), cost, lateness, 0.0});
       }
     }
-    return chosen_of(links, passages.size());
+    return match(links, passages.size(), worst_link).links;
   };
   return judged(search).followers;
 }

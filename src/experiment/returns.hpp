@@ -10,8 +10,8 @@ namespace recoil {
 /// Passages that follow from an earlier one of the same sphere over a flight above the plane.
 struct Followers {
   std::vector<Link> links;
-  double by_chance = 0.0;  ///< as many were found at wrong times (mean of 0.8 and 1.25 of the time)
-  bool usable = false;     ///< they stand out of chance, and it was not too crowded to search
+  double by_chance = 0.0;  ///< number found at wrong times (mean of 0.8 and 1.25 of the time)
+  bool usable = false;     ///< they exceed chance, and the stream was not too crowded to search
 };
 
 /// Rebounds that come down again: a passage down with the speed and diameter of one up, the time

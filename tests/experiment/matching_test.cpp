@@ -4,42 +4,41 @@
 
 #include <cmath>
 
-#include "experiment/spread.hpp"
+#include "experiment/pair_search.hpp"
 
 namespace {
 
 using namespace recoil;
 
-double total(const std::vector<Link>& links, const std::vector<std::size_t>& chosen) {
-  double sum = 0.0;
-  for (const std::size_t i : chosen) sum += links[i].cost;
-  return sum;
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+Pairs chosen(const std::vector<Link>& links, double price = 18.0) {
+  Pairs pairs;
+  for (const Link& link : match(links, 4, price).links) pairs.emplace_back(link.from, link.to);
+  return pairs;
 }
 
 TEST(Matching, EachPassageOnce) {
-  const std::vector<Link> links = {{0, 2, 1.0}, {0, 3, 2.0}, {1, 2, 0.5}, {1, 3, 9.0}};
-  const auto chosen = choose_links(links, 4, 18.0);
-  EXPECT_EQ(chosen, (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(chosen({{0, 2, 1.0}, {0, 3, 2.0}, {1, 2, 0.5}, {1, 3, 9.0}}), (Pairs{{0, 3}, {1, 2}}));
 }
 
 TEST(Matching, AnExchangePairsBoth) {
   // By cost alone 0-2 goes first, and 1, which fits 2 only, stays alone.
   const std::vector<Link> links = {{0, 2, 1.0}, {0, 3, 4.0}, {1, 2, 2.0}};
-  EXPECT_EQ(choose_links(links, 4, 18.0), (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(chosen(links), (Pairs{{0, 3}, {1, 2}}));
   // Not at any price: 4 + 2 - 1 = 5.
-  EXPECT_EQ(choose_links(links, 4, 4.9), (std::vector<std::size_t>{0}));
+  EXPECT_EQ(chosen(links, 4.9), (Pairs{{0, 2}}));
 }
 
-TEST(Matching, NothingToChoose) { EXPECT_TRUE(choose_links({}, 5, 18.0).empty()); }
+TEST(Matching, NothingToChoose) { EXPECT_TRUE(match({}, 5, 18.0).links.empty()); }
 
 TEST(Matching, ExchangedByHand) {
   // Chosen: 0-2 and 1-3 at cost 1 each; the exchange costs 2 more in all: 2 / (1 + e).
-  const std::vector<Link> links = {{0, 2, 1.0}, {1, 3, 1.0}, {0, 3, 2.0}, {1, 2, 2.0}};
-  const auto chosen = choose_links(links, 4, 18.0);
-  EXPECT_DOUBLE_EQ(total(links, chosen), 2.0);
-  EXPECT_NEAR(expected_exchanged(links, chosen, 4), 2.0 / (1.0 + std::exp(1.0)), 1e-15);
-  const std::vector<Link> alone = {{0, 2, 1.0}, {1, 3, 1.0}, {0, 3, 2.0}};
-  EXPECT_EQ(expected_exchanged(alone, choose_links(alone, 4, 18.0), 4), 0.0);
+  std::vector<Link> links = {{0, 2, 1.0}, {1, 3, 1.0}, {0, 3, 2.0}, {1, 2, 2.0}};
+  EXPECT_EQ(chosen(links), (Pairs{{0, 2}, {1, 3}}));
+  EXPECT_NEAR(match(links, 4, 18.0).exchanged, 2.0 / (1.0 + std::exp(1.0)), 1e-15);
+  links.pop_back();
+  EXPECT_EQ(match(links, 4, 18.0).exchanged, 0.0);
 }
 
 TEST(Spread, FollowsAVariable) {
