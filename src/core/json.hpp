@@ -224,27 +224,26 @@ void read_tuple(const Json& json, Tuple& value, std::index_sequence<I...>) {
 
 template <class Value>
 Json as_json(const Value& value, NonFinite non_finite) {
-  using namespace json_detail;
   if constexpr (std::is_same_v<Value, Json> || std::is_integral_v<Value> ||
                 std::is_convertible_v<const Value&, std::string_view>) {
     return value;
   } else if constexpr (std::is_floating_point_v<Value>) {
-    return number_to_json(value, non_finite);
+    return json_detail::number_to_json(value, non_finite);
   } else if constexpr (NamedEnum<Value>) {
     return name_of(value);
-  } else if constexpr (is_a<Value, std::optional>) {
+  } else if constexpr (json_detail::is_a<Value, std::optional>) {
     return value ? as_json(*value, non_finite) : Json(nullptr);
-  } else if constexpr (HasFields<Value>) {
+  } else if constexpr (json_detail::HasFields<Value>) {
     Json object = Json::object();
-    for_each_field(value, [&](const std::string& key, const auto& member) {
-      write_field(object, key, member, non_finite);
+    json_detail::for_each_field(value, [&](const std::string& key, const auto& member) {
+      json_detail::write_field(object, key, member, non_finite);
     });
     return object;
-  } else if constexpr (is_named<Value>) {
+  } else if constexpr (json_detail::is_named<Value>) {
     Json object = Json::object();
     for (const auto& [key, member] : value) object[key] = as_json(member, non_finite);
     return object;
-  } else if constexpr (IsTuple<Value>) {
+  } else if constexpr (json_detail::IsTuple<Value>) {
     Json list = Json::array();
     std::apply([&](const auto&... items) { (list.push_back(as_json(items, non_finite)), ...); },
                value);
@@ -260,7 +259,6 @@ Json as_json(const Value& value, NonFinite non_finite) {
 
 template <class Value>
 void read_json(const Json& json, Value& value) {
-  using namespace json_detail;
   const auto expect = [&](bool right, const char* expected) {
     if (!right) throw JsonMismatch(json, expected);
   };
@@ -273,7 +271,7 @@ void read_json(const Json& json, Value& value) {
     expect(json.is_number_integer(), "an integer");
     value = json.get<Value>();
   } else if constexpr (std::is_floating_point_v<Value>) {
-    value = number_from_json(json);
+    value = json_detail::number_from_json(json);
   } else if constexpr (std::is_same_v<Value, std::string>) {
     expect(json.is_string(), "a string");
     value = json.get<std::string>();
@@ -282,31 +280,34 @@ void read_json(const Json& json, Value& value) {
     const auto named = value_named<Value>(json.get<std::string>());
     expect(named.has_value(), "one of the known names");
     value = *named;
-  } else if constexpr (is_a<Value, std::optional>) {
+  } else if constexpr (json_detail::is_a<Value, std::optional>) {
     value.reset();
     if (!json.is_null()) read_json(json, value.emplace());
-  } else if constexpr (HasFields<Value>) {
+  } else if constexpr (json_detail::HasFields<Value>) {
     expect(json.is_object(), "an object");
-    for_each_field(value,
-                   [&](const std::string& key, auto& member) { read_field(json, key, member); });
-  } else if constexpr (is_named<Value>) {
+    json_detail::for_each_field(value, [&](const std::string& key, auto& member) {
+      json_detail::read_field(json, key, member);
+    });
+  } else if constexpr (json_detail::is_named<Value>) {
     expect(json.is_object(), "an object");
     value.clear();
     for (const auto& entry : json.items()) {
       std::pair<std::string, typename Value::value_type::second_type> read{entry.key(), {}};
-      read_within([&] { return read.first; }, [&] { read_json(entry.value(), read.second); });
+      json_detail::read_within([&] { return read.first; },
+                               [&] { read_json(entry.value(), read.second); });
       value.insert(value.end(), std::move(read));
     }
-  } else if constexpr (IsTuple<Value>) {
+  } else if constexpr (json_detail::IsTuple<Value>) {
     constexpr std::size_t size = std::tuple_size_v<Value>;
     expect(json.is_array() && json.size() == size, "a list of the right length");
-    read_tuple(json, value, std::make_index_sequence<size>());
+    json_detail::read_tuple(json, value, std::make_index_sequence<size>());
   } else {
     expect(json.is_array(), "a list");
     value.clear();
     for (std::size_t i = 0; i < json.size(); ++i) {
       typename Value::value_type item{};
-      read_within([i] { return "[" + std::to_string(i) + "]"; }, [&] { read_json(json[i], item); });
+      json_detail::read_within([i] { return "[" + std::to_string(i) + "]"; },
+                               [&] { read_json(json[i], item); });
       value.push_back(std::move(item));
     }
   }

@@ -23,6 +23,9 @@ inline constexpr double ns = 1e-9;
 inline constexpr double GPa = 1e9;
 }  // namespace units
 
+/// A length [m] in micrometres.
+constexpr double in_um(double metres) { return metres / units::um; }
+
 /// Standard gravity [m/s2], exact by definition (CGPM 1901).
 inline constexpr double standard_gravity = 9.80665;
 

@@ -10,7 +10,7 @@
 namespace recoil {
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
+constexpr std::uint32_t unassigned = UINT32_MAX;
 
 Matching match_pairs(const std::vector<Passage>& passages, const std::vector<Link>& candidates,
                      const PairingModel& model) {
@@ -64,14 +64,14 @@ DecoyCount try_decoys(const std::vector<Passage>& passages, const PairingOptions
 /// Numbers the passages down: 1 from the dispenser, else one more than the passage that it follows.
 class Chains {
  public:
-  explicit Chains(std::size_t passages) : previous_(passages, none), number_(passages, 0) {}
+  explicit Chains(std::size_t passages) : previous_(passages, unassigned), number_(passages, 0) {}
 
   void follow(std::uint32_t later, std::uint32_t earlier) { previous_[later] = earlier; }
 
   int number(std::uint32_t down) {
     std::vector<std::uint32_t> chain;
     std::uint32_t at = down;
-    while (number_[at] == 0 && previous_[at] != none) {
+    while (number_[at] == 0 && previous_[at] != unassigned) {
       chain.push_back(at);
       at = previous_[at];
     }
@@ -132,7 +132,7 @@ struct Later {
 Later find_later_impacts(const std::vector<Passage>& passages, const Search& search,
                          const std::vector<Link>& pairs, PairingResult& result) {
   Later later{Chains(passages.size()), std::vector<bool>(passages.size(), false)};
-  std::vector<std::uint32_t> down_of(passages.size(), none);  // passage up -> its passage down
+  std::vector<std::uint32_t> down_of(passages.size(), unassigned);  // passage up -> its passage down
   std::vector<bool> open_down(passages.size(), false);
   std::vector<bool> open_next(passages.size(), false);
   for (std::size_t i = 0; i < passages.size(); ++i) {
@@ -157,7 +157,7 @@ Later find_later_impacts(const std::vector<Passage>& passages, const Search& sea
   for (const Link& link : returns.links) {
     // An orphan rebound takes the place of its own passage down, which was not seen.
     const std::uint32_t earlier = down_of[link.from];
-    later.chains.follow(link.to, earlier != none ? earlier : link.from);
+    later.chains.follow(link.to, earlier != unassigned ? earlier : link.from);
     open_next[link.to] = false;
   }
   const Followers unseen =

@@ -14,7 +14,7 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t most_on_page = 12;  // quantities in the table of a fit's page
-constexpr double width = 1.96;            // standard errors of a 95 % interval of a normal estimate
+constexpr double errors_to_end = 1.96;    // standard errors of a 95 % interval of a normal estimate
 
 const ComparedQuantity* quantity_of(const ComparedFit& fit, const std::string& name) {
   const auto found =
@@ -96,8 +96,8 @@ Sentence dependence_words(const ChoiceDependence& found) {
 }
 
 Ends around(double value, double error, bool log_scale) {
-  if (!log_scale) return {value - width * error, value + width * error};
-  const double factor = std::exp(width * error / value);
+  if (!log_scale) return {value - errors_to_end * error, value + errors_to_end * error};
+  const double factor = std::exp(errors_to_end * error / value);
   return {value / factor, value * factor};
 }
 

@@ -113,7 +113,7 @@ Sentence column_words(const Dataset& dataset) {
   return join(names, ", ");
 }
 
-List list_of(const std::vector<std::string>& entries) {
+List plain_list(const std::vector<std::string>& entries) {
   List list;
   for (const std::string& entry : entries) list.entries.emplace_back(entry);
   return list;
@@ -166,8 +166,8 @@ std::vector<Section> dataset_sections(const Dataset& dataset) {
            {},
            {dataset_table(dataset), Paragraph{provenance_sentence(dataset.provenance)}}},
           {"series", "Series", {}, {series_table(dataset)}},
-          {"sources", "Sources", {}, {list_of(dataset.sources)}},
-          {"warnings", "Warnings", {}, {list_of(warnings)}}};
+          {"sources", "Sources", {}, {plain_list(dataset.sources)}},
+          {"warnings", "Warnings", {}, {plain_list(warnings)}}};
 }
 
 std::string dataset_text(const Dataset& dataset) {

@@ -242,18 +242,6 @@ Table expected_table(const Diagnosis& d) {
   return table;
 }
 
-List list_of(const std::vector<std::string>& sentences) {
-  List list;
-  for (const std::string& sentence : sentences) {
-    list.entries.push_back(as_sentence(Sentence(sentence)));
-  }
-  return list;
-}
-
-Section detail(const char* id, const char* title, Blocks blocks) {
-  return {id, title, {}, std::move(blocks), "", Importance::detail};
-}
-
 Section answer_section(const Diagnosis& d) {
   Section answer{"answer", d.spec.id, "diagnosis"};
   answer.blocks = {Paragraph{strong(headline(d) + "."), true},
@@ -283,15 +271,16 @@ std::vector<Section> diagnosis_sections(const Diagnosis& d) {
   for (std::string& warning : diagnosis_warnings(d)) notes.push_back(std::move(warning));
   return {answer_section(d),
           {"picture", "", {}, {one ? before_after : Figures{}}},
-          detail("misfit", "Where the model misses",
-                 {Figures{misfit_figures(d)}, structure_table(d), misfit_table(d)}),
-          detail("causes", "Every cause tried",
-                 {Figures{ranking_figures(d)}, candidates_table(tried(d))}),
-          detail("gain", "The extended model",
-                 {one ? Figures{} : before_after, both_models_table(d), capture_change_table(d),
-                  held_out_table(d), gain_summary(d)}),
-          detail("next", "What to measure next", {next_experiment_table(d)}),
-          detail("notes", "Notes and warnings", {list_of(notes), expected_table(d)})};
+          detail_section("misfit", "Where the model misses",
+                         {Figures{misfit_figures(d)}, structure_table(d), misfit_table(d)}),
+          detail_section("causes", "Every cause tried",
+                         {Figures{ranking_figures(d)}, candidates_table(tried(d))}),
+          detail_section("gain", "The extended model",
+                         {one ? Figures{} : before_after, both_models_table(d),
+                          capture_change_table(d), held_out_table(d), gain_summary(d)}),
+          detail_section("next", "What to measure next", {next_experiment_table(d)}),
+          detail_section("notes", "Notes and warnings",
+                         {list_of_sentences({notes.begin(), notes.end()}), expected_table(d)})};
 }
 
 Section diagnosis_summary(const Diagnosis& d, const std::string& address) {

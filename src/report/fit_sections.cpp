@@ -93,23 +93,11 @@ Blocks gravest_warning(const Analysis& a) {
   return {Banner{"warning", text}};
 }
 
-List list_of(const std::vector<Sentence>& sentences) {
-  List list;
-  for (const Sentence& sentence : sentences) {
-    if (!sentence.empty()) list.entries.push_back(as_sentence(sentence));
-  }
-  return list;
-}
-
-Section detail(const char* id, const char* title, Blocks blocks) {
-  return {id, title, {}, std::move(blocks), "", Importance::detail};
-}
-
 /// Every diameter by itself, and the residuals of every dataset.
 Section sizes_section(const Analysis& a, std::vector<Figure> panels) {
   if (panels.size() == 1) panels.clear();  // the answer shows it
   for (Figure& figure : residual_figures(a)) panels.push_back(std::move(figure));
-  return detail("sizes", "Every size, and the residuals", {Figures{std::move(panels)}});
+  return detail_section("sizes", "Every size, and the residuals", {Figures{std::move(panels)}});
 }
 
 /// Reasons why intervals are missing or differ.
@@ -142,10 +130,10 @@ Section certainty_section(const Analysis& a) {
   if (a.uncertainty.posterior) {
     sentences.emplace_back(no_posterior_words(*a.uncertainty.posterior));
   }
-  append(blocks, {intervals_table(a), list_of(sentences), correlations_table(a), posterior_table(a),
-                  constants_table(a), list_of({moved_words(a)}), conditional_table(a),
-                  budget_table(a), list_of(budget_sentences(a))});
-  return detail("certainty", "How certain the numbers are", std::move(blocks));
+  append(blocks, {intervals_table(a), list_of_sentences(sentences), correlations_table(a),
+                  posterior_table(a), constants_table(a), list_of_sentences({moved_words(a)}),
+                  conditional_table(a), budget_table(a), list_of_sentences(budget_sentences(a))});
+  return detail_section("certainty", "How certain the numbers are", std::move(blocks));
 }
 
 Section comparison_section(const Analysis& a) {
@@ -157,11 +145,11 @@ Section comparison_section(const Analysis& a) {
                             two_point_words(a.fitted, comparison.dataset, comparison.result)));
     sentences.emplace_back(held_out_words(comparison));
   }
-  blocks.emplace_back(list_of(sentences));
+  blocks.emplace_back(list_of_sentences(sentences));
   append(blocks, law_blocks(compared_laws(a.laws, a.datasets)));
   blocks.emplace_back(Figures{capture_figures(a)});
   append(blocks, mixture_blocks(a));
-  return detail("comparison", "Two points, other laws, other models", std::move(blocks));
+  return detail_section("comparison", "Two points, other laws, other models", std::move(blocks));
 }
 
 Section warnings_section(const Analysis& a) {
@@ -172,7 +160,7 @@ Section warnings_section(const Analysis& a) {
   for (const std::string& words : passed_limits(a.validity, a.datasets)) {
     sentences.push_back("limit of the model: " + words);
   }
-  return detail("warnings", "Warnings and limits", {list_of(sentences)});
+  return detail_section("warnings", "Warnings and limits", {list_of_sentences(sentences)});
 }
 
 Section inputs_section(const Analysis& a) {
@@ -189,7 +177,7 @@ Section inputs_section(const Analysis& a) {
     part.blocks = {std::move(sources), materials_table(a, k), contact_table(a, k)};
     blocks.emplace_back(std::move(part));
   }
-  return detail("inputs", "Data, model and method", std::move(blocks));
+  return detail_section("inputs", "Data, model and method", std::move(blocks));
 }
 
 /// The commands that answer the next questions.

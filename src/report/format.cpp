@@ -123,4 +123,16 @@ double residual_unit(const Analysis& analysis) {
   return !analysis.fitted.data.sd_stated && std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
 }
 
+List list_of_sentences(const std::vector<Sentence>& sentences) {
+  List list;
+  for (const Sentence& sentence : sentences) {
+    if (!sentence.empty()) list.entries.push_back(as_sentence(sentence));
+  }
+  return list;
+}
+
+Section detail_section(const char* id, const char* title, Blocks blocks) {
+  return {id, title, {}, std::move(blocks), "", Importance::detail};
+}
+
 }  // namespace recoil

@@ -71,4 +71,11 @@ inline constexpr const char* no_capture_words = "none (no adhesion)";
 /// Unit of the displayed residuals: 1, or the estimated noise where no deviation is stated.
 double residual_unit(const Analysis& analysis);
 
+/// A list of whole sentences: a capital at the start and a full stop at the end. Empty ones are
+/// left out.
+List list_of_sentences(const std::vector<Sentence>& sentences);
+
+/// A section that the answer does without.
+Section detail_section(const char* id, const char* title, Blocks blocks);
+
 }  // namespace recoil

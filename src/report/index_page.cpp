@@ -11,15 +11,15 @@
 #include "core/program.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "document/html.hpp"
-#include "plot/plot.hpp"
 #include "plot/draw.hpp"
+#include "plot/plot.hpp"
 #include "report/fit_figures.hpp"
 #include "report/format.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_sizes = 4;
+constexpr std::size_t most_sizes_listed = 4;
 constexpr int thumbnail_width = 420;   // [px]
 constexpr int thumbnail_height = 270;  // [px]
 
@@ -77,7 +77,7 @@ Table summary_table(const Json& fit) {
   const Json captures = at(fit, "/derived/capture_velocity");
   const bool several = at(fit, "/datasets").size() > 1;
   for (const Json& capture : captures) {
-    if (table.rows.size() == most_sizes) break;
+    if (table.rows.size() == most_sizes_listed) break;
     const double value = number_at(capture, "/value");
     if (!std::isfinite(value)) continue;
     Sentence name = say("{V*} at {:.3g} {um} [m/s]", number_at(capture, "/diameter_um"));

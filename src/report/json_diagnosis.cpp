@@ -10,17 +10,13 @@
 namespace recoil {
 namespace {
 
-using File = DiagnosisFile;
-
-double um(double metres) { return metres / units::um; }
-
-File::Misfit misfit_of(const Diagnosis& d) {
-  File::Misfit out = {.p_value = d.structure.p_value,
-                      .simulated = d.structure.simulated,
-                      .failed = d.structure.failed,
-                      .tests = {},
-                      .where = {},
-                      .free_form_remaining_p = d.free_form_p};
+DiagnosisFile::Misfit misfit_of(const Diagnosis& d) {
+  DiagnosisFile::Misfit out = {.p_value = d.structure.p_value,
+                               .simulated = d.structure.simulated,
+                               .failed = d.structure.failed,
+                               .tests = {},
+                               .where = {},
+                               .free_form_remaining_p = d.free_form_p};
   for (const StructureTest& test : d.structure.tests) {
     out.tests.push_back({.id = test.question,
                          .asks = words_of(test.question),
@@ -29,7 +25,7 @@ File::Misfit misfit_of(const Diagnosis& d) {
   }
   for (const MisfitCell& cell : d.where) {
     out.where.push_back({.dataset = d.datasets[cell.dataset].id,
-                         .diameter_um = um(cell.diameter),
+                         .diameter_um = in_um(cell.diameter),
                          .incident_velocity = {cell.slowest, cell.fastest},
                          .points = cell.points,
                          .restitution = cell.restitution,
@@ -41,12 +37,12 @@ File::Misfit misfit_of(const Diagnosis& d) {
 }
 
 /// @param most how many are listed
-std::vector<File::Candidate> candidates_of(const std::vector<CandidateResult>& candidates,
-                                           std::size_t most) {
-  std::vector<File::Candidate> list;
+std::vector<DiagnosisFile::Candidate> candidates_of(const std::vector<CandidateResult>& candidates,
+                                                    std::size_t most) {
+  std::vector<DiagnosisFile::Candidate> list;
   for (const CandidateResult& c : candidates) {
     if (list.size() == most) break;
-    File::Candidate& out = list.emplace_back();
+    DiagnosisFile::Candidate& out = list.emplace_back();
     out.id = c.candidate.name();
     out.kind = c.kind;
     for (const FoundParameter& p : c.parameters) {
@@ -73,14 +69,14 @@ std::vector<File::Candidate> candidates_of(const std::vector<CandidateResult>& c
   return list;
 }
 
-std::optional<File::Gain> gain_of(const Diagnosis& d) {
+std::optional<DiagnosisFile::Gain> gain_of(const Diagnosis& d) {
   if (!d.gain) return std::nullopt;
-  File::Gain out = {.held_out_rmse_base = d.gain->rmse_base,
-                    .held_out_rmse_extended = d.gain->rmse_extended,
-                    .relative = d.gain->relative,
-                    .interval = {},
-                    .log_score = d.gain->log_score,
-                    .folds = {}};
+  DiagnosisFile::Gain out = {.held_out_rmse_base = d.gain->rmse_base,
+                             .held_out_rmse_extended = d.gain->rmse_extended,
+                             .relative = d.gain->relative,
+                             .interval = {},
+                             .log_score = d.gain->log_score,
+                             .folds = {}};
   if (d.gain->lower && d.gain->upper) out.interval = {*d.gain->lower, *d.gain->upper};
   for (const HeldOutGain::PerFold& one : d.gain->folds) {
     out.folds.push_back({.kind = one.fold.kind,
@@ -95,13 +91,14 @@ std::optional<File::Gain> gain_of(const Diagnosis& d) {
   return out;
 }
 
-File::Fit fit_of(const FitResult& fitted, const std::vector<IntervalSet>& intervals) {
-  File::Fit out = {.parameters = {}, .chi2 = fitted.chi2, .dof = fitted.dof, .rmse = fitted.rmse};
+DiagnosisFile::Fit fit_of(const FitResult& fitted, const std::vector<IntervalSet>& intervals) {
+  DiagnosisFile::Fit out = {
+      .parameters = {}, .chi2 = fitted.chi2, .dof = fitted.dof, .rmse = fitted.rmse};
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     if (slot.is_constant()) continue;
-    File::FittedParameter& parameter =
-        out.parameters.emplace_back(slot.label(), File::FittedParameter()).second;
+    DiagnosisFile::FittedParameter& parameter =
+        out.parameters.emplace_back(slot.label(), DiagnosisFile::FittedParameter()).second;
     parameter.value = fitted.theta[j];
     parameter.unit = slot.parameter->unit;
     parameter.free = slot.free;
@@ -113,10 +110,10 @@ File::Fit fit_of(const FitResult& fitted, const std::vector<IntervalSet>& interv
   return out;
 }
 
-std::vector<File::Experiment> experiments_of(const Diagnosis& d) {
-  std::vector<File::Experiment> list;
+std::vector<DiagnosisFile::Experiment> experiments_of(const Diagnosis& d) {
+  std::vector<DiagnosisFile::Experiment> list;
   for (const NextExperiment& next : d.experiments) {
-    File::Experiment& out = list.emplace_back();
+    DiagnosisFile::Experiment& out = list.emplace_back();
     out.kind = next.kind;
     if (next.kind == ExperimentKind::condition) {
       out.condition = next.condition;
@@ -125,7 +122,7 @@ std::vector<File::Experiment> experiments_of(const Diagnosis& d) {
     }
     out.dataset = d.datasets[next.dataset].id;
     out.series = d.datasets[next.dataset].series[next.series];
-    out.diameter_um = um(next.diameter);
+    out.diameter_um = in_um(next.diameter);
     out.incident_velocity = next.velocity;
     out.events = next.events;
     out.separates = {next.one, next.other};
@@ -135,9 +132,9 @@ std::vector<File::Experiment> experiments_of(const Diagnosis& d) {
   return list;
 }
 
-std::vector<File::Unstated> unstated_of(const Diagnosis& d) {
+std::vector<DiagnosisFile::Unstated> unstated_of(const Diagnosis& d) {
   const std::vector<UnstatedErrors> rivals = rival_errors(d);
-  std::vector<File::Unstated> list;
+  std::vector<DiagnosisFile::Unstated> list;
   for (const UnstatedErrors& errors : d.unstated) {
     const bool rival = std::any_of(rivals.begin(), rivals.end(), [&](const UnstatedErrors& other) {
       return other.source == errors.source;
@@ -167,7 +164,7 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
   for (const OutlyingPoint& point : d.outlying) {
     out.outlying_points.push_back({.dataset = d.datasets[point.dataset].id,
                                    .row = point.line,
-                                   .diameter_um = um(point.diameter),
+                                   .diameter_um = in_um(point.diameter),
                                    .incident_velocity = point.velocity,
                                    .restitution = point.restitution,
                                    .residual = point.residual});
@@ -190,7 +187,7 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
   if (d.extended_fit) out.extended = fit_of(*d.extended_fit, d.extended_intervals);
   for (const CaptureChange& change : d.capture) {
     out.capture_velocity.push_back({.dataset = d.datasets[change.dataset].id,
-                                    .diameter_um = um(change.diameter),
+                                    .diameter_um = in_um(change.diameter),
                                     .base = change.base,
                                     .extended = change.extended});
   }
@@ -200,7 +197,7 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
                                     .dataset = d.datasets[effect.dataset].id,
                                     .condition = effect.condition,
                                     .value = effect.stated,
-                                    .diameter_um = um(effect.diameter),
+                                    .diameter_um = in_um(effect.diameter),
                                     .incident_velocity = effect.velocity,
                                     .change = effect.change});
   }

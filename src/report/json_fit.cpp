@@ -17,8 +17,6 @@
 namespace recoil {
 namespace {
 
-using File = FitFile;
-
 /// nullopt unless `condition` holds.
 std::optional<double> only_if(bool condition, double value) {
   return condition ? std::optional(value) : std::nullopt;
@@ -28,8 +26,6 @@ std::optional<double> only_if(bool condition, double value) {
 std::optional<double> at(const std::vector<double>& values, std::size_t i) {
   return i < values.size() ? std::optional(values[i]) : std::nullopt;
 }
-
-double um(double metres) { return metres / units::um; }
 
 std::optional<Ends> mc_error(const Interval& interval) {
   if (!interval.available() || !interval.lower_error || !interval.upper_error) return std::nullopt;
@@ -68,9 +64,9 @@ std::string all_provenance_sentences(const std::vector<Dataset>& datasets) {
 }
 
 /// The number of threads is left out on purpose: no digit of a result depends on it.
-File::Options options_of(const Analysis& a) {
+FitFile::Options options_of(const Analysis& a) {
   const UncertaintyOptions& options = a.uncertainty.options;
-  File::Options out = {
+  FitFile::Options out = {
       .adhesion = a.fitted.model.adhesion,
       .adhesion_damping_phase = a.fitted.model.phase,
       .mechanisms = a.spec.mechanisms,
@@ -90,9 +86,9 @@ File::Options options_of(const Analysis& a) {
   return out;
 }
 
-File::Model model_of(const Analysis& a) {
+FitFile::Model model_of(const Analysis& a) {
   const ImpactModel& model = a.fitted.model;
-  File::Model out;
+  FitFile::Model out;
   out.equation = std::string(traits(model.adhesion).equation);
   out.adhesion = model.adhesion;
   out.adhesion_damping_phase = model.phase;
@@ -109,7 +105,7 @@ File::Model model_of(const Analysis& a) {
          .f0_N_per_m = f0,
          .W_of_f0_J_per_m2 = adhesion_energy_for(f0, conditions.diameter / 2.0, contact.stiffness),
          .f0_eq12_N_per_m = contact.adhesion_force_derived,
-         .reference_diameter_um = um(contact.reference_diameter),
+         .reference_diameter_um = in_um(contact.reference_diameter),
          .particle_density_kg_per_m3 = contact.particle_density,
          .adhesion_velocity_m_per_s = adhesion_velocity(conditions),
          .contradictions = contact.contradictions});
@@ -117,8 +113,8 @@ File::Model model_of(const Analysis& a) {
   return out;
 }
 
-File::Intervals intervals_entry(const Analysis& a, std::size_t slot, const IntervalSet& set) {
-  File::Intervals out;
+FitFile::Intervals intervals_entry(const Analysis& a, std::size_t slot, const IntervalSet& set) {
+  FitFile::Intervals out;
   out.wald = ends_of(set[IntervalKind::wald]);
   out.profile = ends_of(set[IntervalKind::profile]);
   out.percentile = ends_of(set[IntervalKind::percentile]);
@@ -147,10 +143,10 @@ File::Intervals intervals_entry(const Analysis& a, std::size_t slot, const Inter
 template <class Entry>
 void set_budget(Entry& entry, const ErrorBudget& budget, const ImpactModel& model) {
   if (!budget.available()) return;
-  std::vector<File::BudgetRow>& rows = entry.budget.emplace();
+  std::vector<FitFile::BudgetRow>& rows = entry.budget.emplace();
   for (const BudgetEntry& source : budget.entries) {
     const bool constant = source.source == BudgetSource::constant;
-    File::BudgetRow& row = rows.emplace_back();
+    FitFile::BudgetRow& row = rows.emplace_back();
     row.source = constant ? source_words(source, model) : to_string(source.source);
     row.sd = source.sd;
     row.share = source.share;
@@ -160,11 +156,11 @@ void set_budget(Entry& entry, const ErrorBudget& budget, const ImpactModel& mode
   entry.budget_sd_without_first_constant.emplace(budget.sd_without_first_constant);
 }
 
-File::Parameter parameter_of(const Analysis& a, std::size_t s) {
+FitFile::Parameter parameter_of(const Analysis& a, std::size_t s) {
   const FitResult& f = a.fitted;
   const ParameterSlot& slot = f.model.slots[s];
   const IntervalSet set = intervals_of(a, s);
-  File::Parameter out;
+  FitFile::Parameter out;
   out.value = {acting_value(f.model, f.theta, s), "the estimate is not finite"};
   out.unit = slot.parameter->unit;
   out.free = slot.free;
@@ -189,7 +185,7 @@ File::Parameter parameter_of(const Analysis& a, std::size_t s) {
   if (s < a.uncertainty.budgets.size()) set_budget(out, a.uncertainty.budgets[s], f.model);
   if (const auto& exact = a.uncertainty.conditional;
       exact && s < exact->fitted.theta.size() && exact->fitted.model.slots[s].free) {
-    out.materials_exact.emplace(File::MaterialsExact{
+    out.materials_exact.emplace(FitFile::MaterialsExact{
         .value = exact->fitted.theta[s],
         .std_error = exact->fitted.std_error[s],
         .intervals = {{"wald", ends_of(exact->intervals[s][IntervalKind::wald])},
@@ -198,14 +194,14 @@ File::Parameter parameter_of(const Analysis& a, std::size_t s) {
   return out;
 }
 
-Named<File::Constant> constants_of(const Analysis& a) {
-  Named<File::Constant> all;
+Named<FitFile::Constant> constants_of(const Analysis& a) {
+  Named<FitFile::Constant> all;
   const ImpactModel& model = a.fitted.model;
   if (a.fitted.theta.size() != model.slots.size()) return all;
   for (std::size_t k = 0; k < model.constants.size(); ++k) {
     const UncertainConstant& constant = model.constants[k];
     const std::size_t j = model.first_constant() + k;
-    File::Constant& out = all.emplace_back(model.slots[j].label(), File::Constant()).second;
+    FitFile::Constant& out = all.emplace_back(model.slots[j].label(), FitFile::Constant()).second;
     out.value = a.fitted.theta[j];
     out.unit = model.slots[j].parameter->unit;
     out.meaning = model.slots[j].parameter->meaning;
@@ -221,13 +217,14 @@ Named<File::Constant> constants_of(const Analysis& a) {
 
 /// A matrix over the labels of the free parameters; `value(i, j)` is its entry.
 template <class ValueOf>
-std::optional<File::Matrix> matrix_of(const FitResult& f, const ValueOf& value) {
+std::optional<FitFile::Matrix> matrix_of(const FitResult& f, const ValueOf& value) {
   const std::vector<ParameterSlot>& slots = f.model.slots;
   if (f.covariance.size() != slots.size() * slots.size()) return std::nullopt;
-  File::Matrix rows;
+  FitFile::Matrix rows;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     if (!slots[i].free) continue;
-    auto& row = rows.emplace_back(slots[i].label(), File::Matrix::value_type::second_type()).second;
+    auto& row =
+        rows.emplace_back(slots[i].label(), FitFile::Matrix::value_type::second_type()).second;
     for (std::size_t j = 0; j < slots.size(); ++j) {
       if (!slots[j].free) continue;
       const bool known = f.std_error[i] > 0.0 && f.std_error[j] > 0.0;  // neither is at a bound
@@ -237,14 +234,14 @@ std::optional<File::Matrix> matrix_of(const FitResult& f, const ValueOf& value) 
   return rows;
 }
 
-std::vector<File::CaptureVelocity> captures_of(const Analysis& a) {
-  std::vector<File::CaptureVelocity> list;
+std::vector<FitFile::CaptureVelocity> captures_of(const Analysis& a) {
+  std::vector<FitFile::CaptureVelocity> list;
   const std::optional<PosteriorResult>& posterior = a.uncertainty.posterior;
   for (std::size_t k = 0; k < a.uncertainty.capture.size(); ++k) {
     const CaptureEstimate& capture = a.uncertainty.capture[k];
-    File::CaptureVelocity& out = list.emplace_back();
+    FitFile::CaptureVelocity& out = list.emplace_back();
     out.dataset = a.datasets[capture.dataset].id;
-    out.diameter_um = um(capture.diameter);
+    out.diameter_um = in_um(capture.diameter);
     out.unit = "m/s";
     out.value = {only_if(capture.found, capture.value),
                  "no velocity at which capture turns into rebound was found"};
@@ -266,7 +263,7 @@ std::vector<File::CaptureVelocity> captures_of(const Analysis& a) {
   return list;
 }
 
-File::Goodness goodness_of(const FitResult& f) {
+FitFile::Goodness goodness_of(const FitResult& f) {
   const bool stated = f.data.sd_stated;
   return {.chi2 = {f.chi2, "the sum of squares is not finite"},
           .dof = f.dof,
@@ -279,7 +276,7 @@ File::Goodness goodness_of(const FitResult& f) {
           .noise_text = noise_words(f)};
 }
 
-File::Noise noise_of(const FitResult& f) {
+FitFile::Noise noise_of(const FitResult& f) {
   const Observations& data = f.data;
   const NoiseModel& noise = data.noise;
   const auto count_with = [&](double MeasuredPoint::*error) {
@@ -287,7 +284,7 @@ File::Noise noise_of(const FitResult& f) {
         std::count_if(data.points.begin(), data.points.end(),
                       [&](const Observation& point) { return point.*error > 0.0; }));
   };
-  File::Noise out;
+  FitFile::Noise out;
   out.variance = noise.variance;
   out.chosen = !noise.candidates.empty();
   out.scale = {only_if(!data.sd_stated, noise.scale), "the standard deviations are stated"};
@@ -315,7 +312,7 @@ File::Noise noise_of(const FitResult& f) {
   return out;
 }
 
-File::Identifiable identifiability_of(const Analysis& a) {
+FitFile::Identifiable identifiability_of(const Analysis& a) {
   const Identifiability& found = a.uncertainty.identifiability;
   const std::vector<ParameterSlot>& slots = a.fitted.model.slots;
   const auto by_parameter = [&](const std::vector<double>& values) {
@@ -325,7 +322,7 @@ File::Identifiable identifiability_of(const Analysis& a) {
     }
     return out;
   };
-  File::Identifiable out;
+  FitFile::Identifiable out;
   if (found.assessed()) out.verdict = found.verdict;
   out.text = plain_text(identifiability_words(a.fitted, a.uncertainty));
   for (std::size_t s = 0; s < found.parameter.size() && s < slots.size(); ++s) {
@@ -344,7 +341,7 @@ File::Identifiable identifiability_of(const Analysis& a) {
   for (const PlannedPoints& plan : found.information.plans) {
     if (out.information.more_points.size() == most_plans) break;
     out.information.more_points.push_back({.dataset = a.datasets[plan.dataset].id,
-                                           .diameter_um = um(plan.diameter),
+                                           .diameter_um = in_um(plan.diameter),
                                            .incident_velocity = plan.velocity,
                                            .points = plan.points,
                                            .relative_sd = by_parameter(plan.relative_sd)});
@@ -352,25 +349,25 @@ File::Identifiable identifiability_of(const Analysis& a) {
   return out;
 }
 
-File::Bootstrap bootstrap_of(const Analysis& a) {
+FitFile::Bootstrap bootstrap_of(const Analysis& a) {
   const BootstrapResult& bootstrap = a.uncertainty.bootstrap;
-  File::Bootstrap out = {.scheme = bootstrap.scheme,
-                         .scheme_why = scheme_words(bootstrap),
-                         .replicates = bootstrap.replicates,
-                         .failed = bootstrap.failed,
-                         .failures = {},
-                         .mc_error_of_width = bootstrap.relative_error,
-                         .seed = bootstrap.seed,
-                         .usable = bootstrap.theta.size(),
-                         .two_point_replicates = bootstrap.two_point_replicates,
-                         .two_point_failed = {}};
+  FitFile::Bootstrap out = {.scheme = bootstrap.scheme,
+                            .scheme_why = scheme_words(bootstrap),
+                            .replicates = bootstrap.replicates,
+                            .failed = bootstrap.failed,
+                            .failures = {},
+                            .mc_error_of_width = bootstrap.relative_error,
+                            .seed = bootstrap.seed,
+                            .usable = bootstrap.theta.size(),
+                            .two_point_replicates = bootstrap.two_point_replicates,
+                            .two_point_failed = {}};
   for (std::size_t k = 0; k < a.datasets.size() && k < bootstrap.two_point_failed.size(); ++k) {
     out.two_point_failed.emplace_back(a.datasets[k].id, bootstrap.two_point_failed[k]);
   }
   const FailedReplicates& failed = bootstrap.failures;
   if (failed.index.empty()) return out;
   constexpr std::size_t most_listed = 100;  // failed replicates by their index
-  File::Failures& failures = out.failures.emplace();
+  FitFile::Failures& failures = out.failures.emplace();
   failures.text = failures_words(bootstrap, a.fitted.data);
   failures.replicates = failed.index;
   failures.replicates.resize(std::min(failed.index.size(), most_listed));
@@ -379,22 +376,22 @@ File::Bootstrap bootstrap_of(const Analysis& a) {
     const Observation& point = a.fitted.data.points[suspect.point];
     failures.suspects.push_back({.point = suspect.point + 1,
                                  .incident_velocity = point.velocity,
-                                 .diameter_um = um(point.diameter),
+                                 .diameter_um = in_um(point.diameter),
                                  .disturbance_when_failed = suspect.failed,
                                  .disturbance_otherwise = suspect.usual});
   }
   return out;
 }
 
-std::optional<File::Posterior> posterior_of(const Analysis& a) {
+std::optional<FitFile::Posterior> posterior_of(const Analysis& a) {
   if (!a.uncertainty.posterior) return std::nullopt;
   const PosteriorResult& found = *a.uncertainty.posterior;
-  File::Posterior out = {.steps = found.steps,
-                         .walkers = found.walkers,
-                         .acceptance = found.acceptance,
-                         .draws = found.draws.size(),
-                         .missing = {},
-                         .parameters = {}};
+  FitFile::Posterior out = {.steps = found.steps,
+                            .walkers = found.walkers,
+                            .acceptance = found.acceptance,
+                            .draws = found.draws.size(),
+                            .missing = {},
+                            .parameters = {}};
   if (!found.available()) out.missing = no_posterior_words(found);
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {
     const PosteriorMarginal& marginal = found.parameters[j];
@@ -413,20 +410,20 @@ std::string held_out_why(const TwoPointComparison& comparison) {
                                      : "no other diameter was predicted";
 }
 
-File::TwoPoint two_point_entry(const Analysis& a, const TwoPointComparison& comparison) {
+FitFile::TwoPoint two_point_entry(const Analysis& a, const TwoPointComparison& comparison) {
   const TwoPointResult& two = comparison.result;
   const ImpactModel& model = a.fitted.model;
   const bool answered = two.status != TwoPointStatus::too_few_points;
-  const auto point_at = [&](std::size_t index) -> std::optional<File::PaperPoint> {
+  const auto point_at = [&](std::size_t index) -> std::optional<FitFile::PaperPoint> {
     if (!answered || index >= a.fitted.data.points.size()) return std::nullopt;
     const Observation& point = a.fitted.data.points[index];
-    return File::PaperPoint{point.velocity, point.restitution, um(point.diameter)};
+    return FitFile::PaperPoint{point.velocity, point.restitution, in_um(point.diameter)};
   };
-  File::TwoPoint out;
+  FitFile::TwoPoint out;
   out.status = two.status;
   out.text = plain_text(two_point_words(a.fitted, comparison.dataset, two));
   out.iterations = two.iterations;
-  out.diameter_um = um(two.diameter);
+  out.diameter_um = in_um(two.diameter);
   out.low_point = point_at(two.low_point);
   out.high_point = point_at(two.high_point);
   for (const std::size_t s :
@@ -443,9 +440,9 @@ File::TwoPoint two_point_entry(const Analysis& a, const TwoPointComparison& comp
   return out;
 }
 
-File::Full full_entry(const Analysis& a, const TwoPointComparison& comparison) {
+FitFile::Full full_entry(const Analysis& a, const TwoPointComparison& comparison) {
   const ImpactModel& model = a.fitted.model;
-  File::Full out;
+  FitFile::Full out;
   out.rmse = {comparison.full_rmse, "no point rebounded"};
   out.held_out_rmse = {comparison.full_held_out_rmse, held_out_why(comparison)};
   auto& spread = out.spread.emplace();
@@ -457,7 +454,7 @@ File::Full full_entry(const Analysis& a, const TwoPointComparison& comparison) {
 }
 
 /// The keys without a dataset are those of the first dataset.
-void set_two_point(File& out, const Analysis& a) {
+void set_two_point(FitFile& out, const Analysis& a) {
   for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
     const std::string& id = a.datasets[comparison.dataset].id;
     out.two_point_by_dataset.emplace_back(id, two_point_entry(a, comparison));
@@ -473,15 +470,15 @@ void set_two_point(File& out, const Analysis& a) {
   }
 }
 
-std::vector<File::CurvePoint> curve_of(const Analysis& a) {
-  std::vector<File::CurvePoint> rows;
+std::vector<FitFile::CurvePoint> curve_of(const Analysis& a) {
+  std::vector<FitFile::CurvePoint> rows;
   for (const RestitutionCurve& curve : a.uncertainty.curves) {
     for (std::size_t i = 0; i < curve.velocity.size() && i < curve.restitution.size(); ++i) {
       const Ends band = {at(curve.lower, i).value_or(NAN), at(curve.upper, i).value_or(NAN)};
       const bool banded = std::isfinite(band[0]) && std::isfinite(band[1]);
       rows.push_back({.dataset = a.datasets[curve.dataset].id,
                       .series = curve.series,
-                      .diameter_um = um(curve.diameter),
+                      .diameter_um = in_um(curve.diameter),
                       .incident_velocity = curve.velocity[i],
                       .restitution = curve.restitution[i],
                       .band = banded ? std::optional(band) : std::nullopt,
@@ -491,16 +488,16 @@ std::vector<File::CurvePoint> curve_of(const Analysis& a) {
   return rows;
 }
 
-std::vector<File::Residual> residuals_of(const Analysis& a) {
+std::vector<FitFile::Residual> residuals_of(const Analysis& a) {
   const FitResult& f = a.fitted;
-  std::vector<File::Residual> rows;
+  std::vector<FitFile::Residual> rows;
   for (std::size_t i = 0; i < f.data.points.size(); ++i) {
     const Observation& point = f.data.points[i];
     const Dataset& dataset = a.datasets[point.dataset];
     const bool in_series = point.series < dataset.series.size();
     rows.push_back({.dataset = dataset.id,
                     .series = in_series ? dataset.series[point.series] : "",
-                    .diameter_um = um(point.diameter),
+                    .diameter_um = in_um(point.diameter),
                     .incident_velocity = point.velocity,
                     .restitution = point.restitution,
                     .restitution_sd = only_if(f.data.sd_stated, point.weights.sd),
@@ -574,7 +571,7 @@ FitFile fit_file(const Analysis& a) {
   for (const Validity& check : a.validity) {
     ValidityEntry& entry = out.validity.emplace_back(validity_entry(check));
     entry.dataset = a.datasets[check.dataset].id;
-    entry.diameter_um = um(check.diameter);
+    entry.diameter_um = in_um(check.diameter);
     entry.incident_velocity = check.velocity;
   }
   out.bootstrap = bootstrap_of(a);

@@ -49,8 +49,8 @@ RingAdhesionTruth ring_adhesion_model_of(const Recipe& recipe, double diameter) 
   return model;
 }
 
-bool near(double value, double printed, double tolerance) {
-  return std::abs(value / printed - 1.0) <= tolerance;
+bool near(double value, double printed, double allowed) {
+  return std::abs(value / printed - 1.0) <= allowed;
 }
 
 /// The paper's calibration by the lowest and the highest velocity of one size.
@@ -74,13 +74,13 @@ FactOutcome printed_constants(const FactContext& context, const FactLimits& limi
       derive_recipe_contact(context.recipe.particle, context.recipe.surface);
   const double f0 =
       recipe_adhesion_force(derived.stiffness, derived.adhesion_energy, limits.at("diameter"));
-  const double tolerance = limits.at("tolerance");
+  const double allowed = limits.at("tolerance");
   return {
-      near(derived.stiffness, limits.at("stiffness_K"), tolerance) &&
-          near(derived.adhesion_energy, limits.at("adhesion_energy"), tolerance) &&
-          near(f0, limits.at("adhesion_force_f0"), tolerance),
+      near(derived.stiffness, limits.at("stiffness_K"), allowed) &&
+          near(derived.adhesion_energy, limits.at("adhesion_energy"), allowed) &&
+          near(f0, limits.at("adhesion_force_f0"), allowed),
       fmt::format("K {:.3f} GPa, W {:.3f} J/m2, f0 {:.2f} N/m (within {:.1f} % of print)",
-                  derived.stiffness / units::GPa, derived.adhesion_energy, f0, 100.0 * tolerance)};
+                  derived.stiffness / units::GPa, derived.adhesion_energy, f0, 100.0 * allowed)};
 }
 
 FactOutcome contradictory_constants(const FactContext& context, const FactLimits& limits) {
