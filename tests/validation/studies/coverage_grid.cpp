@@ -18,7 +18,7 @@ namespace {
 constexpr double lowest = 1.05;           // of the capture velocity, without captures
 constexpr double lowest_captured = 0.85;  // with captures
 constexpr double highest = 50.0;
-constexpr int events = 40;
+constexpr int impacts_per_point = 40;
 constexpr double velocity_scatter = 0.03;  // of the impacts that one point averages
 
 double standard_deviation(GridNoise noise, double e, double velocity_ratio) {
@@ -42,12 +42,13 @@ ImpactPoint measured_point(const TrueCurve& curve, const GridDesign& design, dou
   double e = curve(velocity);
   double variance_of_mean = 0.0;
   if (design.captures) {
-    const CountedImpacts found = count_impacts(
-        curve, events, [&] { return velocity * (1.0 + velocity_scatter * random.normal()); });
-    point.events = events;
+    const CountedImpacts found = count_impacts(curve, impacts_per_point, [&] {
+      return velocity * (1.0 + velocity_scatter * random.normal());
+    });
+    point.events = impacts_per_point;
     point.counted = true;
     point.captured = found.captured;
-    if (found.captured == events) return point;
+    if (found.captured == impacts_per_point) return point;
     e = found.restitution;
     variance_of_mean = found.variance_of_mean;
   }
