@@ -1,20 +1,214 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "analysis/analysis.hpp"
-#include "cli/cluster_scripts.hpp"
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/names.hpp"
 #include "core/resumable.hpp"
+#include "export/filled.hpp"
 
 namespace recoil {
+
+/// What starts the shards.
+enum class ClusterSystem { slurm, parallel };
+template <>
+struct NamesOf<ClusterSystem> {
+  static constexpr std::array<std::string_view, 2> names = {"slurm", "parallel"};
+};
+
 namespace {
 
 namespace fs = std::filesystem;
+
+/// One command in shards.
+struct ClusterJob {
+  ClusterSystem system = ClusterSystem::slurm;
+  std::filesystem::path recoil;    ///< the program, as every machine finds it
+  std::filesystem::path where;     ///< the folder in which the command is given
+  std::filesystem::path folder;    ///< of parts, scripts and results, absolute
+  std::vector<std::string> words;  ///< "fit", "my.toml", ...
+  std::size_t shards = 1;
+  int cpus = 1;         ///< of each shard
+  long seconds = 3600;  ///< limit of each shard [s]
+};
+
+const char* const shard_script = R"(#!/bin/sh
+# One of @SHARDS@ shards: sh shard.sh NUMBER, from 1. It leaves one file in the folder, whole or not at
+# all; to run it twice, or where it was killed, costs nothing but its time.
+number=$1
+folder=@FOLDER@
+cd @WHERE@ || exit 1
+# Input that was refused (exit status 2) would be refused again.
+[ -e "$folder/refused-$number" ] && exit 2
+@RECOIL@ @WORDS@ \
+  --shard "$number/@SHARDS@" --out "$folder" --threads "${SLURM_CPUS_PER_TASK:-@CPUS@}" &
+child=$!
+# A time limit or an eviction: recoil keeps what is finished and ends. Some systems send SIGTERM to
+# every process and some to this one alone; beside a SIGTERM, SIGUSR1 counts as the same request.
+trap 'kill -USR1 "$child" 2>/dev/null' TERM INT USR1
+wait "$child"
+status=$?
+while kill -0 "$child" 2>/dev/null; do # a signal ended the wait, not the child
+  wait "$child"
+  status=$?
+done
+[ "$status" -eq 2 ] && : >"$folder/refused-$number"
+exit "$status"
+)";
+
+const char* const slurm_array = R"(#!/bin/sh
+# The array of shards; run.sh submits it.
+#SBATCH --job-name=recoil
+#SBATCH --array=1-@SHARDS@
+#SBATCH --cpus-per-task=@CPUS@
+#SBATCH --time=@TIME@
+#SBATCH --signal=B:USR1@AT@90
+#SBATCH --output="@PLAIN_FOLDER@/log-%a.txt"
+#SBATCH --open-mode=append
+exec sh @FOLDER@/shard.sh "$SLURM_ARRAY_TASK_ID"
+)";
+
+const char* const slurm_run = R"(#!/bin/sh
+# Starts the job: sh run.sh. It submits the shards that are missing, and itself to run after them,
+# whatever became of them; once none is missing it merges them. Started again it goes on.
+#SBATCH --job-name=recoil-merge
+#SBATCH --cpus-per-task=@CPUS@
+#SBATCH --time=@TIME@
+#SBATCH --output="@PLAIN_FOLDER@/log-merge.txt"
+#SBATCH --open-mode=append
+rounds=5 # of submission
+round=${1:-1}
+folder=@FOLDER@
+recoil=@RECOIL@
+
+if ls "$folder"/refused-* >/dev/null 2>&1; then
+  echo "recoil refused its input: see log-*.txt, correct it, and remove refused-*" >&2
+  exit 2
+fi
+missing=--array=1-@SHARDS@
+if ls "$folder"/part-*.jsonl >/dev/null 2>&1; then
+  missing=$("$recoil" merge "$folder" --missing) || exit
+fi
+if [ -z "$missing" ]; then
+  exec "$recoil" merge "$folder" --threads "${SLURM_CPUS_PER_TASK:-@CPUS@}" >"$folder/result.txt"
+fi
+if [ "$round" -gt "$rounds" ]; then
+  echo "after $rounds rounds these are missing: $missing" >&2
+  exit 3
+fi
+echo "round $round: $missing"
+job=$(sbatch --parsable "$missing" "$folder/array.sbatch") || exit
+# afterany: a merge that waits for success (afterok) waits for ever once a shard has failed
+sbatch --dependency="afterany:${job%%;*}" "$folder/run.sh" $((round + 1))
+)";
+
+const char* const merge_script = R"(#!/bin/sh
+# Puts the parts together; what is missing is told, and run again by starting the job again.
+cd @WHERE@ || exit 1
+@RECOIL@ merge @FOLDER@ >@FOLDER@/result.txt
+)";
+
+const char* const parallel_run = R"(#!/bin/sh
+# Starts the job: sh run.sh. Shards that are there are not run again. For several machines give
+# parallel their names (--sshlogin, --sshloginfile); they share this folder.
+folder=@FOLDER@
+seq @SHARDS@ | parallel --jobs @JOBS@ --retries 5 --joblog "$folder/parallel.log" \
+  "sh '$folder/shard.sh' {} >>'$folder/log-{}.txt' 2>&1"
+exec sh "$folder/merge.sh"
+)";
+
+std::string clock_time(long seconds) {
+  return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+/// "01:30:00" [s]; nullopt for any other text.
+std::optional<long> seconds_named(std::string_view text) {
+  const auto number = [](std::string_view digits) -> std::optional<long> {
+    long value = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto read = std::from_chars(digits.data(), end, value);
+    if (digits.empty() || digits.size() > 4 || read.ec != std::errc{} || read.ptr != end ||
+        value < 0) {
+      return std::nullopt;
+    }
+    return value;
+  };
+  if (text.size() < 7 || text[text.size() - 3] != ':' || text[text.size() - 6] != ':') {
+    return std::nullopt;
+  }
+  const auto hours = number(text.substr(0, text.size() - 6));
+  const auto minutes = number(text.substr(text.size() - 5, 2));
+  const auto seconds = number(text.substr(text.size() - 2));
+  if (!hours || !minutes || !seconds || *minutes > 59 || *seconds > 59) return std::nullopt;
+  return 3600 * *hours + 60 * *minutes + *seconds;
+}
+
+/// `word` as one word of a POSIX shell.
+std::string shell_word(std::string_view word) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./=,:+%@").find(c) != std::string_view::npos;
+  };
+  bool safe = !word.empty();
+  std::string quoted = "'";
+  for (const char c : word) {
+    safe = safe && plain(c);
+    quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return safe ? std::string(word) : quoted + "'";
+}
+
+/// The scripts of a job, to be read and edited.
+std::vector<WholeFile> cluster_scripts(const ClusterJob& job) {
+  std::string words;
+  for (const std::string& word : job.words) words += (words.empty() ? "" : " ") + shell_word(word);
+  const std::string shards = fmt::format("{}", job.shards);
+  const std::string cpus = fmt::format("{}", job.cpus);
+  const std::string plain_folder = job.folder.string();
+  const std::string folder = shell_word(plain_folder);
+  const std::string where = shell_word(job.where.string());
+  const std::string recoil = shell_word(job.recoil.string());
+  std::vector<WholeFile> files = {
+      {job.folder / "shard.sh", filled(shard_script, {{"SHARDS", shards},
+                                                      {"FOLDER", folder},
+                                                      {"WHERE", where},
+                                                      {"RECOIL", recoil},
+                                                      {"WORDS", words},
+                                                      {"CPUS", cpus}})}};
+  if (job.system == ClusterSystem::slurm) {
+    files.push_back(
+        {job.folder / "array.sbatch", filled(slurm_array, {{"SHARDS", shards},
+                                                           {"CPUS", cpus},
+                                                           {"TIME", clock_time(job.seconds)},
+                                                           {"AT", "@"},
+                                                           {"PLAIN_FOLDER", plain_folder},
+                                                           {"FOLDER", folder}})});
+    files.push_back({job.folder / "run.sh", filled(slurm_run, {{"SHARDS", shards},
+                                                               {"CPUS", cpus},
+                                                               {"TIME", clock_time(job.seconds)},
+                                                               {"PLAIN_FOLDER", plain_folder},
+                                                               {"FOLDER", folder},
+                                                               {"RECOIL", recoil}})});
+    return files;
+  }
+  files.push_back(
+      {job.folder / "merge.sh",
+       filled(merge_script, {{"WHERE", where}, {"RECOIL", recoil}, {"FOLDER", folder}})});
+  files.push_back(
+      {job.folder / "run.sh",
+       filled(parallel_run, {{"SHARDS", shards},
+                             {"FOLDER", folder},
+                             {"JOBS", fmt::format("$((($(nproc) + {0} - 1) / {0}))", job.cpus)}})});
+  return files;
+}
 
 struct ClusterFlags {
   std::string system;
@@ -26,7 +220,8 @@ struct ClusterFlags {
 
 const char* const shareable[] = {"fit", "coverage", "diagnose"};
 
-/// The words behind those of `cluster` itself: a command, or the fit file of the command fit.
+/// The words behind those of `cluster` itself: a command, or the fit file of
+/// the command fit.
 std::vector<std::string> words_of_job(std::vector<std::string> words) {
   if (words.empty()) {
     throw InputError({}, "there is nothing to run", "a fit file or a command is missing",
@@ -44,7 +239,8 @@ std::vector<std::string> words_of_job(std::vector<std::string> words) {
   return words;
 }
 
-/// A mistake in the command or its files is told now, once, and not by every shard.
+/// A mistake in the command or its files is told now, once, and not by every
+/// shard.
 void require_valid(const std::vector<std::string>& words) {
   for (const char* own : {"--shard", "--out", "--threads"}) {
     if (std::any_of(words.begin(), words.end(), [own](const std::string& word) {
@@ -54,34 +250,19 @@ void require_valid(const std::vector<std::string>& words) {
                        "leave it out; --cpus says how many threads each shard has");
     }
   }
-  CLI::App trial("", "recoil");
-  add_fit(trial);
-  add_coverage(trial);
-  add_diagnose(trial);
-  // Ends before the command is run. (Its own callback stays: it holds what the options write to.)
-  for (CLI::App* command : trial.get_subcommands({})) {
-    command->parse_complete_callback([] { throw CLI::Success(); });
-  }
-  std::vector<std::string> backwards = words;
-  backwards.insert(backwards.end(), {"--shard", "1/1", "--out", "."});
-  std::reverse(backwards.begin(), backwards.end());
+  Program trial("", "", "");
+  add_shared_commands(trial);
+  std::vector<std::string> all = words;
+  all.insert(all.end(), {"--shard", "1/1", "--out", "."});
   try {
-    try {
-      trial.parse(backwards);
-    } catch (const CLI::Success&) {
-      const std::vector<std::string> unknown = trial.remaining(true);
-      if (!unknown.empty()) throw CLI::ExtrasError("recoil", unknown);
-    }
-  } catch (const CLI::ParseError& error) {
+    for (const std::string& file : trial.values_in(all, "FIT")) load_inputs(file);
+  } catch (const UsageError& error) {
     throw InputError({}, error.what(), "", fmt::format("see recoil {} --help", words.front()));
-  }
-  for (const std::string& file :
-       trial.get_subcommand(words.front())->get_option("FIT")->results()) {
-    load_inputs(file);
   }
 }
 
-// Slurm's signal before the limit comes up to a minute early, and the shard needs some time, too.
+// Slurm's signal before the limit comes up to a minute early, and the shard
+// needs some time, too.
 constexpr long shortest_time = 600;  // [s]
 
 std::string complaint_about_time(const std::string& text) {
@@ -110,17 +291,15 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
   job.shards = flags.shards;
   job.cpus = flags.cpus;
   job.seconds = *seconds_named(flags.time);
-  const std::vector<ClusterFile> scripts = cluster_scripts(job);
-  std::vector<WholeFile> files;
-  for (const ClusterFile& file : scripts) files.push_back({job.folder / file.name, file.text});
-  write_whole_files(files);
-  for (const ClusterFile& file : scripts) {
-    const fs::path path = job.folder / file.name;
-    if (path.extension() == ".sh") {
-      fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+  const std::vector<WholeFile> scripts = cluster_scripts(job);
+  write_whole_files(scripts);
+  for (const WholeFile& file : scripts) {
+    if (file.path.extension() == ".sh") {
+      fs::permissions(file.path,
+                      fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                       fs::perm_options::add);
     }
-    fmt::print("{}: written\n", (fs::path(flags.out) / file.name).string());
+    fmt::print("{}: written\n", (fs::path(flags.out) / file.path.filename()).string());
   }
   fmt::print("Read them, edit them, and start the job: sh {}\n",
              shell_word((fs::path(flags.out) / "run.sh").string()));
@@ -128,10 +307,10 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
 
 }  // namespace
 
-void add_cluster(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_cluster(Program& program) {
+  const Command command = program.command(
       "cluster", "write the scripts that run a command in shards on a cluster, and its merge");
-  command->footer(
+  command.footer(
       "Behind its own words stands a fit file, or a command with its options: fit, coverage\n"
       "or diagnose.\n"
       "The scripts are plain, and yours to edit. All machines see the folder, the program and the\n"
@@ -139,26 +318,22 @@ void add_cluster(CLI::App& program) {
       "  recoil cluster slurm my.toml --replicates 1000000 --shards 100 --out big\n"
       "  recoil cluster parallel coverage my.toml --datasets 10000 --shards 40 --out big");
   const auto flags = std::make_shared<ClusterFlags>();
-  command->add_option("SYSTEM", flags->system, "what starts the shards: slurm, parallel")
-      ->required()
-      ->check(CLI::IsMember(all_names<ClusterSystem>()));
-  command->add_option("--shards", flags->shards, "how many")
-      ->required()
-      ->check(CLI::Range(std::size_t{1}, most_shards));
-  command->add_option("--out", flags->out, "folder for scripts, parts and results")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("--cpus", flags->cpus, "threads of each shard")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 4096));
+  command.option("SYSTEM", flags->system, "what starts the shards: slurm, parallel")
+      .required()
+      .one_of(all_names<ClusterSystem>());
+  command.option("--shards", flags->shards, "how many")
+      .required()
+      .within(std::size_t{1}, most_shards);
+  command.option("--out", flags->out, "folder for scripts, parts and results")
+      .required()
+      .takes("DIR");
+  command.option("--cpus", flags->cpus, "threads of each shard").shows_default().within(1, 4096);
   command
-      ->add_option("--time", flags->time,
-                   "limit of each shard, hours:minutes:seconds, 00:10:00 or more")
-      ->capture_default_str()
-      ->check(CLI::Validator(complaint_about_time, ""));
-  command->allow_extras();
-  command->callback(
-      [flags, command] { write_scripts(*flags, words_of_job(command->remaining())); });
+      .option("--time", flags->time, "limit of each shard, hours:minutes:seconds, 00:10:00 or more")
+      .shows_default()
+      .check(complaint_about_time);
+  command.allows_other_words();
+  command.runs([flags, command] { write_scripts(*flags, words_of_job(command.other_words())); });
 }
 
 }  // namespace recoil

@@ -6,12 +6,12 @@
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/coverage_words.hpp"
 #include "cli/json_coverage.hpp"
 #include "cli/shard_flags.hpp"
 #include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/statistics.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "report/words_dataset.hpp"
 
@@ -51,6 +51,46 @@ std::unique_ptr<Prepared> prepare(const Options& options) {
       options.shards.origin(ready->spec, ready->datasets, coverage.uncertainty.seed,
                             static_cast<std::size_t>(coverage.datasets), digits_of(ready->truth));
   return ready;
+}
+
+/// "95.0 % [92.1, 97.0]": the share with `share_limits`.
+std::string percentage(int part, int whole) {
+  if (whole == 0) return "-";
+  const ShareLimits limits = share_limits(part, whole);
+  return fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100.0 * part / whole, 100.0 * limits.lower,
+                     100.0 * limits.upper);
+}
+
+std::string truth_words(TruthOrigin origin) {
+  return origin == TruthOrigin::recipe
+             ? "truth and noise from the recipe, another seed for each"
+             : "the fit's own estimate as truth, simulated independently of the fitter";
+}
+
+/// The coverage of one fit as a Markdown table with a sentence on how it was measured.
+std::string coverage_markdown(const CoverageResult& result, const FitSpec& spec,
+                              const CoverageOptions& options) {
+  std::string text = fmt::format(
+      "## Coverage of the intervals of `{}`\n\n{} data sets; {}. Level {:.0f} %, {} bootstrap "
+      "replicates each, seed {}. {} fits and {} refits failed. In square brackets: "
+      "the 95 % limits of each share (Wilson).\n\n",
+      spec.id, result.datasets, truth_words(result.truth_origin), 100.0 * options.uncertainty.level,
+      options.uncertainty.replicates, options.uncertainty.seed, result.failed,
+      result.refits_failed);
+  text +=
+      "| parameter | truth | called identifiable | interval | contains the truth | where "
+      "identifiable "
+      "| median width |\n|---|---|---|---|---|---|---|\n";
+  for (const CoverageRow& row : result.rows) {
+    for (const CoverageCell& cell : row.cells) {
+      text += fmt::format("| {} [{}] | {:.4g} | {} of {} | {} | {} | {} ({} of {}) | {:.3g} |\n",
+                          row.parameter, row.unit, row.truth, row.identifiable, result.datasets,
+                          cell.interval, percentage(cell.held, cell.offered),
+                          percentage(cell.held_identifiable, cell.offered_identifiable),
+                          cell.held_identifiable, cell.offered_identifiable, cell.median_width);
+    }
+  }
+  return text;
 }
 
 Pieces pieces_of(const Prepared& ready) {
@@ -96,48 +136,34 @@ void run(const Options& options) {
   fmt::print("{}", printed);
 }
 
-/// Grids and summaries belong to the program of the studies; who asks for them here is told so.
-void point_to_studies(CLI::App& command) {
-  for (const char* name : {"--grid", "--designs", "--summary", "--picture", "--keep"}) {
-    command
-        .add_flag_callback(name,
-                           [name] {
-                             throw InputError(
-                                 {}, fmt::format("{} is not an option of recoil coverage", name),
-                                 "it simulates the design of one fit",
-                                 "see recoil_study --help for grids of designs and their summary");
-                           })
-        ->group("");
-  }
-}
-
 }  // namespace
 
-void add_coverage(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("coverage", "measure how often the intervals contain the truth");
-  command->footer(
+void add_coverage(Program& program) {
+  const Command command =
+      program.command("coverage", "measure how often the intervals contain the truth");
+  command.footer(
       "Simulates the design of the fit again and again with the fitted values as the truth, fits\n"
-      "each data set as you would, and counts how often the intervals contain the truth. Prints "
-      "Markdown. With --out Ctrl-C keeps what is finished, and the same\n"
-      "command goes on from there.\n\n"
+      "each data set as you would, and counts how often the intervals contain the truth. Prints\n"
+      "Markdown. With --out Ctrl-C keeps what is finished, and the same "
+      "command goes on\n"
+      "from there.\n\n"
       "  recoil coverage fits/dahneke1975-quartz.toml --datasets 100 --out coverage.md\n\n"
       "Grids of designs, tables of several fits and their summary are studies of recoil's\n"
       "authors: ./run study, or recoil_study --help.");
   const auto options = std::make_shared<Options>();
-  add_fit_file(*command, options->fit_file);
-  command->add_option("--datasets", options->datasets, "simulated data sets")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
+  add_fit_file(command, options->fit_file);
+  command.option("--datasets", options->datasets, "simulated data sets")
+      .shows_default()
+      .within(1, 1000000);
   command
-      ->add_option("--out", options->out,
-                   "also write the table to this file; with --shard, the folder of the parts")
-      ->type_name("FILE");
-  add_shard_flags(*command, "data sets", options->shards);
-  point_to_studies(*command);
-  add_analysis_flags(*command, options->analysis);
-  add_json_flag(*command, options->json);
-  command->callback([options] { run(*options); });
+      .option("--out", options->out,
+              "also write the table to this file; with --shard, the folder of the parts")
+      .takes("FILE");
+  add_shard_flags(command, "data sets", options->shards);
+
+  add_analysis_flags(command, options->analysis);
+  add_json_flag(command, options->json);
+  command.runs([options] { run(*options); });
 }
 
 }  // namespace recoil

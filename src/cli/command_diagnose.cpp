@@ -61,7 +61,8 @@ std::filesystem::path result_in(const std::filesystem::path& folder) {
   return folder / "diagnosis.json";
 }
 
-/// The pieces of the diagnosis to go on from: of a merge the data sets of its calibration.
+/// The pieces of the diagnosis to go on from: of a merge the data sets of its
+/// calibration.
 std::shared_ptr<KeptRows> rows_for(const DiagnoseFlags& flags, const FitInputs& inputs) {
   if (flags.shards.merging()) {
     const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
@@ -101,10 +102,10 @@ void run_diagnosis(const DiagnoseFlags& flags) {
 
 }  // namespace
 
-void add_diagnose(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_diagnose(Program& program) {
+  const Command command = program.command(
       "diagnose", "what the model gets wrong, why, and what an extended model gains");
-  command->footer(
+  command.footer(
       "Tests the residuals of the fit for structure, tries every mechanism of the catalogue "
       "(alone,\n"
       "then two at a time), and answers with one of\n"
@@ -122,19 +123,17 @@ void add_diagnose(CLI::App& program) {
       "  recoil diagnose fits/wall1990-molybdenum.toml --out diagnosis\n"
       "  recoil fit diagnosis/extended.toml");
   const auto flags = std::make_shared<DiagnoseFlags>();
-  add_fit_file(*command, flags->fit);
-  command->add_option("--out", flags->out, "folder for the results (default: nothing is written)")
-      ->type_name("DIR");
-  command->add_option("--threads", flags->threads, "threads to use (default: all cores)")
-      ->check(CLI::Range(1, 4096));
-  command
-      ->add_option("--seed", flags->seed,
-                   "seed of the simulated data sets (default: the fit file's)")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
-  add_shard_flags(*command, "calibration's data sets", flags->shards);
-  add_json_flag(*command, flags->json);
-  add_verbose_flag(*command, flags->verbose);
-  command->callback([flags] {
+  add_fit_file(command, flags->fit);
+  command.option("--out", flags->out, "folder for the results (default: nothing is written)")
+      .takes("DIR");
+  command.option("--threads", flags->threads, "threads to use (default: all cores)")
+      .within(1, 4096);
+  command.option("--seed", flags->seed, "seed of the simulated data sets (default: the fit file's)")
+      .within(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
+  add_shard_flags(command, "calibration's data sets", flags->shards);
+  add_json_flag(command, flags->json);
+  add_verbose_flag(command, flags->verbose);
+  command.runs([flags] {
     if (flags->shards.one_of_several()) {
       run_shard_of_calibration(*flags);
     } else {

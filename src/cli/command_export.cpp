@@ -152,8 +152,7 @@ std::vector<ExportedFile> table_files(const Fitted& fitted, const ExportRequest&
 void require_stock_model(const ExportOptions& options, ExportTarget target) {
   if (!options.stock || !holds_all_sizes(target)) return;
   throw InputError({}, fmt::format("--to {} has no stock model for --stock", options.to),
-                   "it gets e(V, d) as a table",
-                   "leave --stock out, or take lammps or yade");
+                   "it gets e(V, d) as a table", "leave --stock out, or take lammps or yade");
 }
 
 void print_line(const std::string& words) { fmt::print("{}\n", wrap(words, terminal_columns, 2)); }
@@ -213,10 +212,10 @@ void run_export(const ExportOptions& options) {
 
 }  // namespace
 
-void add_export(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
-      "export", "a fitted impact as the input of another program, or as a table");
-  command->footer(
+void add_export(Program& program) {
+  const Command command =
+      program.command("export", "a fitted impact as the input of another program, or as a table");
+  command.footer(
       "Fits as `recoil fit` does, or takes the values of a fit.json with --parameters. Where the\n"
       "program can run the force law (lammps, yade) the export is exact; where it has\n"
       "only contact models of its own (liggghts) it gets the nearest one, with its error; "
@@ -225,34 +224,31 @@ void add_export(CLI::App& program) {
       "  recoil export fits/wall1990-molybdenum.toml --to lammps --diameter 4.9 --out my-lammps\n"
       "  lmp -in my-lammps/impact.lammps -var V 2.4");
   const auto options = std::make_shared<ExportOptions>();
-  add_fit_file(*command, options->fit_file);
-  command->add_option("--to", options->to, "the program")
-      ->required()
-      ->check(CLI::IsMember(all_names<ExportTarget>()));
+  add_fit_file(command, options->fit_file);
+  command.option("--to", options->to, "the program").required().one_of(all_names<ExportTarget>());
   command
-      ->add_option("--diameter", options->diameter,
-                   "sphere diameter [um] (default: the middle one of the dataset; openfoam, fluent "
-                   "and table: all)")
-      ->check(positive_number("diameter", 1e-3, 1e6));
+      .option("--diameter", options->diameter,
+              "sphere diameter [um] (default: the middle one of the dataset; openfoam, fluent and "
+              "table: all)")
+      .number("diameter", 1e-3, 1e6);
   command
-      ->add_option("--velocity", options->velocity,
-                   "range of incident velocities MIN,MAX [m/s], for errors, tables and time steps "
-                   "(default: that of the points)")
-      ->delimiter(',')
-      ->expected(2)
-      ->type_name("MIN,MAX")
-      ->check(positive_number("velocity", 1e-7, 1e4));
-  command->add_flag(
-      "--stock", options->stock,
-      "lammps, yade (liggghts always): write the nearest of the program's own contact models, "
-      "for many spheres, even where it could run the force law");
-  command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
-      ->type_name("ID");
-  command->add_option("--parameters", options->parameters, "take the values from this fit.json")
-      ->type_name("FILE");
-  command->add_option("--out", options->out, "folder for the files")->required()->type_name("DIR");
-  add_analysis_flags(*command, options->analysis);
-  command->callback([options] { run_export(*options); });
+      .option("--velocity", options->velocity,
+              "range of incident velocities MIN,MAX [m/s], for errors, tables and time steps "
+              "(default: that of the points)")
+      .list()
+      .values(2, 2)
+      .takes("MIN,MAX")
+      .number("velocity", 1e-7, 1e4);
+  command.flag("--stock", options->stock,
+               "lammps, yade (liggghts always): write the nearest of the program's own "
+               "contact models, for many spheres, even where it could run the force law");
+  command.option("--dataset", options->dataset, "id of the dataset, in a fit of several")
+      .takes("ID");
+  command.option("--parameters", options->parameters, "take the values from this fit.json")
+      .takes("FILE");
+  command.option("--out", options->out, "folder for the files").required().takes("DIR");
+  add_analysis_flags(command, options->analysis);
+  command.runs([options] { run_export(*options); });
 }
 
 }  // namespace recoil

@@ -73,23 +73,23 @@ void run_fit(const FitFlags& flags) {
 
 }  // namespace
 
-void add_fit(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("fit", "fit all points, with intervals and the two-point comparison");
-  command->footer(
+void add_fit(Program& program) {
+  const Command command =
+      program.command("fit", "fit all points, with intervals and the two-point comparison");
+  command.footer(
       "Prints the report and writes DIR/fit.json. Every digit depends only on the fit file, the\n"
       "data and the seed, not on the number of threads. Ctrl-C keeps finished replicates in DIR,\n"
       "and the same command goes on from there.\n\n"
       "  recoil fit fits/dahneke1975-quartz.toml --out results");
   const auto flags = std::make_shared<FitFlags>();
-  add_fit_file(*command, flags->fit_file);
-  command->add_option("--out", flags->out, "folder for fit.json (default: nothing is written)")
-      ->type_name("DIR");
-  add_shard_flags(*command, "bootstrap's replicates", flags->shards);
-  add_analysis_flags(*command, flags->analysis);
-  add_json_flag(*command, flags->json);
-  add_verbose_flag(*command, flags->verbose);
-  command->callback([flags] { run_fit(*flags); });
+  add_fit_file(command, flags->fit_file);
+  command.option("--out", flags->out, "folder for fit.json (default: nothing is written)")
+      .takes("DIR");
+  add_shard_flags(command, "bootstrap's replicates", flags->shards);
+  add_analysis_flags(command, flags->analysis);
+  add_json_flag(command, flags->json);
+  add_verbose_flag(command, flags->verbose);
+  command.runs([flags] { run_fit(*flags); });
 }
 
 }  // namespace recoil

@@ -6,7 +6,6 @@
 
 #include "cli/commands.hpp"
 #include "cli/manual.hpp"
-#include "cli/reference.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "data/text.hpp"
@@ -24,18 +23,19 @@ void list_topics() {
   fmt::print("\nThe options of a command: recoil COMMAND --help\n");
 }
 
-void print_topic(const CLI::App& program, const std::string& topic) {
-  if (const ManualPage* page = find_manual_page(topic)) {
-    fmt::print("{}", page->text);
+void print_topic(const Program& program, const std::string& topic) {
+  std::vector<std::string> known;
+  for (const ManualPage& page : manual_pages()) {
+    known.emplace_back(page.topic);
+    if (page.topic != topic) continue;
+    fmt::print("{}", page.text);
     return;
   }
-  std::vector<std::string> known = manual_topics();
-  for (const CLI::App* command : program.get_subcommands({})) {
-    if (command->get_name() == topic) {
-      fmt::print("{}", command->help("recoil"));
-      return;
-    }
-    known.push_back(command->get_name());
+  for (const Command& command : program.commands()) {
+    known.push_back(command.name());
+    if (command.name() != topic) continue;
+    fmt::print("{}", command.help());
+    return;
   }
   const std::string near = nearest_word(topic, known);
   throw InputError(
@@ -43,8 +43,9 @@ void print_topic(const CLI::App& program, const std::string& topic) {
       near.empty() ? "see recoil help for the pages" : fmt::format("did you mean {}?", near));
 }
 
-/// Brings the tables that are made from the code up to date in every page of `folder`.
-void write_pages(const CLI::App& program, const std::filesystem::path& folder) {
+/// Brings the tables that are made from the code up to date in every page of
+/// `folder`.
+void write_pages(const Program& program, const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> pages;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".md") pages.push_back(entry.path());
@@ -52,7 +53,7 @@ void write_pages(const CLI::App& program, const std::filesystem::path& folder) {
   std::sort(pages.begin(), pages.end());
   for (const std::filesystem::path& page : pages) {
     const std::string before = read_text_file(page);
-    const std::string after = with_reference_blocks(before, page.string(), program);
+    const std::string after = with_manual_tables(before, page.string(), program);
     if (after == before) continue;
     write_whole_file(page, after);
     fmt::print("wrote {}\n", page.string());
@@ -61,22 +62,22 @@ void write_pages(const CLI::App& program, const std::filesystem::path& folder) {
 
 }  // namespace
 
-void add_help(CLI::App& program) {
+void add_help(Program& program) {
   struct Options {
     std::string topic;
     std::string folder;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = program.add_subcommand("help", "print a page of the manual");
-  command->add_option("TOPIC", options->topic, "the page; without it, the list of all");
-  command->add_option("--write-docs", options->folder, "the tables that are made from the code")
-      ->check(CLI::ExistingDirectory)
-      ->group("");
-  command->footer(
-      "The pages are those of docs/, carried along in the program.\n\n"
+  const Command command = program.command("help", "print a page of the manual");
+  command.option("TOPIC", options->topic, "the page; without it, the list of all");
+  command.option("--write-docs", options->folder, "the tables that are made from the code")
+      .takes("DIR")
+      .hidden();
+  command.footer(
+      "The pages are those of docs/, embedded in the program.\n\n"
       "  recoil help\n"
       "  recoil help noise");
-  command->callback([options, &program] {
+  command.runs([options, &program] {
     if (!options->folder.empty()) {
       write_pages(program, options->folder);
     } else if (options->topic.empty()) {

@@ -24,14 +24,14 @@ struct ImportFlags {
   std::string like;
 };
 
-/// An option that says something about points of some formats only.
+/// An option that only some formats use.
 struct OptionOfFormats {
   std::string_view option;
   std::vector<ImportFormat> formats;
 };
 
-/// @throws InputError for one that was given with another format, where it would do nothing
-void require_used(const CLI::App& command, ImportFormat format) {
+/// @throws InputError for an option that the format does not use
+void require_used(const Command& command, ImportFormat format) {
   using enum ImportFormat;
   static const std::vector<OptionOfFormats> some = {
       {"--axis", {webplotdigitizer}},      {"--reading-error", {webplotdigitizer}},
@@ -42,8 +42,7 @@ void require_used(const CLI::App& command, ImportFormat format) {
   };
   for (const OptionOfFormats& one : some) {
     const std::string option(one.option);
-    if (command.count(option) == 0 ||
-        std::count(one.formats.begin(), one.formats.end(), format) > 0)
+    if (!command.given(option) || std::count(one.formats.begin(), one.formats.end(), format) > 0)
       continue;
     std::vector<std::string_view> names;
     for (const ImportFormat its : one.formats) names.push_back(name_of(its));
@@ -54,7 +53,7 @@ void require_used(const CLI::App& command, ImportFormat format) {
   }
 }
 
-void run_import(ImportFlags flags, const CLI::App& command) {
+void run_import(ImportFlags flags, const Command& command) {
   flags.request.file = flags.file;
   flags.request.into = flags.into;
   flags.request.like = flags.like;
@@ -74,11 +73,11 @@ void run_import(ImportFlags flags, const CLI::App& command) {
 
 }  // namespace
 
-void add_import(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_import(Program& program) {
+  const Command command = program.command(
       "import",
       "make a dataset folder of digitised points, drop heights, bounce times or any table");
-  command->footer(
+  command.footer(
       "Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals "
       "(between\n"
       "bounces) and csv. --map ties columns to quantities, with units: um, mm, cm, m; m/s, cm/s;\n"
@@ -95,68 +94,68 @@ void add_import(CLI::App& program) {
       "    --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run");
   const auto flags = std::make_shared<ImportFlags>();
   ImportRequest& r = flags->request;
-  command->add_option("FILE", flags->file, "what to import")->required();
+  command.option("FILE", flags->file, "what to import").required();
   command
-      ->add_option("--format", flags->format,
-                   fmt::format("one of {}", fmt::join(all_names<ImportFormat>(), ", ")))
-      ->required();
-  command->add_option("--into", flags->into, "the dataset's folder")->required();
-  command->add_flag("--replace", r.replace,
-                    "replace the points of the existing dataset; it keeps its materials, and a "
-                    "reconstruction becomes digitised");
-  command->add_option("--map", r.map, "quantity=column:unit, several separated by commas");
-  command->add_option("--diameter", r.diameters,
-                      "diameter of the spheres: 4.9um, or SERIES=4.9um once for each series");
-  command->add_option("--diameter-error", r.diameter_error,
-                      "one standard deviation of the diameters: 1% or 0.1um");
-  command->add_option("--series", r.series, "name of the series when the file has none");
-  command->add_option(
+      .option("--format", flags->format,
+              fmt::format("one of {}", fmt::join(all_names<ImportFormat>(), ", ")))
+      .required();
+  command.option("--into", flags->into, "the dataset's folder").required();
+  command.flag("--replace", r.replace,
+               "replace the points of the existing dataset; it keeps its materials, and a "
+               "reconstruction becomes digitised");
+  command.option("--map", r.map, "quantity=column:unit, several separated by commas").repeats();
+  command
+      .option("--diameter", r.diameters,
+              "diameter of the spheres: 4.9um, or SERIES=4.9um once for each series")
+      .repeats();
+  command.option("--diameter-error", r.diameter_error,
+                 "one standard deviation of the diameters: 1% or 0.1um");
+  command.option("--series", r.series, "name of the series when the file has none");
+  command.option(
       "--particle", r.particle,
       "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
-  command->add_option("--surface", r.surface,
-                      "the surface, in the same form; its density may be left out");
-  command->add_option("--like", flags->like, "take the materials of this dataset");
-  command->add_option("--adhesion-energy", r.adhesion_energy,
-                      "work of adhesion of the two materials [J/m2]; 0: no adhesion");
+  command.option("--surface", r.surface,
+                 "the surface, in the same form; its density may be left out");
+  command.option("--like", flags->like, "take the materials of this dataset");
+  command.option("--adhesion-energy", r.adhesion_energy,
+                 "work of adhesion of the two materials [J/m2]; 0: no adhesion");
   command
-      ->add_option("--provenance", flags->provenance,
-                   "where the points come from: measured, digitised or synthetic (default: that of "
-                   "the format)")
-      ->check(CLI::IsMember({"measured", "digitised", "synthetic"}));
-  command->add_option("--title", r.title, "title of the dataset");
-  command->add_option("--source", r.sources,
-                      "who published or measured the points; once for each source");
-  command->add_option(
-      "--axis", r.axes,
-      "axis of a figure: x=log,MIN,MAX or y=linear,MIN,MAX,LENGTHpx; once for each axis");
-  command->add_option("--reading-error", r.reading_error,
-                      "one standard deviation of a reading: 0.5% of an axis, or 2px");
-  command->add_option("--scatter", r.scatter,
-                      "scatter of e in addition to the errors of reading: 10%, or 0.02");
+      .option("--provenance", flags->provenance,
+              "where the points come from: measured, digitised or synthetic (default: that of the "
+              "format)")
+      .one_of({"measured", "digitised", "synthetic"});
+  command.option("--title", r.title, "title of the dataset");
   command
-      ->add_option("--captured-below", r.captured_below,
-                   "a restitution below this is a capture (digitised points, heights)")
-      ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--drop-error", r.drop_error,
-                      "one standard deviation of the drop height: 1mm or 1%");
-  command->add_option("--rebound-error", r.rebound_error,
-                      "one standard deviation of the rebound height");
-  command->add_option("--time-error", r.time_error,
-                      "one standard deviation of the time of one bounce: 1ms");
-  command->add_flag("--average", r.average, "make one point of all drops from the same height");
-  command->add_option("--gravity", r.gravity, "gravity [m/s2]")->capture_default_str();
+      .option("--source", r.sources, "who published or measured the points; once for each source")
+      .repeats();
   command
-      ->add_option("--ambient-pressure", r.ambient_pressure,
-                   "pressure of the air [Pa], whose drag is taken out of heights and intervals "
-                   "(default 101325); 0: vacuum")
-      ->check(CLI::Range(0.0, limits::pressure.upper));
-  command->add_option("--temperature", r.temperature, "temperature of the air [K] (default 293)")
-      ->check(CLI::Range(limits::temperature.lower, limits::temperature.upper));
-  for (CLI::Option* option : command->get_options()) {
-    if (option->get_items_expected_max() > 1)
-      option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  }
-  command->callback([flags, command] { run_import(*flags, *command); });
+      .option("--axis", r.axes,
+              "axis of a figure: x=log,MIN,MAX or y=linear,MIN,MAX,LENGTHpx; once for each axis")
+      .repeats();
+  command.option("--reading-error", r.reading_error,
+                 "one standard deviation of a reading: 0.5% of an axis, or 2px");
+  command.option("--scatter", r.scatter,
+                 "scatter of e in addition to the errors of reading: 10%, or 0.02");
+  command
+      .option("--captured-below", r.captured_below,
+              "a restitution below this is a capture (digitised points, heights)")
+      .within(0.0, 1.0);
+  command.option("--drop-error", r.drop_error,
+                 "one standard deviation of the drop height: 1mm or 1%");
+  command.option("--rebound-error", r.rebound_error,
+                 "one standard deviation of the rebound height");
+  command.option("--time-error", r.time_error,
+                 "one standard deviation of the time of one bounce: 1ms");
+  command.flag("--average", r.average, "make one point of all drops from the same height");
+  command.option("--gravity", r.gravity, "gravity [m/s2]").shows_default();
+  command
+      .option("--ambient-pressure", r.ambient_pressure,
+              "pressure of the air [Pa], whose drag is taken out of heights and intervals (default "
+              "101325); 0: vacuum")
+      .within(0.0, limits::pressure.upper);
+  command.option("--temperature", r.temperature, "temperature of the air [K] (default 293)")
+      .within(limits::temperature.lower, limits::temperature.upper);
+  command.runs([flags, command] { run_import(*flags, command); });
 }
 
 }  // namespace recoil

@@ -62,7 +62,8 @@ std::string ask_for_material(const std::string& which, bool density) {
   return words;
 }
 
-/// What is missing, asked for; without a terminal it stays missing and import_points says so.
+/// What is missing, asked for; without a terminal it stays missing and
+/// import_points says so.
 void complete(InitOptions& options) {
   if (isatty(STDIN_FILENO) == 0) return;
   if (options.like.empty()) {
@@ -103,7 +104,8 @@ std::vector<std::string> map_of(const std::string& csv) {
   return map;
 }
 
-/// Points that the model itself makes: to be replaced, and labelled as what they are.
+/// Points that the model itself makes: to be replaced, and labelled as what
+/// they are.
 std::string example_points(const Dataset& dataset, double diameter) {
   FitSpec spec = parse_fit(init_fit, "fit.toml");
   const ImpactModel model = make_model(spec, {dataset});
@@ -136,8 +138,8 @@ class PassingFile {
   fs::path path_;
 };
 
-/// Files that are gone at the end unless they are told to stay: half of them would be in the way of
-/// the next try.
+/// Files that are gone at the end unless they are told to stay: half of them
+/// would be in the way of the next try.
 class NewFiles {
  public:
   explicit NewFiles(std::vector<fs::path> files) : files_(std::move(files)) {}
@@ -217,9 +219,9 @@ void run_init(InitOptions options) {
 
 }  // namespace
 
-void add_init(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("init", "a new dataset folder, with a fit that runs");
-  command->footer(
+void add_init(Program& program) {
+  const Command command = program.command("init", "a new dataset folder, with a fit that runs");
+  command.footer(
       "What the options do not say is asked for on a terminal. Without --points the folder gets "
       "an\n"
       "example that the model itself makes, labelled synthetic, to be replaced. Nothing is\n"
@@ -230,26 +232,25 @@ void add_init(CLI::App& program) {
       "\\\n"
       "    --surface material=silicon,youngs_modulus=131e9,poisson_ratio=0.28");
   const auto options = std::make_shared<InitOptions>();
-  command->add_option("DIR", options->folder, "the new folder")->required();
+  command.option("DIR", options->folder, "the new folder").required();
   command
-      ->add_option("--points", options->points,
-                   "the points (CSV): incident_velocity, restitution and any other column that "
-                   "recoil help data names (default: an example)")
-      ->type_name("FILE");
+      .option("--points", options->points,
+              "the points (CSV): incident_velocity, restitution and any other column that recoil "
+              "help data names (default: an example)")
+      .takes("FILE");
   command
-      ->add_option("--provenance", options->provenance,
-                   "where these points come from: measured or digitised")
-      ->check(CLI::IsMember({"measured", "digitised"}));
-  command->add_option(
+      .option("--provenance", options->provenance,
+              "where these points come from: measured or digitised")
+      .one_of({"measured", "digitised"});
+  command.option(
       "--particle", options->particle,
       "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
-  command->add_option("--surface", options->surface,
-                      "the surface, in the same form; its density may be left out");
-  command->add_option("--like", options->like, "take the materials of this dataset")
-      ->type_name("DIR");
-  command->add_option("--diameter", options->diameter, "diameter of all spheres [um]")
-      ->check(positive_number("diameter", 1e-3, 1e6));
-  command->callback([options] { run_init(*options); });
+  command.option("--surface", options->surface,
+                 "the surface, in the same form; its density may be left out");
+  command.option("--like", options->like, "take the materials of this dataset").takes("DIR");
+  command.option("--diameter", options->diameter, "diameter of all spheres [um]")
+      .number("diameter", 1e-3, 1e6);
+  command.runs([options] { run_init(*options); });
 }
 
 }  // namespace recoil

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -17,7 +16,8 @@ struct MergeFlags {
   int threads = 0;
 };
 
-/// The --out of the command without shards: a folder, but for `coverage` a file.
+/// The --out of the command without shards: a folder, but for `coverage` a
+/// file.
 fs::path place_of_results(const std::string& command, const fs::path& folder) {
   return command == "coverage" ? folder / "coverage.md" : folder;
 }
@@ -28,12 +28,9 @@ void finish(const Origin& origin, const fs::path& folder, int threads) {
   words.insert(words.end(), {"--out", place_of_results(words.front(), folder).string(), "--parts",
                              folder.string()});
   if (threads > 0) words.insert(words.end(), {"--threads", fmt::format("{}", threads)});
-  CLI::App again("", "recoil");
-  add_fit(again);
-  add_coverage(again);
-  add_diagnose(again);
-  std::reverse(words.begin(), words.end());  // as CLI11 takes them
-  again.parse(words);
+  Program again("", "", "");
+  add_shared_commands(again);
+  again.run(words);
 }
 
 void merge(const MergeFlags& flags) {
@@ -57,10 +54,10 @@ void merge(const MergeFlags& flags) {
 
 }  // namespace
 
-void add_merge(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_merge(Program& program) {
+  const Command command = program.command(
       "merge", "put the parts of a sharded command together, as if one process had run it");
-  command->footer(
+  command.footer(
       "Prints and writes into DIR what the command without --shard would have printed and\n"
       "written, byte for byte. Parts of other inputs, seeds, commands or builds of recoil are\n"
       "refused. What is missing is told as Slurm's --array= takes it.\n\n"
@@ -68,12 +65,12 @@ void add_merge(CLI::App& program) {
       "  recoil fit my.toml --shard 2/2 --out parts      on another\n"
       "  recoil merge parts");
   const auto flags = std::make_shared<MergeFlags>();
-  command->add_option("DIR", flags->folder, "the folder of the parts")->required();
-  command->add_flag("--missing", flags->missing,
-                    "only print which shards are missing, as --array=3,7-9; nothing when none is");
-  command->add_option("--threads", flags->threads, "threads to use (default: all cores)")
-      ->check(CLI::Range(1, 4096));
-  command->callback([flags] { merge(*flags); });
+  command.option("DIR", flags->folder, "the folder of the parts").required();
+  command.flag("--missing", flags->missing,
+               "only print which shards are missing, as --array=3,7-9; nothing when none is");
+  command.option("--threads", flags->threads, "threads to use (default: all cores)")
+      .within(1, 4096);
+  command.runs([flags] { merge(*flags); });
 }
 
 }  // namespace recoil

@@ -121,7 +121,8 @@ std::string remark_of(const PairCommand& command, const PassageTable& table) {
              : fmt::format("{}: {}", file, to_string(*provenance));
 }
 
-/// Points of mixed sizes get the distribution of the sizes beside them; size classes need none.
+/// Points of mixed sizes get the distribution of the sizes beside them; size
+/// classes need none.
 void write_dataset(const PairCommand& command, const PassageTable& table,
                    const PairingResult& pairs, const std::string& points) {
   const bool mixed =
@@ -135,7 +136,8 @@ void write_dataset(const PairCommand& command, const PassageTable& table,
                   "above the surface; velocities at the surface.",
                   pairs.impacts.size(), table.passages.size(), pairs.height / units::mm),
       mixed ? pairs.height : 0.0);
-  parse_dataset(package, points, command.into);  // refuses what `recoil check` would refuse
+  parse_dataset(package, points,
+                command.into);  // refuses what `recoil check` would refuse
   const fs::path folder = command.into;
   std::vector<WholeFile> files = {{folder / "points.csv", points}};
   if (mixed) files.push_back({folder / "sizes.csv", sizes_csv(distributions(table, pairs))});
@@ -188,110 +190,104 @@ void run_pair(PairCommand command) {
   write_whole_files(files);
 }
 
-void add_input_options(CLI::App& app, PairCommand& command) {
-  app.add_option("PASSAGES", command.events,
-                 "CSV file, one row per passage: time, velocity, diameter; optional "
-                 "tangential_velocity and series (a run; times of different runs are not compared)")
-      ->required();
-  app.add_option("--unit", command.units,
-                 "FIELD=UNIT, e.g. time=ms velocity=m/s diameter=um; not needed where "
-                 "datapackage.json beside the file states the units")
-      ->delimiter(',');
-  app.add_option("--column", command.columns,
-                 "FIELD=NAME, for files with other column names, e.g. velocity=LDA1")
-      ->delimiter(',');
-  app.add_option(
-         "--positive", command.positive,
-         "the direction in which velocities are positive: towards the surface or away from it")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"towards", "away"}));
+void add_input_options(const Command& app, PairCommand& command) {
+  app.option("PASSAGES", command.events,
+             "CSV file, one row per passage: time, velocity, diameter; optional "
+             "tangential_velocity and series (a run; times of different runs are not compared)")
+      .required();
+  app.option("--unit", command.units,
+             "FIELD=UNIT, e.g. time=ms velocity=m/s diameter=um; not needed where datapackage.json "
+             "beside the file states the units")
+      .list();
+  app.option("--column", command.columns,
+             "FIELD=NAME, for files with other column names, e.g. velocity=LDA1")
+      .list();
+  app.option("--positive", command.positive,
+             "the direction in which velocities are positive: towards the surface or away from it")
+      .shows_default()
+      .one_of({"towards", "away"});
 }
 
-void add_search_options(CLI::App& app, PairCommand& command) {
-  app.add_option("--height", command.height_mm,
-                 "first estimate of the probe plane's height above the surface [mm]")
-      ->capture_default_str()
-      ->check(CLI::Range(1e-3, 1e3));
-  app.add_option("--height-range", command.pairing.height_range,
-                 "the true height lies within this factor of the first estimate")
-      ->capture_default_str()
-      ->check(CLI::Range(1.01, 10.0));
-  app.add_flag("--keep-height", command.keep_height, "take --height as it is");
-  app.add_option("--diameter-tolerance", command.pairing.diameter_tolerance,
-                 "largest relative difference of the diameters of one sphere; within it the data "
-                 "decide")
-      ->capture_default_str()
-      ->check(CLI::Range(1e-3, 2.0));
-  app.add_option(
+void add_search_options(const Command& app, PairCommand& command) {
+  app.option("--height", command.height_mm,
+             "first estimate of the probe plane's height above the surface [mm]")
+      .shows_default()
+      .within(1e-3, 1e3);
+  app.option("--height-range", command.pairing.height_range,
+             "the true height lies within this factor of the first estimate")
+      .shows_default()
+      .within(1.01, 10.0);
+  app.flag("--keep-height", command.keep_height, "take --height as it is");
+  app.option(
+         "--diameter-tolerance", command.pairing.diameter_tolerance,
+         "largest relative difference of the diameters of one sphere; within it the data decide")
+      .shows_default()
+      .within(1e-3, 2.0);
+  app.option(
          "--velocity-tolerance", command.pairing.velocity_tolerance,
          "largest relative difference between a rebound and its return; within it the data decide")
-      ->capture_default_str()
-      ->check(CLI::Range(1e-3, 0.5));
+      .shows_default()
+      .within(1e-3, 0.5);
 }
 
-void add_selection_options(CLI::App& app, PairCommand& command) {
-  app.add_flag("--keep-later", command.pairing.keep_later, "use second and third impacts as well");
-  app.add_option("--threshold", command.threshold,
-                 "leave out incident velocities below this [m/s, at the plane], the paper's way to "
-                 "remove second impacts; the effect of the selection is printed")
-      ->check(CLI::Range(0.0, 1e4));
-  app.add_option("--angle", command.angle_degrees,
-                 "use only rebounds within this angle of the normal [degrees]; the paper: 8. Needs "
-                 "tangential_velocity")
-      ->check(CLI::Range(0.0, 90.0));
-  app.add_option("--lost-share", command.lost_share,
-                 "share of rebounds that the instrument misses (default: the share of rebounds "
-                 "that it did not see on their way down)")
-      ->check(CLI::Range(0.0, 0.9));
+void add_selection_options(const Command& app, PairCommand& command) {
+  app.flag("--keep-later", command.pairing.keep_later, "use second and third impacts as well");
+  app.option("--threshold", command.threshold,
+             "leave out incident velocities below this [m/s, at the plane], the paper's way to "
+             "remove second impacts; the effect of the selection is printed")
+      .within(0.0, 1e4);
+  app.option("--angle", command.angle_degrees,
+             "use only rebounds within this angle of the normal [degrees]; the paper: 8. Needs "
+             "tangential_velocity")
+      .within(0.0, 90.0);
+  app.option("--lost-share", command.lost_share,
+             "share of rebounds that the instrument misses (default: the share of rebounds that it "
+             "did not see on their way down)")
+      .within(0.0, 0.9);
 }
 
-void add_output_options(CLI::App& app, PairCommand& command) {
-  app.add_option("--out", command.out, "write the points here (CSV)");
-  CLI::Option* into =
-      app.add_option("--into", command.into,
-                     "write a dataset folder: points, datapackage.json and, unless there are "
-                     "size classes, sizes.csv");
-  CLI::Option* like =
-      app.add_option("--like", command.like, "take the materials of this dataset folder");
-  into->needs(like);
-  like->needs(into);
-  app.add_option("--provenance", command.provenance,
-                 "where the passages come from, if no datapackage.json beside them says so")
-      ->check(CLI::IsMember(all_names<Provenance>()));
-  app.add_option("--per-bin", command.averaging.per_bin,
-                 "approximate number of impacts in one point")
-      ->capture_default_str()
-      ->check(CLI::Range(2, 1000000));
-  CLI::Option* classes =
-      app.add_option("--size-classes", command.averaging.size_classes,
-                     "number of size classes with equally many spheres, each a series of points")
-          ->capture_default_str()
-          ->check(CLI::Range(1, 100));
-  app.add_option(
+void add_output_options(const Command& app, PairCommand& command) {
+  app.option("--out", command.out, "write the points here (CSV)");
+  Option into = app.option("--into", command.into,
+                           "write a dataset folder: points, datapackage.json and, unless there are "
+                           "size classes, sizes.csv");
+  Option like = app.option("--like", command.like, "take the materials of this dataset folder");
+  into.needs(like);
+  like.needs(into);
+  app.option("--provenance", command.provenance,
+             "where the passages come from, if no datapackage.json beside them says so")
+      .one_of(all_names<Provenance>());
+  app.option("--per-bin", command.averaging.per_bin, "approximate number of impacts in one point")
+      .shows_default()
+      .within(2, 1000000);
+  const Option classes =
+      app.option("--size-classes", command.averaging.size_classes,
+                 "number of size classes with equally many spheres, each a series of points")
+          .shows_default()
+          .within(1, 100);
+  app.option(
          "--size-edges", command.size_edges_um,
          "limits of the size classes [um], e.g. 20,40,60,110; spheres outside them are left out")
-      ->delimiter(',')
-      ->excludes(classes)
-      ->check(CLI::PositiveNumber);
-  app.add_option("--impacts", command.impacts,
-                 "write every impact and every passage without one here (CSV)");
-  app.add_flag(
-      "--mean-diameter", command.averaging.mean_diameter,
-      "give every point the mean diameter of all spheres of its series and size class (d10, "
-      "as the paper's points) instead of that of its own impacts");
-  app.add_option(
-      "--histograms", command.histograms,
-      "write histograms and size distributions (CSV) and pictures (SVG) into this folder");
+      .list()
+      .excludes(classes)
+      .number("diameter", 1e-3, 1e6);
+  app.option("--impacts", command.impacts,
+             "write every impact and every passage without one here (CSV)");
+  app.flag("--mean-diameter", command.averaging.mean_diameter,
+           "give every point the mean diameter of all spheres of its series and size class (d10, "
+           "as the paper's points) instead of that of its own impacts");
+  app.option("--histograms", command.histograms,
+             "write histograms and size distributions (CSV) and pictures (SVG) into this folder");
   add_json_flag(app, command.json);
 }
 
 }  // namespace
 
-void add_pair(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("pair",
-                                         "find the impacts in the passages that a phase Doppler "
-                                         "instrument records, and make points of them");
-  app->footer(
+void add_pair(Program& program) {
+  const Command app = program.command("pair",
+                                      "find the impacts in the passages that a phase Doppler "
+                                      "instrument records, and make points of them");
+  app.footer(
       "A sphere passes the probe plane on its way down and, if it rebounds, on its way up. The "
       "time\n"
       "between is that of free flight to the surface and back, which both velocities and the "
@@ -307,11 +303,11 @@ void add_pair(CLI::App& program) {
       "      --histograms my-run/histograms\n"
       "  recoil check my-run");
   const auto command = std::make_shared<PairCommand>();
-  add_input_options(*app, *command);
-  add_search_options(*app, *command);
-  add_selection_options(*app, *command);
-  add_output_options(*app, *command);
-  app->callback([command] { run_pair(*command); });
+  add_input_options(app, *command);
+  add_search_options(app, *command);
+  add_selection_options(app, *command);
+  add_output_options(app, *command);
+  app.runs([command] { run_pair(*command); });
 }
 
 }  // namespace recoil

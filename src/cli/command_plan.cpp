@@ -36,7 +36,8 @@ struct PlanFlags {
   bool json = false;
 };
 
-/// The velocities and diameters that were asked for, or else those of the points that there are.
+/// The velocities and diameters that were asked for, or else those of the
+/// points that there are.
 void take_ranges(const PlanFlags& flags, const std::vector<Dataset>& datasets,
                  PlanOptions& options) {
   for (const double diameter : flags.diameters) options.diameters.push_back(diameter * units::um);
@@ -119,12 +120,12 @@ void run_plan(PlanFlags flags) {
   fmt::print("{}", flags.json ? result : plan_text(plan, origin));
 }
 
-void add_assumptions(CLI::App& command, const std::shared_ptr<PlanFlags>& flags) {
+void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& flags) {
   const auto parameter = [&](const std::string& name, const std::string& help, double most) {
     command
-        .add_option_function<double>(
+        .option(
             "--" + name, [flags, name](double value) { flags->assumed[name] = value; }, help)
-        ->check(positive_number(name, 0.0, most));
+        .number(name, 0.0, most);
   };
   parameter("C_H", "assume this damping of the contact [s/m] (default: the fit file's start)", 1e6);
   parameter("C_A", "assume this damping of the adhesion [s/m] (default: the fit file's start)",
@@ -135,81 +136,81 @@ void add_assumptions(CLI::App& command, const std::shared_ptr<PlanFlags>& flags)
             1e6);
   parameter("W", "the same for the other laws of adhesion: work of adhesion [J/m2]", 40.0);
   command
-      .add_option("--parameters", flags->parameters,
-                  "take the values from this fit.json, of the same fit and data")
-      ->type_name("FILE");
+      .option("--parameters", flags->parameters,
+              "take the values from this fit.json, of the same fit and data")
+      .takes("FILE");
   command
-      .add_option("--scatter", flags->plan.scatter,
-                  "standard deviation of the e of one impact, relative to e")
-      ->capture_default_str()
-      ->check(positive_number("scatter", 0.0, 1.0));
+      .option("--scatter", flags->plan.scatter,
+              "standard deviation of the e of one impact, relative to e")
+      .shows_default()
+      .number("scatter", 0.0, 1.0);
   command
-      .add_option("--floor", flags->plan.floor,
-                  "the part of that standard deviation that does not depend on e")
-      ->capture_default_str()
-      ->check(positive_number("standard deviation", 1e-6, 1.0));
+      .option("--floor", flags->plan.floor,
+              "the part of that standard deviation that does not depend on e")
+      .shows_default()
+      .number("standard deviation", 1e-6, 1.0);
   command
-      .add_option("--spread", flags->plan.spread,
-                  "relative standard deviation of the capture velocity from impact to impact; 0: "
-                  "below it every sphere stays, above it none")
-      ->capture_default_str()
-      ->check(positive_number("spread", 0.0, 0.5));
+      .option("--spread", flags->plan.spread,
+              "relative standard deviation of the capture velocity from impact to impact; 0: below "
+              "it every sphere stays, above it none")
+      .shows_default()
+      .number("spread", 0.0, 0.5);
 }
 
 }  // namespace
 
-void add_plan(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_plan(Program& program) {
+  const Command command = program.command(
       "plan", "before the experiment: which velocities and sizes to measure, and how often");
-  command->footer(
+  command.footer(
       "Needs a fit file and datasets with their materials; points need not be there yet. From the\n"
       "model it works out which points determine the free parameters and the capture velocities\n"
-      "with the fewest impacts, and which errors to expect. The plan is best where its assumptions\n"
+      "with the fewest impacts, and which errors to expect. The plan is best where its "
+      "assumptions\n"
       "hold: make it again with --parameters once there are first results. With --out it writes\n"
       "plan.html (a page to read), plan.json, pictures and points.csv, to be filled in.\n\n"
       "  recoil init my-spheres --like datasets/wall1990-mica --diameter 4.9\n"
       "  recoil plan my-spheres/fit.toml --velocity 0.5,50 --diameter 2,5 --error 0.05 \\\n"
       "      --out my-plan");
   const auto flags = std::make_shared<PlanFlags>();
-  add_fit_file(*command, flags->fit_file);
+  add_fit_file(command, flags->fit_file);
   command
-      ->add_option("--velocity", flags->velocity,
-                   "range of incident velocities MIN,MAX [m/s] (default: that of the points, or "
-                   "0.8 to 30 times the capture velocities)")
-      ->delimiter(',')
-      ->expected(2)
-      ->type_name("MIN,MAX")
-      ->check(positive_number("velocity", velocity_limits.first, velocity_limits.second));
+      .option("--velocity", flags->velocity,
+              "range of incident velocities MIN,MAX [m/s] (default: that of the points, or 0.8 to "
+              "30 times the capture velocities)")
+      .list()
+      .values(2, 2)
+      .takes("MIN,MAX")
+      .number("velocity", velocity_limits.first, velocity_limits.second);
   command
-      ->add_option(
-          "--diameter", flags->diameters,
-          "sphere diameters that there are [um], e.g. 2,5,10 (default: those of the points)")
-      ->delimiter(',')
-      ->type_name("D,D,...")
-      ->check(positive_number("diameter", diameter_limits_um.first, diameter_limits_um.second));
+      .option("--diameter", flags->diameters,
+              "sphere diameters that there are [um], e.g. 2,5,10 (default: those of the points)")
+      .list()
+      .takes("D,D,...")
+      .number("diameter", diameter_limits_um.first, diameter_limits_um.second);
   command
-      ->add_option("--error", flags->plan.error,
-                   "wanted standard error of every free parameter and capture velocity, relative")
-      ->capture_default_str()
-      ->check(positive_number("error", 1e-4, 1.0));
+      .option("--error", flags->plan.error,
+              "wanted standard error of every free parameter and capture velocity, relative")
+      .shows_default()
+      .number("error", 1e-4, 1.0);
   command
-      ->add_option("--impacts", flags->plan.impacts,
-                   "impacts of the whole plan (default: as many as the wanted error takes, at most "
-                   "10000)")
-      ->check(CLI::Range(1, 10000000));
-  command->add_option("--events", flags->plan.events, "impacts that one point averages")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
+      .option(
+          "--impacts", flags->plan.impacts,
+          "impacts of the whole plan (default: as many as the wanted error takes, at most 10000)")
+      .within(1, 10000000);
+  command.option("--events", flags->plan.events, "impacts that one point averages")
+      .shows_default()
+      .within(1, 100000);
   command
-      ->add_option("--checks", flags->plan.checks,
-                   "share of the points that are spread evenly, to show a wrong model")
-      ->capture_default_str()
-      ->check(positive_number("share", 0.0, 1.0));
-  add_assumptions(*command, flags);
-  command->add_option("--out", flags->out, "folder for the files (default: nothing is written)")
-      ->type_name("DIR");
-  add_json_flag(*command, flags->json);
-  command->callback([flags] { run_plan(*flags); });
+      .option("--checks", flags->plan.checks,
+              "share of the points that are spread evenly, to show a wrong model")
+      .shows_default()
+      .number("share", 0.0, 1.0);
+  add_assumptions(command, flags);
+  command.option("--out", flags->out, "folder for the files (default: nothing is written)")
+      .takes("DIR");
+  add_json_flag(command, flags->json);
+  command.runs([flags] { run_plan(*flags); });
 }
 
 }  // namespace recoil

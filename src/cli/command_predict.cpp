@@ -69,11 +69,11 @@ void predict_sizes(const PredictOptions& options) {
 
 }  // namespace
 
-void add_predict(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_predict(Program& program) {
+  const Command command = program.command(
       "predict",
       "what a mixture of sizes does: averages of the restitution over a size distribution");
-  command->footer(
+  command.footer(
       "Fits as `recoil fit` does and averages e(V) over the sizes of SIZES.csv (columns diameter "
       "and\n"
       "count) under three conventions: captured spheres count as e = 0; they are left out; they\n"
@@ -82,28 +82,26 @@ void add_predict(CLI::App& program) {
       "  recoil predict fits/li1999-sst65-silicon.toml --sizes "
       "datasets/li1999-sst65-silicon/sizes.csv");
   const auto options = std::make_shared<PredictOptions>();
-  add_fit_file(*command, options->fit_file);
-  command->add_option("--sizes", options->sizes, "the size distribution (CSV)")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--unit", options->unit,
-                      "unit of its diameters: um, mm or m (default: what the datapackage.json "
-                      "beside it says, otherwise um)");
+  add_fit_file(command, options->fit_file);
+  command.option("--sizes", options->sizes, "the size distribution (CSV)").required().takes("FILE");
+  command.option("--unit", options->unit,
+                 "unit of its diameters: um, mm or m (default: what the datapackage.json beside it "
+                 "says, otherwise um)");
   command
-      ->add_option("--height", options->height,
-                   "height of the measuring plane above the surface [mm] (default: what the "
-                   "datapackage.json says, otherwise 1)")
-      ->check(CLI::Range(0.0, 1000.0));
-  command->add_flag(
+      .option("--height", options->height,
+              "height of the measuring plane above the surface [mm] (default: what the "
+              "datapackage.json says, otherwise 1)")
+      .within(0.0, 1000.0);
+  command.flag(
       "--midpoints", options->midpoints,
       "put all spheres of a bin at its middle, as the paper did (default: spread over the bin)");
-  command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
-      ->type_name("ID");
-  command->add_option("--out", options->out, "folder for the files (default: none are written)")
-      ->type_name("DIR");
-  add_analysis_flags(*command, options->analysis);
-  add_json_flag(*command, options->json);
-  command->callback([options] { predict_sizes(*options); });
+  command.option("--dataset", options->dataset, "id of the dataset, in a fit of several")
+      .takes("ID");
+  command.option("--out", options->out, "folder for the files (default: none are written)")
+      .takes("DIR");
+  add_analysis_flags(command, options->analysis);
+  add_json_flag(command, options->json);
+  command.runs([options] { predict_sizes(*options); });
 }
 
 }  // namespace recoil

@@ -71,8 +71,9 @@ bool is_current(const fs::path& stamp, const std::string& expected,
   return all_there && fs::exists(stamp) && read_text_file(stamp) == expected;
 }
 
-/// Diagnoses a fit, and at the same time puts the fits under every law into `analysis`: these take
-/// one thread, and a diagnosis does not keep all threads busy.
+/// Diagnoses a fit, and at the same time puts the fits under every law into
+/// `analysis`: these take one thread, and a diagnosis does not keep all threads
+/// busy.
 Diagnosis diagnose_for_report(Analysis& analysis, const AnalysisFlags& flags,
                               const std::shared_ptr<KeptRows>& kept) {
   DiagnosisOptions options;
@@ -189,24 +190,21 @@ void report(const ReportOptions& options) {
 
 }  // namespace
 
-void add_report(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("report", "fit, and write a page for every fit and an index");
-  command->footer(
+void add_report(Program& program) {
+  const Command command =
+      program.command("report", "fit, and write a page for every fit and an index");
+  command.footer(
       "Writes one page per fit, which needs no other file, and index.html. Pages whose inputs "
       "have\n"
       "not changed are kept.\n\n"
       "  recoil report                      every fits/*.toml into reports/\n"
       "  recoil report my.toml --out pages  one fit");
   const auto options = std::make_shared<ReportOptions>();
-  add_fit_files(*command, options->fits, "fit files (default: fits/*.toml)");
-  command->add_option("--out", options->out, "folder for the pages")
-      ->capture_default_str()
-      ->type_name("DIR");
-  command->add_flag("--force", options->force,
-                    "write every page again, even if nothing has changed");
-  add_analysis_flags(*command, options->analysis);
-  command->callback([options] { report(*options); });
+  add_fit_files(command, options->fits, "fit files (default: fits/*.toml)");
+  command.option("--out", options->out, "folder for the pages").shows_default().takes("DIR");
+  command.flag("--force", options->force, "write every page again, even if nothing has changed");
+  add_analysis_flags(command, options->analysis);
+  command.runs([options] { report(*options); });
 }
 
 }  // namespace recoil

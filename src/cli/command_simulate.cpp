@@ -50,7 +50,8 @@ std::string history_csv(const SimulatedImpact& simulated) {
   return csv;
 }
 
-/// e as measured, what every mechanism contributes, and where the base impact that follows starts.
+/// e as measured, what every mechanism contributes, and where the base impact
+/// that follows starts.
 void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diameter,
                       double velocity) {
   const std::vector<double> theta = model.initial();
@@ -58,8 +59,7 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
     const Prediction at = predict(model, values, dataset, diameter, velocity, false);
     if (!at.usable()) {
       throw ComputationError(
-          fmt::format("the impact at V = {:.6g} m/s, d = {:.6g} um with its "
-                      "mechanisms: {}",
+          fmt::format("the impact at V = {:.6g} m/s, d = {:.6g} um with its mechanisms: {}",
                       velocity, diameter / units::um, to_string(at.outcome)));
     }
     return at.restitution_squared;
@@ -114,7 +114,8 @@ Table energy_budget(const ImpactGroups& groups, const ImpactScales& scales,
   return table;
 }
 
-/// The impact of the base model, where the mechanisms leave the sphere at the contact.
+/// The impact of the base model, where the mechanisms leave the sphere at the
+/// contact.
 void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
                   const ContactProperties& contact, AdhesionDampingPhase phase) {
   const ImpactResult& impact = simulated.impact;
@@ -224,29 +225,29 @@ void simulate(const SimulateOptions& options) {
 
 }  // namespace
 
-void add_simulate(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("simulate", "one impact, with its energy budget and force history");
-  command->footer(
+void add_simulate(Program& program) {
+  const Command command =
+      program.command("simulate", "one impact, with its energy budget and force history");
+  command.footer(
       "Uses the initial values of the fit file, or those of a fit.json with --parameters.\n\n"
-      "  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 "
-      "--history forces.csv");
+      "  recoil simulate fits/wall1990-molybdenum.toml --velocity 5.2 --diameter 4.9 --history "
+      "forces.csv");
   const auto options = std::make_shared<SimulateOptions>();
-  add_fit_file(*command, options->fit_file);
-  command->add_option("--velocity", options->velocity, "incident velocity [m/s]")
-      ->required()
-      ->check(positive_number("velocity", velocity_limits.first, velocity_limits.second));
-  command->add_option("--diameter", options->diameter, "sphere diameter [um]")
-      ->required()
-      ->check(positive_number("diameter", diameter_limits_um.first, diameter_limits_um.second));
-  command->add_option("--dataset", options->dataset, "id of the dataset, in a fit of several")
-      ->type_name("ID");
-  command->add_option("--parameters", options->parameters, "take the values from this fit.json")
-      ->type_name("FILE");
-  command->add_option("--history", options->history, "write the forces against time (CSV)")
-      ->type_name("FILE");
-  add_json_flag(*command, options->json);
-  command->callback([options] { simulate(*options); });
+  add_fit_file(command, options->fit_file);
+  command.option("--velocity", options->velocity, "incident velocity [m/s]")
+      .required()
+      .number("velocity", velocity_limits.first, velocity_limits.second);
+  command.option("--diameter", options->diameter, "sphere diameter [um]")
+      .required()
+      .number("diameter", diameter_limits_um.first, diameter_limits_um.second);
+  command.option("--dataset", options->dataset, "id of the dataset, in a fit of several")
+      .takes("ID");
+  command.option("--parameters", options->parameters, "take the values from this fit.json")
+      .takes("FILE");
+  command.option("--history", options->history, "write the forces against time (CSV)")
+      .takes("FILE");
+  add_json_flag(command, options->json);
+  command.runs([options] { simulate(*options); });
 }
 
 }  // namespace recoil

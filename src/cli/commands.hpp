@@ -1,27 +1,31 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "cli/options.hpp"
 
 namespace recoil {
 
-/// Each adds one command to the program: its options, its help and what it does. Commands throw
-/// InputError (exit status 2) or ComputationError (exit status 3).
-void add_check(CLI::App& program);
-void add_simulate(CLI::App& program);
-void add_fit(CLI::App& program);
-void add_diagnose(CLI::App& program);
-void add_coverage(CLI::App& program);
-void add_init(CLI::App& program);
-void add_import(CLI::App& program);
-void add_predict(CLI::App& program);
-void add_export(CLI::App& program);
-void add_compare(CLI::App& program);
-void add_report(CLI::App& program);
-void add_pair(CLI::App& program);
-void add_plan(CLI::App& program);
-void add_merge(CLI::App& program);
-void add_cluster(CLI::App& program);
-/// The manual; made last, since it lists the others.
-void add_help(CLI::App& program);
+/// Each adds one command to the program: its options, its help and its action.
+/// Commands throw InputError (exit status 2) or ComputationError (exit status
+/// 3).
+void add_check(Program& program);
+void add_simulate(Program& program);
+void add_fit(Program& program);
+void add_diagnose(Program& program);
+void add_coverage(Program& program);
+void add_init(Program& program);
+void add_import(Program& program);
+void add_predict(Program& program);
+void add_export(Program& program);
+void add_compare(Program& program);
+void add_report(Program& program);
+void add_pair(Program& program);
+void add_plan(Program& program);
+void add_merge(Program& program);
+void add_cluster(Program& program);
+/// The manual, which also describes the commands that were added before.
+void add_help(Program& program);
+
+/// The commands whose pieces several processes can share.
+void add_shared_commands(Program& program);
 
 }  // namespace recoil

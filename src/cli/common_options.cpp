@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "cli/commands.hpp"
 #include "core/error.hpp"
 
 namespace recoil {
@@ -36,13 +37,13 @@ std::string require_there(const std::string& file) {
 
 }  // namespace
 
-void add_fit_file(CLI::App& command, std::string& fit_file) {
-  command.add_option("FIT", fit_file, "a fit file")->required()->check(require_there);
+void add_fit_file(const Command& command, std::string& fit_file) {
+  command.option("FIT", fit_file, "a fit file").required().check(require_there);
 }
 
-CLI::Option* add_fit_files(CLI::App& command, std::vector<std::string>& fits,
-                           const std::string& meaning) {
-  return command.add_option("FIT", fits, meaning)->check(require_there);
+Option add_fit_files(const Command& command, std::vector<std::string>& fits,
+                     const std::string& meaning) {
+  return command.option("FIT", fits, meaning).check(require_there);
 }
 
 AnalysisOptions AnalysisFlags::resolved() const {
@@ -56,35 +57,33 @@ AnalysisOptions AnalysisFlags::resolved() const {
   return options;
 }
 
-void add_analysis_flags(CLI::App& command, AnalysisFlags& flags) {
+void add_analysis_flags(const Command& command, AnalysisFlags& flags) {
   command
-      .add_option(
-          "--replicates", flags.replicates,
-          "bootstrap replicates; 0: none, auto: as many as it takes (default: the fit file's)")
-      ->check(CLI::IsMember({"auto"}) | CLI::Range(0, 1000000));
+      .option("--replicates", flags.replicates,
+              "bootstrap replicates; 0: none, auto: as many as it takes (default: the fit file's)")
+      .auto_or(0, 1000000);
   command
-      .add_option("--scheme", flags.scheme,
-                  "how the bootstrap draws new data sets (default: the fit file's)")
-      ->check(CLI::IsMember(all_names<Scheme>()));
+      .option("--scheme", flags.scheme,
+              "how the bootstrap draws new data sets (default: the fit file's)")
+      .one_of(all_names<Scheme>());
   command
-      .add_option("--seed", flags.seed,
-                  "seed of the random numbers; fixes every digit (default: the fit file's)")
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
-  command.add_option("--threads", flags.threads, "threads to use (default: all cores)")
-      ->check(CLI::Range(1, 4096));
+      .option("--seed", flags.seed,
+              "seed of the random numbers; fixes every digit (default: the fit file's)")
+      .within(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
+  command.option("--threads", flags.threads, "threads to use (default: all cores)").within(1, 4096);
   command
-      .add_option("--solver", flags.solver,
-                  "how impacts are integrated; reference: CVODES (default: fast)")
-      ->check(CLI::IsMember(all_names<Solver>()));
+      .option("--solver", flags.solver,
+              "how impacts are integrated; reference: CVODES (default: fast)")
+      .one_of(all_names<Solver>());
 }
 
-void add_json_flag(CLI::App& command, bool& json) {
-  command.add_flag("--json", json,
-                   "print the result as JSON instead; what else there is to say goes to stderr");
+void add_json_flag(const Command& command, bool& json) {
+  command.flag("--json", json,
+               "print the result as JSON instead; what else there is to say goes to stderr");
 }
 
-void add_verbose_flag(CLI::App& command, bool& verbose) {
-  command.add_flag("--verbose", verbose, "print all details, not the answer alone");
+void add_verbose_flag(const Command& command, bool& verbose) {
+  command.flag("--verbose", verbose, "print all details, not the answer alone");
 }
 
 void write_or_print(const std::vector<WholeFile>& files, const std::string& result) {
@@ -96,14 +95,10 @@ void write_or_print(const std::vector<WholeFile>& files, const std::string& resu
   }
 }
 
-CLI::Validator positive_number(const std::string& what, double low, double high) {
-  return {[=](const std::string& text) -> std::string {
-            double value = 0.0;
-            const bool number = CLI::detail::lexical_cast(text, value);
-            if (number && value >= low && value <= high) return {};
-            return fmt::format("{} is not a {} between {:g} and {:g}", text, what, low, high);
-          },
-          what};
+void add_shared_commands(Program& program) {
+  add_fit(program);
+  add_coverage(program);
+  add_diagnose(program);
 }
 
 }  // namespace recoil

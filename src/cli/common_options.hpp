@@ -1,21 +1,22 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "analysis/analysis.hpp"
-#include "document/document.hpp"
+#include "cli/options.hpp"
 #include "core/files.hpp"
+#include "document/document.hpp"
 
 namespace recoil {
 
-/// FIT, a required fit file. One that is not there is refused with the name of one that is.
-void add_fit_file(CLI::App& command, std::string& fit_file);
+/// FIT, a required fit file. One that is not there is refused with the name of
+/// one that is.
+void add_fit_file(const Command& command, std::string& fit_file);
 
 /// The same for any number of them, none required.
-CLI::Option* add_fit_files(CLI::App& command, std::vector<std::string>& fits,
-                           const std::string& meaning);
+Option add_fit_files(const Command& command, std::vector<std::string>& fits,
+                     const std::string& meaning);
 
 /// The options that every analysing command shares, as given.
 struct AnalysisFlags {
@@ -28,22 +29,20 @@ struct AnalysisFlags {
   AnalysisOptions resolved() const;
 };
 
-void add_analysis_flags(CLI::App& command, AnalysisFlags& flags);
+void add_analysis_flags(const Command& command, AnalysisFlags& flags);
 
 /// --json: the result as JSON on standard output in place of the words.
-void add_json_flag(CLI::App& command, bool& json);
+void add_json_flag(const Command& command, bool& json);
 
 /// --verbose: the details behind the answer, too.
-void add_verbose_flag(CLI::App& command, bool& verbose);
+void add_verbose_flag(const Command& command, bool& verbose);
 
 inline Importance importance_of(bool verbose) {
   return verbose ? Importance::detail : Importance::answer;
 }
+
 /// Writes the files of a result. If they cannot be written the result is printed, so that the work
 /// is not lost, before the error is thrown. @throws InputError
 void write_or_print(const std::vector<WholeFile>& files, const std::string& result);
-
-/// A number in [low, high]; CLI11's own range check lets NaN through.
-CLI::Validator positive_number(const std::string& what, double low, double high);
 
 }  // namespace recoil

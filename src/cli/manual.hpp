@@ -5,23 +5,33 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/options.hpp"
+
 namespace recoil {
 
-/// A page of docs/, carried along in the program.
+/// A page of docs/, embedded in the program.
 struct ManualPage {
-  std::string_view topic;  ///< the file's name without its ending
+  std::string_view topic;  ///< the name of its file without the ending
   std::string_view text;   ///< Markdown
 
-  /// What its first line says, without the mark of a heading.
+  /// Its first line, without the mark of a heading.
   std::string_view title() const;
 };
 
-/// In the order in which one would read them.
+/// All pages, in the order in which one would read them.
 std::span<const ManualPage> manual_pages();
 
-/// The page `topic`; null when there is none.
-const ManualPage* find_manual_page(std::string_view topic);
+/// The names of the tables of the manual that are made from the code. A page holds each between two
+/// comments:
+///   <!-- made by ./run docs: units -->
+///   ...
+///   <!-- end -->
+std::vector<std::string> manual_table_names();
 
-std::vector<std::string> manual_topics();
+/// `page` with new text in all of its tables.
+/// @param file for messages
+/// @throws InputError for a table that has no end, or that the code does not make
+std::string with_manual_tables(const std::string& page, const std::string& file,
+                               const Program& program);
 
 }  // namespace recoil

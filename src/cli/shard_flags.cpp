@@ -7,46 +7,22 @@
 #include "core/program.hpp"
 
 namespace recoil {
-namespace {
-
 namespace fs = std::filesystem;
 
-/// The words that decide the digits, in the order of the help, however they were given.
-std::vector<std::string> words_of(const CLI::App& command) {
-  std::vector<std::string> words = {command.get_name()};
-  std::vector<std::string> positionals;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->count() == 0 || option->get_group().empty()) continue;  // not given, or --parts
-    if (option->get_positional()) {
-      for (const std::string& word : option->results()) positionals.push_back(word);
-      continue;
-    }
-    const std::string name = option->get_name();
-    if (name == "--shard" || name == "--out" || name == "--threads") continue;
-    words.push_back(name);
-    if (option->get_expected_max() == 0) continue;  // a flag
-    for (const std::string& word : option->results()) words.push_back(word);
-  }
-  words.insert(words.begin() + 1, positionals.begin(), positionals.end());
-  return words;
-}
-
-}  // namespace
-
-void add_shard_flags(CLI::App& command, const std::string& pieces, ShardFlags& flags) {
-  flags.command = &command;
+void add_shard_flags(const Command& command, const std::string& pieces, ShardFlags& flags) {
+  flags.command = command;
   flags.pieces = pieces;
   command
-      .add_option("--shard", flags.shard,
-                  fmt::format("run only the K-th of N shares of the {}, from 1/N to N/N, and write "
-                              "it as a part into DIR, for recoil merge DIR",
-                              pieces))
-      ->type_name("K/N")
-      ->check([](const std::string& text) -> std::string {
+      .option("--shard", flags.shard,
+              fmt::format("run only the K-th of N shares of the {}, from 1/N to N/N, and write it "
+                          "as a part into DIR, for recoil merge DIR",
+                          pieces))
+      .takes("K/N")
+      .check([](const std::string& text) -> std::string {
         if (shard_named(text)) return {};
         return fmt::format("{} is not K/N with K from 1 to N and N up to {}", text, most_shards);
       });
-  command.add_option("--parts", flags.parts)->group("");
+  command.option("--parts", flags.parts, "").hidden();
 }
 
 void ShardFlags::require_share(const std::string& out, std::size_t count) const {
@@ -65,7 +41,8 @@ Origin ShardFlags::origin(const FitSpec& spec, const std::vector<Dataset>& datas
                           std::uint64_t seed, std::size_t count, const std::string& start) const {
   std::string inputs = spec.sha256;
   for (const Dataset& dataset : datasets) inputs += "|" + dataset.sha256;
-  return origin_here(words_of(*command), sha256_hex(inputs), seed, count, start);
+  return origin_here(command->words({"--shard", "--out", "--threads"}), sha256_hex(inputs), seed,
+                     count, start);
 }
 
 std::shared_ptr<KeptRows> ShardFlags::rows(const Origin& origin, const fs::path& result) const {

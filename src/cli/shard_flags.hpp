@@ -1,27 +1,29 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/analysis.hpp"
+#include "cli/options.hpp"
 #include "core/resumable.hpp"
 
 namespace recoil {
 
 /// The options of a command whose pieces several processes can share.
 struct ShardFlags {
-  std::string shard;                  ///< "3/40"; empty: this process computes everything
-  std::string parts;                  ///< set by `recoil merge`: the folder of the parts
-  const CLI::App* command = nullptr;  ///< its words are those of the origin
-  std::string pieces;                 ///< "data sets"
+  std::string shard;               ///< "3/40"; empty: this process computes everything
+  std::string parts;               ///< set by `recoil merge`: the folder of the parts
+  std::optional<Command> command;  ///< its words are those of the origin
+  std::string pieces;              ///< "data sets"
 
   bool one_of_several() const { return !shard.empty(); }
   bool merging() const { return !parts.empty(); }
 
-  /// Checks, before a shard computes anything, that it has a folder and something to share.
+  /// Checks, before a shard computes anything, that it has a folder and
+  /// something to share.
   /// @throws InputError
   void require_share(const std::string& out, std::size_t count) const;
 
@@ -29,9 +31,10 @@ struct ShardFlags {
   Origin origin(const FitSpec& spec, const std::vector<Dataset>& datasets, std::uint64_t seed,
                 std::size_t count, const std::string& start) const;
 
-  /// The rows to go on from: those that a stopped run left beside `result` (with --shard, in the
-  /// folder `result`), or those of all parts for a merge. Null if the part of this shard exists; a
-  /// line on standard output reports it.
+  /// The rows to go on from: those that a stopped run left beside `result`
+  /// (with --shard, in the folder `result`), or those of all parts for a merge.
+  /// Null if the part of this shard exists; a line on standard output reports
+  /// it.
   /// @param result empty: nothing is written
   std::shared_ptr<KeptRows> rows(const Origin& origin, const std::filesystem::path& result) const;
 
@@ -40,7 +43,8 @@ struct ShardFlags {
                  const std::filesystem::path& folder) const;
 };
 
-/// Adds --shard, and an option that only `recoil merge` uses. `pieces`: see ShardFlags.
-void add_shard_flags(CLI::App& command, const std::string& pieces, ShardFlags& flags);
+/// Adds --shard, and an option that only `recoil merge` uses. `pieces`: see
+/// ShardFlags.
+void add_shard_flags(const Command& command, const std::string& pieces, ShardFlags& flags);
 
 }  // namespace recoil

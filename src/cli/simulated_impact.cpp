@@ -12,7 +12,6 @@
 #include "estimate/predictor.hpp"
 #include "impact/reference_solver.hpp"
 #include "report/words_dataset.hpp"
-#include "report/words_dataset.hpp"
 
 namespace recoil {
 namespace {

@@ -172,16 +172,6 @@ TEST(Fit, ReferenceSolverAgrees) {
   }
 }
 
-TEST(Coverage, GridsAreOfAnotherProgram) {
-  const Workplace place;
-  for (const char* option : {"--grid", "--picture", "--summary"}) {
-    const Outcome run = place.run({"coverage", "fit.toml", option});
-    EXPECT_EQ(run.status, 2) << option;
-    EXPECT_NE(run.err.find("recoil_study"), std::string::npos) << run.err;
-    EXPECT_EQ(run.out, "");
-  }
-}
-
 TEST(Fit, FittedValuesCanBeSimulated) {
   const Workplace place;
   ASSERT_EQ(place.run({"fit", "fit.toml", "--out", "out", "--replicates", "39"}).status, 0);

@@ -1,7 +1,6 @@
-#include "cli/reference.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <functional>
@@ -21,7 +20,7 @@
 namespace recoil {
 namespace {
 
-/// Text that stands for itself: bars and stars are none of Markdown's.
+/// Text as it is: bars and stars have no meaning for Markdown.
 std::string literal(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -38,71 +37,34 @@ std::string capitalised(std::string text) {
 
 std::string code(std::string_view text) { return fmt::format("`{}`", text); }
 
-// ---- commands --------------------------------------------------------------------------------
+// ---- commands
+// --------------------------------------------------------------------------------
 
-/// "FLOAT", "`fast` or `reference`", "INT from 1 to 4096": what CLI11 knows of an option's values.
-std::string accepted_by(const CLI::Option& option) {
-  std::string type = option.get_type_name();
-  if (option.get_expected_max() == 0) return "";
-  const std::size_t colon = type.find(':');
-  if (colon == std::string::npos) return type;
-  const std::string base = type.substr(0, colon);
-  std::string rule = type.substr(colon + 1);
-  if (rule.rfind("({auto}) OR", 0) == 0) return "a whole number, or `auto`";
-  if (rule.front() == '{') {
-    std::string words;
-    for (const std::string& word : CLI::detail::split(rule.substr(1, rule.size() - 2), ',')) {
-      words += (words.empty() ? "" : ", ") + code(word);
-    }
-    return words;
-  }
-  const std::size_t range = rule.find(" in [");
-  if (range == std::string::npos) return base;
-  const std::string limits = rule.substr(range + 5, rule.size() - range - 6);
-  const std::size_t dash = limits.find(" - ");
-  const std::string upper = limits.substr(dash + 3);
-  if (upper.size() > 10) return fmt::format("{} from {}", base, limits.substr(0, dash));
-  return fmt::format("{} from {} to {}", base, limits.substr(0, dash), upper);
-}
-
-std::string option_row(const CLI::Option& option) {
-  const bool positional = option.get_positional();
-  std::string name = code(option.get_name(positional));
-  std::string remarks = option.get_description();
-  if (option.get_required() && !positional) remarks += " (required)";
-  if (!option.get_default_str().empty()) {
-    remarks += fmt::format(" (default: {})", option.get_default_str());
-  }
-  return fmt::format("| {} | {} | {} |\n", name, literal(positional ? "" : accepted_by(option)),
-                     literal(remarks));
-}
-
-std::string commands_block(const CLI::App& program) {
+std::string commands_table(const Program& program) {
   std::string out;
-  for (const CLI::App* command : program.get_subcommands({})) {
-    std::string positionals;
+  for (const Command& command : program.commands()) {
+    std::string arguments;
     std::string rows;
-    for (const CLI::Option* option : command->get_options()) {
-      if (option->get_group().empty() || option->get_name() == "--help") continue;
-      if (option->get_positional()) {
-        const std::string word = option->get_name(true);
-        const bool several = option->get_expected_max() > 1;
-        positionals += option->get_required() ? " " + word
-                                              : fmt::format(" [{}{}]", word, several ? "..." : "");
+    for (const OptionText& option : command.options()) {
+      if (!option.name.starts_with('-')) {
+        arguments += option.required
+                         ? " " + option.name
+                         : fmt::format(" [{}{}]", option.name, option.several ? "..." : "");
       }
-      rows += option_row(*option);
+      rows += fmt::format("| {} | {} | {} |\n", code(option.name), literal(option.takes),
+                          literal(option.meaning));
     }
-    if (!out.empty()) out += "\n";
-    out += fmt::format("## recoil {}{}\n\n{}.\n", command->get_name(), positionals,
-                       capitalised(command->get_description()));
+    out += fmt::format("{}## recoil {}{}\n\n{}.\n", out.empty() ? "" : "\n", command.name(),
+                       arguments, capitalised(command.meaning()));
     if (!rows.empty()) out += "\n| option | takes | meaning |\n|---|---|---|\n" + rows;
   }
   return out;
 }
 
-// ---- catalogue -------------------------------------------------------------------------------
+// ---- catalogue
+// -------------------------------------------------------------------------------
 
-std::string mechanisms_block(const CLI::App&) {
+std::string mechanisms_table() {
   std::string out =
       "| id | kind | what it is | parameters (in brackets: fixed unless freed) "
       "|\n|---|---|---|---|\n";
@@ -120,7 +82,7 @@ std::string mechanisms_block(const CLI::App&) {
   return out;
 }
 
-/// What a parameter can be: its range, its limit, or both.
+/// The plausible values of a parameter: a range, a limit of a derived quantity, or both.
 std::string plausible_words(const Parameter& p) {
   std::string words;
   if (p.limit.of == nullptr || p.plausible.lower != p.lower || p.plausible.upper != p.upper) {
@@ -138,7 +100,7 @@ std::string plausible_words(const Parameter& p) {
                      within, literal(p.limit.why));
 }
 
-std::string mechanism_details_block(const CLI::App&) {
+std::string mechanism_details_table() {
   std::string out;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     const MechanismInfo& info = mechanism.info;
@@ -159,7 +121,7 @@ std::string mechanism_details_block(const CLI::App&) {
   return out;
 }
 
-std::string base_parameters_block(const CLI::App&) {
+std::string base_parameters_table() {
   std::string out =
       "| parameter | unit | meaning | start | bounds | fitted unless the file says otherwise |\n"
       "|---|---|---|---|---|---|\n";
@@ -172,9 +134,10 @@ std::string base_parameters_block(const CLI::App&) {
   return out;
 }
 
-// ---- fit files -------------------------------------------------------------------------------
+// ---- fit files
+// -------------------------------------------------------------------------------
 
-std::string fit_keys_block(std::string_view table) {
+std::string fit_keys_table(std::string_view table) {
   const bool defaults = table != "parameter";
   std::string out =
       defaults ? "| key | default | meaning |\n|---|---|---|\n" : "| key | meaning |\n|---|---|\n";
@@ -188,15 +151,16 @@ std::string fit_keys_block(std::string_view table) {
 }
 
 template <NamedEnum Enum>
-std::string words_block(std::string_view key) {
+std::string words_table(std::string_view key) {
   std::string words;
   for (const Enum value : values_of<Enum>()) words += fmt::format(", {}", code(name_of(value)));
   return fmt::format("{} takes {}.\n", code(key), words.substr(2));
 }
 
-// ---- datasets --------------------------------------------------------------------------------
+// ---- datasets
+// --------------------------------------------------------------------------------
 
-std::string units_block(const CLI::App&) {
+std::string units_table() {
   std::string out = "| columns | measure a | units |\n|---|---|---|\n";
   for (const Dimension dimension : values_of<Dimension>()) {
     std::string columns;
@@ -214,7 +178,7 @@ std::string units_block(const CLI::App&) {
   return out;
 }
 
-std::string limits_block(const CLI::App&) {
+std::string limits_table() {
   const std::pair<const char*, Range> rows[] = {
       {"diameter", limits::diameter},
       {"velocity", limits::velocity},
@@ -233,7 +197,7 @@ std::string limits_block(const CLI::App&) {
   return out;
 }
 
-std::string topics_block(const CLI::App&) {
+std::string topics_table() {
   std::string out = "| page | is about |\n|---|---|\n";
   for (const ManualPage& page : manual_pages()) {
     out += fmt::format("| [{0}]({0}.md) | {1} |\n", page.topic, page.title());
@@ -241,71 +205,74 @@ std::string topics_block(const CLI::App&) {
   return out;
 }
 
-struct GeneratedPart {
+/// A table by its name.
+struct ManualTable {
   const char* name;
-  std::function<std::string(const CLI::App&)> text;
+  std::function<std::string(const Program&)> text;
 };
 
-const std::vector<GeneratedPart>& blocks() {
-  static const std::vector<GeneratedPart> all = {
-      {"topics", topics_block},
-      {"commands", commands_block},
-      {"base parameters", base_parameters_block},
-      {"keys of [model]", [](const CLI::App&) { return fit_keys_block("model"); }},
-      {"keys of a parameter", [](const CLI::App&) { return fit_keys_block("parameter"); }},
-      {"keys of [noise]",
-       [](const CLI::App&) {
-         return fit_keys_block("noise") + "\n" + words_block<VarianceFunction>("variance");
-       }},
-      {"keys of [uncertainty]",
-       [](const CLI::App&) {
-         return fit_keys_block("uncertainty") + "\n" + words_block<Scheme>("scheme");
-       }},
-      {"keys of [diagnosis]", [](const CLI::App&) { return fit_keys_block("diagnosis"); }},
-      {"mechanisms", mechanisms_block},
-      {"mechanism details", mechanism_details_block},
-      {"units", units_block},
-      {"limits", limits_block}};
+template <class Text>
+ManualTable table(const char* name, const Text& text) {
+  return {name, [text](const Program&) { return text(); }};
+}
+
+const std::vector<ManualTable>& tables() {
+  static const std::vector<ManualTable> all = {
+      table("topics", topics_table),
+      {"commands", commands_table},
+      table("base parameters", base_parameters_table),
+      table("keys of [model]", [] { return fit_keys_table("model"); }),
+      table("keys of a parameter", [] { return fit_keys_table("parameter"); }),
+      table("keys of [noise]",
+            [] {
+              return fit_keys_table("noise") + "\n" + words_table<VarianceFunction>("variance");
+            }),
+      table("keys of [uncertainty]",
+            [] { return fit_keys_table("uncertainty") + "\n" + words_table<Scheme>("scheme"); }),
+      table("keys of [diagnosis]", [] { return fit_keys_table("diagnosis"); }),
+      table("mechanisms", mechanisms_table),
+      table("mechanism details", mechanism_details_table),
+      table("units", units_table),
+      table("limits", limits_table)};
   return all;
 }
 
 }  // namespace
 
-std::vector<std::string> reference_block_names() {
+std::string_view ManualPage::title() const {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  return line.substr(std::min(line.find_first_not_of("# "), line.size()));
+}
+
+std::vector<std::string> manual_table_names() {
   std::vector<std::string> names;
-  for (const GeneratedPart& block : blocks()) names.emplace_back(block.name);
+  for (const ManualTable& table : tables()) names.emplace_back(table.name);
   return names;
 }
 
-std::string with_reference_blocks(const std::string& page, const std::string& file,
-                                  const CLI::App& program) {
+std::string with_manual_tables(const std::string& page, const std::string& file,
+                               const Program& program) {
   const std::string begin = "<!-- made by ./run docs: ";
   const std::string begin_end = " -->\n";
   const std::string end = "<!-- end -->";
   std::string out;
   std::size_t at = 0;
-  while (true) {
-    const std::size_t found = page.find(begin, at);
-    if (found == std::string::npos) break;
-    const std::size_t name_end = page.find(begin_end, found);
+  for (std::size_t found; (found = page.find(begin, at)) != std::string::npos;) {
+    const std::size_t name_at = found + begin.size();
+    const std::size_t name_end = page.find(begin_end, name_at);
     const std::size_t last = page.find(end, found);
     if (name_end == std::string::npos || last == std::string::npos) {
-      throw InputError({file}, "a block has no end", "its text is replaced",
+      throw InputError({file}, "a table has no end", "its text is replaced",
                        "write <!-- end --> after it");
     }
-    const std::size_t name_at = found + begin.size();
     const std::string name = page.substr(name_at, name_end - name_at);
-    out += page.substr(at, name_end + begin_end.size() - at);
-    bool made = false;
-    for (const GeneratedPart& block : blocks()) {
-      if (name != block.name) continue;
-      out += block.text(program);
-      made = true;
+    const auto made = std::find_if(tables().begin(), tables().end(),
+                                   [&](const ManualTable& table) { return table.name == name; });
+    if (made == tables().end()) {
+      throw InputError({file}, fmt::format("unknown table {}", quote(name)),
+                       "nothing in the code makes it", did_you_mean(name, manual_table_names()));
     }
-    if (!made) {
-      throw InputError({file}, fmt::format("unknown block {}", quote(name)),
-                       "nothing in the code makes it", did_you_mean(name, reference_block_names()));
-    }
+    out += page.substr(at, name_end + begin_end.size() - at) + made->text(program);
     at = last;
   }
   return out + page.substr(at);
