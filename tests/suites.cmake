@@ -3,6 +3,7 @@
 # others have no entry.
 #   cmake -DPROGRAM=path -DNAME=cli_test -DAPART="Suite Other" -DONLY="" -DPROPERTIES="..." -DOUT=file
 #         -P suites.cmake
+cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed
                 COMMAND_ERROR_IS_FATAL ANY TIMEOUT 60)
 string(REPLACE ";" "\\;" listed "${listed}")
@@ -21,9 +22,10 @@ foreach(line ${lines})
   string(REGEX REPLACE " *#.*" "" line "${line}") # the value of a parameter
   if(line MATCHES "^([^ ]+)\\.$")
     set(suite ${CMAKE_MATCH_1})
-    string(REGEX REPLACE "^.*/([A-Za-z_]+)(/[0-9]+)?$|^([A-Za-z_]+)(/[0-9]+)?$" "\\1\\3" plain ${suite})
+    string(REGEX REPLACE "/[0-9]+$" "" plain ${suite})   # the number of a type
+    string(REGEX REPLACE "^.*/" "" plain ${plain})       # the name of the instantiation
     set(split OFF)
-    if(only AND NOT plain IN_LIST only)
+    if(NOT ONLY STREQUAL "" AND NOT plain IN_LIST only)
       continue()
     elseif(plain IN_LIST apart)
       set(split ON)
