@@ -33,23 +33,6 @@ std::vector<std::string> figure_ids(const Document& document) {
   return ids;
 }
 
-std::vector<std::string> section_ids(const Document& document) {
-  std::vector<std::string> ids;
-  for (const Section& section : document.sections) {
-    if (!empty(section)) ids.push_back(section.id);
-  }
-  return ids;
-}
-
-const Figure* figure_named(const Document& document, const std::string& id) {
-  for (const Section& section : document.sections) {
-    for (const Figure* figure : figures_of(section)) {
-      if (figure->id == id) return figure;
-    }
-  }
-  return nullptr;
-}
-
 /// The row of `table` that begins with these words.
 const std::vector<Cell>& row_of(const Table& table, const std::string& name) {
   static const std::vector<Cell> none(10);

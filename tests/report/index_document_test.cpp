@@ -21,7 +21,7 @@ IndexEntry entry_of(const Analysis& analysis) {
 }
 
 /// The cells of the row whose heading begins with `name`.
-std::vector<Cell> row_of(const Table& table, const std::string& name) {
+std::vector<Cell> index_row(const Table& table, const std::string& name) {
   for (const auto& row : table.rows) {
     if (plain_text(words_of_cell(row.front())).starts_with(name)) return row;
   }
@@ -56,10 +56,10 @@ TEST(Index, ShowsCaptureVelocitiesAndFreeParameters) {
   const Analysis analysis = sample::four_diameters();
   const Document index = index_document({{"a.html", fit_json(analysis)}});
   const Table& table = *tables_of(index.sections.at(0)).at(0);
-  const auto C_H = row_of(table, "C_H");
+  const auto C_H = index_row(table, "C_H");
   EXPECT_EQ(std::get<Number>(C_H[1]).value, 0.00312);
   EXPECT_NEAR(std::get<NumberRange>(C_H[2]).lower, 0.0027315, 1e-9);
-  const auto capture = row_of(table, "V* at 2.58 um");
+  const auto capture = index_row(table, "V* at 2.58 um");
   EXPECT_EQ(std::get<Number>(capture[1]).value, analysis.uncertainty.capture.front().value);
   EXPECT_EQ(table.rows.size(), 4U + 2U + 1U) << "sizes, free parameters, rms";
 }
