@@ -82,7 +82,6 @@ void require_scheme(const FitSpec& spec, Scheme scheme, const Observations& data
 /// and the older capture models.
 void add_predictions(Analysis& analysis);
 
-
 /// The index of the dataset named `id`; 0 when `id` is empty.
 /// @throws InputError when there is none
 std::size_t choose_dataset(const std::vector<Dataset>& datasets, const std::string& id);

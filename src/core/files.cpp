@@ -44,7 +44,8 @@ int write_to_disk(const std::filesystem::path& path, std::string_view text) {
   return failed;
 }
 
-/// The file that a path leads to through symbolic links. The link stays, and its target is replaced.
+/// The file that a path leads to through symbolic links. The link stays, and its target is
+/// replaced.
 std::filesystem::path behind_links(std::filesystem::path path) {
   constexpr int most_links = 40;  // as Linux follows
   std::error_code failed;

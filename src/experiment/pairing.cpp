@@ -132,7 +132,8 @@ struct Later {
 Later find_later_impacts(const std::vector<Passage>& passages, const Search& search,
                          const std::vector<Link>& pairs, PairingResult& result) {
   Later later{Chains(passages.size()), std::vector<bool>(passages.size(), false)};
-  std::vector<std::uint32_t> down_of(passages.size(), unassigned);  // passage up -> its passage down
+  std::vector<std::uint32_t> down_of(passages.size(),
+                                     unassigned);  // passage up -> its passage down
   std::vector<bool> open_down(passages.size(), false);
   std::vector<bool> open_next(passages.size(), false);
   for (std::size_t i = 0; i < passages.size(); ++i) {

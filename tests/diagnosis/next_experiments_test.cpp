@@ -1,9 +1,10 @@
+#include "diagnosis/next_experiments.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "diagnosis/next_experiments.hpp"
 #include "estimate/predictor.hpp"
 #include "search_with_exact_laws.hpp"
 #include "support/noisy_case.hpp"

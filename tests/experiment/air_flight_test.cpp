@@ -2,14 +2,13 @@
 // method of fourth order in time with fixed steps (8000 to the drop's own time in vacuum), the rise
 // by Simpson's rule over the velocity; both in Python, C_d(Re), Sutherland's viscosity, ideal gas
 // and slip correction typed in anew. The ball has 2.7 g and 40 mm.
-#include "experiment/flight.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "experiment/flight.hpp"
 #include "import_folder.hpp"
 #include "support/workplace.hpp"
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <sstream>
 
+#include "analysis/analysis.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/resumable.hpp"
-#include "analysis/analysis.hpp"
 #include "validation/studies/commands.hpp"
 #include "validation/studies/study_list.hpp"
 
