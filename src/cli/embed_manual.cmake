@@ -5,6 +5,7 @@ string(APPEND source "std::span<const ManualPage> manual_pages() {\n")
 string(APPEND source "  static constexpr ManualPage pages[] = {\n")
 foreach(topic ${topics})
   file(READ "${DOCS}/${topic}.md" text)
+  string(REGEX REPLACE "<!--[^>]*-->\n?" "" text "${text}") # for ./run docs and the tests
   string(APPEND source "{\"${topic}\", R\"page(" "${text}" ")page\"},\n")
 endforeach()
 string(APPEND source "  };\n  return pages;\n}\n\n}  // namespace recoil\n")
