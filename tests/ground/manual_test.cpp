@@ -69,21 +69,6 @@ TEST(Manual, AnUnknownPageNamesTheNearest) {
   EXPECT_NE(outcome.output.find("noise"), std::string::npos) << outcome.output;
 }
 
-TEST(Manual, NoLineOfTheTerminalIsWiderThanItsHundredColumns) {
-  const page::Sandbox sandbox;
-  for (const std::string& name : page_names()) {
-    if (name == "README") continue;
-    const page::Sandbox::Outcome outcome = sandbox.run("build/release/recoil help " + name + "\n");
-    for (const std::string& line : tree::lines_of(outcome.output)) {
-      const auto columns = std::count_if(line.begin(), line.end(), [](char c) {
-        return (static_cast<unsigned char>(c) >> 6) != 2;  // not within a UTF-8 character
-      });
-      const bool code = line.rfind("    ", 0) == 0;
-      EXPECT_TRUE(columns <= 100 || code) << name << ":\n" << line;
-    }
-  }
-}
-
 class Examples : public testing::TestWithParam<std::string> {};
 
 TEST_P(Examples, RunAndPrintWhatThePageShows) {
