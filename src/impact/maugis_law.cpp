@@ -68,9 +68,9 @@ MaugisPath found(double lambda) {
 
 DeepestSearch MaugisLaw::deepest_search(double strength, double lambda) {
   const MaugisPath path = maugis_path(lambda);
-  using Varied = Partial<double, 3U>;  // s and lambda
-  const Varied energy =
-      place_at(variable<0>(path.start) + Varied{}, variable<1>(lambda) + Varied{}).energy;
+  using OfBoth = Partial<double, 3U>;  // s and lambda
+  const OfBoth energy =
+      place_at(variable<0>(path.start) + OfBoth{}, variable<1>(lambda) + OfBoth{}).energy;
   // Far in, a = (5 / (4 Lambda))^(1/5), and s is below (1 + lambda) (1 + a).
   const double radius = 2.0 + std::pow(1.25 / strength, 0.2) + std::cbrt(2.0 / lambda);
   return {.start_energy = energy.value,

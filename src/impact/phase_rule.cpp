@@ -1,6 +1,7 @@
 #include "impact/phase_rule.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace recoil {
 namespace {
@@ -146,10 +147,9 @@ PhaseRule::PhaseRule(std::size_t nodes, PhaseEnd end) : count(nodes) {
   for (std::size_t i = 0; i < count; ++i) {
     const double s = gauss.node[i];
     if (both) {
-      constexpr double pi = 3.1415926535897932;
       const double sine = sine_of_quarters(s);
       part[i] = sine * sine;
-      rate[i] = pi * sine * sine_of_quarters(1.0 - s);
+      rate[i] = std::numbers::pi * sine * sine_of_quarters(1.0 - s);
     } else {
       part[i] = s * s * (1.0 + crowding * (1.0 - s * s));
       rate[i] = 2.0 * s * (1.0 + crowding * (1.0 - 2.0 * s * s));

@@ -185,9 +185,9 @@ Section next_section(const Analysis& a) {
   Section next{"next", "Next"};
   if (a.spec.file.empty()) return next;
   const std::string file = a.spec.file.generic_string();
-  next.blocks = {items({{"recoil fit " + file + " --verbose", "all details"},
-                        {"recoil diagnose " + file, "what the model misses"},
-                        {"recoil report " + file, "a page with pictures"}})};
+  next.blocks = {List{{say("what the model misses: {}", code("recoil diagnose " + file)),
+                       say("a page with pictures: {}", code("recoil report " + file)),
+                       say("all details: {}", code("recoil fit " + file + " --verbose"))}}};
   return next;
 }
 

@@ -107,7 +107,6 @@ TEST(Report, ShowsMixtureAndCaptureModels) {
   const Outcome run = place.run(command({"report", "fit.toml", "--out", "pages"}));
   ASSERT_EQ(run.status, 0) << run.err;
   const std::string page = place.read("pages/fit.html");
-  EXPECT_NE(page.find("id=\"mixture\""), std::string::npos);
   EXPECT_NE(page.find("id=\"mixture-average-1\""), std::string::npos);
   EXPECT_NE(page.find("id=\"capture-models-1\""), std::string::npos);
   EXPECT_LT(page.size(), 1000000U);
