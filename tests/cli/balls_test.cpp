@@ -73,7 +73,7 @@ TEST(BallsByHand, AreImportedWithTheirHeightsAndWithoutWarnings) {
 
 TEST(BallsByHand, AreNotToldOfAdhesionThatIsNotThere) {
   const Balls balls;
-  const Outcome fitted = balls.run({"fit", "ball.toml", "--out", "out"});
+  const Outcome fitted = balls.run({"fit", "ball.toml", "--verbose"});
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   EXPECT_THAT(fitted.out,
               AllOf(HasSubstr("none (no adhesion)"), HasSubstr("4 settings, 20 points"),
