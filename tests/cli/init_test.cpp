@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "support/command.hpp"
 #include "support/workplace.hpp"
@@ -29,13 +30,12 @@ TEST(Init, AnExampleSaysThatItIsOneAndIsFoundAgainByItsFit) {
   EXPECT_NE(made.out.find("SYNTHETIC"), std::string::npos) << made.out;
   EXPECT_NE(place.read("mine/datapackage.json").find("\"synthetic\""), std::string::npos);
   EXPECT_EQ(place.run({"check", "mine"}).status, 0);
-  const Outcome fitted = place.run({"fit", "mine/fit.toml", "--replicates", "0"});
+  const Outcome fitted = place.run({"fit", "mine/fit.toml", "--replicates", "0", "--json"});
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   // the model made the points: the fit passes through them
-  EXPECT_NE(fitted.out.find("C_H"), std::string::npos);
-  const std::size_t rms = fitted.out.find("rms of e");
-  ASSERT_NE(rms, std::string::npos);
-  EXPECT_LT(std::stod(fitted.out.substr(fitted.out.find('=', rms) + 1)), 1e-3) << fitted.out;
+  const auto found = nlohmann::json::parse(fitted.out);
+  EXPECT_TRUE(found["parameters"].contains("C_H"));
+  EXPECT_LT(found["goodness"]["rmse"], 1e-3);
 }
 
 TEST(Init, TakesPointsWithTheirProvenance) {
