@@ -23,7 +23,7 @@ def test_fit_json_is_the_commands_byte_for_byte(here, command, name):
     done = command("fit", f"{name}.toml", *options, "--json")
     result = recoil.fit(f"{name}.toml", replicates=39, seed=5, threads=1)
     assert result.json == done.out
-    assert result.report() == command("fit", f"{name}.toml", *options).out
+    assert result.report() == command("fit", f"{name}.toml", *options, "--verbose").out
 
 
 def test_a_fit_of_datasets_and_tables_is_that_of_the_file(here, command):
@@ -98,7 +98,7 @@ def test_diagnose_is_the_commands(here, command, misfit):
 
 def test_the_report_of_a_diagnosis_is_the_commands(here, command):
     fit = "fits/dahneke1975-quartz.toml"
-    assert recoil.fit(fit, replicates=0).diagnose().report() == command("diagnose", fit).out
+    assert recoil.fit(fit, replicates=0).diagnose().report() == command("diagnose", fit, "--verbose").out
 
 
 def test_predict_coverage_and_compare_are_the_commands(here, command):
