@@ -282,7 +282,10 @@ void read_json(const Json& json, Value& value) {
     value = *named;
   } else if constexpr (json_detail::is_a<Value, std::optional>) {
     value.reset();
-    if (!json.is_null()) read_json(json, value.emplace());
+    if (json.is_null()) return;
+    typename Value::value_type read{};  // no emplace(): clang 14 has none for nested structs
+    read_json(json, read);
+    value = std::move(read);
   } else if constexpr (json_detail::HasFields<Value>) {
     expect(json.is_object(), "an object");
     json_detail::for_each_field(value, [&](const std::string& key, auto& member) {

@@ -85,7 +85,7 @@ std::string package_json(const Json& system, const std::string& id, Provenance p
   Json recoil = {{"provenance", to_string(provenance)}};
   recoil.update(system);
   if (sizes_height > 0.0) recoil["mixed_sizes"] = "sizes.csv";
-  const auto fields = Json::array({
+  const auto columns_of_package = Json::array({
       package_field("series", "string", "", "the run, and the size class where there are several"),
       package_field("diameter", "number", "um", "mean over the impacts"),
       package_field("incident_velocity", "number", "m/s", "mean normal velocity at the surface"),
@@ -98,7 +98,7 @@ std::string package_json(const Json& system, const std::string& id, Provenance p
                     "passages without a rebound, less those lost or too slow"),
   });
   const Json source = {{"title", fmt::format("{}, paired by recoil pair", events_file)}};
-  Json resources = Json::array({csv_resource("points", "points.csv", fields)});
+  Json resources = Json::array({csv_resource("points", "points.csv", columns_of_package)});
   if (sizes_height > 0.0) {
     const auto bins = Json::array({
         package_field("lower", "number", "um", "lower end of the bin"),

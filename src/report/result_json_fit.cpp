@@ -367,7 +367,8 @@ FitFile::Bootstrap bootstrap_of(const Analysis& a) {
   const FailedReplicates& failed = bootstrap.failures;
   if (failed.index.empty()) return out;
   constexpr std::size_t most_listed = 100;  // failed replicates by their index
-  FitFile::Failures& failures = out.failures.emplace();
+  out.failures = FitFile::Failures{};
+  FitFile::Failures& failures = *out.failures;
   failures.text = failures_words(bootstrap, a.fitted.data);
   failures.replicates = failed.index;
   failures.replicates.resize(std::min(failed.index.size(), most_listed));

@@ -130,8 +130,8 @@ TEST(Replace, ThePrintedConstantsOfSteelStayWithTheReconstruction) {
     const support::Outcome run = at.run(words);
     ASSERT_EQ(run.status, 0) << run.err;
     const std::string said = std::regex_replace(run.out, std::regex("\\s+"), " ");
-    EXPECT_THAT(said, HasSubstr("stiffness_K = 11.4 GPa (they give 113.5 GPa), "
-                                "adhesion_force_f0 = 288 N/m (they give 308.9 N/m)"));
+    EXPECT_THAT(said, HasSubstr("stiffness_K = 11.4 GPa (derived: 113.5 GPa), "
+                                "adhesion_force_f0 = 288 N/m (derived: 308.9 N/m)"));
     const recoil::Dataset made = recoil::load_dataset(words[5]);
     const auto package =
         nlohmann::json::parse(support::text_of(fs::path(words[5]) / "datapackage.json"));

@@ -191,5 +191,5 @@ def test_another_format_version_is_said_in_one_line(inputs, command, place, vers
         assert done.out == ""
         assert done.err.count("\n") == 1
         assert done.err.startswith("other.json: the file ") and words in done.err
-        assert "reads 1" in done.err
+        assert "reads 2" in done.err
     assert not (place / "exported").exists()
