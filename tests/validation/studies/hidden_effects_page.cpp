@@ -272,8 +272,9 @@ std::optional<double> share_of(const std::vector<PowerRow>& powers, const Curve&
   for (const PowerRow& row : powers) {
     if (row.arm != Arm::effect || row.signal_to_noise != strength) continue;
     for (const auto& [mark, count] : row.marks) {
-      const bool in = std::any_of(curve.marks.begin(), curve.marks.end(),
-                                  [&](Mark one) { return recoil::name_of(one) == mark; });
+      const bool in =
+          std::any_of(curve.marks.begin(), curve.marks.end(),
+                      [&, &name = mark](Mark one) { return recoil::name_of(one) == name; });
       n += count;
       hits += in != curve.without ? count : 0;
     }
