@@ -9,6 +9,8 @@
 #include "core/files.hpp"
 #include "data/measured_sizes.hpp"
 #include "support/workplace.hpp"
+#include "validation/recipe/passages.hpp"
+#include "validation/recipe/recipe.hpp"
 #include "validation/synthetic/event_stream.hpp"
 
 namespace {
@@ -131,7 +133,8 @@ TEST(PairCommand, TheShippedPointsComeFromEvents) {
   for (const std::string id : {"li1999-sst65-silicon", "li1999-sst125-silicon"}) {
     const std::filesystem::path folder = std::filesystem::path(RECOIL_SOURCE_DIR) / "datasets" / id;
     const Workplace place;
-    ASSERT_EQ(place.run({"reconstruct", folder.string(), "--passages", "e.csv"}).status, 0);
+    const recoil::Recipe recipe = recoil::load_recipe(folder);
+    place.write("e.csv", recoil::draw_passages(recipe, recipe.seed, 1));
     const Outcome pair =
         place.run({"pair", "e.csv", "--unit", kUnits, "--height", "1", "--angle", "8", "--per-bin",
                    "40", "--mean-diameter", "--out", "points.csv"});
