@@ -88,7 +88,7 @@ struct ExperimentPlan {
 };
 
 /// The datasets as the experiment will find them: their materials and conditions, with one series
-/// and one placeholder point for each diameter. f0 keeps its reference diameter; where none is
+/// and one stand-in point for each diameter. f0 keeps its reference diameter; where none is
 /// stated, it is the median of the existing points, or else of the planned diameters.
 /// @param diameters [m]; empty: those of each dataset's own points
 /// @throws InputError where no diameter is known
