@@ -314,7 +314,7 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
 std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   if (diagnosis.base.model.constants.empty()) return std::nullopt;
   FitSpec exact = diagnosis.spec;
-  exact.uncertainty.materials = false;
+  exact.uncertainty.materials = Materials::exact;
   const FitResult fitted =
       fit(make_model(exact, diagnosis.datasets), gather(diagnosis.datasets, exact.noise));
   if (!fitted.usable) return std::nullopt;
@@ -327,10 +327,20 @@ std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   return MaterialsExplain{p_value};
 }
 
+/// No cause is named for what the errors of the material constants can do: a diagnosis lets the
+/// points move them, also where the fit itself does not.
+FitSpec with_constants_adjusted(FitSpec spec) {
+  if (spec.uncertainty.materials == Materials::propagated) {
+    spec.uncertainty.materials = Materials::adjusted;
+  }
+  return spec;
+}
+
 }  // namespace
 
-Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
+Diagnosis diagnose(const FitSpec& stated, const std::vector<Dataset>& datasets,
                    const DiagnosisOptions& options) {
+  const FitSpec spec = with_constants_adjusted(stated);
   const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
   if (!fitted.usable) {
     throw ComputationError(
@@ -371,6 +381,9 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
 Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
                    const FitResult& fitted, const DiagnosisOptions& options,
                    const std::vector<IntervalSet>& base_intervals) {
+  if (spec.uncertainty.materials == Materials::propagated && !fitted.model.constants.empty()) {
+    return diagnose(spec, datasets, options);
+  }
   const SearchBase base = search_base(spec, datasets, fitted, options);
   if (!base.refit.usable) {
     throw ComputationError(

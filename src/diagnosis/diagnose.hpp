@@ -26,6 +26,8 @@ namespace recoil {
 /// 5. Where errors that were not stated (`unstated_errors`) leave nothing and fit better than the
 ///    best single explanation by more than `margin`, or about as well as the best of the pairs, no
 ///    cause is told; where they would do as well, they are `rival_errors`.
+/// Where the fit holds uncertain constants of the materials (Materials::propagated), the base model
+/// is fitted again with constants that the points move.
 /// @param base the fit of `spec` to `datasets`. @pre base.usable
 /// @param base_intervals its intervals [slots], where they are known already; else they are found
 /// @throws ComputationError when the fit cannot be repeated from its own answer.

@@ -9,6 +9,7 @@
 
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "estimate/constant_effects.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/misfit.hpp"
 #include "estimate/predictor.hpp"
@@ -121,7 +122,7 @@ void take_over(FitResult& result, const LeastSquaresResult& run) {
 
 Misfit misfit_of(const FitResult& result, const LeastSquaresResult& run) {
   return misfit(result.data, result.residuals, result.prediction_squared, result.model.free_count(),
-                constants_in_fit(run, result.model.constants.size(), result.data.constants_weight));
+                constants_in_fit(run, result.model.adjusted_count(), result.data.constants_weight));
 }
 
 /// The points' standard deviations are too small by noise_scale, those of the constants are not:
@@ -259,7 +260,7 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   take_over(result, best);
   result.chi2 = best.sum_of_squares;
   judge_noise(result, misfit_of(result, best));
-  if (result.noise_verdict == NoiseVerdict::exceeded && !model.constants.empty() &&
+  if (result.noise_verdict == NoiseVerdict::exceeded && model.adjusts_constants() &&
       !keep_errors_of_constants(result, best, options.minimiser)) {
     result.usable = false;
     result.failure = "no fit with the points' errors widened: " + best.message;
@@ -272,6 +273,8 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   for (std::size_t k = 0; k < result.spread_covariance.size(); ++k) {
     result.covariance[k] += result.spread_covariance[k];
   }
+  result.constant_effects = constant_effects(model, best, result.data.points.size());
+  add_constant_effects(result.constant_effects, result.covariance);
   result.std_error.assign(result.theta.size(), 0.0);
   for (std::size_t j = 0; !result.covariance.empty() && j < result.theta.size(); ++j) {
     result.std_error[j] = std::sqrt(result.covariance[j * result.theta.size() + j]);

@@ -73,8 +73,11 @@ struct FitResult {
   Strategy strategy = Strategy::trust_region;  ///< that led there
   std::vector<std::size_t>
       flat;  ///< slots on which no point depends there; their values mean nothing
-  std::vector<double> covariance;          ///< [slots x slots]; scaled by noise_scale^2
-  std::vector<double> spread_covariance;   ///< in it, what not knowing event_spread adds; or empty
+  std::vector<double> covariance;         ///< [slots x slots]; scaled by noise_scale^2
+  std::vector<double> spread_covariance;  ///< in it, what not knowing event_spread adds; or empty
+  /// Of constants that fits do not move: [constant][slot] how far theta goes when the constant is
+  /// one standard deviation above what is stated. Their squares are in `covariance`.
+  std::vector<std::vector<double>> constant_effects;
   std::vector<double> std_error;           ///< [slots]; 0 for fixed ones and those at a bound
   std::vector<double> residuals;           ///< weighted, [points]
   std::vector<double> prediction;          ///< e at each point [1]

@@ -67,9 +67,10 @@ std::vector<FitKey> all_keys() {
       {"uncertainty", "scheme", quoted(name_of(uncertainty.scheme)),
        "how the bootstrap draws new data sets"},
       {"uncertainty", "level", fmt::format("{:g}", uncertainty.level), "level of every interval"},
-      {"uncertainty", "materials", truth_value(uncertainty.materials),
-       "use the errors that the datasets state for their material constants; false takes the "
-       "constants as exact"},
+      {"uncertainty", "materials", truth_value(uncertainty.materials != Materials::exact),
+       "the errors that the datasets state for their material constants widen every interval; "
+       "\"adjust\" lets the points move the constants within their errors, false takes them as "
+       "exact"},
       {"uncertainty", "posterior", truth_value(uncertainty.posterior),
        "sample the posterior: one more kind of interval, and joint draws in posterior.csv"},
       {"uncertainty", "seed", fmt::format("{}", uncertainty.seed),

@@ -431,7 +431,15 @@ class FitReader : private TomlReader {
       spec.posterior = boolean(*node, "posterior");
     }
     if (const toml::node* node = table.get("materials")) {
-      spec.materials = boolean(*node, "materials");
+      const bool adjusts = node->is_string() && node->as_string()->get() == "adjust";
+      if (node->is_string() && !adjusts) {
+        fail(*node, fmt::format("materials = {}", quote(node->as_string()->get())),
+             "the only word it takes is \"adjust\"",
+             "true widens the intervals by the stated errors, false ignores them");
+      }
+      spec.materials = adjusts                       ? Materials::adjusted
+                       : boolean(*node, "materials") ? Materials::propagated
+                                                     : Materials::exact;
     }
     if (const toml::node* node = table.get("seed")) {
       const std::int64_t seed = integer(*node, "seed");

@@ -91,6 +91,14 @@ struct ParameterSpec {
 /// What a fit file means that does not mention `parameter`.
 ParameterSpec default_of(const Parameter& parameter);
 
+/// What a fit makes of the errors that datasets state of their material constants.
+enum class Materials {
+  exact,       ///< nothing
+  propagated,  ///< the estimate stays where the stated constants put it; the errors of the
+               ///< constants widen every interval
+  adjusted,    ///< the points move the constants: each is one more observation of the fit
+};
+
 /// The `[uncertainty]` table.
 struct UncertaintySpec {
   int replicates = 1999;  ///< 0 (no bootstrap) or at least 19: fewer have no 5 % tails
@@ -100,7 +108,7 @@ struct UncertaintySpec {
   double level = 0.95;  ///< of every interval, in (0, 1)
   std::uint64_t seed = 20260101;
   bool posterior = false;  ///< sample the posterior, too
-  bool materials = true;   ///< use the errors that datasets state of their material constants
+  Materials materials = Materials::propagated;
 };
 
 /// A fit file, validated. Every key but `dataset` has its default here or in the catalogue.

@@ -56,6 +56,13 @@ LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations&
     problem.log_scale.push_back(slot.log_scale);
     problem.fixed.push_back(!slot.moves());
   }
+  if (!model.constants.empty() && !model.adjusts_constants()) {
+    problem.hold = [&model, &data](std::span<double> start) {
+      for (std::size_t k = 0; k < model.constants.size(); ++k) {
+        start[model.first_constant() + k] = stated_constant(model, data, k);
+      }
+    };
+  }
   const auto predictor = std::make_shared<PointPredictor>(model, data.conditions());
   const auto settings = std::make_shared<const SharedSettings>(data.points);
   problem.evaluate = [predictor, settings, &model, &data, handovers](std::span<const double> theta,

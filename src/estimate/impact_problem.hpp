@@ -13,7 +13,8 @@ namespace recoil {
 /// those of the points, less what their settings share (SharedSettings), then for each uncertain
 /// constant of the materials how far it lies from its stated value, in standard deviations (times
 /// `constants_weight`): the sum of squares is -2 ln of likelihood times prior but for a constant,
-/// its minimum the mode of the posterior. The problem refers to both arguments: they must outlive
+/// its minimum the mode of the posterior. Constants that fits do not move are held where they are
+/// stated. The problem refers to both arguments: they must outlive
 /// it. It and its copies share one work space, so that only one of them may be evaluated at a time.
 /// @param handovers when not null, counts the impacts that the fast solver handed over
 LeastSquaresProblem impact_problem(const ImpactModel& model, const Observations& data,

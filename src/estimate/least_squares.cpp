@@ -361,8 +361,10 @@ LeastSquaresResult minimise_once(const LeastSquaresProblem& problem, std::span<c
 
 }  // namespace
 
-LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> start,
+LeastSquaresResult minimise(const LeastSquaresProblem& problem, std::span<const double> from,
                             const LeastSquaresOptions& options) {
+  std::vector<double> start(from.begin(), from.end());
+  if (problem.hold) problem.hold(start);
   assert(problem.lower.size() == start.size() && problem.upper.size() == start.size() &&
          problem.log_scale.size() == start.size());
   assert(!options.strategies.empty() && options.strategies.back() != Strategy::gauss_newton);

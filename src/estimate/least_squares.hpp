@@ -26,6 +26,8 @@ struct LeastSquaresProblem {
   std::vector<double> upper;    ///< [p]
   std::vector<bool> log_scale;  ///< [p] minimised in ln(theta); needs lower > 0
   std::vector<bool> fixed;      ///< [p] kept at the start; empty means none
+  /// Where set: puts fixed parameters of a start where they are kept, whatever it says.
+  std::function<void(std::span<double> start)> hold;
   Evaluate evaluate;
 };
 

@@ -16,7 +16,7 @@ struct ConstantsInFit {
                          ///< matrix less the free parameters, from 0 to their number
 };
 
-/// @param run a fit whose last residuals are those of `count` constants
+/// @param run a fit whose last residuals are those of `count` constants that it moved
 /// @param weight of them, Observations::constants_weight
 ConstantsInFit constants_in_fit(const LeastSquaresResult& run, std::size_t count, double weight);
 

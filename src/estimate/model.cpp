@@ -295,7 +295,10 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     }
   }
   fix_damping_of_nothing(model);
-  if (spec.uncertainty.materials) add_constants(model, datasets);
+  if (spec.uncertainty.materials != Materials::exact) add_constants(model, datasets);
+  if (spec.uncertainty.materials == Materials::adjusted) {
+    model = with_adjusted_materials(std::move(model));
+  }
   for (std::size_t d = 0; d < datasets.size(); ++d) {
     model.materials.emplace_back(datasets[d].system, model.contacts[d].reference_diameter,
                                  model.constants, d);
@@ -368,10 +371,26 @@ double acting_value(const ImpactModel& model, std::span<const double> theta, std
   return dataset ? adhesion_value_under(model, theta, *dataset) : theta[slot];
 }
 
+ImpactModel with_adjusted_materials(ImpactModel model) {
+  for (std::size_t j = model.first_constant(); j < model.slots.size(); ++j) {
+    model.slots[j].adjusted = true;
+  }
+  return model;
+}
+
 ImpactModel with_exact_materials(ImpactModel model) {
   model.slots.resize(model.first_constant());
   model.constants.clear();
   return model;
+}
+
+std::vector<double> with_constant_moved(const ImpactModel& model, std::size_t k, double by) {
+  std::vector<double> values;
+  for (const UncertainConstant& constant : model.constants) values.push_back(constant.stated);
+  const double shift = by * model.constants[k].sd;
+  values[k] =
+      is_positive(model.constants[k].constant) ? values[k] * std::exp(shift) : values[k] + shift;
+  return values;
 }
 
 MaterialState materials_under(const ImpactModel& model, std::span<const double> theta,

@@ -45,13 +45,15 @@ struct ParameterSlot {
   double upper = 0.0;
   bool free = true;
   bool log_scale = false;
-  bool derived = false;  ///< its value is what the materials give; while it is not free it follows
-                         ///< their constants
-  bool stated = false;   ///< its value follows from a condition that the dataset states
+  bool derived = false;   ///< its value is what the materials give; while it is not free it follows
+                          ///< their constants
+  bool stated = false;    ///< its value follows from a condition that the dataset states
+  bool adjusted = false;  ///< a constant of the materials that every fit moves as far as its error
+                          ///< allows (Materials::adjusted)
 
-  /// A constant of the materials: not free, but moved by every fit as far as its error allows.
+  /// A constant of the materials that is known with an error.
   bool is_constant() const { return parameter->role == ParameterRole::material_constant; }
-  bool moves() const { return free || is_constant(); }
+  bool moves() const { return free || adjusted; }
   /// That to which the parameter belongs; null for the base model.
   const Mechanism* mechanism() const { return parameter->mechanism; }
   /// "C_A", "C_A[wall1990-mica]", "o[monday]", "o[wall1990-mica/monday]".
@@ -79,6 +81,9 @@ struct ImpactModel {
   std::vector<UncertainConstant> constants;
   std::vector<MaterialLaw> materials;  ///< per dataset
 
+  /// Do fits move the constants, or keep them where they are stated?
+  bool adjusts_constants() const { return !constants.empty() && slots.back().adjusted; }
+  std::size_t adjusted_count() const { return adjusts_constants() ? constants.size() : 0; }
   /// The slot of constants[0]; how many slots there are without the constants.
   std::size_t first_constant() const { return slots.size() - constants.size(); }
   std::span<const double> constants_of(std::span<const double> theta) const {
@@ -127,8 +132,14 @@ double acting_value(const ImpactModel& model, std::span<const double> theta, std
 double adhesion_value_under(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset);
 
+/// The model whose fits move the constants of the materials as far as their errors allow.
+ImpactModel with_adjusted_materials(ImpactModel model);
+
 /// The model with all constants of the materials exact, as stated.
 ImpactModel with_exact_materials(ImpactModel model);
+
+/// The constants as they are stated, but for number k, `by` standard deviations off.
+std::vector<double> with_constant_moved(const ImpactModel& model, std::size_t k, double by);
 
 /// d f0 / d (its parameter): 1, or (2/3) f0 / W.
 double adhesion_force_slope(const ImpactModel& model, std::span<const double> theta,

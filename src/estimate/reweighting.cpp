@@ -95,7 +95,7 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
     double scale = 1.0;
     if (!result.data.sd_stated) {
       const ConstantsInFit constants =
-          constants_in_fit(result.run, model.constants.size(), result.data.constants_weight);
+          constants_in_fit(result.run, model.adjusted_count(), result.data.constants_weight);
       scale = misfit(result.data, result.run.residuals, *predicted, model.free_count(), constants)
                   .scale();
       // Data without noise would let the scale shrink for ever.

@@ -16,6 +16,7 @@
 #include "predict/validity.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/interval.hpp"
+#include "uncertainty/two_point_comparison.hpp"
 
 namespace recoil {
 
@@ -72,10 +73,10 @@ struct FitFile {
     Scheme scheme = Scheme::automatic;
     double level = 0.0;
     std::uint64_t seed = 0;
-    bool materials = false;
+    bool materials = false, materials_adjusted = false;
     Named<ParameterOptions> parameters;
     RECOIL_FIELDS(adhesion, adhesion_damping_phase, mechanisms, mixed_sizes, replicates, scheme,
-                  level, seed, materials, parameters)
+                  level, seed, materials, materials_adjusted, parameters)
   };
 
   /// What the materials of one dataset give.
@@ -346,6 +347,14 @@ struct FitFile {
     RECOIL_FIELDS(rmse, held_out_rmse, spread)
   };
 
+  /// A way to the three parameters of the paper's model; f0 at the reference diameter.
+  struct Compared {
+    std::string dataset;
+    ComparisonWay id = ComparisonWay::two_point;
+    OrReason<double> f0, C_H, C_A, rmse, held_out_rmse;
+    RECOIL_FIELDS(dataset, id, f0, C_H, C_A, rmse, held_out_rmse)
+  };
+
   struct Start {
     std::vector<double> start, end;
     std::optional<double> chi2;
@@ -395,6 +404,7 @@ struct FitFile {
   std::vector<ValidityEntry> validity;
   Bootstrap bootstrap;
   std::optional<Posterior> posterior;
+  std::vector<Compared> comparison;
   OrReason<TwoPoint> two_point;  ///< of the first dataset
   Full full;                     ///< of the first dataset
   Named<TwoPoint> two_point_by_dataset;
@@ -405,8 +415,9 @@ struct FitFile {
   std::vector<Residual> residuals;
   RECOIL_FIELDS(format_version, recoil_version, fit, provenance_sentence, dataset, datasets,
                 options, model, parameters, constants, covariance, correlation, derived, solver,
-                goodness, noise, identifiability, validity, bootstrap, posterior, two_point, full,
-                two_point_by_dataset, full_by_dataset, starts, warnings, curve, residuals)
+                goodness, noise, identifiability, validity, bootstrap, posterior, comparison,
+                two_point, full, two_point_by_dataset, full_by_dataset, starts, warnings, curve,
+                residuals)
 };
 
 /// The interval of a parameter that is to be quoted; nullopt where there is none.

@@ -141,6 +141,7 @@ Section comparison_section(const Analysis& a) {
   std::vector<Sentence> sentences;
   for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
     blocks.emplace_back(two_point_table(a, comparison));
+    blocks.emplace_back(two_point_spread_table(a, comparison));
     sentences.push_back(say("two points, {}: {}", words_of(to_string(comparison.result.status)),
                             two_point_words(a.fitted, comparison.dataset, comparison.result)));
     sentences.emplace_back(held_out_words(comparison));

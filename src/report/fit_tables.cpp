@@ -218,17 +218,23 @@ Table constants_table(const Analysis& a) {
   const ImpactModel& model = a.fitted.model;
   Table table;
   if (a.fitted.std_error.empty()) return table;
-  table.caption = "Material constants with uncertainty, fitted with their stated values as priors";
-  table.columns = {
-      {"constant", "", true}, {"unit", "", true}, {"stated"}, {"fitted"}, {"moved", "sd"}};
+  const bool adjusted = model.adjusts_constants();
+  table.caption = adjusted
+                      ? "Material constants with uncertainty, fitted with their stated values as "
+                        "priors"
+                      : "Material constants with uncertainty: their errors widen the intervals";
+  table.columns = {{"constant", "", true}, {"unit", "", true}, {"stated"}};
+  if (adjusted) table.columns.insert(table.columns.end(), {{"fitted"}, {"moved", "sd"}});
   for (std::size_t k = 0; k < model.constants.size(); ++k) {
     const std::size_t j = model.first_constant() + k;
     const UncertainConstant& constant = model.constants[k];
     const double sd = constant.sd * (is_positive(constant.constant) ? constant.stated : 1.0);
     table.rows.push_back({Sentence(model.slots[j].label()), unit(model.slots[j].parameter->unit),
-                          Number{constant.stated, significant(4), sd},
-                          Number{a.fitted.theta[j], significant(4), a.fitted.std_error[j]},
-                          Number{a.fitted.constants_moved[k], signed_fixed(2)}});
+                          Number{constant.stated, significant(4), sd}});
+    if (!adjusted) continue;
+    table.rows.back().insert(table.rows.back().end(),
+                             {Number{a.fitted.theta[j], significant(4), a.fitted.std_error[j]},
+                              Number{a.fitted.constants_moved[k], signed_fixed(2)}});
   }
   return table;
 }
@@ -311,28 +317,50 @@ Table posterior_table(const Analysis& a) {
   return table;
 }
 
+Sentence compared_words(ComparisonWay row) {
+  switch (row) {
+    case ComparisonWay::two_point:
+      return "two points";
+    case ComparisonWay::full:
+      return "all points, same f0";
+    case ComparisonWay::full_f0_free:
+      return "all points, f0 fitted";
+  }
+  return {};
+}
+
 Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
   const FitResult& f = a.fitted;
-  const TwoPointResult& two = comparison.result;
-  const bool answered = two.status != TwoPointStatus::too_few_points;
   Table table;
-  table.caption = say("{}: two points of {}, beside all points",
-                      short_name(a.datasets, comparison.dataset), diameter_sentence(two.diameter));
-  table.columns = {{}, {"two points"}, {"all points"}};
+  table.caption =
+      say("{}: two points of {}, beside all points", short_name(a.datasets, comparison.dataset),
+          diameter_sentence(comparison.result.diameter));
+  table.columns = {{}, {"C_H"}, {"C_A"}, {"f0", "N/m"}, {"rms of e"}, {"rms, held-out sizes"}};
+  const std::size_t d = comparison.dataset;
+  for (const ComparisonRow& row : comparison.rows) {
+    const auto f0 = row.theta.empty() ? std::nullopt
+                                      : std::optional(adhesion_force_under(f.model, row.theta, d));
+    table.rows.push_back({compared_words(row.row),
+                          number_at(row.theta, f.model.slot_C_H[d], significant(3)),
+                          number_at(row.theta, f.model.slot_C_A[d], significant(3)),
+                          cell_if(number_if(f0, significant(3))), cell_if(number_if(row.rmse, {})),
+                          cell_if(number_if(row.held_out_rmse, {}))});
+  }
+  return table;
+}
+
+Table two_point_spread_table(const Analysis& a, const TwoPointComparison& comparison) {
+  const FitResult& f = a.fitted;
+  Table table;
+  table.caption =
+      say("{}: standard deviations under resampling", short_name(a.datasets, comparison.dataset));
+  table.columns = {{}, {"two points"}, {"this fit"}};
   for (const std::size_t s :
        {f.model.slot_C_H[comparison.dataset], f.model.slot_C_A[comparison.dataset]}) {
-    table.rows.push_back({labelled(f.model.slots[s]), number_at(two.theta, s, significant(4)),
-                          number_at(f.theta, s, significant(4))});
-    table.rows.push_back({symbol(f.model.slots[s].parameter->name) + ", sd under resampling",
+    table.rows.push_back({labelled(f.model.slots[s]),
                           number_at(comparison.spread, s, significant(2)),
                           number_at(comparison.full_spread, s, significant(2))});
   }
-  table.rows.push_back({say("rms of {e}, all points"),
-                        answered ? Cell(Number{comparison.rmse}) : Cell("none"),
-                        Number{comparison.full_rmse}});
-  table.rows.push_back({say("rms of {e}, held-out diameters"),
-                        cell_if(number_if(comparison.held_out_rmse, {})),
-                        cell_if(number_if(comparison.full_held_out_rmse, {}))});
   table.rows.push_back(
       {"replicates without an answer",
        say("{} of {}", comparison.failed, a.uncertainty.bootstrap.two_point_replicates)});

@@ -38,7 +38,9 @@ Table budget_table(const Analysis& analysis);
 Table posterior_table(const Analysis& analysis);
 
 /// The two-point calibration of one dataset beside the full fit.
+/// C_H, C_A and f0 by two points, by all points with the same f0, and with f0 fitted.
 Table two_point_table(const Analysis& analysis, const TwoPointComparison& comparison);
+Table two_point_spread_table(const Analysis& analysis, const TwoPointComparison& comparison);
 
 /// How the fit was made and how well it meets the points.
 Table statistics_table(const Analysis& analysis);

@@ -75,7 +75,8 @@ FitFile::Options options_of(const Analysis& a) {
       .scheme = options.scheme,
       .level = options.level,
       .seed = options.seed,
-      .materials = a.spec.uncertainty.materials,
+      .materials = a.spec.uncertainty.materials != Materials::exact,
+      .materials_adjusted = a.spec.uncertainty.materials == Materials::adjusted,
       .parameters = {}};
   for (const ParameterSlot& slot : a.fitted.model.slots) {
     if (slot.is_constant()) continue;
@@ -454,12 +455,33 @@ FitFile::Full full_entry(const Analysis& a, const TwoPointComparison& comparison
   return out;
 }
 
+FitFile::Compared compared_entry(const Analysis& a, const TwoPointComparison& comparison,
+                                 const ComparisonRow& row) {
+  const ImpactModel& model = a.fitted.model;
+  const std::size_t d = comparison.dataset;
+  FitFile::Compared out;
+  out.dataset = a.datasets[d].id;
+  out.id = row.row;
+  const std::optional<double> f0 =
+      row.theta.empty() ? std::nullopt : std::optional(adhesion_force_under(model, row.theta, d));
+  out.f0 = {f0, row.failure};
+  out.C_H = {at(row.theta, model.slot_C_H[d]), row.failure};
+  out.C_A = {at(row.theta, model.slot_C_A[d]), row.failure};
+  out.rmse = {row.rmse, row.failure};
+  out.held_out_rmse = {row.held_out_rmse,
+                       row.failure.empty() ? held_out_why(comparison) : row.failure};
+  return out;
+}
+
 /// The keys without a dataset are those of the first dataset.
 void set_two_point(FitFile& out, const Analysis& a) {
   for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
     const std::string& id = a.datasets[comparison.dataset].id;
     out.two_point_by_dataset.emplace_back(id, two_point_entry(a, comparison));
     out.full_by_dataset.emplace_back(id, full_entry(a, comparison));
+    for (const ComparisonRow& row : comparison.rows) {
+      out.comparison.push_back(compared_entry(a, comparison, row));
+    }
   }
   if (out.two_point_by_dataset.empty()) {
     out.two_point.why = "the comparison was not made";

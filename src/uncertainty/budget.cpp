@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "estimate/capture_velocity.hpp"
+#include "estimate/constant_effects.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/misfit.hpp"
 #include "estimate/predictor.hpp"
@@ -44,6 +46,7 @@ class BudgetMaker {
     for (std::size_t k = 0; k < fitted.spread_covariance.size(); ++k) {
       covariance_[k] -= fitted.spread_covariance[k];
     }
+    add_constant_effects(fitted.constant_effects, covariance_, -1.0);
     scale_ = std::sqrt(scaled_covariance(fitted.data, {1.0}, fitted.noise_scale).front());
     find_input_shares();
   }
@@ -86,7 +89,10 @@ class BudgetMaker {
     add(budget, BudgetSource::spread, spread);
     add(budget, BudgetSource::numerics, numerics);
     for (std::size_t k = 0; k < fitted_.model.constants.size(); ++k) {
-      const double own = part(n + k);
+      const double own =
+          fitted_.constant_effects.empty()
+              ? part(n + k)
+              : std::inner_product(g.begin(), g.end(), fitted_.constant_effects[k].begin(), 0.0);
       add(budget, BudgetSource::constant, own * own, k);
     }
     double variance = 0.0;
@@ -99,9 +105,12 @@ class BudgetMaker {
     for (BudgetEntry& entry : budget.entries) {
       if (entry.source != BudgetSource::constant) continue;
       if (!budget.sd_without_first_constant) {
-        // The variance given a constant: less the square of the covariance over its variance.
+        // The variance given a constant: less the square of the covariance over its variance;
+        // where the fit does not move the constant, less the constant's own part.
         const std::size_t j = fitted_.model.first_constant() + entry.constant;
-        const double given = variance - reach[j] * reach[j] / covariance_[j * p + j];
+        const double given = variance - (fitted_.model.adjusts_constants()
+                                             ? reach[j] * reach[j] / covariance_[j * p + j]
+                                             : entry.sd * entry.sd);
         budget.sd_without_first_constant = std::sqrt(std::max(0.0, given));
       }
       if (entry.share >= worth_a_refit) move(quantity, entry, budget);
@@ -120,12 +129,7 @@ class BudgetMaker {
   void move(const Quantity& quantity, BudgetEntry& entry, ErrorBudget& budget) const {
     for (const double by : {-1.0, 1.0}) {
       Observations data = fitted_.data;
-      const auto& constants = fitted_.model.constants;
-      data.constants.clear();
-      for (const UncertainConstant& constant : constants) data.constants.push_back(constant.stated);
-      double& stated = data.constants[entry.constant];
-      const UncertainConstant& own = constants[entry.constant];
-      stated = is_positive(own.constant) ? stated * std::exp(by * own.sd) : stated + by * own.sd;
+      data.constants = with_constant_moved(fitted_.model, entry.constant, by);
       const LeastSquaresResult run =
           minimise(impact_problem(fitted_.model, data), fitted_.theta, refit_options());
       if (!run.ended()) return;

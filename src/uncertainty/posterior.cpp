@@ -271,6 +271,47 @@ void fill_marginal(std::vector<WeightedDraw> draws, double level, PosteriorMargi
   marginal.interval.upper = quantile(0.5 * (1.0 + level));
 }
 
+/// Constants that the fit holds: every draw of the parameters was made with the stated ones. Gives
+/// each draw constants of its own, from their errors, and moves it as the fit would move, to first
+/// order (a parameter above 0 by a factor). The constants come after the parameters.
+void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& moving,
+                    std::uint64_t seed, SampledFit& sampled) {
+  const ImpactModel& model = fitted.model;
+  const std::size_t count = fitted.constant_effects.size();
+  if (count == 0 || sampled.chains.empty()) return;
+  const std::size_t chains = sampled.chains.front().size();
+  const std::size_t steps = sampled.chains.front().front().size();
+  const std::vector<std::vector<double>> empty(chains, std::vector<double>(steps));
+  sampled.chains.resize(moving.size() + count, empty);
+  sampled.r_hat.resize(moving.size() + count, 1.0);
+  sampled.effective.resize(moving.size() + count, static_cast<double>(chains * steps));
+  std::vector<double> z(count);
+  for (std::size_t c = 0; c < chains; ++c) {
+    RandomStream random(seed, RandomPurpose::constants, c);
+    for (std::size_t i = 0; i < steps; ++i) {
+      for (std::size_t k = 0; k < count; ++k) {
+        z[k] = random.normal();
+        const UncertainConstant& constant = model.constants[k];
+        const double shift = constant.sd * z[k];
+        sampled.chains[moving.size() + k][c][i] = is_positive(constant.constant)
+                                                      ? constant.stated * std::exp(shift)
+                                                      : constant.stated + shift;
+      }
+      for (std::size_t j = 0; j < moving.size(); ++j) {
+        const ParameterSlot& slot = model.slots[moving[j]];
+        const double estimate = fitted.theta[moving[j]];
+        double by = 0.0;
+        for (std::size_t k = 0; k < count; ++k) {
+          by += z[k] * fitted.constant_effects[k][moving[j]];
+        }
+        double& value = sampled.chains[j][c][i];
+        value = slot.lower >= 0.0 && estimate > 0.0 ? value * std::exp(by / estimate) : value + by;
+        value = std::clamp(value, slot.lower, slot.upper);
+      }
+    }
+  }
+}
+
 /// Marginals of the parameters from the draws under all variance functions.
 void fill_parameters(const std::vector<std::size_t>& moving, const std::vector<SampledFit>& sampled,
                      const std::vector<double>& weights, double level, PosteriorResult& result) {
@@ -358,7 +399,7 @@ PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternativ
   for (PosteriorMarginal& marginal : result.parameters) {
     marginal.interval = no_interval(NoInterval::fixed);
   }
-  const std::vector<std::size_t> moving = PosteriorCoordinates(fitted).moving();
+  std::vector<std::size_t> moving = PosteriorCoordinates(fitted).moving();
   if (moving.empty()) return result;
   if (scale_unknown(fitted) && fitted.dof <= 0) {
     result.missing = NoPosterior::few_points;
@@ -380,6 +421,10 @@ PosteriorResult sample_posterior(const std::vector<NoiseAlternative>& alternativ
     }
     result.missing = own.missing;
     if (result.missing) return result;
+    draw_constants(alternative.fitted, moving, options.seed, sampled.back());
+  }
+  for (std::size_t k = 0; k < fitted.constant_effects.size(); ++k) {
+    moving.push_back(fitted.model.first_constant() + k);
   }
   fill_parameters(moving, sampled, weights, options.level, result);
   keep_draws(moving, fitted.theta, sampled, weights, options.kept, result);

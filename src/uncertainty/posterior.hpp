@@ -37,10 +37,10 @@ struct PosteriorMarginal {
 };
 
 /// The posterior of everything that a fit moves, by joint draws. Priors: parameters flat between
-/// their bounds (in the logarithm where they are fitted so), constants of the materials as their
-/// errors state them. The likelihood is that of the fit, captures included. The scale of the noise
-/// is marginalised with the prior 1 / scale where it is estimated, or where the stated deviations
-/// do not hold (NoiseVerdict::exceeded):
+/// their bounds (in the logarithm where they are fitted so), constants of the materials that fits
+/// move as their errors state them. The likelihood is that of the fit, captures included. The scale
+/// of the noise is marginalised with the prior 1 / scale where it is estimated, or where the stated
+/// deviations do not hold (NoiseVerdict::exceeded):
 ///   p ~ (sum r^2)^(-n/2) over the n points with rebounds.
 /// Where the fit chose its variance function, the posterior is the mixture of those under each
 /// function, with the weights of `noise_alternatives`. Under one function, ratios between the

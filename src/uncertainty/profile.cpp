@@ -2,12 +2,14 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "estimate/impact_problem.hpp"
 #include "estimate/weights.hpp"
 #include "uncertainty/intervals.hpp"
+#include "uncertainty/refit.hpp"
 
 namespace recoil {
 namespace {
@@ -109,6 +111,65 @@ double free_standard_error(const FitResult& fitted, std::size_t slot) {
   return information > singular * own.norm() ? fitted.noise_scale / information : 0.0;
 }
 
+/// How an interval of one slot grows by the errors of constants that the fit holds: an end at the
+/// distance d from the estimate, z standard errors away in the profile, goes to
+/// sqrt(d^2 + (z s)^2), where z s is how far the estimate goes on that side when the constants are
+/// stated z of their standard deviations off, one at a time, in quadrature. s is found by refits at
+/// `most_z`, where intervals end; in between it is taken as constant.
+class ConstantErrors {
+ public:
+  ConstantErrors(const FitResult& fitted, std::size_t slot)
+      : slot_(fitted.model.slots[slot]), estimate_(fitted.theta[slot]) {
+    for (std::size_t k = 0; k < fitted.constant_effects.size(); ++k) {
+      // One that brings less than a hundredth of the variance is left to the first order.
+      const double linear = fitted.constant_effects[k][slot];
+      if (std::abs(linear) < 0.1 * fitted.std_error[slot]) {
+        add(linear);
+        add(-linear);
+        continue;
+      }
+      for (const double sign : {-1.0, 1.0}) {
+        add(shift(fitted, slot, k, sign * most_z).value_or(sign * most_z * linear) / most_z);
+      }
+    }
+    for (double& error : error_) error = std::sqrt(error);
+  }
+
+  /// The value farther out that `value`, `z` standard errors away, becomes; within the bounds.
+  double widened(double value, double z) const { return moved(value, z, 1.0); }
+  /// The value that `widened` takes to this one; the estimate where there is none.
+  double narrowed(double value, double z) const { return moved(value, z, -1.0); }
+  /// The constants' part of the standard error over the distance from the estimate.
+  double ratio(double value) const {
+    return value == estimate_ ? 0.0 : error_[value > estimate_] / std::abs(value - estimate_);
+  }
+
+ private:
+  static constexpr double most_z = 1.96;
+
+  void add(double by) { error_[by > 0.0] += by * by; }
+  double moved(double value, double z, double sign) const {
+    const double d = value - estimate_;
+    const double by = z * error_[d > 0.0];
+    const double reach = std::sqrt(std::max(0.0, d * d + sign * by * by));
+    return std::clamp(estimate_ + std::copysign(reach, d), slot_.lower, slot_.upper);
+  }
+  /// How far the estimate goes when constant k is stated `by` standard deviations off.
+  static std::optional<double> shift(const FitResult& fitted, std::size_t slot, std::size_t k,
+                                     double by) {
+    Observations data = fitted.data;
+    data.constants = with_constant_moved(fitted.model, k, by);
+    const LeastSquaresResult run =
+        minimise(impact_problem(fitted.model, data), fitted.theta, refit_options());
+    if (!run.ended()) return std::nullopt;
+    return run.theta[slot] - fitted.theta[slot];
+  }
+
+  const ParameterSlot& slot_;
+  double estimate_;
+  std::array<double, 2> error_ = {};  // below and above the estimate
+};
+
 Allowance allowance(const FitResult& fitted, std::size_t slot, double level, double error) {
   const int dof = fitted.data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
   return {fitted.model.slots[slot], level, dof, fitted.noise_scale * fitted.noise_scale, error};
@@ -183,9 +244,14 @@ Interval profile_interval(const FitResult& fitted, std::size_t slot, double leve
   const auto low = find_end(profile, fitted, slot, -1.0, allowed, stride);
   const auto high = find_end(profile, fitted, slot, +1.0, allowed, stride);
   if (!low || !high) return no_interval(NoInterval::refit_failed);
+  const ConstantErrors constants(fitted, slot);
+  const auto end = [&](const End& of) {
+    const double z = std::sqrt(allowed(of.value)) / fitted.noise_scale;
+    return of.at_bound ? of.value : constants.widened(of.value, z);
+  };
   Interval interval;
-  interval.lower = low->value;
-  interval.upper = high->value;
+  interval.lower = end(*low);
+  interval.upper = end(*high);
   interval.shape = low->at_bound && high->at_bound   ? ProfileShape::flat
                    : low->at_bound || high->at_bound ? ProfileShape::one_sided
                                                      : ProfileShape::bounded;
@@ -202,8 +268,14 @@ double profile_level(const FitResult& fitted, std::size_t slot, double value) {
   const ParameterSlot& parameter = fitted.model.slots[slot];
   const double room = std::min(value - parameter.lower, parameter.upper - value);
   const int dof = fitted.data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
-  return level_of_rise(std::max(*rise, 0.0) / (fitted.noise_scale * fitted.noise_scale), dof,
-                       error > 0.0 ? room / error : INFINITY);
+  double height = std::max(*rise, 0.0) / (fitted.noise_scale * fitted.noise_scale);
+  const ConstantErrors constants(fitted, slot);
+  if (height > 0.0) {
+    // z^2 of both errors together: 1 / z^2 = 1 / z_profile^2 + s^2 / d^2.
+    const double ratio = constants.ratio(value);
+    height = 1.0 / (1.0 / height + ratio * ratio);
+  }
+  return level_of_rise(height, dof, error > 0.0 ? room / error : INFINITY);
 }
 
 std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slot, double level,
@@ -214,12 +286,16 @@ std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slo
   const ParameterSlot& parameter = fitted.model.slots[slot];
   const double estimate = fitted.theta[slot];
   const double scale = fitted.noise_scale * fitted.noise_scale;
+  const ConstantErrors constants(fitted, slot);
   const auto point = [&](double value, double rise) {
-    return ProfilePoint{value, std::max(rise, 0.0) / scale, allowed(value) / scale};
+    const double height = std::max(rise, 0.0) / scale;
+    return ProfilePoint{constants.widened(value, std::sqrt(height)), height,
+                        allowed(value) / scale};
   };
   std::vector<ProfilePoint> curve;
   for (const double direction : {-1.0, 1.0}) {
-    const double end = direction < 0.0 ? *interval.lower : *interval.upper;
+    const double quoted = direction < 0.0 ? *interval.lower : *interval.upper;
+    const double end = constants.narrowed(quoted, std::sqrt(allowed(quoted) / scale));
     const double last =
         std::clamp(estimate + curve_reach * (end - estimate), parameter.lower, parameter.upper);
     std::vector<double> others = fitted.theta;

@@ -16,6 +16,9 @@ namespace recoil {
 /// as if they were away from their bounds. The spread of the impacts (event_spread), where points
 /// have both rebounds and captures, is one of the others; other estimated weights stay as they are.
 ///
+/// Constants of the materials that the fit holds are held here, too; their errors then widen the
+/// interval in quadrature, by refits with the constants moved.
+///
 /// An end that reaches the parameter's bound stays there: shape `one_sided` for one such end,
 /// `flat` for both, `bounded` for none. @pre the slot is free
 Interval profile_interval(const FitResult& fitted, std::size_t slot, double level);

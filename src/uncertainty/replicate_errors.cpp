@@ -4,6 +4,7 @@
 #include <span>
 
 #include "estimate/capture_velocity.hpp"
+#include "estimate/constant_effects.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/misfit.hpp"
 #include "estimate/weights.hpp"
@@ -52,6 +53,7 @@ std::vector<double> replicate_covariance(const LeastSquaresResult& run, const Ob
                                        : scaled_covariance(data, run.covariance, scale);
   const auto added = event_spread_covariance(fitted.model, run.theta, data, run.covariance);
   for (std::size_t k = 0; k < added.size(); ++k) covariance[k] += added[k];
+  add_constant_effects(constant_effects(fitted.model, run, data.points.size()), covariance);
   return covariance;
 }
 
@@ -67,6 +69,7 @@ std::vector<double> reference_covariance(const FitResult& fitted, const Resampli
   for (std::size_t k = 0; k < fitted.spread_covariance.size(); ++k) {
     at_fit.covariance[k] -= fitted.spread_covariance[k];
   }
+  add_constant_effects(fitted.constant_effects, at_fit.covariance, -1.0);
   const double scaled = scaled_covariance(plan.fitted->data, {1.0}, fitted.noise_scale).front();
   for (double& entry : at_fit.covariance) entry /= scaled;
   return replicate_covariance(at_fit, plan.fitted->data, fitted, plan);

@@ -41,6 +41,50 @@ double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
+/// `fitted` repeated with the points of one diameter. Parameters of other datasets stay out of
+/// this: only what this diameter can tell is refitted.
+FitResult fit_of_diameter(const FitResult& fitted, std::size_t dataset, const Split& split) {
+  ImpactModel alone = fitted.model;
+  for (std::size_t j = 0; j < alone.slots.size(); ++j) {
+    const bool used = j == alone.slot_C_H[dataset] || j == alone.slot_C_A[dataset] ||
+                      j == alone.slot_adhesion[dataset];
+    alone.slots[j].free = alone.slots[j].free && used;
+  }
+  return fit(alone, fitted.data.subset(split.seen));
+}
+
+/// The same model with the adhesion of every dataset fitted, or as its materials or the fit file
+/// state it; `fitted` itself where it is so already.
+FitResult with_adhesion(const FitResult& fitted, bool free) {
+  ImpactModel model = fitted.model;
+  bool same = true;
+  for (std::size_t d = 0; d < model.contacts.size(); ++d) {
+    ParameterSlot& slot = model.slots[model.slot_adhesion[d]];
+    if (slot.free == free) continue;
+    same = false;
+    slot.free = free;
+    if (!free && slot.derived) slot.initial = derived_adhesion(model, d);
+  }
+  return same ? fitted : fit(model, fitted.data);
+}
+
+ComparisonRow compared(ComparisonWay row, const FitResult& full, const TwoPointComparison& with,
+                       const Observations& data) {
+  ComparisonRow out;
+  out.row = row;
+  out.failure = full.failure;
+  if (!full.usable) return out;
+  const Split split = split_by_diameter(data, with.dataset, with.result.diameter);
+  out.theta = full.theta;
+  out.rmse = root_mean_square(full.model, full.theta, data, split.all);
+  if (split.unseen.empty()) return out;
+  const FitResult on_one = fit_of_diameter(full, with.dataset, split);
+  if (on_one.usable) {
+    out.held_out_rmse = root_mean_square(full.model, on_one.theta, data, split.unseen);
+  }
+  return out;
+}
+
 }  // namespace
 
 TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset) {
@@ -63,15 +107,7 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
     comparison.held_out_rmse =
         root_mean_square(fitted.model, comparison.result.theta, data, split.unseen);
   }
-  const Observations seen = data.subset(split.seen);
-  // Parameters of other datasets stay out of this: only what this diameter can tell is refitted.
-  ImpactModel alone = fitted.model;
-  for (std::size_t j = 0; j < alone.slots.size(); ++j) {
-    const bool used = j == alone.slot_C_H[dataset] || j == alone.slot_C_A[dataset] ||
-                      j == alone.slot_adhesion[dataset];
-    alone.slots[j].free = alone.slots[j].free && used;
-  }
-  const FitResult on_one = fit(alone, seen);
+  const FitResult on_one = fit_of_diameter(fitted, dataset, split);
   if (on_one.usable) {
     comparison.full_held_out_rmse =
         root_mean_square(fitted.model, on_one.theta, data, split.unseen);
@@ -89,8 +125,21 @@ std::vector<TwoPointComparison> compare_two_points(const FitResult& fitted) {
   for (std::size_t d = 0; d < datasets; ++d) {
     adheres = adheres || !without_adhesion(fitted.model, d);
   }
-  for (std::size_t d = 0; adheres && d < datasets; ++d) {
-    comparisons.push_back(compare_two_point(fitted, d));
+  if (!adheres) return comparisons;
+  const FitResult same = with_adhesion(fitted, false);
+  const FitResult free = with_adhesion(fitted, true);
+  for (std::size_t d = 0; d < datasets; ++d) {
+    TwoPointComparison& comparison = comparisons.emplace_back(compare_two_point(fitted, d));
+    ComparisonRow two;
+    if (comparison.result.status == TwoPointStatus::too_few_points) {
+      two.failure = "too few points";
+    } else {
+      two.theta = comparison.result.theta;
+      two.rmse = comparison.rmse;
+      two.held_out_rmse = comparison.held_out_rmse;
+    }
+    comparison.rows = {std::move(two), compared(ComparisonWay::full, same, comparison, fitted.data),
+                       compared(ComparisonWay::full_f0_free, free, comparison, fitted.data)};
   }
   return comparisons;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/names.hpp"
@@ -22,6 +24,26 @@ struct NamesOf<NothingHeldOut> {
   static constexpr std::array<std::string_view, 2> names = {"single_diameter", "refit_failed"};
 };
 
+/// Ways to the three parameters of the paper's model, compared with one another.
+enum class ComparisonWay {
+  two_point,     ///< the paper's iteration, f0 of eq. 12
+  full,          ///< all points, f0 the same
+  full_f0_free,  ///< all points, f0 fitted
+};
+template <>
+struct NamesOf<ComparisonWay> {
+  static constexpr std::array<std::string_view, 3> names = {"two_point", "full", "full_f0_free"};
+};
+
+/// One of them.
+struct ComparisonRow {
+  ComparisonWay row = ComparisonWay::two_point;
+  std::vector<double> theta;            ///< [slots]; empty without an answer
+  std::string failure;                  ///< why there is none
+  std::optional<double> rmse;           ///< of e at all points of the dataset [1]
+  std::optional<double> held_out_rmse;  ///< on the diameters that the calibration did not see [1]
+};
+
 /// Two points against all: both calibrated on one diameter, both judged on the others.
 struct TwoPointComparison {
   std::size_t dataset = 0;
@@ -32,12 +54,13 @@ struct TwoPointComparison {
   std::optional<double> full_held_out_rmse;  ///< full fit of that diameter alone, on the others
   std::optional<NothingHeldOut> nothing_held_out;
   std::string refit_failure;        ///< of the full fit of that diameter alone
+  std::vector<ComparisonRow> rows;  ///< two points, all points, all points with f0 free
   std::vector<double> spread;       ///< sd of each slot under resampling, two-point
   std::vector<double> full_spread;  ///< the same of the full fit
   int failed = 0;                   ///< replicates without a two-point answer
 };
 
-/// Both calibrations of one dataset, at its reference diameter. The spreads stay empty.
+/// Both calibrations of one dataset, at its reference diameter. Rows and spreads stay empty.
 TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t dataset);
 
 /// Both calibrations of every dataset, at its reference diameter. Empty without adhesion, where

@@ -182,7 +182,7 @@ Case load_case(const std::filesystem::path& fit_file) {
   for (const std::filesystem::path& folder : spec.datasets) {
     loaded.datasets.push_back(load_dataset(folder));
   }
-  spec.uncertainty.materials = false;  // as its peers do
+  spec.uncertainty.materials = Materials::exact;  // as its peers do
   loaded.model = make_model(spec, loaded.datasets);
   loaded.data = gather(loaded.datasets);
   return loaded;

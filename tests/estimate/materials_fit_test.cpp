@@ -176,13 +176,13 @@ TEST(Materials, OnlyThoseThatCountAreParameters) {
   stated.system.errors.push_back({Body::pair, Constant::adhesion_force_f0, 1.0});
   EXPECT_EQ(labels(synthetic::spec(), stated), (Labels{"particle.density", "adhesion_force_f0"}));
   FitSpec off = synthetic::spec();
-  off.uncertainty.materials = false;
+  off.uncertainty.materials = Materials::exact;
   EXPECT_EQ(labels(off, data), Labels{});
 }
 
 TEST(Materials, TakenAsExactGiveTheDigitsOfExactOnes) {
   FitSpec off = synthetic::spec();
-  off.uncertainty.materials = false;
+  off.uncertainty.materials = Materials::exact;
   const Dataset uncertain = uncertain_dataset();
   Dataset exact = uncertain;
   exact.system.errors.clear();
@@ -226,7 +226,7 @@ TEST(Materials, AnEstimatedSurfaceEnergyCarriesItsError) {
   EXPECT_EQ(estimates(synthetic::spec(), data), 2);
   EXPECT_EQ(estimates(synthetic::spec(true), data), 0);  // f0 is fitted
   FitSpec exact = synthetic::spec();
-  exact.uncertainty.materials = false;
+  exact.uncertainty.materials = Materials::exact;
   EXPECT_EQ(estimates(exact, data), 0);
   data.system.particle.surface_energy = 0.02;
   EXPECT_EQ(estimates(synthetic::spec(), data), 1);
@@ -288,7 +288,7 @@ TEST(Materials, AFreeF0InheritsTheErrorsOfStiffnessAndDensity) {
   data.system.errors = {{Body::particle, Constant::density, 27.0},
                         {Body::particle, Constant::youngs_modulus, 0.24e9}};
   FitSpec exact = synthetic::spec(true);
-  exact.uncertainty.materials = false;
+  exact.uncertainty.materials = Materials::exact;
   const FitResult without = fit(make_model(exact, {data}), gather({data}));
   const FitResult with = fit(make_model(synthetic::spec(true), {data}), gather({data}));
   ASSERT_TRUE(without.usable && with.usable);

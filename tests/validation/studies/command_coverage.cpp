@@ -66,7 +66,7 @@ void study_designs(const CoverageRun& options) {
   std::vector<std::vector<Dataset>> datasets;
   for (const std::string& file : options.fit_files) {
     specs.push_back(load_fit(file));
-    if (options.exact_materials) specs.back().uncertainty.materials = false;
+    if (options.exact_materials) specs.back().uncertainty.materials = Materials::exact;
     datasets.push_back(load_datasets(specs.back()));
   }
   CoverageStudy study;
