@@ -43,7 +43,7 @@ TEST(Coverage, DahnekeTruthLiesInTheStatedIntervals) {
 TEST(Coverage, ErrorsKnowThatTheSpreadOfTheImpactsIsEstimated) {
   const std::string root = RECOIL_SOURCE_DIR;
   FitSpec spec = load_fit(root + "/fits/wall1990-molybdenum.toml");
-  spec.uncertainty.materials = false;  // their errors would hide that of the spread
+  spec.uncertainty.materials = Materials::exact;  // their errors would hide that of the spread
   const Dataset base = load_dataset(spec.datasets.front());
   const GridDesign design = designs_named({"n20 near-capture stated f0-fixed captures"}).front();
   const CoverageTruth truth = grid_truth(spec, base, design, 3);

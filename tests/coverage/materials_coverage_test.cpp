@@ -55,7 +55,7 @@ CoverageResult coverage_of(bool fit_knows, int datasets, int replicates) {
   options.datasets = datasets;
   options.uncertainty.replicates = replicates;
   if (fit_knows) return measure_coverage(spec, truth, options);
-  spec.uncertainty.materials = false;
+  spec.uncertainty.materials = Materials::exact;
   return measure_coverage(spec, truth, options);
 }
 

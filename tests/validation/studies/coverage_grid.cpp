@@ -118,7 +118,7 @@ std::vector<GridDesign> designs_named(const std::vector<std::string>& words) {
 
 FitSpec grid_spec(const FitSpec& spec, const GridDesign& design) {
   FitSpec own = spec;
-  own.uncertainty.materials = false;  // one truth for all data sets
+  own.uncertainty.materials = Materials::exact;  // one truth for all data sets
   for (ParameterSpec& parameter : own.parameters) {
     if (parameter.parameter->role != ParameterRole::adhesion_force) continue;
     parameter.free = design.adhesion_free;

@@ -68,7 +68,7 @@ std::string key_of(const FitSpec& spec, const CoverageOptions& options) {
   return fmt::format("{} {} {} {} {} {} {}", spec.sha256, options.datasets,
                      options.uncertainty.replicates, options.uncertainty.seed,
                      options.uncertainty.level, options.uncertainty.posterior,
-                     spec.uncertainty.materials);
+                     static_cast<int>(spec.uncertainty.materials));
 }
 
 void set_options(CoverageStudy& study, const CoverageOptions& options) {
@@ -188,7 +188,7 @@ CoverageStudy measure_grid(const FitSpec& spec, const Dataset& base,
 void add_design(CoverageStudy& study, const FitSpec& spec, const std::vector<Dataset>& datasets,
                 const CoverageOptions& options, const std::filesystem::path& kept) {
   set_options(study, options);
-  study.exact_materials = !spec.uncertainty.materials;
+  study.exact_materials = spec.uncertainty.materials == Materials::exact;
   std::string key = key_of(spec, options);
   for (const Dataset& dataset : datasets) {
     key += " " + dataset.sha256;
