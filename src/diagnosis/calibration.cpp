@@ -33,8 +33,9 @@ struct Calibration::Side {
   std::vector<CandidateResult> candidates;
 };
 
-Calibration::Calibration(const FitSpec& spec, const std::vector<Dataset>& datasets,
+Calibration::Calibration(const FitSpec& stated, const std::vector<Dataset>& datasets,
                          const DiagnosisOptions& options) {
+  const FitSpec spec = with_constants_adjusted(stated);
   FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
   if (!fitted.usable) {
     throw ComputationError(

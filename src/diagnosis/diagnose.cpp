@@ -327,15 +327,6 @@ std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   return MaterialsExplain{p_value};
 }
 
-/// No cause is named for what the errors of the material constants can do: a diagnosis lets the
-/// points move them, also where the fit itself does not.
-FitSpec with_constants_adjusted(FitSpec spec) {
-  if (spec.uncertainty.materials == Materials::propagated) {
-    spec.uncertainty.materials = Materials::adjusted;
-  }
-  return spec;
-}
-
 }  // namespace
 
 Diagnosis diagnose(const FitSpec& stated, const std::vector<Dataset>& datasets,

@@ -44,6 +44,13 @@ FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& d
 
 }  // namespace
 
+FitSpec with_constants_adjusted(FitSpec spec) {
+  if (spec.uncertainty.materials == Materials::propagated) {
+    spec.uncertainty.materials = Materials::adjusted;
+  }
+  return spec;
+}
+
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        const FitResult& estimated, const DiagnosisOptions& options) {
   SearchBase base{spec,

@@ -24,6 +24,10 @@ struct SearchBase {
   const DiagnosisOptions& options;
 };
 
+/// No cause is named for what the errors of the material constants can do: a diagnosis lets the
+/// points move the constants, also where the fit itself holds them.
+FitSpec with_constants_adjusted(FitSpec spec);
+
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        const FitResult& fitted, const DiagnosisOptions& options);
 

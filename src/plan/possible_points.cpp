@@ -83,7 +83,7 @@ PlannedParameters planned_parameters(const ImpactModel& model, const std::vector
   std::vector<double> information;
   for (std::size_t j = 0; j < model.slots.size(); ++j) {
     const ParameterSlot& slot = model.slots[j];
-    if (!slot.moves()) continue;
+    if (!slot.free && !slot.is_constant()) continue;
     found.slots.push_back(j);
     if (slot.is_constant()) {
       const UncertainConstant& constant = model.constants[j - model.first_constant()];

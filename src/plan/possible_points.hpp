@@ -40,7 +40,8 @@ PointOutlook point_outlook(double m, double m_V, double m_d, const PlannedScatte
 
 /// The parameters that an experiment has to determine together: the free ones in relative terms
 /// (d ln theta; theta itself where it is 0), and the constants of the materials in units of their
-/// standard deviations.
+/// standard deviations. The points may determine the constants, too, as in a fit with
+/// Materials::adjusted: a fit that holds the constants has at least these errors.
 struct PlannedParameters {
   std::vector<std::size_t> slots;
   std::vector<double> unit;  ///< of each, in the unit of the slot
