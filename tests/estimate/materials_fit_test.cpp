@@ -339,7 +339,7 @@ TEST(Materials, StayAsStatedAndWidenTheErrors) {
   const FitResult without = fit(make_model(off, {data}), gather({data}));
   ASSERT_TRUE(with.usable && without.usable);
   constexpr double step = 1e-3;
-  for (const std::size_t j : {0, 1}) {
+  for (const std::size_t j : {0U, 1U}) {
     EXPECT_NEAR(with.theta[j] / without.theta[j], 1.0, 1e-9);
     double variance = without.std_error[j] * without.std_error[j];
     for (const auto& [body, constant, relative] :
