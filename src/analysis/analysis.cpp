@@ -103,6 +103,7 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   add_resampled_intervals(fitted, result.bootstrap, level, threads, result.intervals);
   add_resampled_captures(fitted, result.bootstrap, level, result.capture);
   result.two_point = compare_two_points(fitted);
+  add_comparison_rows(fitted, result.two_point);
   bootstrap_two_points(fitted, options, result.two_point, result.bootstrap);
   result.identifiability =
       judge_identifiability(fitted, result.intervals, result.capture, alternatives);

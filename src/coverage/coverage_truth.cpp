@@ -161,10 +161,8 @@ std::vector<double> with_drawn_constants(const ImpactModel& model, std::vector<d
   RandomStream random(seed, RandomPurpose::constants, ~index);
   for (std::size_t k = 0; k < model.constants.size(); ++k) {
     const UncertainConstant& constant = model.constants[k];
-    const double by = constant.sd * random.normal();
     const std::size_t slot = model.first_constant() + k;
-    const double value =
-        is_positive(constant.constant) ? constant.stated * std::exp(by) : constant.stated + by;
+    const double value = constant.moved(constant.stated, random.normal());
     theta[slot] = std::clamp(value, model.slots[slot].lower, model.slots[slot].upper);
   }
   return theta;

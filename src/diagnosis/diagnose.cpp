@@ -372,8 +372,14 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
 Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
                    const FitResult& fitted, const DiagnosisOptions& options,
                    const std::vector<IntervalSet>& base_intervals) {
-  if (spec.uncertainty.materials == Materials::propagated && !fitted.model.constants.empty()) {
-    return diagnose(spec, datasets, options);
+  if (!fitted.model.constants.empty() && !fitted.model.adjusts_constants()) {
+    const FitResult adjusted =
+        fit(with_adjusted_materials(fitted.model), gather(datasets, spec.noise));
+    if (!adjusted.usable) {
+      throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", spec.file.string(),
+                                         adjusted.failure));
+    }
+    return diagnose(with_constants_adjusted(spec), datasets, adjusted, options);
   }
   const SearchBase base = search_base(spec, datasets, fitted, options);
   if (!base.refit.usable) {

@@ -434,8 +434,8 @@ class FitReader : private TomlReader {
       const bool adjusts = node->is_string() && node->as_string()->get() == "adjust";
       if (node->is_string() && !adjusts) {
         fail(*node, fmt::format("materials = {}", quote(node->as_string()->get())),
-             "the only word it takes is \"adjust\"",
-             "true widens the intervals by the stated errors, false ignores them");
+             "it is no way to use the stated errors of constants",
+             "true widens the intervals by them, \"adjust\" lets the points move the constants");
       }
       spec.materials = adjusts                       ? Materials::adjusted
                        : boolean(*node, "materials") ? Materials::propagated

@@ -43,6 +43,10 @@ double UncertainConstant::deviation(double value, double stated_value_of_it) con
                                : (value - stated_value_of_it) / sd;
 }
 
+double UncertainConstant::moved(double value, double by) const {
+  return is_positive(constant) ? value * std::exp(by * sd) : value + by * sd;
+}
+
 double UncertainConstant::deviation_slope(double value) const {
   return is_positive(constant) ? 1.0 / (value * sd) : 1.0 / sd;
 }

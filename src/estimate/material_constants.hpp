@@ -23,6 +23,8 @@ struct UncertainConstant {
 
   /// (its value - the stated one) in standard deviations.
   double deviation(double value, double stated_value) const;
+  /// Where it lies `by` standard deviations above `value`: the inverse of `deviation`.
+  double moved(double value, double by) const;
   /// d deviation / d value.
   double deviation_slope(double value) const;
 };

@@ -384,15 +384,6 @@ ImpactModel with_exact_materials(ImpactModel model) {
   return model;
 }
 
-std::vector<double> with_constant_moved(const ImpactModel& model, std::size_t k, double by) {
-  std::vector<double> values;
-  for (const UncertainConstant& constant : model.constants) values.push_back(constant.stated);
-  const double shift = by * model.constants[k].sd;
-  values[k] =
-      is_positive(model.constants[k].constant) ? values[k] * std::exp(shift) : values[k] + shift;
-  return values;
-}
-
 MaterialState materials_under(const ImpactModel& model, std::span<const double> theta,
                               std::size_t dataset) {
   if (!is_exact(model, dataset)) return model.materials[dataset].at(model.constants_of(theta));

@@ -138,9 +138,6 @@ ImpactModel with_adjusted_materials(ImpactModel model);
 /// The model with all constants of the materials exact, as stated.
 ImpactModel with_exact_materials(ImpactModel model);
 
-/// The constants as they are stated, but for number k, `by` standard deviations off.
-std::vector<double> with_constant_moved(const ImpactModel& model, std::size_t k, double by);
-
 /// d f0 / d (its parameter): 1, or (2/3) f0 / W.
 double adhesion_force_slope(const ImpactModel& model, std::span<const double> theta,
                             std::size_t dataset);

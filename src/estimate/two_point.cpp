@@ -50,13 +50,18 @@ std::optional<double> find_damping(const ExcessAt& excess_at, double guess, doub
   return damping;
 }
 
-/// Simulates the impacts of one diameter for given dampings. f0 is that of eq. 12 even when the
-/// full fit frees it.
+/// f0 is what the fit file fixes it at, else that of eq. 12, also where the full fit frees it.
+double adhesion_of_two_points(const ImpactModel& model, std::size_t dataset) {
+  const ParameterSlot& slot = model.slots[model.slot_adhesion[dataset]];
+  return slot.free ? derived_adhesion(model, dataset) : slot.initial;
+}
+
+/// Simulates the impacts of one diameter for given dampings.
 class CalibratedSphere {
  public:
   CalibratedSphere(const ImpactModel& model, std::size_t dataset, double diameter)
       : model_(model), dataset_(dataset), diameter_(diameter), theta_(model.initial()) {
-    theta_[model.slot_adhesion[dataset]] = derived_adhesion(model, dataset);
+    theta_[model.slot_adhesion[dataset]] = adhesion_of_two_points(model, dataset);
   }
 
   /// beta at the velocity of `point`.
@@ -118,7 +123,7 @@ void iterate(const ImpactModel& model, const Observations& data, std::size_t dat
     if (result.iterations == most_iterations) break;
   }
   result.theta = model.initial();
-  result.theta[model.slot_adhesion[dataset]] = derived_adhesion(model, dataset);
+  result.theta[model.slot_adhesion[dataset]] = adhesion_of_two_points(model, dataset);
   result.theta[model.slot_C_H[dataset]] = C_H;
   result.theta[model.slot_C_A[dataset]] = C_A;
 }

@@ -25,7 +25,7 @@ struct NamesOf<TwoPointStatus> {
 
 /// The calibration of Li, Dunn & Brach (1999), section 4: the point of the highest velocity gives
 /// C_H with the effects of adhesion neglected (C_A = 0 at first), the point of the lowest gives
-/// C_A, and so on until nothing changes. f0 is fixed by eq. 12.
+/// C_A, and so on until nothing changes. f0 is fixed by eq. 12, or by the fit file.
 struct TwoPointResult {
   TwoPointStatus status = TwoPointStatus::too_few_points;
   std::size_t low_point = 0;  ///< indices into the observations

@@ -14,8 +14,7 @@ namespace {
 std::optional<double> held_out(const FitResult& fitted) {
   double sum = 0.0;
   int count = 0;
-  for (std::size_t d = 0; d < fitted.model.contacts.size(); ++d) {
-    const TwoPointComparison comparison = compare_two_point(fitted, d);
+  for (const TwoPointComparison& comparison : compare_two_points(fitted)) {
     if (!comparison.full_held_out_rmse) continue;
     sum += *comparison.full_held_out_rmse * *comparison.full_held_out_rmse;
     ++count;

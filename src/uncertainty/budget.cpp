@@ -128,12 +128,9 @@ class BudgetMaker {
   /// The quantity when the constant is stated one standard deviation off.
   void move(const Quantity& quantity, BudgetEntry& entry, ErrorBudget& budget) const {
     for (const double by : {-1.0, 1.0}) {
-      Observations data = fitted_.data;
-      data.constants = with_constant_moved(fitted_.model, entry.constant, by);
-      const LeastSquaresResult run =
-          minimise(impact_problem(fitted_.model, data), fitted_.theta, refit_options());
-      if (!run.ended()) return;
-      const auto there = quantity.at(run.theta);
+      const auto theta = estimate_with_constant_moved(fitted_, entry.constant, by);
+      if (!theta) return;
+      const auto there = quantity.at(*theta);
       if (!there) return;
       (by < 0.0 ? entry.lower : entry.upper) = there->value - budget.value;
     }

@@ -292,10 +292,7 @@ void draw_constants(const FitResult& fitted, const std::vector<std::size_t>& mov
       for (std::size_t k = 0; k < count; ++k) {
         z[k] = random.normal();
         const UncertainConstant& constant = model.constants[k];
-        const double shift = constant.sd * z[k];
-        sampled.chains[moving.size() + k][c][i] = is_positive(constant.constant)
-                                                      ? constant.stated * std::exp(shift)
-                                                      : constant.stated + shift;
+        sampled.chains[moving.size() + k][c][i] = constant.moved(constant.stated, z[k]);
       }
       for (std::size_t j = 0; j < moving.size(); ++j) {
         const ParameterSlot& slot = model.slots[moving[j]];

@@ -128,8 +128,9 @@ class ConstantErrors {
         add(-linear);
         continue;
       }
-      for (const double sign : {-1.0, 1.0}) {
-        add(shift(fitted, slot, k, sign * most_z).value_or(sign * most_z * linear) / most_z);
+      for (const double by : {-most_z, most_z}) {
+        const auto theta = estimate_with_constant_moved(fitted, k, by);
+        add(theta ? ((*theta)[slot] - estimate_) / most_z : std::copysign(1.0, by) * linear);
       }
     }
     for (double& error : error_) error = std::sqrt(error);
@@ -154,17 +155,6 @@ class ConstantErrors {
     const double reach = std::sqrt(std::max(0.0, d * d + sign * by * by));
     return std::clamp(estimate_ + std::copysign(reach, d), slot_.lower, slot_.upper);
   }
-  /// How far the estimate goes when constant k is stated `by` standard deviations off.
-  static std::optional<double> shift(const FitResult& fitted, std::size_t slot, std::size_t k,
-                                     double by) {
-    Observations data = fitted.data;
-    data.constants = with_constant_moved(fitted.model, k, by);
-    const LeastSquaresResult run =
-        minimise(impact_problem(fitted.model, data), fitted.theta, refit_options());
-    if (!run.ended()) return std::nullopt;
-    return run.theta[slot] - fitted.theta[slot];
-  }
-
   const ParameterSlot& slot_;
   double estimate_;
   std::array<double, 2> error_ = {};  // below and above the estimate
@@ -246,8 +236,8 @@ Interval profile_interval(const FitResult& fitted, std::size_t slot, double leve
   if (!low || !high) return no_interval(NoInterval::refit_failed);
   const ConstantErrors constants(fitted, slot);
   const auto end = [&](const End& of) {
-    const double z = std::sqrt(allowed(of.value)) / fitted.noise_scale;
-    return of.at_bound ? of.value : constants.widened(of.value, z);
+    if (of.at_bound || !(fitted.noise_scale > 0.0)) return of.value;
+    return constants.widened(of.value, std::sqrt(allowed(of.value)) / fitted.noise_scale);
   };
   Interval interval;
   interval.lower = end(*low);

@@ -1,5 +1,7 @@
 #include "uncertainty/refit.hpp"
 
+#include <utility>
+
 #include "estimate/impact_problem.hpp"
 
 namespace recoil {
@@ -29,6 +31,19 @@ LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
     return reweighted_fit(model, sample, start, refit_reweighting_options()).run;
   }
   return minimise(impact_problem(model, sample), start, refit_options());
+}
+
+std::optional<std::vector<double>> estimate_with_constant_moved(const FitResult& fitted,
+                                                                std::size_t k, double by) {
+  const std::vector<UncertainConstant>& constants = fitted.model.constants;
+  Observations data = fitted.data;
+  data.constants.clear();
+  for (const UncertainConstant& constant : constants) data.constants.push_back(constant.stated);
+  data.constants[k] = constants[k].moved(constants[k].stated, by);
+  LeastSquaresResult run =
+      minimise(impact_problem(fitted.model, data), fitted.theta, refit_options());
+  if (!run.ended()) return std::nullopt;
+  return std::move(run.theta);
 }
 
 bool has_answer(const LeastSquaresResult& refit, const FitResult& fitted) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "estimate/fit.hpp"
 #include "estimate/reweighting.hpp"
@@ -18,6 +20,11 @@ ReweightingOptions refit_reweighting_options();
 /// (`reweighted_fit`).
 LeastSquaresResult refit(const ImpactModel& model, const Observations& sample,
                          std::span<const double> start);
+
+/// The estimate if constant number k were stated `by` standard deviations higher, with the weights
+/// of the fit. Nothing when the refit does not end.
+std::optional<std::vector<double>> estimate_with_constant_moved(const FitResult& fitted,
+                                                                std::size_t k, double by);
 
 /// Did a refit give an answer? It has to end by itself, and its data have to determine the
 /// parameters (J'J regular) where those of the fit do: where they do not, it merely stays where it

@@ -188,10 +188,7 @@ void resample_constants(const FitResult& fitted, std::uint64_t seed, std::uint64
   RandomStream random(seed, RandomPurpose::constants, index);
   sample.constants.clear();
   for (std::size_t k = 0; k < constants.size(); ++k) {
-    const double shift = constants[k].sd * random.normal();
-    const double value = fitted.theta[first + k];
-    sample.constants.push_back(is_positive(constants[k].constant) ? value * std::exp(shift)
-                                                                  : value + shift);
+    sample.constants.push_back(constants[k].moved(fitted.theta[first + k], random.normal()));
   }
 }
 

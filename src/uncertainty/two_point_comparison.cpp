@@ -53,36 +53,22 @@ FitResult fit_of_diameter(const FitResult& fitted, std::size_t dataset, const Sp
   return fit(alone, fitted.data.subset(split.seen));
 }
 
-/// The same model with the adhesion of every dataset fitted, or as its materials or the fit file
-/// state it; `fitted` itself where it is so already.
-FitResult with_adhesion(const FitResult& fitted, bool free) {
-  ImpactModel model = fitted.model;
-  bool same = true;
-  for (std::size_t d = 0; d < model.contacts.size(); ++d) {
-    ParameterSlot& slot = model.slots[model.slot_adhesion[d]];
-    if (slot.free == free) continue;
-    same = false;
-    slot.free = free;
-    if (!free && slot.derived) slot.initial = derived_adhesion(model, d);
-  }
-  return same ? fitted : fit(model, fitted.data);
+/// Is the adhesion of every dataset fitted (`free`), or of none?
+bool adhesion_is(const ImpactModel& model, bool free) {
+  return std::all_of(model.slot_adhesion.begin(), model.slot_adhesion.end(),
+                     [&](std::size_t slot) { return model.slots[slot].free == free; });
 }
 
-ComparisonRow compared(ComparisonWay row, const FitResult& full, const TwoPointComparison& with,
-                       const Observations& data) {
-  ComparisonRow out;
-  out.row = row;
-  out.failure = full.failure;
-  if (!full.usable) return out;
-  const Split split = split_by_diameter(data, with.dataset, with.result.diameter);
-  out.theta = full.theta;
-  out.rmse = root_mean_square(full.model, full.theta, data, split.all);
-  if (split.unseen.empty()) return out;
-  const FitResult on_one = fit_of_diameter(full, with.dataset, split);
-  if (on_one.usable) {
-    out.held_out_rmse = root_mean_square(full.model, on_one.theta, data, split.unseen);
+/// The fit repeated with the adhesion of every dataset fitted, or of none: as the fit file fixes
+/// it, else as the materials give it.
+FitResult with_adhesion(const FitResult& fitted, bool free) {
+  ImpactModel model = fitted.model;
+  for (std::size_t d = 0; d < model.contacts.size(); ++d) {
+    ParameterSlot& slot = model.slots[model.slot_adhesion[d]];
+    if (slot.free && !free) slot.initial = derived_adhesion(model, d);
+    slot.free = free;
   }
-  return out;
+  return fit(model, fitted.data);
 }
 
 }  // namespace
@@ -125,11 +111,14 @@ std::vector<TwoPointComparison> compare_two_points(const FitResult& fitted) {
   for (std::size_t d = 0; d < datasets; ++d) {
     adheres = adheres || !without_adhesion(fitted.model, d);
   }
-  if (!adheres) return comparisons;
-  const FitResult same = with_adhesion(fitted, false);
-  const FitResult free = with_adhesion(fitted, true);
-  for (std::size_t d = 0; d < datasets; ++d) {
-    TwoPointComparison& comparison = comparisons.emplace_back(compare_two_point(fitted, d));
+  for (std::size_t d = 0; adheres && d < datasets; ++d) {
+    comparisons.push_back(compare_two_point(fitted, d));
+  }
+  return comparisons;
+}
+
+void add_comparison_rows(const FitResult& fitted, std::vector<TwoPointComparison>& comparisons) {
+  for (TwoPointComparison& comparison : comparisons) {
     ComparisonRow two;
     if (comparison.result.status == TwoPointStatus::too_few_points) {
       two.failure = "too few points";
@@ -138,10 +127,26 @@ std::vector<TwoPointComparison> compare_two_points(const FitResult& fitted) {
       two.rmse = comparison.rmse;
       two.held_out_rmse = comparison.held_out_rmse;
     }
-    comparison.rows = {std::move(two), compared(ComparisonWay::full, same, comparison, fitted.data),
-                       compared(ComparisonWay::full_f0_free, free, comparison, fitted.data)};
+    comparison.rows = {std::move(two)};
   }
-  return comparisons;
+  for (const ComparisonWay way : {ComparisonWay::full, ComparisonWay::full_f0_free}) {
+    const bool free = way == ComparisonWay::full_f0_free;
+    std::optional<FitResult> other;
+    if (!adhesion_is(fitted.model, free)) other = with_adhesion(fitted, free);
+    for (TwoPointComparison& comparison : comparisons) {
+      ComparisonRow& row = comparison.rows.emplace_back();
+      row.row = way;
+      if (other && !other->usable) {
+        row.failure = other->failure;
+        continue;
+      }
+      const TwoPointComparison own =
+          other ? compare_two_point(*other, comparison.dataset) : comparison;
+      row.theta = other ? other->theta : fitted.theta;
+      row.rmse = own.full_rmse;
+      row.held_out_rmse = own.full_held_out_rmse;
+    }
+  }
 }
 
 void bootstrap_two_points(const FitResult& fitted, const UncertaintyOptions& options,

@@ -26,7 +26,7 @@ struct NamesOf<NothingHeldOut> {
 
 /// Ways to the three parameters of the paper's model, compared with one another.
 enum class ComparisonWay {
-  two_point,     ///< the paper's iteration, f0 of eq. 12
+  two_point,     ///< the paper's iteration, f0 of eq. 12 or of the fit file
   full,          ///< all points, f0 the same
   full_f0_free,  ///< all points, f0 fitted
 };
@@ -66,6 +66,10 @@ TwoPointComparison compare_two_point(const FitResult& fitted, std::size_t datase
 /// Both calibrations of every dataset, at its reference diameter. Empty without adhesion, where
 /// there is no C_A. The spreads stay empty.
 std::vector<TwoPointComparison> compare_two_points(const FitResult& fitted);
+
+/// Fills the rows: two points, all points with the same f0, all points with f0 fitted. The fit
+/// itself is one of the last two; the other is fitted here.
+void add_comparison_rows(const FitResult& fitted, std::vector<TwoPointComparison>& comparisons);
 
 /// Repeats the two-point iteration on the same resampled data as the replicates of `result` (the
 /// first 999 of them), and adds its answers to `result` and both spreads to `comparisons`.

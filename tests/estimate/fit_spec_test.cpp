@@ -233,6 +233,8 @@ const Mistake mistakes[] = {
     {"level_zero", "0.9", "0.0", "fit.toml:11:9: ", "level = 0", "0.95 is usual"},
     {"level_one", "0.9", "1", "fit.toml:11:9: ", "level = 1", "0.95 is usual"},
     {"level_nan", "0.9", "nan", "fit.toml:11:9: ", "'level' is nan", "write a number"},
+    {"materials_word", "seed = 7", "materials = \"adjsut\"",
+     "fit.toml:12:13: ", "materials = 'adjsut'", "adjust"},
     {"seed_negative", "seed = 7", "seed = -7", "fit.toml:12:8: ", "seed = -7", "minus"},
     // The noise.
     {"unknown_noise_key", "velocity_relative_sd", "velocity_relativ_sd", "fit.toml:17:1: ",

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "analysis/analysis.hpp"
 #include "estimate/impact_problem.hpp"
@@ -11,6 +14,7 @@
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/intervals.hpp"
 #include "uncertainty/profile.hpp"
+#include "uncertainty/two_point_comparison.hpp"
 
 namespace recoil {
 namespace {
@@ -41,6 +45,48 @@ TEST(Bootstrap, SeedChangesTheReplicatesOnly) {
   EXPECT_EQ(a.intervals[0][IntervalKind::wald].lower, b.intervals[0][IntervalKind::wald].lower);
   EXPECT_EQ(a.intervals[0][IntervalKind::profile].lower,
             b.intervals[0][IntervalKind::profile].lower);
+}
+
+/// The three rows of a shipped fit with f0 as `f0` says.
+std::vector<ComparisonRow> rows_of_molybdenum(bool free, std::optional<double> f0) {
+  FitInputs inputs = load_inputs(RECOIL_SOURCE_DIR "/fits/wall1990-molybdenum.toml");
+  for (ParameterSpec& parameter : inputs.spec.parameters) {
+    if (!parameter.parameter->is_adhesion()) continue;
+    parameter.free = free;
+    parameter.initial_stated = f0.has_value();
+    if (f0) parameter.initial = *f0;
+  }
+  const FitResult fitted = analyse_fit(std::move(inputs)).fitted;
+  std::vector<TwoPointComparison> comparisons = compare_two_points(fitted);
+  add_comparison_rows(fitted, comparisons);
+  EXPECT_EQ(comparisons.size(), 1U);
+  return comparisons.front().rows;
+}
+
+TEST(TwoPoints, AreComparedWithAFitOfTheSameF0) {
+  constexpr std::size_t adhesion = 2;  // C_H, C_A, f0
+  struct {
+    bool free;
+    std::optional<double> stated;
+    double same;
+  } const cases[] = {
+      // (18 K r g1 g2 / pi)^(1/3) with K 1.789 GPa, r 2.45 um and the surface energies of Gilman's
+      // equation, E (a0 / pi)^2 / y0: 0.01027 and 2.740 J/m2.
+      {false, std::nullopt, std::cbrt(18.0 * 1.789e9 * 2.45e-6 * 0.010274 * 2.73976 / M_PI)},
+      {true, 12.0, std::cbrt(18.0 * 1.789e9 * 2.45e-6 * 0.010274 * 2.73976 / M_PI)},
+      {false, 12.0, 12.0},
+  };
+  for (const auto& c : cases) {
+    const auto rows = rows_of_molybdenum(c.free, c.stated);
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_EQ(rows[0].row, ComparisonWay::two_point);
+    EXPECT_NEAR(rows[0].theta[adhesion] / c.same, 1.0, 2e-3);
+    EXPECT_EQ(rows[0].theta[adhesion], rows[1].theta[adhesion]);
+    EXPECT_GT(std::abs(rows[2].theta[adhesion] - c.same), 0.5);  // the points want 13 N/m
+    EXPECT_LT(*rows[1].rmse, *rows[0].rmse);
+    EXPECT_LT(*rows[2].rmse, *rows[1].rmse);
+    EXPECT_TRUE(rows[1].held_out_rmse && rows[2].held_out_rmse);
+  }
 }
 
 TEST(Capture, StudentizedAndDeltaRestOnTheSameError) {
