@@ -117,6 +117,7 @@ ComparedFit compared_law(const LawFit& law, const std::vector<Dataset>& datasets
   fit.held_out_rmse = law.held_out_rmse;
   for (std::size_t s = 0; s < f.theta.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
+    if (slot.is_constant() && !slot.moves()) continue;  // every law holds it at what is stated
     ComparedQuantity quantity{slot.label(), std::string(slot.parameter->unit),
                               acting_value(f.model, f.theta, s), slot.free, std::nullopt};
     const double error = s < f.std_error.size() ? f.std_error[s] : 0.0;

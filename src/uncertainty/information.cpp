@@ -40,23 +40,41 @@ std::vector<std::size_t> joined(std::vector<std::size_t> one,
   return one;
 }
 
-/// What is left of the information about the first `count` when the others are not known: the
-/// Schur complement.
-Eigen::MatrixXd without_constants(const Eigen::MatrixXd& fisher, std::size_t count) {
+/// The information about the first `count`, the free parameters, from that of the points about them
+/// and the constants, both in relative terms. Where the points move the constants it is the Schur
+/// complement; where the fit holds them, the inverse of A^-1 + A^-1 B S B' A^-1 with A the
+/// parameters' block, B that beside it and S the variances of the constants; A where it is
+/// singular.
+Eigen::MatrixXd without_constants(const FitResult& fitted, const Eigen::MatrixXd& points,
+                                  std::size_t count) {
   const auto p = static_cast<Eigen::Index>(count);
-  const Eigen::Index k = fisher.rows() - p;
-  if (k == 0) return fisher;
-  return fisher.topLeftCorner(p, p) -
-         fisher.topRightCorner(p, k) *
-             fisher.bottomRightCorner(k, k).ldlt().solve(fisher.bottomLeftCorner(k, p));
+  const Eigen::Index k = points.rows() - p;
+  if (k == 0) return points;
+  const Eigen::MatrixXd own = points.topLeftCorner(p, p);
+  const Eigen::MatrixXd beside = points.topRightCorner(p, k);
+  Eigen::VectorXd errors(k);
+  for (Eigen::Index c = 0; c < k; ++c) {
+    const auto constant = static_cast<std::size_t>(c);
+    const double value = fitted.theta[fitted.model.first_constant() + constant];
+    errors[c] = 1.0 / (value * fitted.model.constants[constant].deviation_slope(value));
+  }
+  if (fitted.model.adjusts_constants()) {
+    const double weight = fitted.data.constants_weight / fitted.noise_scale;
+    Eigen::MatrixXd others = points.bottomRightCorner(k, k);
+    others.diagonal() += (weight * errors.cwiseInverse()).cwiseAbs2();
+    return own - beside * others.ldlt().solve(beside.transpose());
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(own);
+  if (!lu.isInvertible()) return own;
+  const Eigen::MatrixXd effects = lu.solve(beside * errors.asDiagonal());
+  return (lu.inverse() + effects * effects.transpose()).inverse();
 }
 
 /// Derivatives of the weighted residuals of `data` by ln theta of `inner`, at the estimate [n x p].
-/// @param constants whether those of the materials' constants come after them
 Eigen::MatrixXd logarithmic_jacobian(const FitResult& fitted, const Observations& data,
-                                     const std::vector<std::size_t>& inner, bool constants) {
+                                     const std::vector<std::size_t>& inner) {
   const LeastSquaresProblem problem = impact_problem(fitted.model, data);
-  const std::size_t n = constants ? problem.residual_count : data.points.size();
+  const std::size_t n = data.points.size();
   const std::size_t p = fitted.theta.size();
   std::vector<double> residuals(problem.residual_count);
   std::vector<double> full(problem.residual_count * p);
@@ -200,9 +218,9 @@ std::vector<PlannedPoints> plans_for(const FitResult& fitted,
           predict(fitted.model, fitted.theta, place.dataset, place.diameter, velocity, false)
               .restitution();
       const Eigen::MatrixXd row =
-          logarithmic_jacobian(fitted, more, joined(inner, constant_slots(fitted)), false);
+          logarithmic_jacobian(fitted, more, joined(inner, constant_slots(fitted)));
       const Eigen::MatrixXd then =
-          without_constants(fisher + planned_points * row.transpose() * row, inner.size());
+          without_constants(fitted, fisher + planned_points * row.transpose() * row, inner.size());
       plans.push_back({place.dataset, place.diameter, velocity, place.velocity, planned_points,
                        relative_deviations(then, fitted.theta.size(), inner)});
     }
@@ -230,9 +248,9 @@ Information information_at(const FitResult& fitted, const std::vector<CapturePla
   information.relative_sd.assign(fitted.theta.size(), 0.0);
   if (inner.empty() || fitted.data.points.empty()) return information;
   const Eigen::MatrixXd jacobian =
-      logarithmic_jacobian(fitted, fitted.data, joined(inner, constant_slots(fitted)), true);
+      logarithmic_jacobian(fitted, fitted.data, joined(inner, constant_slots(fitted)));
   const Eigen::MatrixXd full = jacobian.transpose() * jacobian;
-  const Eigen::MatrixXd fisher = without_constants(full, inner.size());
+  const Eigen::MatrixXd fisher = without_constants(fitted, full, inner.size());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fisher);
   information.directions = directions_of(eigen, fitted, inner);
   const double smallest = eigen.eigenvalues().minCoeff();
