@@ -97,57 +97,68 @@ FactOutcome contradictory_constants(const FactContext& context, const FactLimits
                       derived.stiffness / units::GPa, K_ratio, f0, f0_ratio)};
 }
 
+/// Calibrated curve minus points of the size `diameter` from `away` V* on.
+std::vector<double> differences(const FactContext& context, const TwoPointCalibration& calibrated,
+                                double diameter, double away) {
+  const double start = away * true_capture_velocity(context.recipe.truth, diameter);
+  std::vector<double> found;
+  for (const GeneratedPoint& point : context.points) {
+    if (!near(point.diameter, diameter, 1e-6) || point.velocity < start) continue;
+    found.push_back(true_restitution(calibrated.model, diameter, point.velocity) -
+                    point.restitution);
+  }
+  return found;
+}
+
 FactOutcome two_point_runs_low(const FactContext& context, const FactLimits& limits) {
   const TwoPointCalibration calibrated = calibrate(context, limits.at("calibrated_on"));
   if (!calibrated.found) return {false, "no two-point calibration: " + calibrated.why};
+  const std::vector<double> found = differences(context, calibrated, limits.at("judged_on"), 0.0);
+  if (found.empty()) return {false, "no such diameter"};
   double sum = 0.0;
-  int lower = 0;
-  int count = 0;
-  for (const GeneratedPoint& point : context.points) {
-    if (!near(point.diameter, limits.at("judged_on"), 1e-6) ||
-        point.velocity >= limits.at("below_velocity")) {
-      continue;
-    }
-    const double difference =
-        true_restitution(calibrated.model, point.diameter, point.velocity) - point.restitution;
-    sum += difference;
-    lower += difference < 0.0 ? 1 : 0;
-    ++count;
-  }
-  if (count == 0) return {false, "no such diameter"};
-  const double mean = sum / count;
+  for (const double difference : found) sum += difference;
+  const double mean = sum / static_cast<double>(found.size());
   return {within(mean, limits.at("mean_from"), limits.at("mean_to")),
-          fmt::format("mean difference {:+.3f} (allowed {:+.3f} .. {:+.3f}), lower at {} of {} "
-                      "points; C_H {:.2e}, C_A {:.2e} s/m",
-                      mean, limits.at("mean_from"), limits.at("mean_to"), lower, count,
+          fmt::format("mean difference {:+.3f} over {} points (allowed {:+.3f} .. {:+.3f}); "
+                      "C_H {:.2e}, C_A {:.2e} s/m",
+                      mean, found.size(), limits.at("mean_from"), limits.at("mean_to"),
                       calibrated.model.C_H, calibrated.model.C_A)};
 }
 
+/// Every size but the calibrated one and the one on which the curve runs low, each by itself.
 FactOutcome two_point_agrees(const FactContext& context, const FactLimits& limits) {
   const TwoPointCalibration calibrated = calibrate(context, limits.at("calibrated_on"));
   if (!calibrated.found) return {false, "no two-point calibration: " + calibrated.why};
-  double squares = 0.0;
-  double largest = 0.0;
-  int count = 0;
-  for (std::size_t series = 0; series < context.recipe.series.size(); ++series) {
-    const double diameter = context.recipe.series[series].diameter;
-    if (near(diameter, limits.at("calibrated_on"), 1e-6)) continue;
-    const double away = limits.at("away") * true_capture_velocity(context.recipe.truth, diameter);
-    for (const GeneratedPoint& point : points_of(context, series)) {
-      if (point.velocity < away) continue;
-      const double difference =
-          true_restitution(calibrated.model, diameter, point.velocity) - point.restitution;
-      squares += difference * difference;
-      largest = std::max(largest, std::abs(difference));
-      ++count;
+  double worst = 0.0;
+  std::vector<std::string> sizes;
+  for (const RecipeSeries& series : context.recipe.series) {
+    if (near(series.diameter, limits.at("calibrated_on"), 1e-6) ||
+        near(series.diameter, limits.at("low_on"), 1e-6)) {
+      continue;
     }
+    const std::vector<double> found =
+        differences(context, calibrated, series.diameter, limits.at("away"));
+    if (found.empty()) return {false, "no point of " + series.name};
+    double squares = 0.0;
+    for (const double difference : found) squares += difference * difference;
+    const double rms = std::sqrt(squares / static_cast<double>(found.size()));
+    worst = std::max(worst, rms);
+    sizes.push_back(fmt::format("{:.3f} at {:.2f} um", rms, series.diameter / units::um));
   }
-  if (count == 0) return {false, "no other diameter"};
-  const double rms = std::sqrt(squares / count);
-  return {rms <= limits.at("most"),
-          fmt::format("rms difference {:.3f} over {} points of the other sizes from {:g} V* on (at "
-                      "most {:.3f}), largest {:.3f}",
-                      rms, count, limits.at("away"), limits.at("most"), largest)};
+  if (sizes.empty()) return {false, "no other diameter"};
+  return {worst <= limits.at("most"),
+          fmt::format("rms difference {} from {:g} V* on (at most {:.3f})",
+                      fmt::join(sizes, " and "), limits.at("away"), limits.at("most"))};
+}
+
+FactOutcome adhesion_share(const FactContext& context, const FactLimits& limits) {
+  const double diameter = limits.at("diameter");
+  const TwoPointCalibration calibrated = calibrate(context, diameter);
+  if (!calibrated.found) return {false, "no two-point calibration: " + calibrated.why};
+  const double share = adhesion_share_of_loss(calibrated.model, diameter, limits.at("velocity"));
+  return {share >= limits.at("least"),
+          fmt::format("adhesion damping takes {:.0f} % of the loss at {:g} m/s (at least {:.0f} %)",
+                      100.0 * share, limits.at("velocity"), 100.0 * limits.at("least"))};
 }
 
 // ---- series of one size each -------------------------------------------------------------------
@@ -379,9 +390,10 @@ const std::vector<FactKind>& monodisperse_facts() {
        {"diameter", "stiffness_K", "adhesion_energy", "adhesion_force_f0", "tolerance"},
        printed_constants},
       {"two-point-runs-low",
-       {"calibrated_on", "judged_on", "below_velocity", "mean_from", "mean_to"},
+       {"calibrated_on", "judged_on", "mean_from", "mean_to"},
        two_point_runs_low},
-      {"two-point-agrees", {"calibrated_on", "away", "most"}, two_point_agrees},
+      {"two-point-agrees", {"calibrated_on", "low_on", "away", "most"}, two_point_agrees},
+      {"adhesion-share", {"diameter", "velocity", "least"}, adhesion_share},
       {"highest-restitution", {"diameter", "from", "to", "least_fall"}, highest_restitution},
   };
   return catalogue;

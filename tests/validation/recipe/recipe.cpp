@@ -44,6 +44,7 @@ Truth read_ring_adhesion_truth(TomlTable& table, const Recipe& recipe) {
                                           truth.reference_diameter));
   truth.C_H = table.not_negative("C_H");
   truth.C_A = table.not_negative("C_A");
+  truth.C_A_exponent = table.optional_positive("C_A_exponent").value_or(0.0);
   const std::string phase = table.text("adhesion_damping_phase");
   if (phase != "rebound" && phase != "both") {
     table.fail("adhesion_damping_phase", fmt::format("unknown phase {}", quote(phase)),

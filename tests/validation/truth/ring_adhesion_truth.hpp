@@ -18,9 +18,10 @@ struct RingAdhesionContact {
 
 struct RingAdhesionImpact {
   bool rebounded = false;
-  double restitution = 0.0;   ///< e [1]; 0 when captured
-  double deepest = 0.0;       ///< largest penetration [m]
-  double contact_time = 0.0;  ///< [s]; until it turns inwards again when captured
+  double restitution = 0.0;    ///< e [1]; 0 when captured
+  double deepest = 0.0;        ///< largest penetration [m]
+  double contact_time = 0.0;   ///< [s]; until it turns inwards again when captured
+  double adhesion_loss = 0.0;  ///< what the damping of the adhesion takes, of m V^2 / 2 [1]
 };
 
 /// One impact at `velocity` [m/s] > 0, straight from the dimensional equation in (n, n') by GSL's

@@ -20,7 +20,7 @@ double mass_of(double density, double diameter) {
   return density * pi / 6.0 * diameter * diameter * diameter;
 }
 
-double restitution(const RingAdhesionTruth& truth, double diameter, double velocity) {
+RingAdhesionImpact impact_of(const RingAdhesionTruth& truth, double diameter, double velocity) {
   RingAdhesionContact contact;
   contact.stiffness = truth.stiffness;
   contact.adhesion_force =
@@ -28,9 +28,13 @@ double restitution(const RingAdhesionTruth& truth, double diameter, double veloc
   contact.radius = 0.5 * diameter;
   contact.mass = mass_of(truth.density, diameter);
   contact.C_H = truth.C_H;
-  contact.C_A = truth.C_A;
+  contact.C_A = truth.C_A * std::pow(diameter / truth.reference_diameter, truth.C_A_exponent);
   contact.damped_in_both_phases = truth.damped_in_both_phases;
-  return ring_adhesion_impact(contact, velocity).restitution;
+  return ring_adhesion_impact(contact, velocity);
+}
+
+double restitution(const RingAdhesionTruth& truth, double diameter, double velocity) {
+  return impact_of(truth, diameter, velocity).restitution;
 }
 
 ElastoplasticImpact impact_of(const ElastoplasticTruth& truth, double diameter, double velocity) {
@@ -75,6 +79,11 @@ double surface_energy_of(const Material& material) {
 
 double true_restitution(const Truth& truth, double diameter, double velocity) {
   return std::visit([&](const auto& kind) { return restitution(kind, diameter, velocity); }, truth);
+}
+
+double adhesion_share_of_loss(const RingAdhesionTruth& truth, double diameter, double velocity) {
+  const RingAdhesionImpact impact = impact_of(truth, diameter, velocity);
+  return impact.adhesion_loss / (1.0 - impact.restitution * impact.restitution);
 }
 
 double true_capture_velocity(const Truth& truth, double diameter) {

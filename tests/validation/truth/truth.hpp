@@ -13,7 +13,8 @@ struct RingAdhesionTruth {
   double adhesion_force = 0.0;      ///< f0 at `reference_diameter` [N/m]; f0 ~ d^(1/3) elsewhere
   double reference_diameter = 0.0;  ///< [m]
   double C_H = 0.0;                 ///< [s/m]
-  double C_A = 0.0;                 ///< [s/m]
+  double C_A = 0.0;                 ///< at `reference_diameter` [s/m]
+  double C_A_exponent = 0.0;        ///< q: C_A ~ d^q [1]; the paper's model has 0
   bool damped_in_both_phases = false;
 };
 
@@ -50,6 +51,9 @@ using Truth = std::variant<RingAdhesionTruth, ElastoplasticTruth, AdhesiveTruth>
 /// Noiseless restitution e [1] of one sphere of `diameter` [m] at `velocity` [m/s]; 0 when
 /// captured.
 double true_restitution(const Truth& truth, double diameter, double velocity);
+
+/// What the damping of the adhesion takes, of the energy that one impact loses [1].
+double adhesion_share_of_loss(const RingAdhesionTruth& truth, double diameter, double velocity);
 
 /// The velocity below which a sphere of `diameter` [m] is captured [m/s], to a relative 1e-9.
 /// @throws ComputationError when nothing is captured, or everything is up to 1000 m/s.
