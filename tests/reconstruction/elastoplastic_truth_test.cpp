@@ -110,25 +110,6 @@ TEST(ElastoplasticTruth, FlatteningMakesAdhesionStronger) {
               std::pow(yielded.unloading_radius / contact.radius, 4.0 / 3.0), 1e-9);
 }
 
-TEST(ElastoplasticTruth, YieldPressureRisesWithTheRateAndWorkOfPartingWithTarget) {
-  ElastoplasticTruth truth;
-  truth.density = 1350.0;
-  truth.reduced_modulus = 1.334e9;
-  truth.adhesion_energy = 0.2;
-  truth.hysteresis_factor = 0.5;
-  truth.hysteresis_exponent = 0.5;
-  truth.static_yield_pressure = 30e6;
-  truth.rate_velocity = 2.0;
-  truth.rate_exponent = 0.5;
-  ElastoplasticContact contact = fluorescein();
-  contact.adhesion_energy = 0.2;
-  contact.hysteresis = 0.4;  // 0.5 0.2 16^0.5
-  // (16 / 2)^(3/5) 10 / 4.9 = 7.1065352, and 30 (1 + 7.1065352)^(5/6) = 171.58684.
-  contact.yield_pressure = 171.58684e6;
-  EXPECT_NEAR(true_restitution(truth, 4.9e-6, 16.0),
-              elastoplastic_impact(contact, 16.0).restitution, 1e-7);
-}
-
 RC_GTEST_PROP(ElastoplasticTruth, NeverGivesMoreThanItGot, ()) {
   const auto between = [](double low, double high) {
     return low * std::pow(high / low, *rc::gen::inRange(0, 10001) / 10000.0);

@@ -100,6 +100,21 @@ TEST(RingAdhesionTruth, DampingBothPhasesDoublesTheSmallLoss) {
   EXPECT_NEAR(loss() / rebound_only, 2.0, 1e-3);
 }
 
+TEST(RingAdhesionTruth, AdhesionLossIsTheWholeLossWithoutTheOther) {
+  RingAdhesionContact contact = fluorescein_on_molybdenum();
+  contact.C_A = 0.03;
+  const RingAdhesionImpact alone = ring_adhesion_impact(contact, 5.2);
+  EXPECT_NEAR(alone.adhesion_loss, 1.0 - alone.restitution * alone.restitution, 1e-9);
+  // A captured sphere is at rest when it turns inwards: it has lost more than it brought.
+  EXPECT_GT(ring_adhesion_impact(contact, 0.5).adhesion_loss, 1.0);
+  contact.C_H = 1e-7;  // small losses add
+  const double more = 1.0 - std::pow(ring_adhesion_impact(contact, 5.2).restitution, 2);
+  contact.C_A = 0.0;
+  const RingAdhesionImpact other = ring_adhesion_impact(contact, 5.2);
+  EXPECT_EQ(other.adhesion_loss, 0.0);
+  EXPECT_NEAR(more - alone.adhesion_loss, 1.0 - other.restitution * other.restitution, 1e-6);
+}
+
 TEST(RingAdhesionTruth, OnlyTheThreeVelocitiesCount) {
   // e depends on V/V_a, C_H V_a and C_A V_a alone.
   RingAdhesionContact one = fluorescein_on_molybdenum();

@@ -308,46 +308,6 @@ FactOutcome size_dependence(const FactContext& context, const FactLimits& limits
                       most, limits.at("least"))};
 }
 
-FactOutcome adhesion_onset(const FactContext& context, const FactLimits& limits) {
-  const Truth bare = without_adhesion(context.recipe.truth);
-  double above = 0.0;
-  double at_lowest = 1.0;
-  for (const RecipeSeries& series : context.recipe.series) {
-    for (std::size_t i = 0; i < series.velocities.size(); ++i) {
-      const double velocity = series.velocities[i];
-      const double cost = true_restitution(bare, series.diameter, velocity) -
-                          true_restitution(context.recipe.truth, series.diameter, velocity);
-      if (velocity >= limits.at("velocity")) above = std::max(above, cost);
-      if (i == 0) at_lowest = std::min(at_lowest, cost);
-    }
-  }
-  return {above <= limits.at("most_above") && at_lowest >= limits.at("least_at_lowest"),
-          fmt::format("adhesion costs at most {:.3f} of e from {:g} m/s on, and at least {:.2f} at "
-                      "the lowest velocities",
-                      above, limits.at("velocity"), at_lowest)};
-}
-
-FactOutcome highest_restitution(const FactContext& context, const FactLimits& limits) {
-  const Truth& truth = context.recipe.truth;
-  const double diameter = limits.at("diameter");
-  const double last = context.recipe.series.back().velocities.back();
-  double highest = 0.0;
-  double where = 0.0;
-  for (const double velocity : log_grid(1.01 * true_capture_velocity(truth, diameter), last, 200)) {
-    const double e = true_restitution(truth, diameter, velocity);
-    if (e > highest) {
-      highest = e;
-      where = velocity;
-    }
-  }
-  const double fall = highest - true_restitution(truth, diameter, last);
-  return {within(where, limits.at("from"), limits.at("to")) && fall >= limits.at("least_fall"),
-          fmt::format("e is highest, {:.3f}, at {:.1f} m/s (allowed {:g} .. {:g}) and falls by "
-                      "{:.3f} up to {:g} m/s (at least {:.3f})",
-                      highest, where, limits.at("from"), limits.at("to"), fall, last,
-                      limits.at("least_fall"))};
-}
-
 FactOutcome falls_below(const FactContext& context, const FactLimits& limits) {
   const double onset = limits.at("velocity");
   bool steady = true;
@@ -384,7 +344,6 @@ const std::vector<FactKind>& monodisperse_facts() {
       {"target-independence", {"velocity", "most"}, target_independence},
       {"target-dependence", {"velocity", "least"}, target_dependence},
       {"size-dependence", {"velocity", "least"}, size_dependence},
-      {"adhesion-onset", {"velocity", "most_above", "least_at_lowest"}, adhesion_onset},
       {"falls-below", {"velocity", "least_fall"}, falls_below},
       {"printed-constants",
        {"diameter", "stiffness_K", "adhesion_energy", "adhesion_force_f0", "tolerance"},
@@ -394,7 +353,6 @@ const std::vector<FactKind>& monodisperse_facts() {
        two_point_runs_low},
       {"two-point-agrees", {"calibrated_on", "low_on", "away", "most"}, two_point_agrees},
       {"adhesion-share", {"diameter", "velocity", "least"}, adhesion_share},
-      {"highest-restitution", {"diameter", "from", "to", "least_fall"}, highest_restitution},
   };
   return catalogue;
 }

@@ -54,27 +54,13 @@ Truth read_ring_adhesion_truth(TomlTable& table, const Recipe& recipe) {
   return truth;
 }
 
-Truth read_elastoplastic_truth(TomlTable& table, const Recipe& recipe) {
-  ElastoplasticTruth truth;
-  truth.density = recipe.particle.density;
-  truth.reduced_modulus = derive_recipe_contact(recipe.particle, recipe.surface).reduced_modulus;
-  truth.adhesion_energy = table.positive("adhesion_energy");
-  truth.hysteresis_factor = table.not_negative("hysteresis_factor");
-  truth.hysteresis_exponent = table.not_negative("hysteresis_exponent");
-  truth.static_yield_pressure = table.positive("static_yield_pressure");
-  truth.rate_velocity = table.positive("rate_velocity");
-  truth.rate_exponent = table.not_negative("rate_exponent");
-  return truth;
-}
-
 Truth read_truth(TomlTable table, const Recipe& recipe) {
   const std::string model = table.text("model");
-  if (model != "ring-adhesion" && model != "elastoplastic") {
+  if (model != "ring-adhesion") {
     table.fail("model", fmt::format("unknown truth {}", quote(model)), "",
-               "write \"ring-adhesion\" or \"elastoplastic\"");
+               "write \"ring-adhesion\"");
   }
-  Truth truth = model == "ring-adhesion" ? read_ring_adhesion_truth(table, recipe)
-                                         : read_elastoplastic_truth(table, recipe);
+  Truth truth = read_ring_adhesion_truth(table, recipe);
   table.finish();
   return truth;
 }

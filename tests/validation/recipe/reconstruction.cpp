@@ -100,7 +100,7 @@ Dataset regenerate(const Dataset& original, const Recipe& recipe, std::uint64_t 
 
 std::map<std::string, double> true_parameters(const Recipe& recipe) {
   const auto* ring = std::get_if<RingAdhesionTruth>(&recipe.truth);
-  if (ring == nullptr) return {};
+  if (ring == nullptr || ring->C_A_exponent != 0.0) return {};
   return {{"C_H", ring->C_H},
           {"C_A", ring->C_A},
           {"f0", ring->adhesion_force},

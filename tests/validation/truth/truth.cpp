@@ -5,16 +5,12 @@
 
 #include "core/error.hpp"
 #include "validation/truth/adhesive_truth.hpp"
-#include "validation/truth/elastoplastic_truth.hpp"
 #include "validation/truth/ring_adhesion_truth.hpp"
 
 namespace recoil {
 namespace {
 
 using std::numbers::pi;
-
-/// To which `rate_velocity` belongs [m].
-constexpr double rate_diameter = 10e-6;
 
 double mass_of(double density, double diameter) {
   return density * pi / 6.0 * diameter * diameter * diameter;
@@ -34,24 +30,6 @@ RingAdhesionImpact impact_of(const RingAdhesionTruth& truth, double diameter, do
 }
 
 double restitution(const RingAdhesionTruth& truth, double diameter, double velocity) {
-  return impact_of(truth, diameter, velocity).restitution;
-}
-
-ElastoplasticImpact impact_of(const ElastoplasticTruth& truth, double diameter, double velocity) {
-  ElastoplasticContact contact;
-  contact.reduced_modulus = truth.reduced_modulus;
-  contact.radius = 0.5 * diameter;
-  contact.mass = mass_of(truth.density, diameter);
-  contact.adhesion_energy = truth.adhesion_energy;
-  contact.hysteresis = truth.hysteresis_factor * truth.adhesion_energy *
-                       std::pow(velocity, truth.hysteresis_exponent);
-  const double rate = std::pow(velocity / truth.rate_velocity, 0.6) * (rate_diameter / diameter);
-  contact.yield_pressure =
-      truth.static_yield_pressure * std::pow(1.0 + rate, 5.0 / 3.0 * truth.rate_exponent);
-  return elastoplastic_impact(contact, velocity);
-}
-
-double restitution(const ElastoplasticTruth& truth, double diameter, double velocity) {
   return impact_of(truth, diameter, velocity).restitution;
 }
 
@@ -105,7 +83,6 @@ double true_capture_velocity(const Truth& truth, double diameter) {
 
 Truth without_adhesion(Truth truth) {
   if (auto* ring = std::get_if<RingAdhesionTruth>(&truth)) ring->adhesion_force = 0.0;
-  if (auto* plastic = std::get_if<ElastoplasticTruth>(&truth)) plastic->adhesion_energy = 0.0;
   if (auto* adhesive = std::get_if<AdhesiveTruth>(&truth)) adhesive->work = 0.0;
   return truth;
 }

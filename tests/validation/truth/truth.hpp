@@ -18,23 +18,6 @@ struct RingAdhesionTruth {
   bool damped_in_both_phases = false;
 };
 
-/// A truth made by yield and adhesion, see `ElastoplasticContact`. The yield pressure rises with
-/// the rate of straining, which in a Hertz contact is (a / r) / t_c ~ V^(3/5) / d, and the work of
-/// parting with the speed at which the contact edge runs (Gent & Schultz 1972; Maugis & Barquins
-/// 1978), a / t_c ~ V^(3/5). With the impact velocity V in their place
-///   p_Y = p_0 (1 + (V / V_0)^(3/5) (10 um) / d)^(5q/3),   dw = s w (V / (1 m/s))^k.
-/// Both exponents are of the form, not of a theory: 0 gives constants.
-struct ElastoplasticTruth {
-  double density = 0.0;                ///< of the sphere [kg/m3]
-  double reduced_modulus = 0.0;        ///< E* [Pa]
-  double adhesion_energy = 0.0;        ///< w [J/m2]
-  double hysteresis_factor = 0.0;      ///< s, what parting costs more at 1 m/s over w [1]
-  double hysteresis_exponent = 0.0;    ///< k [1]
-  double static_yield_pressure = 0.0;  ///< p_0 [Pa]
-  double rate_velocity = 0.0;          ///< V_0, of 10 um [m/s]
-  double rate_exponent = 0.0;          ///< q [1]
-};
-
 /// A truth made by another law of adhesion, see `AdhesiveContact`.
 struct AdhesiveTruth {
   bool jkr = true;         ///< else DMT
@@ -46,7 +29,7 @@ struct AdhesiveTruth {
   bool damped_in_both_phases = false;
 };
 
-using Truth = std::variant<RingAdhesionTruth, ElastoplasticTruth, AdhesiveTruth>;
+using Truth = std::variant<RingAdhesionTruth, AdhesiveTruth>;
 
 /// Noiseless restitution e [1] of one sphere of `diameter` [m] at `velocity` [m/s]; 0 when
 /// captured.
