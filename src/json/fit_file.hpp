@@ -351,8 +351,9 @@ struct FitFile {
   struct Compared {
     std::string dataset;
     ComparisonWay id = ComparisonWay::two_point;
-    OrReason<double> f0, C_H, C_A, rmse, held_out_rmse;
-    RECOIL_FIELDS(dataset, id, f0, C_H, C_A, rmse, held_out_rmse)
+    OrReason<double> f0, C_H, C_A, C_H_standard_error, C_A_standard_error, rmse, held_out_rmse;
+    RECOIL_FIELDS(dataset, id, f0, C_H, C_A, C_H_standard_error, C_A_standard_error, rmse,
+                  held_out_rmse)
   };
 
   struct Start {

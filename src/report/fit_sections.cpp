@@ -140,7 +140,10 @@ Section comparison_section(const Analysis& a) {
   Blocks blocks;
   std::vector<Sentence> sentences;
   for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
-    blocks.emplace_back(two_point_table(a, comparison));
+    if (a.datasets.size() > 1) {
+      blocks.emplace_back(two_point_table(a, comparison));
+      std::get<Table>(blocks.back()).caption = short_name(a.datasets, comparison.dataset);
+    }
     blocks.emplace_back(two_point_spread_table(a, comparison));
     sentences.push_back(say("two points, {}: {}", words_of(to_string(comparison.result.status)),
                             two_point_words(a.fitted, comparison.dataset, comparison.result)));
@@ -208,7 +211,11 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
   std::vector<Section> sections = {std::move(answer)};
   sections.push_back({"picture", "", {}, {answer_figures(a, panels)}});
   sections.push_back({"capture", "Capture velocity", {}, {capture_table(a)}});
-  sections.push_back({"parameters", "Parameters", {}, {parameters_table(a)}});
+  Section parameters{"parameters", "Parameters", {}, {parameters_table(a)}};
+  if (a.datasets.size() == 1 && !a.uncertainty.two_point.empty()) {
+    parameters.blocks.emplace_back(two_point_table(a, a.uncertainty.two_point.front()));
+  }
+  sections.push_back(std::move(parameters));
   if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
   sections.push_back({"warning", "", {}, gravest_warning(a)});
   sections.push_back(sizes_section(a, std::move(panels)));

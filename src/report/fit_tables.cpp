@@ -332,19 +332,27 @@ Sentence compared_words(ComparisonWay row) {
 Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
   const FitResult& f = a.fitted;
   Table table;
-  table.caption =
-      say("{}: two points of {}, beside all points", short_name(a.datasets, comparison.dataset),
-          diameter_sentence(comparison.result.diameter));
-  table.columns = {{}, {"C_H"}, {"C_A"}, {"f0", "N/m"}, {"rms of e"}, {"rms, held-out sizes"}};
+  table.columns = {{"with exact materials"},
+                   {"C_H", "s/m"},
+                   {"C_A", "s/m"},
+                   {"f0", "N/m"},
+                   {"rms of e"},
+                   {"held out"}};
   const std::size_t d = comparison.dataset;
   for (const ComparisonRow& row : comparison.rows) {
     const auto f0 = row.theta.empty() ? std::nullopt
                                       : std::optional(adhesion_force_under(f.model, row.theta, d));
-    table.rows.push_back({compared_words(row.row),
-                          number_at(row.theta, f.model.slot_C_H[d], significant(3)),
-                          number_at(row.theta, f.model.slot_C_A[d], significant(3)),
-                          cell_if(number_if(f0, significant(3))), cell_if(number_if(row.rmse, {})),
-                          cell_if(number_if(row.held_out_rmse, {}))});
+    const auto damping = [&](std::size_t slot) -> Cell {
+      if (row.standard_errors.empty()) return number_at(row.theta, slot, significant(3));
+      return Number{row.theta[slot], significant(3), row.standard_errors[slot]};
+    };
+    table.rows.push_back(
+        {row.row == ComparisonWay::two_point
+             ? say("two points of {}", diameter_sentence(comparison.result.diameter))
+             : Sentence(compared_words(row.row)),
+         damping(f.model.slot_C_H[d]), damping(f.model.slot_C_A[d]),
+         cell_if(number_if(f0, significant(3))), cell_if(number_if(row.rmse, {})),
+         cell_if(number_if(row.held_out_rmse, {}))});
   }
   return table;
 }

@@ -467,6 +467,10 @@ FitFile::Compared compared_entry(const Analysis& a, const TwoPointComparison& co
   out.f0 = {f0, row.failure};
   out.C_H = {at(row.theta, model.slot_C_H[d]), row.failure};
   out.C_A = {at(row.theta, model.slot_C_A[d]), row.failure};
+  const std::string no_errors =
+      row.failure.empty() ? "two points leave nothing to estimate an error from" : row.failure;
+  out.C_H_standard_error = {at(row.standard_errors, model.slot_C_H[d]), no_errors};
+  out.C_A_standard_error = {at(row.standard_errors, model.slot_C_A[d]), no_errors};
   out.rmse = {row.rmse, row.failure};
   out.held_out_rmse = {row.held_out_rmse,
                        row.failure.empty() ? held_out_why(comparison) : row.failure};

@@ -96,9 +96,7 @@ std::string provenance_sentence(Provenance provenance) {
     case Provenance::digitised:
       return "These points were read off a published figure, which adds an error of reading.";
     case Provenance::reconstruction:
-      return "A recipe generated these points from published facts and not one of them was "
-             "measured: "
-             "the result tests the method, not the experiment.";
+      return "Made by a recipe from published facts, not measured: it tests the method alone.";
     case Provenance::synthetic:
       return "These points were simulated with known parameters to test the method.";
   }

@@ -8,6 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "estimate/constant_effects.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
@@ -69,6 +70,18 @@ FitResult with_adhesion(const FitResult& fitted, bool free) {
     slot.free = free;
   }
   return fit(model, fitted.data);
+}
+
+/// Standard errors [slots] of a fit whose constants are exact: its own without `constant_effects`.
+std::vector<double> errors_with_exact_constants(const FitResult& fitted) {
+  std::vector<double> covariance = fitted.covariance;
+  add_constant_effects(fitted.constant_effects, covariance, -1.0);
+  const std::size_t slots = fitted.theta.size();
+  std::vector<double> errors;
+  for (std::size_t j = 0; j < slots && covariance.size() == slots * slots; ++j) {
+    errors.push_back(std::sqrt(std::max(0.0, covariance[j * slots + j])));
+  }
+  return errors;
 }
 
 }  // namespace
@@ -143,6 +156,7 @@ void add_comparison_rows(const FitResult& fitted, std::vector<TwoPointComparison
       const TwoPointComparison own =
           other ? compare_two_point(*other, comparison.dataset) : comparison;
       row.theta = other ? other->theta : fitted.theta;
+      row.standard_errors = errors_with_exact_constants(other ? *other : fitted);
       row.rmse = own.full_rmse;
       row.held_out_rmse = own.full_held_out_rmse;
     }

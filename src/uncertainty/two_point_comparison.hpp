@@ -42,6 +42,8 @@ struct ComparisonRow {
   std::string failure;                  ///< why there is none
   std::optional<double> rmse;           ///< of e at all points of the dataset [1]
   std::optional<double> held_out_rmse;  ///< on the diameters that the calibration did not see [1]
+  /// [slots], the constants and an f0 that is not fitted taken as exact; empty for two points.
+  std::vector<double> standard_errors = {};
 };
 
 /// Two points against all: both calibrated on one diameter, both judged on the others.

@@ -123,7 +123,7 @@ TEST(Reconstruction, ATruthThatContradictsAFactIsFound) {
   };
   CopiedDatasets copies;
   // More damping returns far less than half of the energy at 100 m/s, and makes a target differ.
-  copies.change("wall1990-molybdenum/recipe.toml", "C_H = 3.75e-3", "C_H = 9e-3");
+  copies.change("wall1990-molybdenum/recipe.toml", "C_H = 3.75e-3  ", "C_H = 9e-3  ");
   EXPECT_TRUE(fails(copies, "wall1990-molybdenum", "high-velocity-loss"));
   EXPECT_TRUE(fails(copies, "wall1990-molybdenum", "target-independence"));
   EXPECT_TRUE(fails(copies, "wall1990-molybdenum", "adhesion-share"));
@@ -131,12 +131,12 @@ TEST(Reconstruction, ATruthThatContradictsAFactIsFound) {
   EXPECT_TRUE(fails(copies, "wall1990-mica", "target-independence"));
   // A C_A that falls steeply with the size puts the curve far too low at 2.58 um, and off
   // elsewhere.
-  copies.change("wall1990-mica/recipe.toml", "C_A_exponent = 0.15 ", "C_A_exponent = 0.8 ");
+  copies.change("wall1990-mica/recipe.toml", "C_A_exponent = 0.15 ", "C_A_exponent = 1.2 ");
   EXPECT_TRUE(fails(copies, "wall1990-mica", "capture-slope"));
   EXPECT_TRUE(fails(copies, "wall1990-mica", "two-point-runs-low"));
   EXPECT_TRUE(fails(copies, "wall1990-mica", "two-point-agrees"));
   // Spheres that are not damped lose nothing at high velocity.
-  copies.change("wall1990-silicon/recipe.toml", "C_H = 3.75e-3", "C_H = 0   ");
+  copies.change("wall1990-silicon/recipe.toml", "C_H = 3.75e-3  ", "C_H = 0  ");
   EXPECT_TRUE(fails(copies, "wall1990-silicon", "high-velocity-loss"));
   // Starting below the capture velocity makes captures.
   copies.change("dahneke1975-quartz/recipe.toml", "from = 2.5", "from = 0.5");
