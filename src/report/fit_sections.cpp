@@ -211,11 +211,11 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
   std::vector<Section> sections = {std::move(answer)};
   sections.push_back({"picture", "", {}, {answer_figures(a, panels)}});
   sections.push_back({"capture", "Capture velocity", {}, {capture_table(a)}});
-  Section parameters{"parameters", "Parameters", {}, {parameters_table(a)}};
+  sections.push_back({"parameters", "Parameters", {}, {parameters_table(a)}});
   if (a.datasets.size() == 1 && !a.uncertainty.two_point.empty()) {
-    parameters.blocks.emplace_back(two_point_table(a, a.uncertainty.two_point.front()));
+    sections.push_back(
+        {"calibrations", "", {}, {two_point_table(a, a.uncertainty.two_point.front())}});
   }
-  sections.push_back(std::move(parameters));
   if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
   sections.push_back({"warning", "", {}, gravest_warning(a)});
   sections.push_back(sizes_section(a, std::move(panels)));

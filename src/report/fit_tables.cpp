@@ -145,6 +145,7 @@ Table capture_table(const Analysis& a) {
 Table parameters_table(const Analysis& a) {
   const FitResult& f = a.fitted;
   Table table;
+  table.compact = true;
   table.columns = {{"parameter"},
                    {say("estimate {+/-} standard error")},
                    {level_of(a) + " interval"},
@@ -157,9 +158,9 @@ Table parameters_table(const Analysis& a) {
     double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
     if (follows) error = s < a.uncertainty.budgets.size() ? a.uncertainty.budgets[s].sd : 0.0;
     if (!std::isfinite(error)) error = 0.0;
-    table.rows.push_back({labelled(slot),
-                          Number{acting_value(f.model, f.theta, s), significant(4), error},
-                          interval_cell(interval), Sentence(remark_of(f, s, interval))});
+    table.rows.push_back(
+        {labelled(slot), Number{acting_value(f.model, f.theta, s), significant(4), error},
+         interval_cell(interval, significant(3)), Sentence(remark_of(f, s, interval))});
   }
   return table;
 }
@@ -333,8 +334,8 @@ Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
   const FitResult& f = a.fitted;
   Table table;
   table.columns = {{"with exact materials"},
-                   {"C_H", "s/m"},
-                   {"C_A", "s/m"},
+                   {symbol("C_H"), "s/m"},
+                   {symbol("C_A"), "s/m"},
                    {"f0", "N/m"},
                    {"rms of e"},
                    {"held out"}};
