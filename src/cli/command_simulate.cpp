@@ -167,12 +167,13 @@ Table sensitivities(const ImpactConditions& c, const ImpactResult& impact, const
         {name, Number{0.5 * slope * value / impact.restitution_squared, signed_fixed(5)}});
   };
   line("incident velocity", s.velocity, c.velocity);
-  line(say("diameter ({f0} held)"), s.diameter, c.diameter);
+  const bool flat = !dataset.system.surface_diameter;
+  if (flat) line(say("diameter ({f0} held)"), s.diameter, c.diameter);
   line(say("{C_H}"), s.hertz_damping, c.hertz_damping);
   line(say("{C_A}"), s.adhesion_damping, c.adhesion_damping);
   line(say("{f0}"), s.adhesion_force, c.adhesion_force);
   line(say("{K}"), s.stiffness, c.stiffness);
-  line("density", s.density, c.density);
+  if (flat) line("density", s.density, c.density);
   if (dataset.system.stiffness_K) return table;
   const StiffnessSensitivity k = stiffness_sensitivity(dataset.system);
   const Material& sphere = dataset.system.particle;

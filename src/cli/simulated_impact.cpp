@@ -49,12 +49,12 @@ Json contact_json(const SimulatedImpact& s) {
   const bool captured = s.impact.outcome == ImpactOutcome::captured;
   const double e = std::sqrt(std::max(s.impact.restitution_squared, 0.0));
   return {{"incident_velocity", s.conditions.velocity},
-          {"diameter_um", s.conditions.diameter / units::um},
+          {"diameter_um", s.diameter / units::um},
           {"restitution", captured ? Json(0.0) : number_or_null(e)},
           {"outcome", to_string(s.impact.outcome)},
           {"stiffness_K_Pa", number_or_null(s.conditions.stiffness)},
           {"f0_N_per_m", number_or_null(s.conditions.adhesion_force)},
-          {"density_kg_per_m3", number_or_null(s.conditions.density)},
+          {"density_kg_per_m3", number_or_null(s.density)},
           {"contact_time_s", number_or_null(s.impact.contact_time * s.scales.time)},
           {"penetration_m", number_or_null(s.impact.penetration_max * s.scales.length)},
           {"largest_push_N", number_or_null(s.impact.force_compression * s.scales.force)},
@@ -70,6 +70,8 @@ SimulatedImpact simulate_at(const ImpactModel& model, const std::vector<Dataset>
   out.asked = at;
   const std::vector<double> theta = model.initial();
   out.conditions = conditions_at(model, theta, at.dataset, at.diameter, at.velocity);
+  out.diameter = at.diameter;
+  out.density = materials_under(model, theta, at.dataset).density;
   out.groups = impact_groups(out.conditions);
   out.scales = impact_scales(out.conditions);
   ImpactOptions options;
@@ -87,7 +89,7 @@ SimulatedImpact simulate_at(const ImpactModel& model, const std::vector<Dataset>
     out.scales = view.scales;
     options.dashpot = true;
     out.conditions.velocity = view.encounter.velocity;
-    out.conditions.diameter = view.encounter.diameter;
+    out.diameter = value_of(view.encounter.diameter);
     out.conditions.adhesion_force = view.encounter.adhesion_force;
   }
   out.impact = simulate_impact(out.groups, options, &out.history);

@@ -22,6 +22,8 @@ struct SimulatedImpact {
   double restitution_squared = 0.0;  ///< as measured; below zero for a capture, see ImpactResult
   bool extended = false;             ///< mechanisms act
   ImpactConditions conditions;       ///< at the contact
+  double diameter = 0.0;             ///< of the sphere, at the contact [m]
+  double density = 0.0;              ///< of the sphere [kg/m3]
   ImpactGroups groups;
   ImpactScales scales;
   ImpactResult impact;  ///< of the base model, with budget and gradient

@@ -63,11 +63,35 @@ double sphere_mass(double diameter, double density) {
   return density * pi / 6.0 * diameter * diameter * diameter;
 }
 
+double ContactProperties::relative_radius(double diameter) const {
+  const double radius = diameter / 2.0;
+  return surface_diameter > 0.0 ? radius / (1.0 + diameter / surface_diameter) : radius;
+}
+
+double ContactProperties::reduced_mass(double diameter, double density) const {
+  const double mass = sphere_mass(diameter, density);
+  if (surface_diameter == 0.0) return mass;
+  return mass / (1.0 + mass / sphere_mass(surface_diameter, surface_density));
+}
+
+double ContactProperties::adhesion_force_at(double f0_reference, double diameter) const {
+  return f0_reference * std::cbrt(relative_radius(diameter) / relative_radius(reference_diameter));
+}
+
+ContactProperties::OneSphere ContactProperties::as_one_sphere(double diameter,
+                                                              double density) const {
+  if (surface_diameter == 0.0) return {diameter, density};
+  const double equal = 2.0 * relative_radius(diameter);
+  return {equal, reduced_mass(diameter, density) / sphere_mass(equal, 1.0)};
+}
+
 ContactProperties derive_contact(const ImpactSystem& system, double reference_diameter) {
   ContactProperties contact;
   contact.reference_diameter = system.reference_diameter.value_or(reference_diameter);
-  const double radius = contact.reference_diameter / 2.0;
   contact.particle_density = system.particle.density;
+  contact.surface_diameter = system.surface_diameter.value_or(0.0);
+  contact.surface_density = system.surface.density;
+  const double radius = contact.relative_radius(contact.reference_diameter);
 
   contact.k_particle = compliance(system.particle.youngs_modulus, system.particle.poisson_ratio);
   contact.k_surface = compliance(system.surface.youngs_modulus, system.surface.poisson_ratio);

@@ -27,7 +27,24 @@ struct ContactProperties {
   double adhesion_force = 0.0;            ///< the f0 that is used, at the reference diameter [N/m]
   double reference_diameter = 0.0;        ///< [m]
   double particle_density = 0.0;          ///< [kg/m3]
+  double surface_diameter = 0.0;          ///< of a second, free sphere [m]; 0: a flat
+  double surface_density = 0.0;           ///< of that sphere [kg/m3]
   std::vector<std::string> contradictions;  ///< what disagrees, and which value is used
+
+  /// Relative radius R* of curvature where a sphere of `diameter` [m] touches: 1 / R* = 2 / d, and
+  /// 2 / d2 more for a second sphere (Johnson 1985, Contact Mechanics, eq. 4.17) [m].
+  double relative_radius(double diameter) const;
+  /// Mass m* that the relative motion has: that of the sphere; with a second one, 1 / m* = 1 / m1 +
+  /// 1 / m2 [kg].
+  double reduced_mass(double diameter, double density) const;
+  /// f0 at another diameter by f0 ~ R*^(1/3), eq. 12 [N/m].
+  double adhesion_force_at(double f0_reference, double diameter) const;
+  /// The sphere that moves against a flat as the bodies move against one another: its diameter is
+  /// 2 R* [m], and its density gives it the mass m* [kg/m3].
+  struct OneSphere {
+    double diameter = 0.0, density = 0.0;
+  };
+  OneSphere as_one_sphere(double diameter, double density) const;
 };
 
 /// Do a stated and a derived value differ by more than the rounding of printed digits, 2 %?

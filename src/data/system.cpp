@@ -73,7 +73,10 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
   const JsonNode node =
       recoil.require(to_string(body), "both bodies decide how stiff and sticky the contact is",
                      "state its material, youngs_modulus and poisson_ratio");
-  node.allow_only({"material", "density", "youngs_modulus", "poisson_ratio", "surface_energy"});
+  std::vector<std::string> keys = {"material", "density", "youngs_modulus", "poisson_ratio",
+                                   "surface_energy"};
+  if (body == Body::surface) keys.emplace_back("diameter");
+  node.allow_only(keys);
   const auto within = [&](const JsonNode& stated, Constant which, const Range& range) {
     return uncertain_constant(stated, body, which, system,
                               [&](const JsonNode& value) { return bounded(value, range); });
@@ -93,6 +96,18 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
       body, Constant::poisson_ratio, system, poisson_ratio);
   if (const auto energy = node.find("surface_energy")) {
     material.surface_energy = within(*energy, Constant::surface_energy, limits::surface_energy);
+  }
+  if (const auto diameter = node.find("diameter")) {
+    system.surface_diameter = bounded(*diameter, limits::diameter);
+    node.require("density", "a surface with a diameter is a sphere, and its mass follows from it",
+                 "give it in kg/m3, or leave out the diameter of a flat");
+    // The mass that moves is no power of the densities of two spheres.
+    for (const ConstantError& error : system.errors) {
+      if (error.constant != Constant::density) continue;
+      node.fail("two spheres, one with an uncertain density",
+                "the error of a density is carried for a sphere on a flat alone",
+                "state the densities without errors");
+    }
   }
   return material;
 }

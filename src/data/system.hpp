@@ -128,6 +128,7 @@ struct Material {
 struct ImpactSystem {
   Material particle;
   Material surface;
+  std::optional<double> surface_diameter;    ///< of a second, free sphere [m]; a flat without it
   std::optional<double> stiffness_K;         ///< K [Pa], instead of eq. 6
   std::optional<double> adhesion_energy;     ///< W_A [J/m2], instead of 2 sqrt(gamma1 gamma2)
   std::optional<double> adhesion_force_f0;   ///< f0 [N/m] at `reference_diameter`, not by eq. 12

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "estimate/residual.hpp"
 
@@ -36,8 +35,8 @@ std::vector<MisfitCell> misfit_map(const FitResult& fitted) {
     cell.diameter = std::get<1>(key);
     cell.points = static_cast<int>(members.size());
     cell.slowest = INFINITY;
-    const double density = fitted.model.contacts[cell.dataset].particle_density;
-    const double mass = density * std::numbers::pi / 6.0 * std::pow(cell.diameter, 3);
+    const ContactProperties& contact = fitted.model.contacts[cell.dataset];
+    const double mass = contact.reduced_mass(cell.diameter, contact.particle_density);
     double weights = 0.0, weighted = 0.0;
     for (const std::size_t i : members) {
       const Observation& point = points[i];

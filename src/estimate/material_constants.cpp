@@ -82,9 +82,9 @@ std::vector<UncertainConstant> uncertain_constants(const std::vector<Dataset>& d
   return all;
 }
 
-MaterialLaw::MaterialLaw(const ImpactSystem& system, double reference_diameter,
+MaterialLaw::MaterialLaw(const ImpactSystem& system, const ContactProperties& contact,
                          const std::vector<UncertainConstant>& all, std::size_t dataset)
-    : system_(system), reference_diameter_(reference_diameter) {
+    : system_(system), relative_radius_(contact.relative_radius(contact.reference_diameter)) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto& its = all[k].datasets;
     if (std::find(its.begin(), its.end(), dataset) == its.end()) continue;
@@ -157,7 +157,7 @@ MaterialState MaterialLaw::at(std::span<const double> values) const {
   state.adhesion_energy = s.adhesion_energy.value_or(
       2.0 * std::sqrt(energy(s.particle, gilman[0]) * energy(s.surface, gilman[1])));
   state.adhesion_force = s.adhesion_force_f0.value_or(
-      adhesion_force_for(state.adhesion_energy, reference_diameter_ / 2.0, state.stiffness));
+      adhesion_force_for(state.adhesion_energy, relative_radius_, state.stiffness));
   const auto waves_in = [](const ImpactSystem& system) {
     return system.surface.density > 0.0 ? system.surface.density : system.particle.density;
   };

@@ -50,7 +50,7 @@ struct MaterialSlope {
 class MaterialLaw {
  public:
   /// Which of the constants of `all` act on `dataset`.
-  MaterialLaw(const ImpactSystem& system, double reference_diameter,
+  MaterialLaw(const ImpactSystem& system, const ContactProperties& contact,
               const std::vector<UncertainConstant>& all, std::size_t dataset);
 
   /// Does none act?
@@ -68,7 +68,7 @@ class MaterialLaw {
   ImpactSystem with(std::span<const double> values, std::array<double, 2>& gilman) const;
 
   ImpactSystem system_;
-  double reference_diameter_;
+  double relative_radius_;  // at the reference diameter [m]
   std::vector<Acting> acting_;
   double mobility_ = 0.0;                 // as stated
   std::array<double, 2> radiation_ = {};  // first two derivatives of ln c(nu) of half_space.hpp

@@ -169,7 +169,7 @@ void add_constants(ImpactModel& model, const std::vector<Dataset>& datasets) {
       std::any_of(model.chain.begin(), model.chain.end(),
                   [](const Mechanism* mechanism) { return mechanism->info.needs_adhesion; });
   for (std::size_t d = 0; d < datasets.size(); ++d) {
-    const MaterialLaw law(datasets[d].system, model.contacts[d].reference_diameter, all, d);
+    const MaterialLaw law(datasets[d].system, model.contacts[d], all, d);
     const ParameterSlot& adhesion = model.slots[model.slot_adhesion[d]];
     const bool follows = adhesion.derived && !adhesion.free && adhesion.initial > 0.0;
     for (const MaterialSlope& slope : law.slopes(stated)) {
@@ -300,8 +300,7 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     model = with_adjusted_materials(std::move(model));
   }
   for (std::size_t d = 0; d < datasets.size(); ++d) {
-    model.materials.emplace_back(datasets[d].system, model.contacts[d].reference_diameter,
-                                 model.constants, d);
+    model.materials.emplace_back(datasets[d].system, model.contacts[d], model.constants, d);
   }
   return model;
 }
@@ -323,10 +322,11 @@ double adhesion_force_under(const ImpactModel& model, std::span<const double> th
     if (ring) return follows ? value * now.adhesion_force / contact.adhesion_force : value;
     return adhesion_force_for(
         follows ? value * now.adhesion_energy / contact.adhesion_energy : value,
-        contact.reference_diameter / 2.0, now.stiffness);
+        contact.relative_radius(contact.reference_diameter), now.stiffness);
   }
   if (ring) return value;
-  return adhesion_force_for(value, contact.reference_diameter / 2.0, contact.stiffness);
+  return adhesion_force_for(value, contact.relative_radius(contact.reference_diameter),
+                            contact.stiffness);
 }
 
 bool without_adhesion(const ImpactModel& model, std::size_t dataset) {
@@ -455,12 +455,12 @@ ImpactConditions conditions_at(const ImpactModel& model, std::span<const double>
   assert(theta.size() == model.slots.size());
   const ContactProperties& contact = model.contacts[dataset];
   const MaterialState now = materials_under(model, theta, dataset);
-  return {diameter,
+  const auto [equal, density] = contact.as_one_sphere(diameter, now.density);
+  return {equal,
           velocity,
-          now.density,
+          density,
           now.stiffness,
-          adhesion_force_at(adhesion_force_under(model, theta, dataset), contact.reference_diameter,
-                            diameter),
+          contact.adhesion_force_at(adhesion_force_under(model, theta, dataset), diameter),
           theta[model.slot_C_H[dataset]],
           theta[model.slot_C_A[dataset]],
           model.separation};

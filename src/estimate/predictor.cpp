@@ -63,10 +63,10 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
       const PointConditions& p = points_[i];
       ImpactConditions unit = conditions_at(model, initial, p.dataset, p.diameter, p.velocity);
       // Of the stated materials, whatever the model starts with: theta scales these.
-      unit.density = model.contacts[p.dataset].particle_density;
-      unit.stiffness = model.contacts[p.dataset].stiffness;
-      unit.adhesion_force =
-          adhesion_force_at(1.0, model.contacts[p.dataset].reference_diameter, p.diameter);
+      const ContactProperties& stated = model.contacts[p.dataset];
+      unit.density = stated.as_one_sphere(p.diameter, stated.particle_density).density;
+      unit.stiffness = stated.stiffness;
+      unit.adhesion_force = stated.adhesion_force_at(1.0, p.diameter);
       const ImpactGroups groups = impact_groups(unit);
       beta_per_f0_[i] = groups.beta;
       range_per_f0_[i] = groups.range;
@@ -261,10 +261,17 @@ double PointPredictor::velocity_slope(std::size_t i) const {
 
 double PointPredictor::diameter_slope(std::size_t i) const {
   if (extended_) return extended_->slopes(i)[1];
-  // beta ~ f0 / D with f0 ~ D^(1/3) (eq. 12); lambda ~ f0.
+  // beta ~ f0 R^(1/5) m^(-2/5) with f0 ~ R^(1/3) (eq. 12); lambda ~ f0. On a flat R ~ D, m ~ D^3.
   const ImpactGroups g = groups_at(i);
   const auto& by_group = results_[i].gradient;
-  return (g.range * by_group[4] - 2.0 * g.beta * by_group[1]) / (3.0 * points_[i].diameter);
+  const double diameter = points_[i].diameter;
+  const ContactProperties& contact = model_.contacts[points_[i].dataset];
+  const double of_radius = 2.0 * contact.relative_radius(diameter) / diameter;  // d ln R / d ln D
+  const double of_mass = 3.0 * contact.reduced_mass(diameter, contact.particle_density) /
+                         sphere_mass(diameter, contact.particle_density);
+  return (g.range * by_group[4] * of_radius / 3.0 +
+          g.beta * by_group[1] * (8.0 / 15.0 * of_radius - 0.4 * of_mass)) /
+         diameter;
 }
 
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,

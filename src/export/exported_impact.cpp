@@ -69,6 +69,11 @@ bool same(std::span<const double> one, std::span<const double> other) {
 /// range meets it.
 ContactForce force_at(const ImpactModel& model, std::span<const double> theta,
                       const ExportRequest& request) {
+  if (model.contacts[request.dataset].surface_diameter > 0.0) {
+    throw InputError({}, "the surface of this dataset is a sphere",
+                     "an exported impact is that of a sphere on a flat",
+                     "leave out the diameter of the surface");
+  }
   const double middle = std::sqrt(request.slowest * request.fastest);
   const ImpactConditions c = conditions_at(model, theta, request.dataset, request.diameter, middle);
   const AdhesionLaw law = traits(model.adhesion).exportable ? model.adhesion : AdhesionLaw::ring;

@@ -9,7 +9,7 @@ inline constexpr double equilibrium_separation = 0.4e-9;
 
 /// One sphere about to hit one surface, in SI units.
 struct ImpactConditions {
-  double diameter = 0.0;                       ///< [m]
+  double diameter = 0.0;                       ///< of two spheres: see `as_one_sphere` [m]
   double velocity = 0.0;                       ///< incident V [m/s], > 0
   double density = 0.0;                        ///< of the sphere [kg/m3]
   double stiffness = 0.0;                      ///< K [Pa]

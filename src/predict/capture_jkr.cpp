@@ -18,7 +18,8 @@ double stored(double cube) {
 }  // namespace
 
 CaptureContact capture_contact(const ContactProperties& contact, double diameter) {
-  return {diameter, contact.particle_density, 0.75 * contact.stiffness, contact.adhesion_energy};
+  const auto [equal, density] = contact.as_one_sphere(diameter, contact.particle_density);
+  return {equal, density, 0.75 * contact.stiffness, contact.adhesion_energy};
 }
 
 JkrEnergies jkr_energies(const CaptureContact& contact) {

@@ -73,7 +73,7 @@ FitSpec under_law(const FitSpec& spec, AdhesionLaw law, const std::vector<Datase
       next.per_dataset = stated->per_dataset;
       if (!same && stated->initial_stated) {
         const ContactProperties contact = make_model(spec, datasets).contacts.front();
-        const double radius = contact.reference_diameter / 2.0;
+        const double radius = contact.relative_radius(contact.reference_diameter);
         const bool to_energy = parameter->role == ParameterRole::adhesion_energy;
         next.initial = to_energy ? adhesion_energy_for(stated->initial, radius, contact.stiffness)
                                  : adhesion_force_for(stated->initial, radius, contact.stiffness);

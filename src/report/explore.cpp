@@ -69,6 +69,7 @@ std::string explored_panel(const Analysis& analysis, const Panel& panel,
   const ImpactModel& model = fit.model;
   const plot::Plot& shown = picture.plots.front();
   if (!model.chain.empty() || averages_over_sizes(model) || !shown.frame) return "";
+  if (model.contacts[panel.dataset].surface_diameter > 0.0) return "";  // it knows flats alone
   const ImpactConditions at = conditions_at(model, fit.theta, panel.dataset, panel.diameter, 1.0);
   const ParameterSlot& adhesion = model.slots[model.slot_adhesion[panel.dataset]];
   Json out;

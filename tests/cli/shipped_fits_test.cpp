@@ -72,23 +72,12 @@ nlohmann::json diagnosed(const std::string& fit) {
   return nlohmann::json::parse(out.read("diagnosis.json"));
 }
 
-// Its recipe put yielding and adhesion hysteresis there: no single mechanism explains it, and the
-// search for two has to find them.
-TEST(ShippedFits, DiagnosisFindsTheYieldingThatTheRecipeHid) {
+// Its recipe lets C_A grow with the size, which no mechanism does: the misfit is seen, and nothing
+// is named for it.
+TEST(ShippedFits, DiagnosisNamesNoCauseForADampingThatGrowsWithTheSize) {
   const auto answer = diagnosed("fits/wall1990-molybdenum.toml");
-  std::set<std::string> listed;
-  for (const char* key : {"named", "rivals"}) {
-    for (const std::string id : answer[key]) listed.insert(id);
-  }
-  EXPECT_TRUE(listed.count("plastic_yield")) << answer["text"];
-  EXPECT_TRUE(listed.count("crack_rate") || listed.count("adhesion_hysteresis")) << answer["text"];
-  // What took no part in making the points is not accused; that a constant share of the elastic
-  // energy beside yielding leaves the same is said.
-  for (const char* id : {"jkr_hysteresis", "plastic_yield", "crack_rate", "adhesion_hysteresis",
-                         "hysteretic_loss"}) {
-    listed.erase(id);
-  }
-  EXPECT_TRUE(listed.empty()) << answer["text"];
+  EXPECT_NE(answer["verdict"], "adequate") << answer["text"];
+  EXPECT_TRUE(answer["named"].empty()) << answer["text"];
 }
 
 // A second cause must not be invented for what a law, true but not exact, leaves.
