@@ -73,7 +73,10 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
   const JsonNode node =
       recoil.require(to_string(body), "both bodies decide how stiff and sticky the contact is",
                      "state its material, youngs_modulus and poisson_ratio");
-  node.allow_only({"material", "density", "youngs_modulus", "poisson_ratio", "surface_energy"});
+  std::vector<std::string> keys = {"material",       "density",  "youngs_modulus", "poisson_ratio",
+                                   "surface_energy", "hardness", "yield_strength"};
+  if (body == Body::surface) keys.emplace_back("relative_permittivity");
+  node.allow_only(keys);
   const auto within = [&](const JsonNode& stated, Constant which, const Range& range) {
     return uncertain_constant(stated, body, which, system,
                               [&](const JsonNode& value) { return bounded(value, range); });
@@ -94,6 +97,13 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
   if (const auto energy = node.find("surface_energy")) {
     material.surface_energy = within(*energy, Constant::surface_energy, limits::surface_energy);
   }
+  const auto optional = [&](const char* key, const Range& range) -> std::optional<double> {
+    const auto stated = node.find(key);
+    return stated ? std::optional(bounded(*stated, range)) : std::nullopt;
+  };
+  material.hardness = optional("hardness", limits::strength);
+  material.yield_strength = optional("yield_strength", limits::strength);
+  material.relative_permittivity = optional("relative_permittivity", limits::permittivity);
   return material;
 }
 
