@@ -55,6 +55,11 @@ inline constexpr Range density{25.0, 3e4, "kg/m3", "give it in kg/m3: 1 g/cm3 is
 inline constexpr Range youngs_modulus{1e3, 2e12, "Pa", "give it in Pa: 1 GPa is 1e9 Pa"};
 /// Tungsten has about 4 J/m2, cleaved diamond about 10.
 inline constexpr Range surface_energy{0.0, 20.0, "J/m2", "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2"};
+/// Hardness or yield strength, from soft gels to diamond (100 GPa).
+inline constexpr Range strength{1.0, 2e11, "Pa",
+                                "give it in Pa: 1 GPa is 1e9 Pa, HV 100 is 0.98 GPa"};
+/// Solids have 1.1 (foams) to some 1e4 (ferroelectrics).
+inline constexpr Range permittivity{1.0, 1e6, "1", "silicon has 11.7; leave it out for a metal"};
 /// W_A = 2 sqrt(gamma1 gamma2).
 inline constexpr Range adhesion_energy{
     0.0, 40.0, "J/m2", "give it in J/m2: 1 mJ/m2 is 1e-3 J/m2; 0 means no adhesion"};

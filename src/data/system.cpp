@@ -73,9 +73,9 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
   const JsonNode node =
       recoil.require(to_string(body), "both bodies decide how stiff and sticky the contact is",
                      "state its material, youngs_modulus and poisson_ratio");
-  std::vector<std::string> keys = {"material", "density", "youngs_modulus", "poisson_ratio",
-                                   "surface_energy"};
-  if (body == Body::surface) keys.emplace_back("diameter");
+  std::vector<std::string> keys = {"material",       "density",  "youngs_modulus", "poisson_ratio",
+                                   "surface_energy", "hardness", "yield_strength"};
+  if (body == Body::surface) keys.insert(keys.end(), {"relative_permittivity", "diameter"});
   node.allow_only(keys);
   const auto within = [&](const JsonNode& stated, Constant which, const Range& range) {
     return uncertain_constant(stated, body, which, system,
@@ -109,6 +109,13 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
                 "state the densities without errors");
     }
   }
+  const auto optional = [&](const char* key, const Range& range) -> std::optional<double> {
+    const auto stated = node.find(key);
+    return stated ? std::optional(bounded(*stated, range)) : std::nullopt;
+  };
+  material.hardness = optional("hardness", limits::strength);
+  material.yield_strength = optional("yield_strength", limits::strength);
+  material.relative_permittivity = optional("relative_permittivity", limits::permittivity);
   return material;
 }
 

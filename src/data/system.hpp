@@ -117,10 +117,21 @@ struct ConstantError {
 /// An elastic solid, as a dataset states it.
 struct Material {
   std::string name;
-  double density = 0.0;                  ///< [kg/m3]; 0: not stated, for the surface only
-  double youngs_modulus = 0.0;           ///< E [Pa]
-  double poisson_ratio = 0.0;            ///< nu [1], -1 < nu <= 0.5
-  std::optional<double> surface_energy;  ///< gamma [J/m2]; Gilman's estimate when absent
+  double density = 0.0;                       ///< [kg/m3]; 0: not stated, for the surface only
+  double youngs_modulus = 0.0;                ///< E [Pa]
+  double poisson_ratio = 0.0;                 ///< nu [1], -1 < nu <= 0.5
+  std::optional<double> surface_energy;       ///< gamma [J/m2]; Gilman's estimate when absent
+  std::optional<double> hardness = {};        ///< [Pa]
+  std::optional<double> yield_strength = {};  ///< in uniaxial tension or compression [Pa]
+  std::optional<double> relative_permittivity = {};  ///< of the surface [1]; absent: a conductor
+
+  /// The mean pressure at which a contact flows: the hardness, else 2.8 times the yield strength
+  /// (Tabor 1951, The Hardness of Metals), else empty [Pa].
+  std::optional<double> yield_pressure() const {
+    if (hardness) return hardness;
+    if (yield_strength) return 2.8 * *yield_strength;
+    return std::nullopt;
+  }
 };
 
 /// The two bodies of an impact, what the dataset states instead of deriving it, and the conditions

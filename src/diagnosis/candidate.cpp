@@ -184,7 +184,7 @@ const ParameterSlot& strength_at(const ImpactModel& model, const Mechanism& mech
 
 bool is_taken_away(const ImpactModel& model, const Mechanism& mechanism,
                    const PointConditions& at) {
-  if (!mechanism.info.parameters.front().stated_by) return false;
+  if (mechanism.info.parameters.front().stated_by.empty()) return false;
   const ParameterSlot& strength = strength_at(model, mechanism, at);
   return strength.stated && strength.initial == strength.parameter->null_value;
 }
@@ -207,7 +207,8 @@ AllowedValues allowed_values(const Candidate& candidate, std::span<const double>
         own.push_back(slot ? theta[*slot] : parameters[i].null_value);
       }
     }
-    spheres.push_back(plain_sphere(model.surroundings[at.dataset], at.diameter, at.velocity));
+    spheres.push_back(
+        plain_sphere(model.surroundings[at.dataset], at.diameter, at.velocity, at.series));
   }
   return allowed_values(parameter, k, own, spheres);
 }

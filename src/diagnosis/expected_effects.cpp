@@ -26,7 +26,7 @@ void add_effects(const SearchBase& base, const Mechanism& mechanism,
       if (!strength.stated || strength.initial == strength.parameter->null_value) continue;
       const double change = acted[i].restitution() - plain[i].restitution();
       if (most && std::abs(change) <= std::abs(most->change)) continue;
-      const Condition condition = strength.parameter->stated_by->condition;
+      const Condition condition = *strength.stated;
       most = {std::string(mechanism.info.id),
               d,
               condition,
@@ -45,7 +45,7 @@ std::vector<ExpectedEffect> expected_effects(const SearchBase& base) {
   std::vector<ExpectedEffect> all;
   for (const Mechanism* mechanism : mechanisms_that_may_act(base.spec, base.candidate.model)) {
     const std::vector<Parameter>& parameters = mechanism->info.parameters;
-    if (parameters.empty() || !parameters.front().stated_by) continue;
+    if (parameters.empty() || parameters.front().stated_by.empty()) continue;
     add_effects(base, *mechanism, all);
   }
   std::stable_sort(all.begin(), all.end(), [](const ExpectedEffect& a, const ExpectedEffect& b) {

@@ -11,6 +11,7 @@
 #include "estimate/impact_problem.hpp"
 #include "estimate/predictor.hpp"
 #include "mechanism/catalogue.hpp"
+#include "mechanism/plausible_range.hpp"
 
 namespace recoil {
 namespace {
@@ -245,6 +246,19 @@ std::size_t most_similar_series(const Observations& data, const NextExperiment& 
   return series;
 }
 
+/// The value of the condition that removes a mechanism from all impacts of a dataset.
+double value_for(const SearchBase& base, const TakenAway& away, std::size_t dataset) {
+  if (away.least == nullptr) return away.value;
+  double largest = 0.0;
+  for (const Observation& point : base.fitted.data.points) {
+    if (point.dataset != dataset) continue;
+    largest =
+        std::max(largest, away.least(plain_sphere(base.fitted.model.surroundings[dataset],
+                                                  point.diameter, point.velocity, point.series)));
+  }
+  return largest;
+}
+
 /// Adds the changes of a condition that remove a mechanism which `one` has and `other` has not.
 void add_changes(const SearchBase& base, const PossibleImpacts& possible,
                  const CandidateResult& one, const CandidateResult& other,
@@ -260,7 +274,7 @@ void add_changes(const SearchBase& base, const PossibleImpacts& possible,
     if (!find_impact(possible, without, of_other, change)) continue;
     if (was_taken_away(one.candidate, mechanism, change.dataset)) continue;
     change.condition = mechanism.info.taken_away->condition;
-    change.value = mechanism.info.taken_away->value;
+    change.value = value_for(base, *mechanism.info.taken_away, change.dataset);
     change.doing = mechanism.info.taken_away->doing;
     all.push_back(std::move(change));
   }

@@ -82,7 +82,7 @@ std::vector<FoundParameter> found_parameters(const Candidate& candidate, const R
     parameter.value = refit.theta[j];
     parameter.sd = sd[j];
     parameter.null_value = slot.parameter->null_value;
-    if (slot.stated) parameter.stated_by = slot.parameter->stated_by->condition;
+    parameter.stated_by = slot.stated;
     const bool vanishes = std::abs(parameter.value - slot.parameter->null_value) <=
                           at_null * (slot.upper - slot.lower);
     if (slot.free && !vanishes) judge(candidate, refit, j, errors * sd[j], parameter);

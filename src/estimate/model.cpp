@@ -34,20 +34,21 @@ std::size_t add_slot(ImpactModel& model, const ParameterSpec& spec, const std::s
 
 /// A slot whose value a condition states.
 std::size_t add_stated_slot(ImpactModel& model, const ParameterSpec& spec,
-                            const std::string& dataset, const std::string& series, double value) {
-  const std::size_t slot = add_slot(model, spec, dataset, series, value);
+                            const std::string& dataset, const std::string& series,
+                            const StatedValue& said) {
+  const std::size_t slot = add_slot(model, spec, dataset, series, said.value);
   model.slots[slot].free = false;
   model.slots[slot].log_scale = false;
-  model.slots[slot].stated = true;
+  model.slots[slot].stated = said.by;
   return slot;
 }
 
 /// What the conditions of each series of a dataset say of a parameter, and last those of a sphere
 /// of no series.
-std::vector<std::optional<double>> said_by_conditions(const ImpactModel& model,
-                                                      const ParameterSpec& spec,
-                                                      const Dataset& dataset, std::size_t d) {
-  std::vector<std::optional<double>> said(dataset.series.size() + 1);
+std::vector<std::optional<StatedValue>> said_by_conditions(const ImpactModel& model,
+                                                           const ParameterSpec& spec,
+                                                           const Dataset& dataset, std::size_t d) {
+  std::vector<std::optional<StatedValue>> said(dataset.series.size() + 1);
   if (spec.mentioned) return said;
   for (std::size_t s = 0; s < said.size(); ++s) {
     said[s] = stated_value(*spec.parameter, model.surroundings[d], conditions_of(dataset, s));
@@ -269,6 +270,9 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     model.surroundings.push_back(surroundings_of(dataset.system, model.contacts.back()));
     model.surroundings.back().adhesion = spec.adhesion;
     model.surroundings.back().separation = spec.separation;
+    for (std::size_t s = 0; s < dataset.series.size(); ++s) {
+      model.surroundings.back().of_series.push_back(conditions_of(dataset, s));
+    }
     if (spec.mixed_sizes && dataset.mixed_sizes) {
       model.surroundings.back().sizes = mixed_sizes_of(*dataset.mixed_sizes);
     }

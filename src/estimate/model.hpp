@@ -45,9 +45,9 @@ struct ParameterSlot {
   double upper = 0.0;
   bool free = true;
   bool log_scale = false;
-  bool derived = false;   ///< its value is what the materials give; while it is not free it follows
-                          ///< their constants
-  bool stated = false;    ///< its value follows from a condition that the dataset states
+  bool derived = false;  ///< its value is what the materials give; while it is not free it follows
+                         ///< their constants
+  std::optional<Condition> stated = {};  ///< the condition from which its value follows
   bool adjusted = false;  ///< a constant of the materials that every fit moves as far as its error
                           ///< allows (Materials::adjusted)
 

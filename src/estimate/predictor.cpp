@@ -87,7 +87,7 @@ PointPredictor::PointPredictor(const ImpactModel& model, std::vector<PointCondit
   for (const Acting& one : acting) chain.push_back(one.mechanism);
   std::vector<ExtendedPoint> extended;
   for (const PointConditions& p : points_) {
-    extended.push_back({&surroundings_[p.dataset], p.diameter, p.velocity});
+    extended.push_back({&surroundings_[p.dataset], p.diameter, p.velocity, p.series});
     for (const auto* base : {&model.slot_C_H, &model.slot_C_A, &model.slot_adhesion}) {
       slots_.push_back((*base)[p.dataset]);
       nulls_.push_back(0.0);
@@ -310,7 +310,8 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
     }
   }
   const Surroundings now = surroundings_under(model, theta, point.dataset);
-  ContactView view = view_contact(model.chain, {&now, point.diameter, point.velocity}, values);
+  ContactView view =
+      view_contact(model.chain, {&now, point.diameter, point.velocity, point.series}, values);
   view.encounter.at = &model.surroundings[point.dataset];
   return view;
 }

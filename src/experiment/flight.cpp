@@ -38,17 +38,19 @@ double Air::free_path() const {
   return viscosity() / pressure * std::sqrt(std::numbers::pi * gas_constant * temperature / 2.0);
 }
 
-double sphere_drag_coefficient(double reynolds) {
-  return 24.0 / reynolds * (1.0 + 0.150 * std::pow(reynolds, 0.681)) +
-         0.407 / (1.0 + 8710.0 / reynolds);
+SphereDrag sphere_drag(double reynolds) {
+  const double viscous = 0.150 * std::pow(reynolds, 0.681);
+  const double share = reynolds / (reynolds + 8710.0);
+  return {1.0 + viscous + 0.407 / 24.0 * reynolds * share,
+          0.681 * viscous / reynolds + 0.407 / 24.0 * share * (2.0 - share)};
 }
 
 AirFlight::AirFlight(const Air& air, double diameter, double sphere_density, double gravity)
     : gravity_(gravity),
       reynolds_per_speed_(air.density() * diameter / air.viscosity()),
-      drag_factor_(0.75 * air.density() / (sphere_density * diameter)) {
+      stokes_(18.0 * air.viscosity() / (sphere_density * diameter * diameter)) {
   const double knudsen = 2.0 * air.free_path() / diameter;
-  drag_factor_ /= 1.0 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+  stokes_ /= 1.0 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
   double high = 1.0;
   while (deceleration(high) < gravity) high *= 2.0;
   double low = high;
@@ -58,7 +60,7 @@ AirFlight::AirFlight(const Air& air, double diameter, double sphere_density, dou
 
 double AirFlight::deceleration(double speed) const {
   if (!(speed > 0.0)) return 0.0;
-  return drag_factor_ * sphere_drag_coefficient(reynolds(speed)) * speed * speed;
+  return stokes_ * speed * sphere_drag(reynolds(speed)).over_stokes;
 }
 
 AirFlight::Part AirFlight::rise(double speed) const {

@@ -63,11 +63,15 @@ struct Air {
   double free_path() const;
 };
 
-/// Drag coefficient of a smooth sphere [1],
+/// Drag of a smooth sphere over that of Stokes, Re C_d / 24 [1], and its derivative by Re:
 ///   C_d = (24 / Re) (1 + 0.150 Re^0.681) + 0.407 / (1 + 8710 / Re),
 /// Brown, P. P. & Lawler, D. F. (2003), J. Environ. Eng. 129, 222-231, who give it for Re below
-/// 2e5; it is Stokes' law at small Re.
-double sphere_drag_coefficient(double reynolds);
+/// 2e5.
+struct SphereDrag {
+  double over_stokes = 1.0;
+  double slope = 0.0;
+};
+SphereDrag sphere_drag(double reynolds);
 inline constexpr double drag_law_reynolds = 2e5;
 
 /// Vertical flights of a sphere through air, m v' = -m g -+ C_d(Re) rho_air pi r^2 v^2 / 2, in
@@ -113,8 +117,8 @@ class AirFlight {
 
   double gravity_ = 0.0;
   double reynolds_per_speed_ = 0.0;
-  double drag_factor_ = 0.0;  ///< deceleration over C_d v^2 [1/m]
-  double terminal_ = 0.0;     ///< [m/s]
+  double stokes_ = 0.0;    ///< deceleration over speed at small Re [1/s]
+  double terminal_ = 0.0;  ///< [m/s]
 };
 
 }  // namespace recoil

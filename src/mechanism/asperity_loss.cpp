@@ -35,12 +35,12 @@ Mechanism asperity_loss() {
             .plausible = {0.0, 1e-11,
                           "a contact of 0.1 um that flows by 10 nm under 1 GPa takes 3e-13 J"},
             .starts = {1e-15, 1e-13, 1e-12},
-            .stated_by = StatedBy{Condition::surface_rms_roughness,
-                                  [](double roughness, const Surroundings&,
-                                     const Conditions&) -> std::optional<double> {
-                                    if (roughness > polished) return std::nullopt;
-                                    return 0.0;
-                                  }}}},
+            .stated_by = {StatedBy{Condition::surface_rms_roughness,
+                                   [](double roughness, const Surroundings&,
+                                      const Conditions&) -> std::optional<double> {
+                                     if (roughness > polished) return std::nullopt;
+                                     return 0.0;
+                                   }}}}},
       .taken_away = TakenAway{Condition::surface_rms_roughness, polished,
                               "polish the target to a roughness of 1 nm"},
   });

@@ -16,6 +16,11 @@ double kelvin_radius(double humidity, double temperature) {
          (gas_constant * temperature * std::max(-std::log(humidity), 1e-9));
 }
 
+/// Below this pressure water cannot bridge the contact: vapour of no more than 100 Pa is at most
+/// 100 / 2339 of what saturates at 293 K (IAPWS), and its meniscus has a Kelvin radius of 0.17 nm,
+/// less than a molecule of water (0.28 nm).
+constexpr double no_bridge_below = 100.0;  // [Pa]
+
 struct Capillary {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
@@ -31,8 +36,10 @@ Mechanism capillary() {
       .title = "a water bridge that breaks on the way out",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula = "loss 4 pi r gamma l: the force of the bridge over the length l at which it "
-                 "breaks, gamma = 0.0728 N/m; where the humidity is stated, l is the Kelvin radius",
+      .formula =
+          "loss 4 pi r gamma l: the force of the bridge over the length l at which it "
+          "breaks, gamma = 0.0728 N/m; where the humidity is stated, l is the Kelvin radius; "
+          "none below 100 Pa",
       .source = "Israelachvili, J. N., Intermolecular and Surface Forces (force of a liquid bridge "
                 "at small contact angle)",
       .fingerprint =
@@ -49,12 +56,18 @@ Mechanism capillary() {
                 {0.0, 2e-8,
                  "adsorbed water is 0.3 nm to a few nm thick; a bridge breaks at a few times that"},
             .starts = {1e-10, 1e-8},
-            .stated_by = StatedBy{Condition::relative_humidity,
-                                  [](double humidity, const Surroundings&,
-                                     const Conditions& all) -> std::optional<double> {
-                                    return kelvin_radius(
-                                        humidity, all.of(Condition::temperature).value_or(293.15));
-                                  }}}},
+            .stated_by = {StatedBy{Condition::ambient_pressure,
+                                   [](double pressure, const Surroundings&,
+                                      const Conditions&) -> std::optional<double> {
+                                     if (pressure >= no_bridge_below) return std::nullopt;
+                                     return 0.0;
+                                   }},
+                          StatedBy{Condition::relative_humidity,
+                                   [](double humidity, const Surroundings&,
+                                      const Conditions& all) -> std::optional<double> {
+                                     return kelvin_radius(
+                                         humidity, all.of(Condition::temperature).value_or(293.15));
+                                   }}}}},
       .taken_away = TakenAway{Condition::relative_humidity, 0.0, "dry the chamber"},
   });
 }

@@ -6,13 +6,44 @@ namespace {
 
 constexpr double vacuum_permittivity = 8.8541878128e-12;  // [F/m], CODATA 2018
 
+// Electrons leave a surface by themselves from this field on (Hinds, Aerosol Technology, chapter on
+// charging; Gomer, Field Emission and Field Ionization). A positive sphere draws them from the
+// target.
+constexpr double emission_field = 9e8;  // [V/m]
+constexpr double vacuum_below = 100.0;  // [Pa]; there gaps of micrometres to centimetres hold
+// The highest potential that handling gave people and things, over a dry carpet (DOD-HDBK-263).
+constexpr double handling_potential = 35e3;  // [V]
+
+/// Field at which air breaks down around a sphere of radius r (Peek 1929, Dielectric Phenomena in
+/// High Voltage Engineering), 2.72 MV/m D (1 + 0.054 (m / (D r))^(1/2)), D the density of the air
+/// over that at 25 C and 1 atm [V/m].
+double breakdown_field(double pressure, double temperature, double radius) {
+  const double density = pressure / 101325.0 * 298.15 / temperature;
+  return 2.72e6 * density * (1.0 + 0.054 / std::sqrt(density * radius));
+}
+
+/// Field of a sphere over the strongest that the gas and handling leave it. Where no pressure is
+/// stated the gas is air at 1 atm.
+double field_over_strongest(const Encounter<double>& sphere, std::span<const double> own) {
+  const double radius = sphere.radius();
+  const double field =
+      own[0] * std::pow(sphere.diameter / sphere.at->reference_diameter, own[1] - 2.0);
+  const double pressure =
+      sphere.at->stated(Condition::ambient_pressure, sphere.series).value_or(Air().pressure);
+  const double held =
+      pressure < vacuum_below
+          ? emission_field
+          : std::min(emission_field, breakdown_field(pressure, sphere.air().temperature, radius));
+  return field / std::min(held, handling_potential / radius);
+}
+
 struct ElectrostaticImage {
-  /// 2 U / m, U = q^2 / (16 pi eps0 r) the energy of the charge and its image in contact.
+  /// 2 U / m, U = k q^2 / (16 pi eps0 r) the energy of the charge and its image in contact.
   template <class T>
   static T gained(const Encounter<T>& e, std::span<const T> own) {
     const T growth =
         exponential((2.0 * own[1] - 4.0) * logarithm(e.diameter / e.at->reference_diameter));
-    return 1.5 * vacuum_permittivity / e.density * own[0] * own[0] * growth;
+    return 1.5 * vacuum_permittivity * e.at->image_factor / e.density * own[0] * own[0] * growth;
   }
 };
 
@@ -26,37 +57,41 @@ Mechanism electrostatic_image() {
       .place = MechanismPlace::field,
       .formula =
           "gain U on the way in, cost U on the way out: e^2 = e_0^2 - (1 - e_0^2) 2 U / (m V^2), U "
-          "= q^2 / (16 pi eps0 r), q = 4 pi eps0 r^2 E_s at the reference diameter and q ~ d^p",
+          "= k q^2 / (16 pi eps0 r), q = 4 pi eps0 r^2 E_s at the reference diameter and q ~ d^p; "
+          "k "
+          "= (eps - 1) / (eps + 1) for a target of the stated relative_permittivity eps; where "
+          "none "
+          "is stated, 1, that of a conductor and the largest",
       .source = "Dahneke, B. (1975), J. Colloid Interface Sci. 51, 58-65 (energy balance with a "
                 "potential well); Jackson, Classical Electrodynamics (image of a point charge at a "
-                "conductor)",
+                "conductor and at a dielectric)",
       .fingerprint = "1 - e^2 ~ V^(-2), only where e_0 < 1; for a given surface field the same at "
                      "all sizes (V* ~ d^0), for a given charge d^(-4); gone with a neutraliser",
-      .parameters = {{.name = "surface_field",
-                      .unit = "V/m",
-                      .meaning = "E_s, field of the charge at the sphere's surface",
-                      .null_value = 0.0,
-                      .initial = 1e6,
-                      .lower = 0.0,
-                      .upper = 1e9,
-                      // Around a sphere of micrometres it takes more: by Peek's law 1e8 V/m around
-                      // 5 um in air, by emission 9e8 V/m in vacuum. What is so highly charged was
-                      // charged on purpose, and its charge is known.
-                      .plausible = {0.0, 3e6,
-                                    "air at a plane breaks down above this, and spheres that "
-                                    "nobody charged carry less"},
-                      .starts = {3e6, 1e7},
-                      .stated_by = none_where(Condition::neutralised)},
-                     {.name = "charge_exponent",
-                      .unit = "1",
-                      .meaning = "p, exponent of the charge in the diameter",
-                      .null_value = 2.0,
-                      .initial = 2.0,
-                      .lower = -2.0,
-                      .upper = 4.0,
-                      .plausible = {0.0, 2.0,
-                                    "0 for a fixed charge, 1 to 2 for spheres from a charger"},
-                      .free = false}},
+      .parameters =
+          {{.name = "surface_field",
+            .unit = "V/m",
+            .meaning = "E_s, field of the charge at the sphere's surface",
+            .null_value = 0.0,
+            .initial = 1e6,
+            .lower = 0.0,
+            .upper = 1e10,
+            .plausible = {0.0, 1e10, "the domain of the formula"},
+            .starts = {1e7, 1e8, 1e9},
+            .limit = {.quantity = "surface field over the strongest that the sphere holds",
+                      .upper = 1.0,
+                      .why = "air breaks down by Peek's law, electrons leave at 9e8 V/m, "
+                             "and handling charges nothing beyond 35 kV",
+                      .of = field_over_strongest},
+            .stated_by = {none_where(Condition::neutralised)}},
+           {.name = "charge_exponent",
+            .unit = "1",
+            .meaning = "p, exponent of the charge in the diameter",
+            .null_value = 2.0,
+            .initial = 2.0,
+            .lower = -2.0,
+            .upper = 4.0,
+            .plausible = {0.0, 2.0, "0 for a fixed charge, 1 to 2 for spheres from a charger"},
+            .free = false}},
       .taken_away = TakenAway{Condition::neutralised, 1.0, "neutralise the spheres"},
   });
 }

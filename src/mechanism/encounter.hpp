@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "data/contact.hpp"
 #include "data/system.hpp"
+#include "experiment/flight.hpp"
 #include "impact/deepest_contact.hpp"
 #include "impact/impact.hpp"
 #include "mechanism/dual.hpp"
@@ -21,11 +24,19 @@ struct Surroundings {
   double adhesion_energy = 0.0;     ///< W_A of the two bodies, see `ContactProperties` [J/m2]
   double wave_mobility = 0.0;       ///< D of `elastic_waves`, for a half-space [m s / N]
   double plate_impedance =
-      0.0;  ///< Z / H^2 of `plate_flexure`; 0: its density is unknown [kg/(s m2)]
+      0.0;                    ///< Z / H^2 of `plate_flexure`; 0: its density is unknown [kg/(s m2)]
+  double shear_speed = 0.0;   ///< c_T of the surface [m/s]
+  double image_factor = 1.0;  ///< (eps - 1) / (eps + 1) of the surface [1]; 1: a conductor
+  Conditions conditions;      ///< of series that `of_series` does not have
+  std::vector<Conditions> of_series;
   Method method = Method::unknown;  ///< how velocities were measured
   AdhesionLaw adhesion = AdhesionLaw::ring;
   double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]
   MixedSizes sizes;                            ///< over which every point averages, if any
+
+  std::optional<double> stated(Condition condition, std::size_t series) const {
+    return (series < of_series.size() ? of_series[series] : conditions).of(condition);
+  }
 };
 
 /// @param contact derived from `system`
@@ -40,23 +51,34 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
 template <class T>
 struct Encounter {
   const Surroundings* at = nullptr;
-  T density;            ///< of the sphere [kg/m3]
-  T stiffness;          ///< K [Pa]
-  T adhesion_energy;    ///< W_A of the two bodies [J/m2]
-  T wave_mobility;      ///< D of `elastic_waves` [m s / N]
-  T measured_velocity;  ///< as the dataset has it [m/s]
-  T diameter;           ///< of the sphere: its mass [m]
-  T contact_radius;     ///< of the curvature that unloads the contact [m]
-  T velocity;           ///< inward [m/s]
-  T adhesion_force;     ///< f0 at this sphere's diameter [N/m]
-  T hertz_damping;      ///< C_H [s/m]
-  T adhesion_damping;   ///< C_A [s/m]
-  T relaxation;         ///< of a dashpot -(3/2) relaxation sqrt(contact_radius n) K n' [s]
-  T square;             ///< on the way out [m2/s2]
+  std::size_t series = static_cast<std::size_t>(-1);  ///< whose conditions hold
+  T density;                                          ///< of the sphere [kg/m3]
+  T stiffness;                                        ///< K [Pa]
+  T adhesion_energy;                                  ///< W_A of the two bodies [J/m2]
+  T wave_mobility;                                    ///< D of `elastic_waves` [m s / N]
+  T measured_velocity;                                ///< as the dataset has it [m/s]
+  T diameter;                                         ///< of the sphere: its mass [m]
+  T contact_radius;    ///< of the curvature that unloads the contact [m]
+  T velocity;          ///< inward [m/s]
+  T adhesion_force;    ///< f0 at this sphere's diameter [N/m]
+  T hertz_damping;     ///< C_H [s/m]
+  T adhesion_damping;  ///< C_A [s/m]
+  T relaxation;        ///< of a dashpot -(3/2) relaxation sqrt(contact_radius n) K n' [s]
+  T square;            ///< on the way out [m2/s2]
 
   T radius() const { return diameter * 0.5; }
   T mass() const { return diameter * diameter * diameter * (density * (std::numbers::pi / 6.0)); }
   T reduced_modulus() const { return stiffness * 0.75; }
+  /// The air around, at 1 Pa: its density is that per pressure, its free path that times pressure.
+  Air air() const {
+    return {1.0, at->stated(Condition::temperature, series).value_or(Air().temperature)};
+  }
+  /// What slip leaves of Stokes' drag in air of this pressure: 1 / (1 + Kn (1.257 + 0.4 exp(-1.1 /
+  /// Kn))) with the free path over the radius for Kn (Davies 1945).
+  T slip(const T& pressure) const {
+    const T y = pressure * radius() / air().free_path();
+    return y / (y + 1.257 + 0.4 * exponential(-1.1 * y));
+  }
   /// Takes the constants of the materials from `at`, without derivatives.
   void take_materials() {
     density = T(at->density);
@@ -104,6 +126,7 @@ struct Encounter {
   T deepest() const {
     Encounter<double> plain;
     plain.at = at;
+    plain.series = series;
     plain.density = value_of(density);
     plain.stiffness = value_of(stiffness);
     plain.diameter = value_of(diameter);

@@ -32,6 +32,7 @@ Encounter<T> approaching(const ExtendedPoint& point, std::span<const T> values, 
                          const T& diameter) {
   Encounter<T> e;
   e.at = point.at;
+  e.series = point.series;
   e.take_materials();
   e.measured_velocity = velocity;
   e.diameter = diameter;
@@ -51,8 +52,67 @@ Groups<T> groups_at_contact(const Encounter<T>& e) {
           1.5 * e.relaxation * e.velocity / e.scale(), e.range()};
 }
 
+/// e^2 of Hertz's contact with the dampings alpha and kappa that ends where its force vanishes,
+/// before n = 0: beyond, the dashpot would pull, and nothing holds the sphere (Schwager, T. &
+/// Poeschel, T. (2008), Phys. Rev. E 78, 051304). Runge and Kutta's method in the regularised time;
+/// du/dsigma = 0 at the end, so that the slopes of e^2 do not depend on where it is.
+template <class N>
+N square_without_pull(const N& alpha, const N& kappa) {
+  constexpr int steps = 128;
+  const auto force = [&](const N& q, const N& u) {  // over q^2, outward
+    return q * q * (1.0 + alpha * u) + kappa * u;
+  };
+  const auto push = [&](const N& q, const N& u) { return -2.0 * (q * q * force(q, u)); };
+  N q(0.0), u(1.0), next_q, next_u;
+  const auto parts_within = [&](double h) {
+    const N ka = push(q, u);
+    const N ub = u + 0.5 * h * ka;
+    const N kb = push(q + 0.5 * h * u, ub);
+    const N uc = u + 0.5 * h * kb;
+    const N kc = push(q + 0.5 * h * ub, uc);
+    const N ud = u + h * kc;
+    const N kd = push(q + h * uc, ud);
+    next_q = q + h / 6.0 * (u + 2.0 * ub + 2.0 * uc + ud);
+    next_u = u + h / 6.0 * (ka + 2.0 * kb + 2.0 * kc + kd);
+    return value_of(next_q) <= 0.0 ||
+           (value_of(next_u) < 0.0 && value_of(force(next_q, next_u)) < 0.0);
+  };
+  const double h = 1.5 / (steps * (1.0 + std::cbrt(value_of(kappa))));
+  while (!parts_within(h)) {
+    q = next_q;
+    u = next_u;
+  }
+  double low = 0.0, high = h;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (parts_within(middle) ? high : low) = middle;
+  }
+  return next_u * next_u;
+}
+
+/// The same with the derivatives of the groups.
+template <class T>
+T square_without_pull(const Groups<T>& groups) {
+  constexpr double most_kappa = 1e6;  // of which e is 1e-10
+  const double alpha = value_of(groups.alpha);
+  const double kappa = std::min(value_of(groups.kappa), most_kappa);
+  if constexpr (std::is_same_v<T, double>) {
+    return square_without_pull<double>(alpha, kappa);
+  } else {
+    using N = Dual<2>;
+    const N found = square_without_pull<N>(N(alpha, 0), N(kappa, 1));
+    T square(found.value);
+    add_slopes(square, found.slope[0], groups.alpha);
+    add_slopes(square, found.slope[1], groups.kappa);
+    return square;
+  }
+}
+
 template <class T>
 T base_square(const Groups<T>& groups, const ImpactResult& impact) {
+  if (value_of(groups.kappa) > 0.0 && value_of(groups.beta) == 0.0) {
+    return square_without_pull(groups);
+  }
   T square = impact.restitution_squared;
   add_slopes(square, impact.gradient[0], groups.alpha);
   add_slopes(square, impact.gradient[1], groups.beta);

@@ -17,8 +17,9 @@ using SimulateImpacts = long (*)(std::span<const ImpactGroups> groups, const Imp
 /// One point: a sphere as the dataset has it.
 struct ExtendedPoint {
   const Surroundings* at = nullptr;
-  double diameter = 0.0;  ///< [m]
-  double velocity = 0.0;  ///< [m/s]
+  double diameter = 0.0;                              ///< [m]
+  double velocity = 0.0;                              ///< [m/s]
+  std::size_t series = static_cast<std::size_t>(-1);  ///< whose conditions hold; else the dataset's
 };
 
 /// What a point shows with mechanisms at work.

@@ -3,10 +3,6 @@
 namespace recoil {
 namespace {
 
-// Air at 293 K: viscosity [Pa s], mean free path [m] at 101325 Pa (Hinds, Aerosol Technology).
-constexpr double viscosity = 1.81e-5;
-constexpr double free_path_times_pressure = 66e-9 * 101325.0;
-
 // Slip length of a gas on a wall that reflects diffusely, in free paths: 1 of Maxwell (1879), 1.146
 // of the kinetic equation (Cercignani, Rarefied Gas Dynamics).
 constexpr double slip_length = 1.15;
@@ -42,13 +38,10 @@ struct GasFilm {
   template <class T>
   static T lost_speed(const Encounter<T>& e, std::span<const T> own) {
     const T r = e.radius();
-    const T inverse_knudsen = own[0] * r / free_path_times_pressure;
-    const T film = slip_film(own[0] * own[1] / (6.0 * slip_length * free_path_times_pressure));
+    const Air air = e.air();
+    const T film = slip_film(own[0] * own[1] / (6.0 * slip_length * air.free_path()));
     const T wall = 0.125 * logarithm_of_one_plus(10.0 * own[1] / r);
-    // Stokes drag with the slip correction 1 + Kn (1.257 + 0.4 exp(-1.1 / Kn)), small Re.
-    const T slip =
-        inverse_knudsen / (inverse_knudsen + 1.257 + 0.4 * exponential(-1.1 * inverse_knudsen));
-    return 4.5 * viscosity / e.density * (film + (own[1] / r + wall) * slip) / r;
+    return 4.5 * air.viscosity() / e.density * (film + (own[1] / r + wall) * e.slip(own[0])) / r;
   }
 
   template <class T>
@@ -86,7 +79,8 @@ Mechanism gas_film() {
           "+ "
           "10 L / r)) / C): F(x) = (1 + x)^2 ln(1 + 1 / x) - x + ln x of a film between walls that "
           "slip by b = 1.15 free paths, drag over the distance L with Cunningham's C, and what the "
-          "wall adds to it",
+          "wall adds to it; viscosity and free path of air at the stated temperature, else at 293 "
+          "K",
       .source = "Davis, R. H., Serayssol, J.-M. & Hinch, E. J. (1986), J. Fluid Mech. 163, "
                 "479-497; Barnocky, G. & Davis, R. H. (1988), Phys. Fluids 31, 1324-1329; Hocking, "
                 "L. M. (1973), J. Eng. Math. 7, 207-221 (film with slip); Brenner, H. (1961), "
@@ -105,7 +99,7 @@ Mechanism gas_film() {
             .plausible = {0.0, 1.1e5,
                           "an experiment in open air has 1e5 Pa, one in vacuum almost none"},
             .starts = {3e3, 1e5},
-            .stated_by = StatedBy{Condition::ambient_pressure}},
+            .stated_by = {StatedBy{Condition::ambient_pressure}}},
            {.name = "measuring_distance",
             .unit = "m",
             .meaning = "L, from the measuring plane to the surface",
@@ -117,7 +111,7 @@ Mechanism gas_film() {
                 {0.0, 1e-2,
                  "laser beams cross between a few sphere diameters and a few mm above the surface"},
             .free = false,
-            .stated_by = StatedBy{Condition::probe_height}}},
+            .stated_by = {StatedBy{Condition::probe_height}}}},
       .taken_away = TakenAway{Condition::ambient_pressure, 10.0, "pump the chamber to below 10 Pa"},
   });
 }

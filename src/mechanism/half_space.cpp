@@ -77,6 +77,10 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
   s.wave_mobility =
       half_space_mobility(surface.youngs_modulus, surface.poisson_ratio,
                           surface.density > 0.0 ? surface.density : system.particle.density);
+  s.shear_speed = std::sqrt(surface.youngs_modulus / (2.0 * (1.0 + surface.poisson_ratio)) /
+                            (surface.density > 0.0 ? surface.density : system.particle.density));
+  if (const auto eps = surface.relative_permittivity) s.image_factor = (*eps - 1.0) / (*eps + 1.0);
+  s.conditions = system.conditions;
   // Zener, C. (1941), Phys. Rev. 59, 669-673.
   s.plate_impedance = 4.0 / std::sqrt(3.0) *
                       std::sqrt(surface.youngs_modulus * surface.density /

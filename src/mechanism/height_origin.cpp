@@ -60,7 +60,7 @@ Mechanism height_origin() {
                       .why = "two points of a sphere are at most one diameter apart",
                       .of = [](const Encounter<double>& sphere,
                                std::span<const double> own) { return own[0] / sphere.diameter; }},
-            .stated_by = none_where(Condition::velocities_calibrated)},
+            .stated_by = {none_where(Condition::velocities_calibrated)}},
            {.name = "drop_share",
             .unit = "1",
             .meaning = "s, share of delta in the height of the drop",

@@ -46,6 +46,9 @@ struct TakenAway {
   Condition condition = Condition::ambient_pressure;
   double value = 0.0;      ///< in the unit of the condition
   std::string_view doing;  ///< in a laboratory: "pump the chamber"
+  /// The least value that does it for one impact, where that depends on the impact; `value` is then
+  /// an example. Null: `value` always does.
+  double (*least)(const Encounter<double>& sphere) = nullptr;
 };
 
 struct MechanismInfo {

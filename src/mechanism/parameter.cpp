@@ -103,16 +103,16 @@ const Parameter& parameter_of(Body body, Constant constant) {
   return all.front().parameter;
 }
 
-std::optional<double> stated_value(const Parameter& parameter, const Surroundings& at,
-                                   const Conditions& conditions) {
-  if (!parameter.stated_by) return std::nullopt;
-  const auto condition = conditions.of(parameter.stated_by->condition);
-  if (!condition) return std::nullopt;
-  const auto value = parameter.stated_by->value == nullptr
-                         ? condition
-                         : parameter.stated_by->value(*condition, at, conditions);
-  if (!value) return std::nullopt;
-  return std::clamp(*value, parameter.lower, parameter.upper);
+std::optional<StatedValue> stated_value(const Parameter& parameter, const Surroundings& at,
+                                        const Conditions& conditions) {
+  for (const StatedBy& by : parameter.stated_by) {
+    const auto condition = conditions.of(by.condition);
+    if (!condition) continue;
+    const auto value = by.value == nullptr ? condition : by.value(*condition, at, conditions);
+    if (value)
+      return StatedValue{std::clamp(*value, parameter.lower, parameter.upper), by.condition};
+  }
+  return std::nullopt;
 }
 
 StatedBy none_where(Condition condition) {

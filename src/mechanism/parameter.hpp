@@ -79,8 +79,8 @@ struct Parameter {
   bool per_series = false;          ///< one value for every series
   /// The relative scatter of single slow rebounds: starts at what the points state of it.
   bool is_scatter_of_rebounds = false;
-  PlausibleLimit limit = {};  ///< beside `plausible`
-  std::optional<StatedBy> stated_by = {};
+  PlausibleLimit limit = {};             ///< beside `plausible`
+  std::vector<StatedBy> stated_by = {};  ///< the first that says something counts
   ParameterRole role = ParameterRole::of_mechanism;
   const Mechanism* mechanism = nullptr;  ///< to which it belongs (set by the catalogue); null for
                                          ///< the base model
@@ -96,9 +96,15 @@ struct Parameter {
 /// C_H, C_A and f0, in this order; under another law than the ring's W stands for f0.
 const std::vector<Parameter>& base_parameters(AdhesionLaw law = AdhesionLaw::ring);
 
-/// What `conditions` say of a parameter; empty where they leave it open.
-std::optional<double> stated_value(const Parameter& parameter, const Surroundings& at,
-                                   const Conditions& conditions);
+/// What `conditions` say of a parameter, and which of them does.
+struct StatedValue {
+  double value = 0.0;
+  Condition by = Condition::ambient_pressure;
+  bool operator==(const StatedValue&) const = default;
+};
+/// Empty where they leave it open.
+std::optional<StatedValue> stated_value(const Parameter& parameter, const Surroundings& at,
+                                        const Conditions& conditions);
 
 /// A constant of the materials as a parameter: "particle.youngs_modulus".
 const Parameter& parameter_of(Body body, Constant constant);

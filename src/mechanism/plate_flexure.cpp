@@ -21,8 +21,10 @@ Mechanism plate_flexure() {
       .place = MechanismPlace::contact,
       .formula = "the struck place yields with the velocity F / Z: n'' = -F / m - F' / Z, for a "
                  "plate of thickness H with Z = (4 / sqrt(3)) H^2 (E_2 rho_2 / (1 - nu_2^2))^(1/2)",
-      .source =
-          "Zener, C. (1941), Phys. Rev. 59, 669-673. The flexure by the adhesion force is left out",
+      .source = "Zener, C. (1941), Phys. Rev. 59, 669-673. The flexure by the adhesion force is "
+                "left out. "
+                "A target thicker than c_T t_c / 2 is a half-space: no wave comes back during the "
+                "contact",
       .fingerprint = "1 - e^2 ~ V^(1/5) d^(+2): large spheres lose most, the opposite of adhesion; "
                      "no dependence on surface energy",
       .parameters =
@@ -37,16 +39,19 @@ Mechanism plate_flexure() {
                 {0.0, 1e3,
                  "a silicon wafer of 0.5 mm has 0.1 s/kg, a mica sheet of 10 um about 300 s/kg"},
             .starts = {1.0, 10.0, 100.0},
-            .stated_by = StatedBy{Condition::target_thickness,
-                                  [](double thickness, const Surroundings& at,
-                                     const Conditions&) -> std::optional<double> {
-                                    if (!(at.plate_impedance > 0.0)) return std::nullopt;
-                                    return 1.0 / (at.plate_impedance * thickness * thickness);
-                                  }}}},
+            .stated_by = {StatedBy{Condition::target_thickness,
+                                   [](double thickness, const Surroundings& at,
+                                      const Conditions&) -> std::optional<double> {
+                                     if (!(at.plate_impedance > 0.0)) return std::nullopt;
+                                     return 1.0 / (at.plate_impedance * thickness * thickness);
+                                   }}}}},
       .taken_away =
-          TakenAway{
-              Condition::target_thickness, 0.05,
-              "take a plate so thick (5 cm) that its waves do not come back during the contact"},
+          TakenAway{Condition::target_thickness, 0.05,
+                    "take a plate so thick that its waves do not come back during the contact",
+                    // from the struck face to the other and back, at the speed of shear waves
+                    [](const Encounter<double>& sphere) {
+                      return 0.5 * sphere.at->shear_speed * sphere.hertz_contact_time();
+                    }},
   });
 }
 

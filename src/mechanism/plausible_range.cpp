@@ -30,9 +30,11 @@ double largest_of(const PlausibleLimit& limit, std::span<const double> own,
 
 }  // namespace
 
-Encounter<double> plain_sphere(const Surroundings& at, double diameter, double velocity) {
+Encounter<double> plain_sphere(const Surroundings& at, double diameter, double velocity,
+                               std::size_t series) {
   Encounter<double> e{};
   e.at = &at;
+  e.series = series;
   e.take_materials();
   e.measured_velocity = velocity;
   e.diameter = diameter;

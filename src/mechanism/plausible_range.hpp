@@ -24,6 +24,7 @@ AllowedValues allowed_values(const Parameter& parameter, std::size_t k, std::spa
                              std::span<const Encounter<double>> spheres);
 
 /// A sphere that arrives as the dataset has it, with the adhesion and damping left out.
-Encounter<double> plain_sphere(const Surroundings& at, double diameter, double velocity);
+Encounter<double> plain_sphere(const Surroundings& at, double diameter, double velocity,
+                               std::size_t series);
 
 }  // namespace recoil

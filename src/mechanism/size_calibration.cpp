@@ -35,7 +35,7 @@ Mechanism size_calibration() {
                       .plausible = {-0.15, 0.15,
                                     "sizes are known to 15 % below 2 um, to 1 % above 80 um"},
                       .starts = {-0.02, 0.1, -0.1},
-                      .stated_by = none_where(Condition::sizes_calibrated)}},
+                      .stated_by = {none_where(Condition::sizes_calibrated)}}},
       .taken_away = TakenAway{Condition::sizes_calibrated, 1.0,
                               "measure the spheres against a standard of length"},
   });

@@ -40,7 +40,7 @@ Mechanism velocity_offset() {
                       .upper = 10.0,
                       .plausible = {-0.1, 0.1, "a velocimeter's zero is good to a few cm/s"},
                       .starts = {-1e-2, 1e-1, -1e-1},
-                      .stated_by = none_where(Condition::velocities_calibrated)},
+                      .stated_by = {none_where(Condition::velocities_calibrated)}},
                      {.name = "rebound_sign",
                       .unit = "1",
                       .meaning = "s, share of delta by which the rebound is read too high",

@@ -94,9 +94,14 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
   add(ValidityQuantity::contact_radius, contact_radius, largest_contact);
   add(ValidityQuantity::pressure_modulus, pressure / modulus, largest_pressure);
   if (!yields(model)) {
-    const double yield =
-        yield_share * std::min(system.particle.youngs_modulus, system.surface.youngs_modulus);
-    add(ValidityQuantity::pressure_yield, pressure / yield, 1.0).yield_pressure = yield;
+    const auto yield_of = [](const Material& body) {
+      return body.yield_pressure().value_or(yield_share * body.youngs_modulus);
+    };
+    const Material& first =
+        yield_of(system.particle) < yield_of(system.surface) ? system.particle : system.surface;
+    Validity& found_yield = add(ValidityQuantity::pressure_yield, pressure / yield_of(first), 1.0);
+    found_yield.yield_pressure = yield_of(first);
+    found_yield.yield_stated = first.yield_pressure().has_value();
   }
   const double f0 = view.encounter.adhesion_force;
   const bool adheres = f0 > 0.0 && !without_adhesion(model, point.dataset);

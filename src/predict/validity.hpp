@@ -19,9 +19,10 @@ enum class ValidityQuantity {
   /// shear of more than about a tenth of its modulus (Frenkel 1926, Z. Phys. 37, 572-609), and a
   /// contact flows at 2.8 times the yield stress (Tabor 1951, The Hardness of Metals): limit 0.3.
   pressure_modulus,
-  /// p_0 over a plausible yield pressure, 0.03 E of the softer body: ammonium fluorescein has 35.3
-  /// MPa of 1.2 GPa, polystyrene some 100 MPa of 2.56 GPa, metals a third of it or less. Not where
-  /// a mechanism of the fit has the contact yield. Limit 1.
+  /// p_0 over the pressure at which the first of the two bodies yields, `Material::yield_pressure`
+  /// or, where its strength is not stated, 0.03 E: ammonium fluorescein has 35.3 MPa of 1.2 GPa,
+  /// polystyrene some 100 MPa of 2.56 GPa, metals a third of it or less. Not where a mechanism of
+  /// the fit has the contact yield. Limit 1.
   pressure_yield,
   /// mu = (R W^2 / (E*^2 z_0^3))^(1/3), z_0 = 0.4 nm, W of f0 by eq. 12 (Tabor 1977). Adhesion acts
   /// inside the contact (JKR) from about 5 on and around it (DMT) below 0.1 (Johnson & Greenwood
@@ -49,6 +50,7 @@ struct Validity {
   double diameter = 0.0;        ///< of the impact [m]
   double velocity = 0.0;        ///< [m/s]
   double yield_pressure = 0.0;  ///< of `pressure_yield`: what is taken for it [Pa]
+  bool yield_stated = false;    ///< by the body's hardness or yield strength
 
   /// Has the value to stay above the limit? For the others it has to stay below.
   bool limit_is_least() const {

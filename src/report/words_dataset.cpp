@@ -62,7 +62,7 @@ const char* short_name(ValidityQuantity quantity) {
     case ValidityQuantity::pressure_modulus:
       return "peak pressure over E*";
     case ValidityQuantity::pressure_yield:
-      return "peak pressure over a plausible yield pressure";
+      return "peak pressure over the yield pressure";
     case ValidityQuantity::tabor:
       return "Tabor parameter";
     case ValidityQuantity::wave_transits:
@@ -194,9 +194,11 @@ std::string validity_sentence(const Validity& v) {
           impact_words(v), v.limit);
     case ValidityQuantity::pressure_yield:
       return fmt::format(
-          "the peak pressure is {:.2g} times a plausible yield pressure of {}, 0.03 E of the "
-          "softer body ({}); above {:g} the contact yields, which the base model ignores",
-          v.value, pressure_words(v.yield_pressure), impact_words(v), v.limit);
+          "the peak pressure is {:.2g} times the yield pressure of {}, {} ({}); above {:g} the "
+          "contact yields, which the base model ignores",
+          v.value, pressure_words(v.yield_pressure),
+          v.yield_stated ? "by the stated strength" : "taken as 0.03 E of the softer body",
+          impact_words(v), v.limit);
     case ValidityQuantity::tabor:
       return fmt::format("the Tabor parameter is {:.2g} ({}): {}", v.value,
                          diameter_words(v.diameter), tabor_words(v));

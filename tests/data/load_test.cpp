@@ -254,6 +254,18 @@ TEST(LoadDataset, ReadsTheErrorsOfConstants) {
   EXPECT_EQ(system.error_of(Body::surface, Constant::youngs_modulus), 0.0);
 }
 
+TEST(LoadDataset, ReadsStrengthAndPermittivity) {
+  const DatasetFolder folder(support::changed(
+      support::changed(example::package, "1050", R"(1050, "yield_strength": 40e6)"), "0.17",
+      R"(0.17, "hardness": 9e9, "yield_strength": 1e9, "relative_permittivity": 3.8)"));
+  const recoil::ImpactSystem system = recoil::load_dataset(folder.path()).system;
+  EXPECT_EQ(system.particle.yield_pressure(), 112e6);  // 2.8 times (Tabor)
+  EXPECT_EQ(system.surface.yield_pressure(), 9e9);
+  EXPECT_EQ(system.surface.relative_permittivity, 3.8);
+  const DatasetFolder plain(example::package);
+  EXPECT_FALSE(recoil::load_dataset(plain.path()).system.surface.yield_pressure());
+}
+
 TEST(LoadDataset, ReadsManySeriesInATimeInProportionToTheirNumber) {
   // Were every series compared with every other one, this would take minutes.
   std::string points =

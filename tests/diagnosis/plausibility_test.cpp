@@ -35,12 +35,32 @@ TEST(Plausibility, RefusesAYieldPressureOfSteelInAPolymer) {
   EXPECT_FALSE(found("plastic_yield", 5e5).front().plausible());  // 4e-4 of E*
 }
 
-TEST(Plausibility, RefusesAChargeThatAPlaneCouldNotHold) {
-  const FoundParameter charge = found("electrostatic_image", 1e7).front();
+/// Peek's law around the larger sphere, 4.9 um, at 293 K and 1 atm: 27.2 kV/cm D (1 + 0.54 (cm / (D
+/// r))^(1/2)), D = 298.15 / 293.
+constexpr double kBreakdown = 9.7427094e+07;  // [V/m]
+
+/// The largest field that is plausible on these spheres [V/m].
+double largest_field(std::optional<double> pressure, double scale) {
+  std::vector<Dataset> data = {synthetic::dataset({})};
+  if (pressure) data[0].system.conditions.set(Condition::ambient_pressure, *pressure);
+  for (ImpactPoint& point : data[0].points) point.diameter *= scale;
+  data[0].system.reference_diameter = scale * 4.9e-6;
+  const Candidate candidate = make_candidate(synthetic::spec(), data, {"electrostatic_image"});
+  return allowed_values(candidate, candidate.model.initial(), 3).upper;
+}
+
+TEST(Plausibility, RefusesAChargeThatTheGasOrHandlingCannotLeave) {
+  const FoundParameter charge = found("electrostatic_image", 1.6 * kBreakdown).front();
   EXPECT_FALSE(charge.plausible());
-  EXPECT_EQ(charge.implausible, Implausible::outside_range);
-  EXPECT_EQ(charge.upper, 3e6);
-  EXPECT_TRUE(found("electrostatic_image", 2e6).front().plausible());
+  EXPECT_EQ(charge.implausible, Implausible::beyond_limit);
+  EXPECT_NEAR(charge.quantity, 1.6, 1e-6);
+  EXPECT_NEAR(charge.upper / kBreakdown, 1.0, 1e-6);
+  EXPECT_TRUE(found("electrostatic_image", 5e7).front().plausible());
+  EXPECT_NEAR(largest_field(101325.0, 1.0) / kBreakdown, 1.0, 1e-6);
+  // In vacuum until electrons leave it.
+  EXPECT_NEAR(largest_field(0.0, 1.0), 9e8, 1.0);
+  // A ball of 40 mm holds 3.8e6 V/m in air, which are 75 kV; handling gives 35 kV.
+  EXPECT_NEAR(largest_field({}, 40e-3 / 4.9e-6), 35e3 / 20e-3, 1.0);
 }
 
 TEST(Plausibility, KnowsOnePowerOfTheSize) {
@@ -50,17 +70,18 @@ TEST(Plausibility, KnowsOnePowerOfTheSize) {
 }
 
 TEST(Plausibility, AllowsTwoStandardErrors) {
-  // The standard error is 0.1 % of the value: 3.005e6 is 1.7 of them above 3e6.
-  EXPECT_TRUE(found("electrostatic_image", 3.005e6).front().plausible());
-  EXPECT_FALSE(found("electrostatic_image", 3.02e6).front().plausible());
-  const FoundParameter sharp = found("electrostatic_image", 3.005e6, 0.0).front();
+  // The standard error is 0.1 % of the value.
+  EXPECT_TRUE(found("electrostatic_image", 1.0017 * kBreakdown).front().plausible());
+  EXPECT_FALSE(found("electrostatic_image", 1.007 * kBreakdown).front().plausible());
+  const FoundParameter sharp = found("electrostatic_image", 1.0017 * kBreakdown, 0.0).front();
   EXPECT_FALSE(sharp.plausible());
-  EXPECT_NEAR(sharp.sd, 3.005e3, 1.0);  // is told all the same
+  EXPECT_NEAR(sharp.sd, 1.0017e-3 * kBreakdown, 100.0);  // is told all the same
 }
 
 TEST(Plausibility, KnowsWhatLiesJustBeyond) {
-  EXPECT_TRUE(found("electrostatic_image", 4e6).front().near_plausible);  // half of 0 to 3e6 beyond
-  EXPECT_FALSE(found("electrostatic_image", 5e6).front().near_plausible);
+  // half of the range beyond
+  EXPECT_TRUE(found("electrostatic_image", 1.4 * kBreakdown).front().near_plausible);
+  EXPECT_FALSE(found("electrostatic_image", 1.6 * kBreakdown).front().near_plausible);
   EXPECT_FALSE(
       found("plastic_yield", 3e9).front().near_plausible);  // no solid: that limit is sharp
 }
@@ -88,7 +109,7 @@ TEST(Plausibility, PairsStayWithinWhatTheirImpactsAllow) {
                                         {"electrostatic_image", "jkr_hysteresis"}, false, true);
   for (const ParameterSlot& slot : pair.model.slots) {
     if (slot.parameter->name == "surface_field") {
-      EXPECT_NEAR(slot.upper, 1.2 * 3e6, 1.0);
+      EXPECT_NEAR(slot.upper / kBreakdown, 1.2, 1e-6);
     }
     if (slot.parameter->name == "jkr_factor") {
       EXPECT_EQ(slot.lower, 0.0);  // the way to nothing stays open

@@ -45,10 +45,21 @@ TEST(AirFlight, TheAirItself) {
 
 TEST(AirFlight, DragFromStokesToNewton) {
   // By hand from Brown & Lawler (2003). At small Re 24 / Re, Stokes' law.
-  expect_close(recoil::sphere_drag_coefficient(0.1), 247.5041719);
-  expect_close(recoil::sphere_drag_coefficient(100.0), 1.073138805);
-  expect_close(recoil::sphere_drag_coefficient(1e4), 0.4106095720);
-  expect_close(recoil::sphere_drag_coefficient(1e-6), 24e6, 1e-4);
+  const auto coefficient = [](double re) {
+    return 24.0 / re * recoil::sphere_drag(re).over_stokes;
+  };
+  expect_close(coefficient(0.1), 247.5041719);
+  expect_close(coefficient(100.0), 1.073138805);
+  expect_close(coefficient(1e4), 0.4106095720);
+  expect_close(coefficient(1e-6), 24e6, 1e-4);
+  for (const double re : {0.1, 100.0, 1e5}) {
+    const double h = 1e-5 * re;
+    expect_close(
+        recoil::sphere_drag(re).slope,
+        (recoil::sphere_drag(re + h).over_stokes - recoil::sphere_drag(re - h).over_stokes) /
+            (2.0 * h),
+        1e-6);
+  }
 }
 
 TEST(AirFlight, ABallFallsAndClimbs) {

@@ -55,8 +55,9 @@ TEST(ContactLaws, LeaveTheExponentsOfTheirFingerprints) {
   };
   check("jkr_hysteresis", {0.3}, 20.0, -2.0, -5.0 / 3.0);
   check("adhesion_hysteresis", {0.03}, 20.0, -1.2, -1.0);
-  check("crack_rate", {0.03, 0.5}, 20.0, -0.9, -1.0);
-  check("crack_rate", {0.003, 0.7}, 20.0, -0.78, -1.0);
+  // So small that the loss does not slow the sphere.
+  check("crack_rate", {3e-4, 0.5}, 20.0, -0.9, -1.0, 1e-4);
+  check("crack_rate", {3e-4, 0.7}, 20.0, -0.78, -1.0, 1e-4);
   check("capillary", {1e-9}, 20.0, -2.0, -2.0);
   check("asperity_loss", {1e-13}, 20.0, -2.0, -3.0);
   check("elastic_waves", {1.0}, 20.0, 0.6, 0.0, 1e-5);
@@ -248,7 +249,28 @@ double deepest(const Surroundings& at, double d, double v) {
 TEST(AdhesionHysteresis, LosesTheContactAreaTimesTheDifference) {
   const double area = pi * 0.5 * kDiameter * deepest(kSoft, kDiameter, 8.0);
   EXPECT_NEAR(1.0 - square(kSoft, {"adhesion_hysteresis"}, {0.07 / kSoftWork}, kDiameter, 8.0),
-              0.07 * area / (0.5 * mass(kSoft, kDiameter) * 64.0), 1e-9);
+              0.07 * area / (0.5 * mass(kSoft, kDiameter) * 64.0), 1e-7);
+}
+
+/// x'' = -x^(3/2) (1 + C_H n') + beta x^(1/2) (1 + C_A |n'| on the way out) + s W_A pi r v_c^k on
+/// the way out, by DOP853 of scipy in time with dt = 2 q dsigma (rtol 1e-10), V* by bisection: C_H
+/// = 3e-3 s/m, C_A = 0.03 s/m, f0 = 8.9 N/m, W_A = 0.33554639 J/m2, 4.9 um.
+TEST(AdhesionLosses, SlowTheSphereWhileTheyAct) {
+  const one_point::Base base{3e-3, 0.03, 8.9};
+  struct Loss {
+    const char* id;
+    std::vector<double> own;
+    double capture;
+  };
+  for (const auto& [id, own, capture] :
+       {Loss{"crack_rate", {0.05, 0.5}, 1.237045}, Loss{"crack_rate", {0.15, 0.5}, 1.673428},
+        Loss{"crack_rate", {0.5, 0.5}, 2.982585}, Loss{"crack_rate", {0.3, 0.9}, 4.083913},
+        Loss{"adhesion_hysteresis", {0.3}, 1.498226}}) {
+    EXPECT_LT(square(kSoft, {id}, own, kDiameter, 0.9995 * capture, base), 0.0) << id << own[0];
+    EXPECT_GT(square(kSoft, {id}, own, kDiameter, 1.0005 * capture, base), 0.0) << id << own[0];
+  }
+  EXPECT_NEAR(std::sqrt(square(kSoft, {"crack_rate"}, {0.15, 0.5}, kDiameter, 2.0, base)), 0.423008,
+              1e-5);
 }
 
 TEST(CrackRate, IsTheIntegralOverTheOpeningContact) {
@@ -263,13 +285,14 @@ TEST(CrackRate, IsTheIntegralOverTheOpeningContact) {
           const double n = nm * std::pow(std::sin(t), 4);
           const double speed = V * std::sqrt(std::max(0.0, 1.0 - std::pow(n / nm, 2.5)));
           const double crack = std::sqrt(r) * speed / (2.0 * std::sqrt(n));
-          return 0.03 * std::pow(crack, k) * pi * r * nm * 4.0 * std::pow(std::sin(t), 3) *
+          return 3e-5 * std::pow(crack, k) * pi * r * nm * 4.0 * std::pow(std::sin(t), 3) *
                  std::cos(t);
         },
         0.0, pi / 2.0);
-    EXPECT_NEAR((1.0 - square(kSoft, {"crack_rate"}, {0.03 / kSoftWork, k}, kDiameter, V)) * 0.5 *
+    // so little that the loss does not slow the sphere
+    EXPECT_NEAR((1.0 - square(kSoft, {"crack_rate"}, {3e-5 / kSoftWork, k}, kDiameter, V)) * 0.5 *
                     mass(kSoft, kDiameter) * V * V / work,
-                1.0, 1e-5)
+                1.0, 2e-4)
         << k;
   }
 }
@@ -283,6 +306,24 @@ TEST(BulkViscoelastic, FollowsTheSeriesOfTheEquationOfMotion) {
   const double e = std::sqrt(square(kSoft, {"bulk_viscoelastic"}, {1e-10}, kDiameter, V));
   EXPECT_NEAR(e, 1.0 - 1.15345 * b + 0.7983 * b * b, 1e-5);
   EXPECT_NEAR(1.0 - e, 0.018, 1e-3);
+}
+
+/// x'' = -x^(3/2) (1 + alpha x') - kappa x^(1/2) x' until the force vanishes, beyond which it would
+/// pull (Schwager & Poeschel 2008, Phys. Rev. E 78, 051304), by DOP853 of scipy (rtol 1e-12).
+TEST(Dashpots, DoNotPullWhereNothingHolds) {
+  const double V = 1.0;
+  const double scale = deepest(kSoft, kDiameter, V) / std::pow(1.25, 0.4);
+  const double unit = scale / (1.5 * V);  // relaxation at kappa = 1
+  const auto e = [&](double kappa, double alpha) {
+    return std::sqrt(
+        square(kSoft, {"bulk_viscoelastic"}, {kappa * unit}, kDiameter, V, {alpha / V, 0.0, 0.0}));
+  };
+  EXPECT_NEAR(e(0.1472, 0.0), 0.8477196641, 1e-6);
+  EXPECT_NEAR(e(0.4424, 0.0), 0.6281358454, 1e-6);
+  EXPECT_NEAR(e(1.4745, 0.0), 0.2855978734, 1e-6);
+  EXPECT_NEAR(e(0.4, 0.3), 0.5656917790, 1e-6);
+  EXPECT_NEAR(e(11.9, 0.0), 0.0192083066, 1e-6);
+  EXPECT_NEAR(e(50.0, 0.0), 0.0019032827, 1e-6);
 }
 
 TEST(PlateFlexure, FollowsZenersPlate) {
@@ -305,16 +346,23 @@ TEST(Dashpots, ThatStopASphereAreAnsweredAtOnce) {
   const auto at = [&](double kappa) {
     return one_point::ask(kSoft, {"bulk_viscoelastic"}, {kappa * unit}, kDiameter, V);
   };
-  // At the border e^2 falls as kappa^-10 already, and nothing is left of it.
-  EXPECT_NEAR(at(8.0).square / at(11.9).square, std::pow(11.9 / 8.0, 10), 2.0);
-  EXPECT_LT(at(11.99).square, 5e-10);
+  // The sphere stops at x = (3 / (2 kappa))^(2/3) and leaves it with x / kappa: e ~ kappa^(-5/3).
   const long before = reference_handovers();
-  for (const double kappa : {12.01, 100.0, 1e4, 1e8}) {
+  for (const double kappa : {12.01, 100.0, 1e4, 1e5}) {
     const one_point::Answer answer = at(kappa);
     EXPECT_TRUE(answer.usable) << kappa;
-    EXPECT_NEAR(answer.square, at(11.99).square, 1e-11) << kappa;
-    EXPECT_EQ(answer.slopes.back(), 0.0) << kappa;
+    EXPECT_LT(answer.square, at(0.99 * kappa).square) << kappa;
+    EXPECT_LT(answer.slopes.back(), 0.0) << kappa;
   }
+  EXPECT_NEAR(at(1e4).square / at(1e5).square, std::pow(10.0, 10.0 / 3.0), 20.0);
+  EXPECT_LT(at(1e8).square, 1e-18);
+  // With adhesion the contact ends at n = 0, and nothing is left of e beyond kappa = 12.
+  const auto sticky = [&](double kappa) {
+    return one_point::ask(kSoft, {"bulk_viscoelastic"}, {kappa * unit}, kDiameter, V,
+                          {0.0, 0.0, 1e-9});
+  };
+  EXPECT_LT(sticky(11.99).square, 5e-10);
+  EXPECT_NEAR(sticky(1e4).square, sticky(11.99).square, 1e-11);
   EXPECT_EQ(reference_handovers(), before) << "nobody waits for the reference solver";
 }
 

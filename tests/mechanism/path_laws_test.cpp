@@ -66,19 +66,15 @@ double drag_over(double way, double knudsen) {
 }
 
 TEST(GasFilm, SlowsBothWaysByLubricationAndDrag) {
-  // Air at 1 atm, lambda = 66 nm. (9 mu / (2 rho r)) = 0.0246259 m/s times the integral of the drag
-  // over the way: 10.107 for L = 5 r and 15.722 for 10 r around 4.9 um.
+  // Air at 1 atm and 293 K, Sutherland's viscosity and the free path of kinetic theory. At lambda =
+  // 66 nm the integral of the drag is 10.107 for L = 5 r and 15.722 for 10 r around 4.9 um.
+  EXPECT_NEAR(drag_over(5.0, 66e-9 / (0.5 * kDiameter)), 10.106931, 1e-4);
+  EXPECT_NEAR(drag_over(10.0, 66e-9 / (0.5 * kDiameter)), 15.722273, 1e-4);
   for (const double d : {2.58e-6, kDiameter, 49e-6, 2e-3}) {
     const double r = 0.5 * d;
-    const double unit = 4.5 * 1.81e-5 / (1350.0 * r);
+    const double unit = 4.5 * 1.812688004e-5 / (1350.0 * r);
     for (const double way : {0.3, 1.0, 5.0, 7.0, 10.0, 40.0}) {
-      const double integral = drag_over(way, 66e-9 / r);
-      if (d == kDiameter && way == 5.0) {
-        EXPECT_NEAR(integral, 10.106931, 1e-4);
-      }
-      if (d == kDiameter && way == 10.0) {
-        EXPECT_NEAR(integral, 15.722273, 1e-4);
-      }
+      const double integral = drag_over(way, 6.502479e-8 / r);
       const double V = 50.0 * integral * unit;
       const double e = std::sqrt(square(kSoft, {"gas_film"}, {101325.0, way * r}, d, V));
       const double lost = 0.5 * V * (1.0 - e);
@@ -87,13 +83,25 @@ TEST(GasFilm, SlowsBothWaysByLubricationAndDrag) {
   }
 }
 
+/// At 1200 K air has 4.625e-05 Pa s and a free path of 336 nm at 1 atm.
+TEST(GasFilm, TakesTheStatedTemperature) {
+  Surroundings hot = kSoft;
+  hot.conditions.set(Condition::temperature, 1200.0);
+  const double r = 0.5 * kDiameter;
+  const double expected = 4.5 * 4.625146662e-05 / (1350.0 * r) * drag_over(5.0, 3.357672e-07 / r);
+  const double V = 50.0 * expected;
+  const double e = std::sqrt(square(hot, {"gas_film"}, {101325.0, 5.0 * r}, kDiameter, V));
+  EXPECT_NEAR(0.5 * V * (1.0 - e) / expected, 1.0, 2e-3);
+}
+
 TEST(GasFilm, IsGoneInVacuumAndAtTheSurface) {
   EXPECT_NEAR(square(kSoft, {"gas_film"}, {101325.0, 0.0}, kDiameter, 3.0), 1.0, 1e-9);
   EXPECT_NEAR(square(kSoft, {"gas_film"}, {1e-5, 1e-3}, kDiameter, 3.0), 1.0, 1e-6);
 }
 
 TEST(GasFilm, StopsWhatIsSlowerThanItTakes) {
-  const double lost = 0.0246259 * 10.106931;  // over 5 r of way, see above
+  const double r = 0.5 * kDiameter;
+  const double lost = 4.5 * 1.812688004e-5 / (1350.0 * r) * drag_over(5.0, 6.502479e-8 / r);
   // In, and not out again: an elastic sphere at 1.5 times the loss comes back to the film with half
   // of it. At less than the loss it never touches. Capture is at twice the loss.
   for (const double V : {0.5 * lost, lost, 1.5 * lost, 1.98 * lost}) {
@@ -120,6 +128,18 @@ TEST(ElectrostaticImage, IsDahnekesEnergyBalance) {
               e1 * e1 - (1.0 - e1 * e1) * less / (V * V), 1e-9);
   // Without a loss the well gives back what it took.
   EXPECT_NEAR(square(kSoft, {"electrostatic_image"}, {3e6, 2.0}, kDiameter, V), 1.0, 1e-9);
+}
+
+TEST(ElectrostaticImage, IsWeakerBeforeADielectric) {
+  // Silicon, eps = 11.7: (eps - 1) / (eps + 1) = 0.842520.
+  ImpactSystem system = one_point::fluorescein();
+  system.surface.relative_permittivity = 11.7;
+  const double well = 0.842520 * 1.5 * 8.8541878128e-12 / 1350.0 * 1e12;
+  const double V = 0.3;
+  const double e0 = hunt_crossley(kDamping * std::sqrt(V * V + well));
+  EXPECT_NEAR(
+      square(one_point::around(system), {"electrostatic_image"}, {1e6, 2.0}, kDiameter, V, kDamped),
+      e0 * e0 - (1.0 - e0 * e0) * well / (V * V), 1e-7);
 }
 
 TEST(VanDerWaalsApproach, IsAWellInFrontOfTheContact) {

@@ -106,6 +106,24 @@ TEST(Validity, HertzAloneByHand) {
   EXPECT_NEAR(find(all, ValidityQuantity::wave_transits)->value, transits, 1e-5);
 }
 
+TEST(Validity, AStatedStrengthReplacesTheEstimate) {
+  // The peak pressure of the steel sphere is 5188.641435 MPa, see above.
+  Dataset steel = dataset_of(kSteel, kSilicon, 49e-6, {{49e-6, 4.43}});
+  steel.system.particle.yield_strength = 0.7e9;
+  const auto over_yield = [](const Dataset& dataset) {
+    return *find(recoil::fit_validity(fit_of(dataset, 5e-3, 0.025), {dataset}),
+                 ValidityQuantity::pressure_yield);
+  };
+  EXPECT_NEAR(over_yield(steel).value, 5188.641435 / (2.8 * 700.0), 1e-6);  // Tabor
+  EXPECT_TRUE(over_yield(steel).yield_stated);
+  steel.system.particle.hardness = 2.2e9;
+  EXPECT_NEAR(over_yield(steel).value, 5188.641435 / 2200.0, 1e-6);
+  // Silicon yields first, if that hardness is not the sphere's.
+  steel.system.particle.hardness = 20e9;
+  EXPECT_NEAR(over_yield(steel).value, 5188.641435 / 3930.0, 1e-6);
+  EXPECT_FALSE(over_yield(steel).yield_stated);
+}
+
 TEST(Validity, TheWorstPointOfADatasetIsSaid) {
   const Dataset dataset =
       dataset_of(kFluorescein, kMolybdenum, 4.9e-6,
