@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "impact/fast_solver.hpp"
 #include "impact/reference_solver.hpp"
 #include "mechanism/catalogue.hpp"
@@ -278,6 +279,15 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     }
   }
   model.chain = chain_of(spec.mechanisms);
+  for (const Mechanism* mechanism : model.chain) {
+    for (std::size_t d = 0; d < datasets.size(); ++d) {
+      if (!mechanism->info.needs_flat || !datasets[d].system.surface_diameter) continue;
+      throw InputError(
+          {spec.file.string()},
+          fmt::format("{} beside two spheres ({})", mechanism->info.id, datasets[d].id),
+          "its law holds for a flat surface", "leave it out of 'mechanisms'");
+    }
+  }
   for (const Parameter* parameter : parameters_with(spec.mechanisms, spec.adhesion)) {
     const ParameterSpec stated = spec.statement_of(*parameter);
     switch (parameter->role) {

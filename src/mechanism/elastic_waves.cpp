@@ -26,6 +26,7 @@ Mechanism elastic_waves() {
       .title = "elastic waves into a thick target",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
+      .needs_flat = true,
       .formula = "loss eta D (integral of F'^2 dt), F of the Hertzian impact, D = c(nu) / (2 pi mu "
                  "c_T) of the surface (c(1/4) = 0.931)",
       .source = "Hunter, S. C. (1957), J. Mech. Phys. Solids 5, 162-171; Miller, G. F. & Pursey, "

@@ -55,6 +55,7 @@ Mechanism electrostatic_image() {
       .title = "attraction of a charged sphere by its image charge",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::field,
+      .needs_flat = true,
       .formula =
           "gain U on the way in, cost U on the way out: e^2 = e_0^2 - (1 - e_0^2) 2 U / (m V^2), U "
           "= k q^2 / (16 pi eps0 r), q = 4 pi eps0 r^2 E_s at the reference diameter and q ~ d^p; "

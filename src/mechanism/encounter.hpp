@@ -21,6 +21,8 @@ struct Surroundings {
   double stiffness = 0.0;           ///< K [Pa]
   double reduced_modulus = 0.0;     ///< E* = (3/4) K [Pa]
   double reference_diameter = 0.0;  ///< where f0 is stated [m]
+  double surface_diameter = 0.0;    ///< of a second sphere [m]; 0: a flat
+  double surface_mass = 0.0;        ///< of that sphere [kg]
   double adhesion_energy = 0.0;     ///< W_A of the two bodies, see `ContactProperties` [J/m2]
   double wave_mobility = 0.0;       ///< D of `elastic_waves`, for a half-space [m s / N]
   double plate_impedance =
@@ -38,6 +40,13 @@ struct Surroundings {
     return (series < of_series.size() ? of_series[series] : conditions).of(condition);
   }
 };
+
+/// R* of a sphere of `diameter` [m] with the surface, see `ContactProperties` [m].
+template <class T>
+T relative_radius(const Surroundings& at, const T& diameter) {
+  const T own = diameter * 0.5;
+  return at.surface_diameter > 0.0 ? own / (1.0 + diameter * (1.0 / at.surface_diameter)) : own;
+}
 
 /// @param contact derived from `system`
 Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties& contact);
@@ -66,8 +75,13 @@ struct Encounter {
   T relaxation;        ///< of a dashpot -(3/2) relaxation sqrt(contact_radius n) K n' [s]
   T square;            ///< on the way out [m2/s2]
 
-  T radius() const { return diameter * 0.5; }
-  T mass() const { return diameter * diameter * diameter * (density * (std::numbers::pi / 6.0)); }
+  /// R* of the bodies as they are, without flattening; on a flat the sphere's radius [m].
+  T radius() const { return relative_radius(*at, diameter); }
+  /// m* of the relative motion; on a flat the sphere's mass [kg].
+  T mass() const {
+    const T own = diameter * diameter * diameter * (density * (std::numbers::pi / 6.0));
+    return at->surface_mass > 0.0 ? own / (1.0 + own * (1.0 / at->surface_mass)) : own;
+  }
   T reduced_modulus() const { return stiffness * 0.75; }
   /// The air around, at 1 Pa: its density is that per pressure, its free path that times pressure.
   Air air() const {

@@ -36,11 +36,13 @@ Encounter<T> approaching(const ExtendedPoint& point, std::span<const T> values, 
   e.take_materials();
   e.measured_velocity = velocity;
   e.diameter = diameter;
-  e.contact_radius = diameter * 0.5;
+  e.contact_radius = e.radius();
   e.velocity = velocity;
   e.hertz_damping = values[0];
   e.adhesion_damping = values[1];
-  e.adhesion_force = values[2] * power(diameter / point.at->reference_diameter, 1.0 / 3.0);
+  e.adhesion_force =
+      values[2] *
+      power(e.radius() / relative_radius(*point.at, point.at->reference_diameter), 1.0 / 3.0);
   e.relaxation = T(0.0);
   e.square = T(0.0);
   return e;

@@ -99,6 +99,7 @@ Mechanism flight_drag() {
       .title = "drag of the air on spheres that fall and rise freely",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::gas,
+      .needs_flat = true,
       .formula =
           "velocities stand for heights h = V^2 / 2g: the sphere falls from h with d(v^2) / dx "
           "= 2 g - D, D = (3/2) (rho_a / rho) (C_d / d) v^2, and after the contact rises with "

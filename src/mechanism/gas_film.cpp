@@ -74,6 +74,7 @@ Mechanism gas_film() {
       .title = "gas between the measuring plane and the contact",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::gas,
+      .needs_flat = true,
       .formula =
           "each way the sphere loses the speed (9 mu / (2 rho r)) (F(L / 6b) + (L / r + (1/8) ln(1 "
           "+ "

@@ -70,6 +70,10 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
   s.stiffness = contact.stiffness;
   s.reduced_modulus = 0.75 * contact.stiffness;
   s.reference_diameter = contact.reference_diameter;
+  s.surface_diameter = contact.surface_diameter;
+  if (contact.surface_diameter > 0.0) {
+    s.surface_mass = sphere_mass(contact.surface_diameter, contact.surface_density);
+  }
   s.adhesion_energy = contact.adhesion_energy;
   s.method = system.method;
   // Waves run in the surface: its own density, the sphere's only where none is stated.

@@ -57,6 +57,7 @@ struct MechanismInfo {
   std::string_view cause = {};  ///< shared with other laws of the same; empty where it stands alone
   MechanismKind kind = MechanismKind::physics;
   MechanismPlace place = MechanismPlace::contact;
+  bool needs_flat = false;  ///< its law does not hold between two spheres
   std::string_view formula;
   std::string_view source;
   std::string_view
@@ -109,6 +110,7 @@ struct Mechanism {
   }
   bool acts_at(const Surroundings& at) const {
     if (info.needs_adhesion && !(at.adhesion_energy > 0.0)) return false;
+    if (info.needs_flat && at.surface_diameter > 0.0) return false;
     return at.method == Method::unknown || can_be_of(at.method);
   }
   /// Can velocities that were measured so have it?

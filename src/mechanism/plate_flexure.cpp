@@ -19,6 +19,7 @@ Mechanism plate_flexure() {
       .title = "flexural waves in a thin target",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
+      .needs_flat = true,
       .formula = "the struck place yields with the velocity F / Z: n'' = -F / m - F' / Z, for a "
                  "plate of thickness H with Z = (4 / sqrt(3)) H^2 (E_2 rho_2 / (1 - nu_2^2))^(1/2)",
       .source = "Zener, C. (1941), Phys. Rev. 59, 669-673. The flexure by the adhesion force is "

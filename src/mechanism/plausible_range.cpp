@@ -38,7 +38,7 @@ Encounter<double> plain_sphere(const Surroundings& at, double diameter, double v
   e.take_materials();
   e.measured_velocity = velocity;
   e.diameter = diameter;
-  e.contact_radius = 0.5 * diameter;
+  e.contact_radius = e.radius();
   e.velocity = velocity;
   return e;
 }

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
+#include "estimate/fit_spec.hpp"
 #include "estimate/predictor.hpp"
 #include "support/synthetic.hpp"
 #include "validation/truth/ring_adhesion_truth.hpp"
@@ -73,6 +74,20 @@ TEST(TwoSpheres, SlopeInTheDiameterIsThatOfTheCurve) {
   const auto square = [&](double d) { return std::pow(true_restitution_of_two(d, velocity), 2); };
   const double slope = (square(diameter + step) - square(diameter - step)) / (2.0 * step);
   EXPECT_NEAR(predictor.diameter_slope(0) / slope, 1.0, 1e-5);
+}
+
+TEST(TwoSpheres, MechanismsMoveThemInTheSameWay) {
+  FitSpec spec = synthetic::spec();
+  spec.mechanisms = {"plastic_yield"};
+  const ImpactModel model = make_model(spec, {two_spheres()});
+  std::vector<double> theta = truth_of(model);
+  for (std::size_t j = 0; j < theta.size(); ++j) {  // nothing yields
+    if (model.slots[j].parameter->name == "yield_pressure") theta[j] = 1e12;
+  }
+  const double e = true_restitution_of_two(3.2e-6, 12.0);
+  EXPECT_NEAR(predict(model, theta, 0, 3.2e-6, 12.0, false).restitution_squared, e * e, 1e-8);
+  spec.mechanisms = {"gas_film"};
+  EXPECT_THROW(make_model(spec, {two_spheres()}), InputError);
 }
 
 TEST(TwoSpheres, FitFindsWhatMadeThePoints) {

@@ -87,8 +87,7 @@ TEST(Provenance, EachHasItsOneSentence) {
 }
 
 TEST(Provenance, AReconstructionSaysThatNothingWasMeasured) {
-  EXPECT_THAT(provenance_sentence(Provenance::reconstruction),
-              HasSubstr("not measured"));
+  EXPECT_THAT(provenance_sentence(Provenance::reconstruction), HasSubstr("not measured"));
 }
 
 TEST(DatasetDocument, SaysHowWellConstantsAreKnownAndWhichSizesAreMixed) {
