@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
@@ -110,11 +112,20 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
   if (options.posterior) {
     result.posterior = sample_posterior(alternatives, result.capture, sampling_options(options));
   }
+  result.odd_point = odd_point(fitted);
   result.budgets = parameter_budgets(fitted);
   result.capture_budgets = capture_budgets(fitted, result.capture);
   result.conditional = conditional_fit(fitted, level, threads);
   result.curves = restitution_curves(fitted, datasets, result.capture, result.two_point,
                                      {result.bootstrap.theta, level, threads});
+  const auto& points = fitted.data.points;
+  if (std::all_of(points.begin(), points.end(), [](const Observation& p) { return p.censored; })) {
+    // The parameters are those of the start, and so is what follows from them.
+    limit_by_captures(fitted.data, result.capture);
+    result.curves.clear();
+    result.two_point.clear();
+    result.capture_budgets.clear();
+  }
   return result;
 }
 

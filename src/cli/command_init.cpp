@@ -36,7 +36,7 @@ constexpr const char* init_fit =
 dataset = "."
 
 [parameters]
-C_H = { initial = 3e-3, bounds = [0, 1] }     # damping of the elastic contact [s/m]
+C_H = { initial = 3e-3 }                      # damping of the elastic contact [s/m]
 C_A = { initial = 3e-2, bounds = [0, 10] }    # damping of the adhesion [s/m]
 f0 = { free = false }                         # adhesion per length [N/m]: from the materials
 

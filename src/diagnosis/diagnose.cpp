@@ -137,7 +137,11 @@ void compare_capture(Diagnosis& diagnosis) {
     sizes.insert({point.dataset, point.diameter});
   }
   std::vector<CaptureQuery> queries;
-  for (const auto& [dataset, diameter] : sizes) queries.push_back({dataset, diameter, 0.0});
+  for (const auto& [dataset, diameter] : sizes) {
+    if (!without_adhesion(diagnosis.base.model, dataset)) {
+      queries.push_back({dataset, diameter, 0.0});
+    }
+  }
   const auto values = [&](const FitResult& fitted) {
     return capture_velocities(fitted.model, fitted.theta, queries);
   };
@@ -249,6 +253,15 @@ void add_close_singles(const std::vector<CandidateResult>& singles, double lead,
   }
 }
 
+/// Does a possible cause fit no worse than `impossible`, though something is held against it, too?
+bool passes_over(const std::vector<CandidateResult>& candidates, const CandidateResult& impossible,
+                 double chance) {
+  return std::any_of(candidates.begin(), candidates.end(), [&](const CandidateResult& c) {
+    return c.plausible && c.kind != MechanismKind::description && !cannot_be_told(c) &&
+           c.p_value <= chance && c.delta_aicc <= impossible.delta_aicc;
+  });
+}
+
 /// The ids of all that cannot be told and fit as well as the best of them.
 std::vector<std::string> resembling(const std::vector<CandidateResult>& candidates, double margin) {
   std::vector<std::string> ids;
@@ -296,7 +309,9 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   }
   if (outshone_by_it()) {
     found.clear();
-    diagnosis.resembles = resembling(diagnosis.candidates, margin);
+    if (!passes_over(diagnosis.candidates, *impossible, options.chance)) {
+      diagnosis.resembles = resembling(diagnosis.candidates, margin);
+    }
   }
   diagnosis.unstated = unstated_errors(base);
   if (!found.empty() && outdone_by_errors(*found.front(), diagnosis, margin)) {

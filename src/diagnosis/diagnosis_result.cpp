@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/restitution_summary.hpp"
+
 namespace recoil {
 
 bool has_one_size(const Observations& data) {
@@ -13,6 +15,20 @@ bool has_one_size(const Observations& data) {
     high = std::max(high, point.diameter);
   }
   return high < low * size_factor;
+}
+
+bool tests_the_curve(const Diagnosis& diagnosis) {
+  const auto& tests = diagnosis.structure.tests;
+  return std::any_of(tests.begin(), tests.end(), [](const StructureTest& test) {
+    return test.question != StructureQuestion::scatter;
+  });
+}
+
+bool series_differ(const Diagnosis& diagnosis) {
+  constexpr double level = 0.01;
+  if (diagnosis.verdict != Verdict::unexplained || !diagnosis.resembles.empty()) return false;
+  if (!has_one_size(diagnosis.base.data)) return false;
+  return summarise_restitution(diagnosis.datasets).series.p_value.value_or(1.0) < level;
 }
 
 bool simulations_failed(const Structure& structure) {

@@ -85,6 +85,12 @@ struct Diagnosis {
 /// Have all points about the same diameter, so that none shows how an effect depends on it?
 bool has_one_size(const Observations& data);
 
+/// Could the points show anything of how e varies with V and d, beside what the parameters take?
+bool tests_the_curve(const Diagnosis& diagnosis);
+
+/// Do series of one size differ, at the same velocities, in a way that nothing named explains?
+bool series_differ(const Diagnosis& diagnosis);
+
 /// Have so many simulated data sets no fit that a reader has to know (more than one in a hundred)?
 bool simulations_failed(const Structure& structure);
 

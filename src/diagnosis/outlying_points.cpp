@@ -9,6 +9,7 @@
 
 #include "core/gsl_errors.hpp"
 #include "diagnosis/search.hpp"
+#include "estimate/leave_one_out.hpp"
 #include "estimate/residual.hpp"
 
 namespace recoil {
@@ -130,7 +131,9 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
   }
   const std::size_t most = kept.size() / 5;
   double scale = 1.0;
-  while (out.size() < most && kept.size() > fewest + base.refit.theta.size()) {
+  const auto& moving = base.refit.moving;
+  const auto free = static_cast<std::size_t>(std::count(moving.begin(), moving.end(), true));
+  while (out.size() < most && kept.size() > fewest + free) {
     const PredictionByOthers prediction(U, r, kept);
     std::vector<double> z;
     for (const std::size_t i : kept) z.push_back(prediction.of_one_of_them(i));
@@ -144,15 +147,23 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(worst));
   }
   std::vector<OutlyingPoint> found;
-  if (out.empty()) return found;
+  const auto add = [&](std::size_t i, double z) {
+    const Observation& point = data.points[i];
+    found.push_back({i, point.dataset, point.line, point.diameter, point.velocity,
+                     point.censored ? 0.0 : point.restitution, z});
+  };
+  if (out.empty()) {
+    // Too few to know any smooth function: the model itself predicts each by the others.
+    if (kept.size() > fewest + free) return found;
+    if (const std::optional<OddPoint> odd = odd_point(base.fitted)) add(odd->index, odd->residual);
+    return found;
+  }
   std::sort(out.begin(), out.end());
   const PredictionByOthers prediction(U, r, kept);
   for (const std::size_t i : out) {
     const double z = prediction.of_another(i) / scale;
     if (!(std::abs(z) > limit)) continue;
-    const Observation& point = data.points[i];
-    found.push_back({i, point.dataset, point.line, point.diameter, point.velocity,
-                     point.censored ? 0.0 : point.restitution, z});
+    add(i, z);
   }
   return found;
 }

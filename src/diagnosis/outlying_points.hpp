@@ -33,7 +33,7 @@ struct OutlyingPoint {
 /// worst point is taken out, and so on; at the end each is asked once more against the points that
 /// stay. s is 1.48 times the median of |z|, but no less than 1 where standard deviations are
 /// stated: where all points scatter more than that says, none is odd. At most a fifth of the points
-/// are.
+/// are. Too few points for a smooth function are asked by `odd_point`.
 std::vector<OutlyingPoint> outlying_points(const SearchBase& base);
 
 /// The datasets of a fit without these points.

@@ -49,6 +49,7 @@ std::vector<std::string> names_of(const FirstLook& look) {
 void look_at(const SearchBase& base, FirstLook& look) {
   const Observations& data = base.fitted.data;
   if (look.both.free_count >= static_cast<int>(data.points.size()) - 2) return;
+  if (!can_be_seen(base, look.both)) return;
   for (const CandidateResult* from : {look.first, look.second}) {
     const std::vector<double> near = within_bounds(
         look.both.model, carried_over(from->candidate.model, from->refit.theta, look.both.model));

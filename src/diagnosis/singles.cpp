@@ -1,17 +1,54 @@
 #include "diagnosis/singles.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include "core/parallel.hpp"
 #include "diagnosis/trial.hpp"
 #include "estimate/observation.hpp"
+#include "estimate/predictor.hpp"
+#include "estimate/residual.hpp"
 
 namespace recoil {
 namespace {
 
 constexpr int tries_alone = 4;
+
+constexpr double least_effect = 0.01;  // of a standard deviation of the point it moves most
+
+/// Can the mechanism move any residual by `least_effect`, with its parameters at their start and
+/// each at either end of what it can be?
+bool can_matter(const SearchBase& base, const Mechanism& mechanism, const Candidate& candidate,
+                const std::vector<double>& near) {
+  const ImpactModel& model = candidate.model;
+  const Observations& data = base.fitted.data;
+  const std::vector<Prediction> plain =
+      predict(model, without_mechanism(model, near, mechanism), candidate.impacts, false);
+  const auto moves = [&](const std::vector<double>& theta) {
+    const std::vector<Prediction> acted = predict(model, theta, candidate.impacts, false);
+    for (std::size_t i = 0; i < acted.size(); ++i) {
+      if (!acted[i].usable() || !plain[i].usable()) return true;  // only a fit can tell
+      const double r = weighted_residual(data.points[i], acted[i].restitution_squared).value;
+      const double before = weighted_residual(data.points[i], plain[i].restitution_squared).value;
+      if (std::abs(r - before) >= least_effect) return true;
+    }
+    return false;
+  };
+  if (moves(near)) return true;
+  for (std::size_t j = 0; j < near.size(); ++j) {
+    const ParameterSlot& slot = model.slots[j];
+    if (slot.stated || !candidate.adds(slot)) continue;
+    const AllowedValues allowed = allowed_values(candidate, near, j);
+    for (const double end : {allowed.upper, allowed.lower}) {
+      std::vector<double> theta = near;
+      theta[j] = std::clamp(end, slot.lower, slot.upper);
+      if (moves(theta)) return true;
+    }
+  }
+  return false;
+}
 
 /// One mechanism of the catalogue; without a usable refit where it cannot be fitted.
 CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
@@ -25,6 +62,7 @@ CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
   }
   const std::vector<double> near =
       carried_over(base.candidate.model, base.refit.theta, candidate.model);
+  if (!can_be_seen(base, candidate) || !can_matter(base, mechanism, candidate, near)) return {};
   CandidateResult result = try_one(base, std::move(candidate), near, tries_alone);
   try_released(base, result, tries_alone);
   hold_to_what_is_possible(base, result, tries_alone);

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 
 #include "core/random.hpp"
 #include "diagnosis/discrepancy.hpp"
+#include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
 
 namespace recoil {
 namespace {
@@ -59,12 +60,19 @@ double upper_share(const std::vector<double>& sorted, double value) {
 
 StructureStatistics::StructureStatistics(const Observations& data, const Refit& fitted,
                                          std::span<const double> predicted)
-    : stated_(data.sd_stated), discrepancy_(fitted.discrepancy), used_(data.points.size(), true) {
+    : stated_(data.sd_stated),
+      noise_known_(data.noise.known),
+      slopes_(data.points.size()),
+      settings_(data.points),
+      discrepancy_(fitted.discrepancy),
+      used_(data.points.size(), true) {
   const std::size_t n = data.points.size();
   const std::size_t p = fitted.theta.size();
   for (std::size_t i = 0; i < n; ++i) {
     used_[i] = !(data.points[i].censored && predicted[i] <= 0.0);
+    slopes_[i] = weighted_residual(data.points[i], predicted[i], data.noise.student).slope;
   }
+  used_count_ = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
   for (std::size_t j = 0; j < p; ++j) {
     if (!fitted.moving[j]) continue;
     Column column(n, 0.0);
@@ -94,8 +102,11 @@ bool StructureStatistics::orthogonalise(Column& column, const std::vector<Column
   return true;
 }
 
-/// Whitens `column` and keeps what neither the model nor `into` can follow.
+/// Weighs and whitens `column`, a discrepancy of e^2, and keeps what neither the model nor `into`
+/// can follow.
 bool StructureStatistics::take(Column column, std::vector<Column>& into) const {
+  for (std::size_t i = 0; i < column.size(); ++i) column[i] *= slopes_[i];
+  settings_.whiten(column);
   discrepancy_->whiten(column);
   for (std::size_t i = 0; i < column.size(); ++i) {
     if (!used_[i]) column[i] = 0.0;
@@ -116,19 +127,26 @@ void StructureStatistics::add_local_functions(const Observations& data) {
     return std::tie(x.dataset, x.diameter, x.velocity) <
            std::tie(y.dataset, y.diameter, y.velocity);
   });
+  std::vector<std::vector<std::size_t>> groups;
   for (const std::size_t i : order) {
     const Observation& point = data.points[i];
     const bool fresh =
-        runs_.empty() || data.points[runs_.back().front()].dataset != point.dataset ||
-        point.diameter > data.points[runs_.back().front()].diameter * (1.0 + same_diameter);
-    if (fresh) runs_.emplace_back();
-    runs_.back().push_back(i);
+        groups.empty() || data.points[groups.back().front()].dataset != point.dataset ||
+        point.diameter > data.points[groups.back().front()].diameter * (1.0 + same_diameter);
+    if (fresh) groups.emplace_back();
+    groups.back().push_back(i);
   }
   Column near_capture(n, 0.0);
-  for (std::vector<std::size_t>& run : runs_) {
+  for (std::vector<std::size_t>& run : groups) {
     std::stable_sort(run.begin(), run.end(), [&](std::size_t a, std::size_t b) {
       return data.points[a].velocity < data.points[b].velocity;
     });
+    std::vector<std::vector<std::size_t>>& velocities = runs_.emplace_back();
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      const bool same = k > 0 && data.points[run[k]].velocity == data.points[run[k - 1]].velocity;
+      if (!same) velocities.emplace_back();
+      velocities.back().push_back(run[k]);
+    }
     std::vector<double> log_velocity;
     for (const std::size_t i : run) log_velocity.push_back(std::log(data.points[i].velocity));
     const std::vector<double> unit = onto_unit(log_velocity);
@@ -161,26 +179,15 @@ void StructureStatistics::add_global_functions(const Observations& data) {
   }
   const std::vector<double> u = onto_unit(log_velocity);
   const std::vector<double> w = onto_unit(log_diameter);
-  const auto used = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
-  std::size_t longest = 0;  // different velocities of one size
-  for (const auto& run : runs_) {
-    std::set<double> different;
-    for (const std::size_t i : run) different.insert(data.points[i].velocity);
-    longest = std::max(longest, different.size());
-  }
-  const int degrees = std::min<int>(highest_degree, static_cast<int>(longest) - 2);
+  const int degrees = std::min<int>(highest_degree, static_cast<int>(longest_run()) - 2);
   for (int degree = 0; degree <= degrees; ++degree) {
     for (const bool with_size : {false, true}) {
-      if (smooth_.size() + model_.size() + 3 > used) return;
+      if (smooth_.size() + model_.size() + 3 > used_count_) return;
       Column column(n, 0.0);
       for (std::size_t i = 0; i < n; ++i) {
         if (!used_[i]) continue;
         column[i] = legendre(u[i], std::max(degree, 1))[static_cast<std::size_t>(degree)] *
                     (with_size ? w[i] : 1.0);
-        // A discrepancy in e, seen in units of the point's deviation.
-        const double sd = data.points[i].weights.mean_sd > 0.0 ? data.points[i].weights.mean_sd
-                                                               : data.points[i].weights.sd;
-        if (sd > 0.0) column[i] /= sd;
       }
       take(std::move(column), smooth_);
     }
@@ -194,6 +201,39 @@ double StructureStatistics::square_along(const std::vector<Column>& columns,
   return sum;
 }
 
+std::size_t StructureStatistics::places() const {
+  std::size_t count = 0;
+  for (const auto& run : runs_) count += run.size();
+  return count;
+}
+
+std::size_t StructureStatistics::longest_run() const {
+  std::size_t longest = 0;
+  for (const auto& run : runs_) longest = std::max(longest, run.size());
+  return longest;
+}
+
+bool StructureStatistics::asks(StructureQuestion question) const {
+  if (!noise_known_ || used_count_ <= model_.size()) return false;
+  switch (question) {
+    case StructureQuestion::scatter:
+      return stated_;
+    case StructureQuestion::size:
+      return !size_.empty();
+    case StructureQuestion::trend:
+      return !trend_.empty();
+    case StructureQuestion::curvature:
+      return !curvature_.empty();
+    case StructureQuestion::capture:
+      return !capture_.empty();
+    case StructureQuestion::runs:
+      return places() > model_.size() && longest_run() > 1;
+    case StructureQuestion::smooth:
+      return !smooth_.empty();
+  }
+  return false;
+}
+
 PerValue<StructureQuestion, double> StructureStatistics::operator()(
     std::span<const double> residuals) const {
   std::vector<double> r(residuals.begin(), residuals.end());
@@ -202,14 +242,23 @@ PerValue<StructureQuestion, double> StructureStatistics::operator()(
   }
   const double square = dot(r, r);
   if (!stated_ && square > 0.0) {  // in units of their own size
-    const double dof = static_cast<double>(std::count(used_.begin(), used_.end(), true)) -
-                       static_cast<double>(model_.size());
+    const double dof = static_cast<double>(used_count_) - static_cast<double>(model_.size());
     const double scale = std::sqrt(square / std::max(dof, 1.0));
     for (double& value : r) value /= scale;
   }
   double runs = 0.0;
-  for (const std::vector<std::size_t>& run : runs_) {
-    for (std::size_t k = 1; k < run.size(); ++k) runs += r[run[k - 1]] * r[run[k]];
+  for (const auto& run : runs_) {
+    double before = 0.0;
+    for (const std::vector<std::size_t>& members : run) {
+      double sum = 0.0, square_of_slopes = 0.0;
+      for (const std::size_t i : members) {
+        sum += slopes_[i] * r[i];
+        square_of_slopes += slopes_[i] * slopes_[i];
+      }
+      const double mean = square_of_slopes > 0.0 ? sum / std::sqrt(square_of_slopes) : 0.0;
+      runs += before * mean;
+      before = mean;
+    }
   }
   double smooth = -INFINITY;
   double along = 0.0;
@@ -271,7 +320,7 @@ Structure judge_structure(const StructureStatistics& statistics, std::span<const
   double smallest_own = 1.0;
   for (const StructureQuestion question : values_of<StructureQuestion>()) {
     const bool scatter = question == StructureQuestion::scatter;
-    if (scatter && !statistics.tests_scatter()) continue;
+    if (!statistics.asks(question)) continue;
     std::vector<double> sorted;
     for (const auto& sample : simulated) sorted.push_back(sample[question]);
     std::sort(sorted.begin(), sorted.end());

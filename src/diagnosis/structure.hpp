@@ -7,6 +7,7 @@
 
 #include "core/names.hpp"
 #include "diagnosis/candidate.hpp"
+#include "estimate/shared_settings.hpp"
 #include "uncertainty/resample.hpp"
 
 namespace recoil {
@@ -48,8 +49,11 @@ struct Structure {
 /// - smooth: max over m of (T_m - m) / sqrt(2 m), T_m the part of sum r^2 in the first m of the
 ///   functions P_j(ln V), P_j(ln V) ln d (j = 0, 1, ...; over all points), which is an adaptive
 ///   Neyman test (Fan 1996, J. Am. Stat. Assoc. 91, 674-688).
-/// All functions are first freed of what the fit's own parameters can follow (the columns of its
-/// Jacobian), so that they ask only for what the model cannot do.
+/// A function is a discrepancy of e^2, weighted like the residuals, and the residuals of one
+/// velocity and size count together, by their mean. All functions are first freed of what the fit's
+/// own parameters can follow (the columns of its Jacobian), so that they ask only for what the
+/// model cannot do. A question of which nothing is left then is not asked: with no more distinct
+/// pairs of velocity and size than moving parameters none is, but for the scatter.
 class StructureStatistics {
  public:
   /// @param fitted whose Jacobian says what the model can follow
@@ -64,7 +68,8 @@ class StructureStatistics {
   /// model is right, to first order.
   std::vector<double> residuals_of_noise(std::span<const double> noise) const;
 
-  bool tests_scatter() const { return stated_; }
+  /// Can these points answer the question?
+  bool asks(StructureQuestion question) const;
 
   /// The free-form discrepancy that the smallest criterion T_m - 2 m chooses, as whitened residuals
   /// [points]; empty when m = 0 is best.
@@ -73,16 +78,23 @@ class StructureStatistics {
  private:
   using Column = std::vector<double>;
   void add_local_functions(const Observations& data);
+  std::size_t places() const;
+  std::size_t longest_run() const;
   void add_global_functions(const Observations& data);
   bool orthogonalise(Column& column, const std::vector<Column>& against) const;
   bool take(Column column, std::vector<Column>& into) const;
   double square_along(const std::vector<Column>& columns, std::span<const double> r) const;
 
   bool stated_ = true;
-  std::shared_ptr<const Discrepancy> discrepancy_;  // whitens functions as it did the residuals
+  bool noise_known_ = true;
+  std::vector<double> slopes_;                      // d residual / d e^2 [points]
+  SharedSettings settings_;                         // whiten functions as they did the residuals
+  std::shared_ptr<const Discrepancy> discrepancy_;  // likewise
   std::vector<bool> used_;
-  std::vector<Column> model_;                   // orthonormal, spans the Jacobian
-  std::vector<std::vector<std::size_t>> runs_;  // groups in the order of velocity
+  std::size_t used_count_ = 0;
+  std::vector<Column> model_;  // orthonormal, spans the Jacobian
+  // Groups: of each its velocities in ascending order, of each velocity its points.
+  std::vector<std::vector<std::vector<std::size_t>>> runs_;
   std::vector<Column> size_, trend_, curvature_, capture_;
   std::vector<Column> smooth_;
 };

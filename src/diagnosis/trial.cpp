@@ -1,6 +1,8 @@
 #include "diagnosis/trial.hpp"
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "diagnosis/law_errors.hpp"
@@ -71,6 +73,13 @@ CandidateResult described(const SearchBase& base, Candidate candidate, Refit ref
   return result;
 }
 
+/// Does the mechanism act otherwise in one series than in another?
+bool knows_series(const Mechanism& mechanism) {
+  const auto& parameters = mechanism.info.parameters;
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [](const Parameter& p) { return p.per_series || p.stated_by; });
+}
+
 bool can_be_released(const Candidate& candidate) {
   return std::any_of(
       candidate.model.slots.begin(), candidate.model.slots.end(), [&](const ParameterSlot& slot) {
@@ -79,6 +88,25 @@ bool can_be_released(const Candidate& candidate) {
 }
 
 }  // namespace
+
+bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
+  const Observations& data = base.fitted.data;
+  if (!data.noise.known) return false;
+  const std::vector<const Mechanism*> added = chain_of(candidate.added);
+  const bool by_series =
+      std::any_of(added.begin(), added.end(), [](const Mechanism* m) { return knows_series(*m); });
+  std::set<std::tuple<std::size_t, std::size_t, double, double>> impacts;
+  int says_more = 0;  // points with both rebounds and captures say two things
+  for (const Observation& point : data.points) {
+    impacts.insert({point.dataset, by_series ? point.series : 0, point.diameter, point.velocity});
+    if (point.mixed()) ++says_more;
+  }
+  const auto& moving = base.refit.moving;
+  const auto before = static_cast<int>(std::count(moving.begin(), moving.end(), true));
+  const int own = candidate.free_count - base.candidate.free_count;
+  const int known = static_cast<int>(impacts.size()) + says_more;
+  return known >= before + std::max(own, 1);
+}
 
 CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit) {
   const Observations& data = base.fitted.data;
@@ -106,6 +134,7 @@ void try_released(const SearchBase& base, CandidateResult& result, int tries) {
   // A single one may want to be what it cannot be, and is to say so.
   const bool pair = result.candidate.added.size() > 1;
   Candidate released = make_candidate(base.spec, base.datasets, result.candidate.added, true, pair);
+  if (!can_be_seen(base, released)) return;
   const std::vector<double> near = within_bounds(
       released.model, carried_over(result.candidate.model, result.refit.theta, released.model));
   CandidateResult other = try_one(base, std::move(released), near, tries);

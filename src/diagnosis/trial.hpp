@@ -15,6 +15,10 @@ namespace recoil {
 CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<const double> near,
                         int tries);
 
+/// Can the points show what `candidate` adds? Its parameters need as many distinct impacts (size
+/// and velocity; series, where the mechanism knows series), and more than the base model moves.
+bool can_be_seen(const SearchBase& base, const Candidate& candidate);
+
 /// What a fitted candidate is, gains and leaves.
 CandidateResult examine(const SearchBase& base, Candidate candidate, Refit refit);
 

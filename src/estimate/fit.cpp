@@ -86,7 +86,14 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
   }
   if (result.noise_verdict == NoiseVerdict::estimated) {
     // What the points say of the constants they do not say of their noise.
-    result.dof = std::max(1, result.dof - static_cast<int>(std::lround(misfit.learned)));
+    result.dof -= static_cast<int>(std::lround(misfit.learned));
+  }
+  NoiseModel& noise = result.data.noise;
+  noise.known =
+      result.data.sd_stated || (result.dof > 0 && noise.scale * result.noise_scale > least_noise);
+  if (!noise.known) {
+    result.noise_scale = 1.0;
+    result.noise_verdict = NoiseVerdict::unchecked;
   }
 }
 
@@ -275,6 +282,7 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
   }
   result.constant_effects = constant_effects(model, best, result.data.points.size());
   add_constant_effects(result.constant_effects, result.covariance);
+  if (!result.data.noise.known) result.covariance.clear();
   result.std_error.assign(result.theta.size(), 0.0);
   for (std::size_t j = 0; !result.covariance.empty() && j < result.theta.size(); ++j) {
     result.std_error[j] = std::sqrt(result.covariance[j * result.theta.size() + j]);

@@ -35,7 +35,7 @@ struct StartSummary {
 
 /// What the scatter of the points says of the standard deviations that they state.
 enum class NoiseVerdict {
-  unchecked,  ///< there are as many parameters as points
+  unchecked,  ///< there are as many parameters as points, or nothing scatters about the fit
   estimated,  ///< none are stated: the noise is estimated from the residuals
   explained,  ///< they explain the scatter
   doubtful,   ///< the scatter is at the edge of what chance makes of them

@@ -374,6 +374,7 @@ class FitReader : private TomlReader {
       fail(node, fmt::format("'bounds' of '{}' is not [lower, upper]", entry.name), "",
            fmt::format("write for example bounds = [{:g}, {:g}]", entry.lower, entry.upper));
     }
+    spec.bounds_stated = true;
     spec.lower = admissible(*pair->get(0), "bounds", entry);
     spec.upper = admissible(*pair->get(1), "bounds", entry);
     if (spec.lower > spec.upper) {

@@ -82,6 +82,7 @@ struct ParameterSpec {
   bool free = true;
   bool per_dataset = false;     ///< `per = "dataset"`: one value for each dataset of the fit
   bool initial_stated = false;  ///< f0 and W come from the materials when this is not stated
+  bool bounds_stated = false;  ///< else the upper one of C_H follows the velocities, see make_model
   bool mentioned = false;  ///< the file has an entry for it: no condition of a dataset overrides it
 
   /// Is the start (or the value, if it is fixed) to be had from the materials of the datasets?

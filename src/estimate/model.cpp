@@ -101,6 +101,23 @@ std::vector<std::vector<std::size_t>> add_own_slots(ImpactModel& model, const Pa
   return all;
 }
 
+/// C_H V is what damps: at 30 a sphere keeps e = 0.03 (1 + C_H V = (1 - C_H V e) exp(C_H V (1 +
+/// e)), Hunt & Crossley 1975, J. Appl. Mech. 42, 440-445). Slow spheres of a low e need a C_H far
+/// above the bound of the catalogue.
+constexpr double most_damping = 30.0;
+
+ParameterSpec with_room_for_damping(ParameterSpec spec, const std::vector<Dataset>& datasets) {
+  if (spec.bounds_stated) return spec;
+  double fastest = 0.0;
+  for (const Dataset& dataset : datasets) {
+    for (const ImpactPoint& point : dataset.points) {
+      fastest = std::max(fastest, point.incident_velocity);
+    }
+  }
+  if (fastest > 0.0) spec.upper = std::max(spec.upper, most_damping / fastest);
+  return spec;
+}
+
 /// The slot of a parameter of the base model for every dataset.
 std::vector<std::size_t> add_base_slots(ImpactModel& model, const ParameterSpec& spec,
                                         const std::vector<Dataset>& datasets) {
@@ -292,7 +309,7 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     const ParameterSpec stated = spec.statement_of(*parameter);
     switch (parameter->role) {
       case ParameterRole::hertz_damping:
-        model.slot_C_H = add_base_slots(model, stated, datasets);
+        model.slot_C_H = add_base_slots(model, with_room_for_damping(stated, datasets), datasets);
         break;
       case ParameterRole::adhesion_damping:
         model.slot_C_A = add_base_slots(model, stated, datasets);

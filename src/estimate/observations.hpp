@@ -28,6 +28,8 @@ struct NoiseModel {
   double event_spread = 0.0;  ///< relative sd of the capture velocity from impact to impact; 0
                               ///< where no point has both rebounds and captures
   std::optional<StudentNoise> student;  ///< residuals are Student's t, not normal
+  bool known = true;  ///< false: neither stated nor to be estimated, as nothing scatters about the
+                      ///< fit; then there are no errors and nothing can be tested
   double setting_sd = 0.0;  ///< of the error of e that the points of one setting share, as stated
                             ///< or estimated [1]
 };

@@ -14,7 +14,6 @@ namespace recoil {
 namespace {
 
 constexpr int most_rounds = 25;
-constexpr double least_scale = 1e-6;  // of e: no measurement is better
 
 /// The steps of the parameters in units of their standard errors (of their values, without one).
 std::vector<double> relative_steps(const LeastSquaresResult& run,
@@ -99,7 +98,7 @@ ReweightedFit reweight_with(const ImpactModel& model, Observations data,
       scale = misfit(result.data, result.run.residuals, *predicted, model.free_count(), constants)
                   .scale();
       // Data without noise would let the scale shrink for ever.
-      result.at_rest = noise_scale * scale < least_scale;
+      result.at_rest = noise_scale * scale < least_noise;
       if (result.at_rest) break;
     }
     std::vector<double> steps = relative_steps(result.run, theta);

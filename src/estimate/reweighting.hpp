@@ -15,6 +15,9 @@ struct ReweightedFit {
   bool at_rest = true;     ///< false: still moving when the rounds ran out
 };
 
+/// Residuals of e below this are rounding: no measurement is better [1].
+inline constexpr double least_noise = 1e-6;
+
 struct ReweightingOptions {
   LeastSquaresOptions minimiser;
   double parameters = 1e-3;  ///< rounds end when no parameter moves by more, in standard errors,

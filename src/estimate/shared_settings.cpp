@@ -3,7 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 
 #include "core/roots.hpp"
 #include "estimate/residual.hpp"
@@ -12,6 +14,9 @@ namespace recoil {
 namespace {
 
 constexpr double largest_error = 0.3;  // of e
+// A standard deviation from m deviations is known within a factor of 2.5 (95 %) from m = 5 on:
+// sqrt(5 / chi2) runs from 0.62 to 2.45.
+constexpr int fewest_deviations = 5;
 
 /// What the points of one setting say of their error, by their deviations of e in units of their
 /// own scatter.
@@ -42,6 +47,34 @@ std::map<std::size_t, SettingMean> means_of(const Observations& data,
     ++setting.points;
   }
   return means;
+}
+
+/// What tells the series apart, one function for each but the first: their differences are no error
+/// of settings.
+std::vector<std::vector<double>> series_offsets(const Observations& data) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<double>> offsets;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const Observation& point = data.points[i];
+    offsets.try_emplace({point.dataset, point.series}, data.points.size(), 0.0).first->second[i] =
+        1.0;
+  }
+  std::vector<std::vector<double>> functions;
+  for (auto at = std::next(offsets.begin()); at != offsets.end(); ++at) {
+    functions.push_back(std::move(at->second));
+  }
+  return functions;
+}
+
+/// The largest error of e that an error of the stated velocities makes, e sd_V / V; infinite where
+/// some point states none.
+double stated_setting_error(const Observations& data) {
+  double most = 0.0;
+  for (const Observation& point : data.points) {
+    if (point.censored) continue;
+    if (!(point.velocity_sd > 0.0)) return INFINITY;
+    most = std::max(most, point.restitution * point.velocity_sd / point.velocity);
+  }
+  return most;
 }
 
 }  // namespace
@@ -121,11 +154,27 @@ double estimated_setting_error(const Observations& data, std::span<const double>
   return find_root(excess, 0.0, largest_error, 1e-9);
 }
 
+int spare_settings(const Observations& data, int free_count) {
+  std::set<std::pair<std::size_t, std::size_t>> series;
+  for (const Observation& point : data.points) series.insert({point.dataset, point.series});
+  return count_settings(data).settings - free_count - static_cast<int>(series.size() - 1);
+}
+
+bool too_few_settings(const Observations& data, int free_count) {
+  return data.setting_sd_estimated && spare_settings(data, free_count) < fewest_deviations;
+}
+
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data) {
   if (!data.shares_settings()) return;
   double& error = data.noise.setting_sd;
-  error = data.spec.setting_sd ? *data.spec.setting_sd
-                               : estimated_setting_error(data, predicted, free_count);
+  if (data.spec.setting_sd) {
+    error = *data.spec.setting_sd;
+  } else if (too_few_settings(data, free_count)) {
+    error = 0.0;
+  } else {
+    error = std::min(estimated_setting_error(data, predicted, free_count, series_offsets(data)),
+                     stated_setting_error(data));
+  }
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     Observation& point = data.points[i];
     point.weights.setting_load =

@@ -52,8 +52,16 @@ class SharedSettings {
 double estimated_setting_error(const Observations& data, std::span<const double> predicted,
                                int free_count, std::span<const std::vector<double>> trends = {});
 
+/// Settings less free parameters and differences of series: the deviations that an estimate of
+/// sigma rests on.
+int spare_settings(const Observations& data, int free_count);
+
+/// Would sigma be estimated, but from too few settings? Then it is 0.
+bool too_few_settings(const Observations& data, int free_count);
+
 /// Renews `setting_load` of all points where they predict e^2 = `predicted`, and before it, where
-/// it is not stated, sigma.
+/// it is not stated, sigma: estimated beside an offset of every series, and no larger than what the
+/// stated errors of the velocities make of e.
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data);
 
 /// An error of e for every point, the same for all of a setting [1]; 0 where settings share

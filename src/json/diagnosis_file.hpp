@@ -169,6 +169,9 @@ struct DiagnosisFile {
   int format_version = recoil::format_version;
   std::string fit;
   std::vector<Data> datasets;
+  std::vector<RestitutionMeanEntry> restitution_summary;
+  VelocityDependenceEntry velocity_dependence;
+  SeriesDifferEntry series_differ;
   Verdict verdict = Verdict::adequate;
   std::string headline, text;
   Misfit misfit;
@@ -187,7 +190,8 @@ struct DiagnosisFile {
   std::vector<Unstated> unstated_errors;
   Settings settings;
   std::vector<std::string> warnings, remarks;
-  RECOIL_FIELDS(format_version, fit, datasets, verdict, headline, text, misfit, outlying_points,
+  RECOIL_FIELDS(format_version, fit, datasets, restitution_summary, velocity_dependence,
+                series_differ, verdict, headline, text, misfit, outlying_points,
                 with_outlying_points, law_error, named, rivals, resembles, in_every_explanation,
                 shared_cause, candidates, pairs, gain, base, extended, capture_velocity,
                 next_experiment, expected_effects, unstated_errors, settings, warnings, remarks)

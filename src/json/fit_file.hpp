@@ -50,6 +50,35 @@ struct ValidityEntry {
 
 /// `fit.json`: the result of one fit. SI units unless the name of a member says otherwise.
 /// docs/fit-json.md describes every key.
+/// A mean of e over a series of one diameter, or over one setting of it.
+struct RestitutionMeanEntry {
+  std::string dataset, series;
+  std::optional<std::string> setting;
+  double diameter_um = 0.0;
+  std::optional<double> incident_velocity;  ///< of a setting
+  double value = 0.0;
+  OrReason<Ends> interval;
+  int points = 0;
+  RECOIL_FIELDS(dataset, series, setting, diameter_um, incident_velocity, value, interval, points)
+};
+
+/// b of e = a_series + b log10 V [1/decade].
+struct VelocityDependenceEntry {
+  OrReason<double> slope;
+  std::optional<Ends> interval;
+  std::optional<double> p_value;
+  RECOIL_FIELDS(slope, interval, p_value)
+};
+
+/// Whether series differ, and by how much the two that differ most.
+struct SeriesDifferEntry {
+  OrReason<double> p_value;
+  std::optional<std::array<std::string, 2>> most_different;
+  std::optional<double> difference;
+  std::optional<Ends> interval;
+  RECOIL_FIELDS(p_value, most_different, difference, interval)
+};
+
 struct FitFile {
   struct Source {
     std::string id, sha256;
@@ -181,6 +210,7 @@ struct FitFile {
     std::optional<double> diameter_um;
     std::string unit;
     OrReason<double> value;
+    std::optional<double> lower_limit;  ///< where all impacts were captured
     std::optional<Ends> interval, interval_mc_error;
     CaptureIntervals intervals;
     Recommended recommended;
@@ -188,8 +218,9 @@ struct FitFile {
     OrAbsent<std::vector<BudgetRow>> budget;
     OrAbsent<bool> budget_linear;
     OrAbsent<std::optional<double>> budget_sd_without_first_constant;
-    RECOIL_FIELDS(dataset, diameter_um, unit, value, interval, interval_mc_error, intervals,
-                  recommended, why, budget, budget_linear, budget_sd_without_first_constant)
+    RECOIL_FIELDS(dataset, diameter_um, unit, value, lower_limit, interval, interval_mc_error,
+                  intervals, recommended, why, budget, budget_linear,
+                  budget_sd_without_first_constant)
   };
 
   struct Derived {
@@ -392,6 +423,9 @@ struct FitFile {
   std::string provenance_sentence;
   DatasetEntry dataset;  ///< of several: as one, with the provenance that claims least
   std::vector<DatasetEntry> datasets;
+  std::vector<RestitutionMeanEntry> restitution_summary;
+  VelocityDependenceEntry velocity_dependence;
+  SeriesDifferEntry series_differ;
   Options options;
   Model model;
   Named<Parameter> parameters;
@@ -415,10 +449,10 @@ struct FitFile {
   std::vector<CurvePoint> curve;
   std::vector<Residual> residuals;
   RECOIL_FIELDS(format_version, recoil_version, fit, provenance_sentence, dataset, datasets,
-                options, model, parameters, constants, covariance, correlation, derived, solver,
-                goodness, noise, identifiability, validity, bootstrap, posterior, comparison,
-                two_point, full, two_point_by_dataset, full_by_dataset, starts, warnings, curve,
-                residuals)
+                restitution_summary, velocity_dependence, series_differ, options, model, parameters,
+                constants, covariance, correlation, derived, solver, goodness, noise,
+                identifiability, validity, bootstrap, posterior, comparison, two_point, full,
+                two_point_by_dataset, full_by_dataset, starts, warnings, curve, residuals)
 };
 
 /// The interval of a parameter that is to be quoted; nullopt where there is none.

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "data/text.hpp"
 #include "document/sentence.hpp"
@@ -19,6 +21,7 @@ namespace {
 constexpr std::size_t most_titles = 3;    // of tests that found something
 constexpr std::size_t most_expected = 3;  // effects of stated conditions
 constexpr std::size_t most_impossible = 2;
+constexpr double worth_a_word = 0.01;        // of an error of e
 const double steps_of_sd = std::sqrt(12.0);  // of a reading that is rounded
 
 /// "gas film (gas between the measuring plane and the contact)"
@@ -90,8 +93,9 @@ std::string dominant_point_words(const Diagnosis& d) {
   if (!worst) return "";
   const Observation& point = d.base.data.points[*worst];
   return fmt::format(
-      "Most of the misfit is one point, of {} at {:.3g} m/s (e = {:.3g}): look at that first.",
-      diameter_words(point.diameter), point.velocity, point.restitution);
+      "Most of the misfit is one point, in line {}, of {} at {:.3g} m/s (e = {:.3g}): look at that "
+      "first.",
+      point.line, diameter_words(point.diameter), point.velocity, point.restitution);
 }
 
 std::string errors_words(const UnstatedErrors& errors) {
@@ -157,10 +161,48 @@ std::string found_words(const Diagnosis& d) {
   return fmt::format("{}", fmt::join(found, ", "));
 }
 
+/// A damping of the base model that its upper bound holds back.
+std::string bound_words(const Diagnosis& d) {
+  for (std::size_t j = 0; j < d.base.theta.size(); ++j) {
+    const ParameterSlot& slot = d.base.model.slots[j];
+    if (!slot.parameter->is_damping() || !d.base.at_bound[j] || d.base.theta[j] < slot.upper) {
+      continue;
+    }
+    return fmt::format(
+        "{} rests on its upper bound of {:.3g}{}: widen the bounds before reading anything into "
+        "the misfit.",
+        slot.label(), slot.upper, unit_suffix(slot.parameter->unit));
+  }
+  return "";
+}
+
+/// What these points cannot show.
+std::string untested_words(const Diagnosis& d) {
+  if (!d.base.data.noise.known) {
+    return "The noise is neither stated nor to be seen, so that nothing can be tested.";
+  }
+  if (tests_the_curve(d)) return "";
+  if (evidence_for(d).rebounds == 0) return "No sphere rebounded: nothing about e can be seen.";
+  std::set<std::pair<double, double>> places;
+  for (const Observation& point : d.base.data.points) {
+    places.insert({point.velocity, point.diameter});
+  }
+  return places.size() == 1
+             ? "One velocity: nothing about how e varies with V can be seen."
+             : fmt::format(
+                   "{} pairs of velocity and size determine {} free parameters and test "
+                   "nothing else of the curve.",
+                   places.size(), evidence_for(d).free);
+}
+
 /// What is wrong.
 std::string wrong_words(const Diagnosis& d) {
+  if (d.structure.tests.empty()) return "";
   const std::string p = p_words(d.structure.p_value, d.structure.simulated);
   if (d.verdict == Verdict::adequate) {
+    if (!tests_the_curve(d)) {
+      return fmt::format("The points scatter about the curve no more than stated ({}).", p);
+    }
     return fmt::format(
         "Nothing systematic is left in the residuals of the fitted model ({}: the share of data "
         "sets simulated with the model that look as systematic).",
@@ -219,6 +261,10 @@ std::string resembling_words(const Diagnosis& d) {
 /// Why nothing is named.
 std::string unexplained_words(const Diagnosis& d) {
   if (!d.resembles.empty()) return resembling_words(d);
+  if (series_differ(d)) {
+    return "Nothing in the catalogue tells the series apart: fit each by itself, or state what "
+           "differs between them as a condition.";
+  }
   if (!d.outdone.empty()) {
     return fmt::format(
         "It would be explained by {}, but as well by unstated errors, which assume less: no cause "
@@ -234,6 +280,7 @@ std::string unexplained_words(const Diagnosis& d) {
         title_of(closest->candidate.name()), 100.0 * (1.0 - closest->remaining_part),
         p_words(closest->remaining_p, quick_samples));
   }
+  if (!tests_the_curve(d)) return "The points scatter more than their stated standard deviations.";
   if (!d.structure.smooth) {
     return "Nothing in the catalogue explains it, and it has no shape in velocity and size: the "
            "points scatter more than their stated standard deviations.";
@@ -243,8 +290,8 @@ std::string unexplained_words(const Diagnosis& d) {
 
 /// What to do where nothing is named.
 std::string advice_words(const Diagnosis& d) {
-  if (!d.outlying.empty()) return "Look at the points that were set aside first.";
-  if (dominant_point(d)) return "Look at that point first.";
+  if (series_differ(d)) return "";   // it has been said
+  if (dominant_point(d)) return "";  // it has been said
   if (!rival_errors(d).empty() || !d.structure.smooth) {
     return "State the errors that the measurement has (restitution_sd, velocity_sd, setting), and "
            "ask again.";
@@ -261,6 +308,7 @@ std::string advice_words(const Diagnosis& d) {
 
 /// An adequate model that nothing could have shown wrong.
 std::string evidence_words(const Diagnosis& d) {
+  if (!tests_the_curve(d)) return "";  // it has been said
   const Evidence evidence = evidence_for(d);
   if (!evidence.hardly_any()) return "";
   return fmt::format(
@@ -275,8 +323,8 @@ std::string materials_words(const Diagnosis& d) {
   std::string moved;
   for (std::size_t k = 0; k < d.base.constants_moved.size(); ++k) {
     const double by = d.base.constants_moved[k];
-    constexpr double worth_a_word = 0.5;  // standard deviations
-    if (std::abs(by) < worth_a_word) continue;
+    constexpr double least_move = 0.5;  // standard deviations
+    if (std::abs(by) < least_move) continue;
     moved += fmt::format("{}{} by {:+.1f}", moved.empty() ? ": " : ", ",
                          d.base.model.slots[d.base.model.first_constant() + k].label(), by);
   }
@@ -286,11 +334,19 @@ std::string materials_words(const Diagnosis& d) {
       moved, moved.empty() ? "" : " standard deviations", d.materials->p_value_exact);
 }
 
+/// The middle one of the standard deviations of e that the points have.
+double typical_error(const Diagnosis& d) {
+  std::vector<double> errors;
+  for (const Observation& point : d.base.data.points) errors.push_back(point.weights.sd);
+  return median(std::move(errors));
+}
+
 /// What the conditions of the data say must be there, the largest effect first.
 std::vector<std::string> expected_words(const Diagnosis& d) {
   std::vector<std::string> words;
   for (const ExpectedEffect& effect : d.expected) {
     if (words.size() == most_expected) break;
+    if (std::abs(effect.change) < worth_a_word * typical_error(d)) break;
     words.push_back(fmt::format(
         "At the stated {} of {:.4g}{}, {} changes e by {:+.2g} at most ({} at {:.3g} m/s).",
         condition_words(effect.condition), effect.stated,
@@ -372,7 +428,8 @@ std::string outlying_words(const Diagnosis& d) {
 }  // namespace
 
 std::vector<std::string> answer_sentences(const Diagnosis& d) {
-  std::vector<std::string> sentences = {wrong_words(d)};
+  std::vector<std::string> sentences = {outlying_words(d), bound_words(d), wrong_words(d),
+                                        untested_words(d)};
   switch (d.verdict) {
     case Verdict::adequate:
       sentences.push_back(evidence_words(d));
@@ -402,7 +459,7 @@ std::vector<std::string> answer_sentences(const Diagnosis& d) {
 }
 
 std::vector<std::string> answer_notes(const Diagnosis& d) {
-  std::vector<std::string> notes = {outlying_words(d)};
+  std::vector<std::string> notes;
   const auto add = [&](const std::vector<std::string>& more) {
     notes.insert(notes.end(), more.begin(), more.end());
   };

@@ -48,7 +48,8 @@ std::string headline_of_several(const Diagnosis& d) {
 std::string headline(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::adequate:
-      return "The model describes these points";
+      return tests_the_curve(d) ? "The model describes these points"
+                                : "These points cannot test the model";
     case Verdict::cause_named:
       return "What the model misses: " + causes(d.named);
     case Verdict::not_separable:
@@ -58,6 +59,8 @@ std::string headline(const Diagnosis& d) {
         return fmt::format("The misfit has the shape of {}, which cannot be its cause",
                            causes(d.resembles, " or "));
       }
+      if (series_differ(d)) return "The series differ, and the model has one curve for all of them";
+      if (!tests_the_curve(d)) return "The points scatter more than their stated errors";
       return rival_errors(d).empty()
                  ? "The model misses something that nothing in the catalogue explains"
                  : "Either the errors are larger than stated, or the model misses something that "

@@ -244,7 +244,9 @@ Table expected_table(const Diagnosis& d) {
 
 Section answer_section(const Diagnosis& d) {
   Section answer{"answer", d.spec.id, "diagnosis"};
-  answer.blocks = {Paragraph{strong(headline(d) + "."), true},
+  const RestitutionSummary summary = summarise_restitution(d.datasets);
+  answer.blocks = {Paragraph{join(restitution_sentences(summary, d.datasets), " ")},
+                   Paragraph{strong(headline(d) + "."), true},
                    Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " "))}};
   for (const std::string& remark : d.remarks) answer.blocks.emplace_back(Paragraph{remark});
   append(answer.blocks, provenance_banners(d.datasets));

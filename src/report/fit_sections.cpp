@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -64,6 +65,11 @@ Sentence capture_words(const Analysis& a) {
     parts.push_back(
         say("{} below {}{}", diameter_sentence(capture->diameter), velocity.words(), where));
   }
+  for (const CaptureEstimate& capture : a.uncertainty.capture) {
+    if (!capture.above) continue;
+    return say("All impacts were captured: the capture velocity of {} lies above {:.3g} m/s.",
+               diameter_sentence(capture.diameter), *capture.above);
+  }
   if (parts.empty()) return {};
   return say("Spheres stick: ") + join(parts, "; ") + ".";
 }
@@ -71,6 +77,42 @@ Sentence capture_words(const Analysis& a) {
 Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
   if (diagnosis == nullptr) return quality_words(a.fitted);
   return diagnosis->verdict == Verdict::adequate ? "The model fits." : "The model does not fit.";
+}
+
+/// A parameter of the model that its upper bound holds back.
+Sentence bound_words(const FitResult& f) {
+  std::vector<Sentence> names;
+  for (std::size_t j = 0; j < f.theta.size(); ++j) {
+    const ParameterSlot& slot = f.model.slots[j];
+    if (!slot.parameter->is_damping() || !f.at_bound[j] || f.theta[j] < slot.upper) continue;
+    names.push_back(symbol(slot.label()));
+  }
+  if (names.empty()) return {};
+  return say("{} rests on its upper bound: widen the bounds before reading anything into the fit.",
+             join(names, ", "));
+}
+
+/// The point without which the others fit, with the verdict on them.
+Sentence odd_point_words(const Analysis& a) {
+  if (!a.uncertainty.odd_point) return {};
+  const OddPoint& odd = *a.uncertainty.odd_point;
+  const Observation& point = a.fitted.data.points[odd.index];
+  std::vector<Sentence> values;
+  for (std::size_t j = 0; j < odd.without.theta.size(); ++j) {
+    const ParameterSlot& slot = odd.without.model.slots[j];
+    if (!slot.free) continue;
+    values.push_back(
+        say("{} = {}", symbol(slot.label()),
+            Number{odd.without.theta[j], significant(3), odd.without.std_error[j]}.words()));
+  }
+  std::string verdict = plain_text(quality_words(odd.without));
+  verdict.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(verdict.front())));
+  verdict.pop_back();  // the full stop
+  return say(
+      "Line {}{} ({e} = {:.3g} at {:.3g} m/s) lies {:.1f} standard deviations from what the "
+      "others predict. Without it {}; {}.",
+      point.line, a.datasets.size() > 1 ? " of " + a.datasets[point.dataset].id : std::string(),
+      point.restitution, point.velocity, std::abs(odd.residual), verdict, join(values, ", "));
 }
 
 /// What one of the panels of e(V) shows, or all of them in one picture.
@@ -205,8 +247,13 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
     return {answer, warnings_section(a), inputs_section(a)};
   }
   std::vector<Figure> panels = restitution_figures(a);
-  const Sentence lead = capture_words(a) + " " + verdict_words(a, diagnosis);
-  answer.blocks = {Paragraph{lead, true}};
+  std::vector<Sentence> leads = {capture_words(a), bound_words(a.fitted),
+                                 verdict_words(a, diagnosis), odd_point_words(a)};
+  std::erase(leads, Sentence());
+  const Sentence lead = join(leads, " ");
+  const RestitutionSummary summary = summarise_restitution(a.datasets);
+  answer.blocks = {Paragraph{join(restitution_sentences(summary, a.datasets), " ")},
+                   Paragraph{lead, true}};
   append(answer.blocks, provenance_banners(a.datasets));
   std::vector<Section> sections = {std::move(answer)};
   sections.push_back({"picture", "", {}, {answer_figures(a, panels)}});
@@ -218,6 +265,8 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
   }
   if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
   sections.push_back({"warning", "", {}, gravest_warning(a)});
+  sections.push_back(detail_section("restitution", "Mean e of every series and setting",
+                                    {restitution_table(summary, a.datasets)}));
   sections.push_back(sizes_section(a, std::move(panels)));
   sections.push_back(certainty_section(a));
   sections.push_back(comparison_section(a));

@@ -43,6 +43,7 @@ std::size_t free_parameters(const FitResult& fitted) {
 
 Cell capture_cell(const Analysis& a, const CaptureEstimate& capture) {
   if (without_adhesion(a, capture.dataset)) return no_capture_words;
+  if (capture.above) return say("above {:.3g}", *capture.above);
   if (!capture.found) return "none found";
   Number value{capture.value, padded(3)};
   if (capture.interval.available()) {
@@ -158,9 +159,12 @@ Table parameters_table(const Analysis& a) {
     double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
     if (follows) error = s < a.uncertainty.budgets.size() ? a.uncertainty.budgets[s].sd : 0.0;
     if (!std::isfinite(error)) error = 0.0;
+    const bool flat = std::find(f.flat.begin(), f.flat.end(), s) != f.flat.end();
     table.rows.push_back(
-        {labelled(slot), Number{acting_value(f.model, f.theta, s), significant(4), error},
-         interval_cell(interval, significant(3)), Sentence(remark_of(f, s, interval))});
+        {labelled(slot),
+         flat ? Cell() : Cell(Number{acting_value(f.model, f.theta, s), significant(4), error}),
+         interval_cell(interval, significant(3)),
+         Sentence(flat ? "no point depends on it" : remark_of(f, s, interval))});
   }
   return table;
 }

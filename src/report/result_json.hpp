@@ -24,6 +24,14 @@ ValidityEntry validity_entry(const Validity& check);
 /// The ends of an interval; nullopt unless both exist and are finite.
 std::optional<Ends> ends_of(const Interval& interval);
 
+/// What the points say of e without a model.
+struct RestitutionEntries {
+  std::vector<RestitutionMeanEntry> means;
+  VelocityDependenceEntry velocity;
+  SeriesDifferEntry series;
+};
+RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets);
+
 /// @pre analysis.fitted.usable
 FitFile fit_file(const Analysis& analysis);
 /// The text of `fit.json`.

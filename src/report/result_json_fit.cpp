@@ -7,6 +7,7 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
+#include "estimate/restitution_summary.hpp"
 #include "estimate/reweighting.hpp"
 #include "report/format.hpp"
 #include "report/result_json.hpp"
@@ -162,7 +163,9 @@ FitFile::Parameter parameter_of(const Analysis& a, std::size_t s) {
   const ParameterSlot& slot = f.model.slots[s];
   const IntervalSet set = intervals_of(a, s);
   FitFile::Parameter out;
-  out.value = {acting_value(f.model, f.theta, s), "the estimate is not finite"};
+  const bool flat = std::find(f.flat.begin(), f.flat.end(), s) != f.flat.end();
+  out.value = {only_if(!flat, acting_value(f.model, f.theta, s)),
+               flat ? "no point depends on it" : "the estimate is not finite"};
   out.unit = slot.parameter->unit;
   out.free = slot.free;
   out.at_bound = s < f.at_bound.size() && f.at_bound[s];
@@ -244,8 +247,18 @@ std::vector<FitFile::CaptureVelocity> captures_of(const Analysis& a) {
     out.dataset = a.datasets[capture.dataset].id;
     out.diameter_um = in_um(capture.diameter);
     out.unit = "m/s";
-    out.value = {only_if(capture.found, capture.value),
-                 "no velocity at which capture turns into rebound was found"};
+    const bool adheres = !without_adhesion(a, capture.dataset);
+    out.value = {only_if(capture.found && adheres, capture.value),
+                 !adheres ? "without adhesion nothing is captured"
+                 : capture.above
+                     ? fmt::format("all impacts up to {:.4g} m/s were captured", *capture.above)
+                     : "no velocity at which capture turns into rebound was found"};
+    out.lower_limit = capture.above;
+    if (!adheres) {
+      out.recommended.why = out.value.why;
+      out.why = out.value.why;
+      continue;
+    }
     out.interval = ends_of(capture.interval);
     out.interval_mc_error = mc_error(capture.interval);
     out.intervals.delta = ends_of(capture[CaptureIntervalKind::delta]);
@@ -288,8 +301,9 @@ FitFile::Noise noise_of(const FitResult& f) {
   FitFile::Noise out;
   out.variance = noise.variance;
   out.chosen = !noise.candidates.empty();
-  out.scale = {only_if(!data.sd_stated, noise.scale), "the standard deviations are stated"};
-  out.scale_text = scale_words(noise.variance, noise.scale);
+  out.scale = {only_if(!data.sd_stated && noise.known, noise.scale),
+               noise.known ? "the standard deviations are stated" : noise_words(f)};
+  if (noise.known) out.scale_text = scale_words(noise.variance, noise.scale);
   for (const VarianceCandidate& candidate : noise.candidates) {
     out.candidates.push_back({.variance = candidate.function,
                               .scale = candidate.scale,
@@ -570,6 +584,34 @@ ValidityEntry validity_entry(const Validity& check) {
   return out;
 }
 
+RestitutionEntries restitution_entries(const std::vector<Dataset>& datasets) {
+  const RestitutionSummary summary = summarise_restitution(datasets);
+  const auto series_of = [&](const RestitutionMean& mean) {
+    return datasets[mean.dataset].series[mean.series];
+  };
+  RestitutionEntries out;
+  for (const RestitutionMean& mean : summary.means) {
+    RestitutionMeanEntry& entry = out.means.emplace_back();
+    entry.dataset = datasets[mean.dataset].id;
+    entry.series = series_of(mean);
+    if (!mean.setting.empty()) entry.setting = mean.setting;
+    entry.diameter_um = in_um(mean.diameter);
+    entry.incident_velocity = mean.velocity;
+    entry.value = mean.value;
+    entry.interval = {mean.interval, mean.why};
+    entry.points = mean.points;
+  }
+  const TestedEffect& slope = summary.velocity;
+  out.velocity = {{slope.value, slope.why}, slope.interval, slope.p_value};
+  const TestedEffect& differ = summary.series;
+  out.series = {{differ.p_value, differ.why}, {}, differ.value, differ.interval};
+  if (differ.value) {
+    const auto& [one, other] = summary.most_different;
+    out.series.most_different = {series_of(summary.means[one]), series_of(summary.means[other])};
+  }
+  return out;
+}
+
 FitFile fit_file(const Analysis& a) {
   const FitResult& f = a.fitted;
   FitFile out;
@@ -578,6 +620,10 @@ FitFile fit_file(const Analysis& a) {
   out.provenance_sentence = all_provenance_sentences(a.datasets);
   out.dataset = joint_entry(a.datasets);
   for (const Dataset& dataset : a.datasets) out.datasets.push_back(dataset_entry(dataset));
+  RestitutionEntries restitution = restitution_entries(a.datasets);
+  out.restitution_summary = std::move(restitution.means);
+  out.velocity_dependence = std::move(restitution.velocity);
+  out.series_differ = std::move(restitution.series);
   out.options = options_of(a);
   out.model = model_of(a);
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "core/units.hpp"
 #include "data/dataset.hpp"
 #include "data/text.hpp"
@@ -295,6 +298,110 @@ std::string note_sentence(const ImportNote& note) {
       return left_out_sentence(note.left_out);
   }
   return "";
+}
+
+namespace {
+
+constexpr std::size_t most_series = 4;  // in a sentence
+constexpr double shown_level = 0.05;    // of a p-value that is called a difference
+
+std::string p_of_summary(double p) { return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p); }
+
+/// The series of a mean, with its dataset where there are several, and its size where its name does
+/// not tell it.
+std::string series_words(const RestitutionMean& mean, const RestitutionSummary& summary,
+                         const std::vector<Dataset>& datasets) {
+  const Dataset& dataset = datasets[mean.dataset];
+  std::string name = dataset.series[mean.series];
+  const auto same =
+      std::count_if(summary.means.begin(), summary.means.end(), [&](const RestitutionMean& other) {
+        return !other.velocity && other.dataset == mean.dataset && other.series == mean.series;
+      });
+  if (same > 1) name += " " + diameter_words(mean.diameter);
+  return datasets.size() > 1 ? fmt::format("{} of {}", name, dataset.id) : name;
+}
+
+Sentence mean_words(const RestitutionMean& mean) {
+  Number value{mean.value, padded(3)};
+  if (mean.interval) value.band = {(*mean.interval)[0], (*mean.interval)[1]};
+  return value.words();
+}
+
+Sentence ends_words(const TestedEffect& effect, double sign) {
+  const double a = sign * (*effect.interval)[0];
+  const double b = sign * (*effect.interval)[1];
+  return say("[{:.2g}, {:.2g}]", std::min(a, b), std::max(a, b));
+}
+
+Sentence dependence_words(const TestedEffect& effect) {
+  if (!effect.p_value) {
+    std::string why = effect.why;
+    why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
+    return say("{}: nothing about how {e} varies with {V} can be seen.", why);
+  }
+  const std::string p = p_of_summary(*effect.p_value);
+  if (*effect.p_value >= shown_level) {
+    return say("No change of {e} with {V} is seen: {:.2g} {} per decade of {V} ({}).",
+               *effect.value, ends_words(effect, 1.0), p);
+  }
+  const double sign = *effect.value < 0.0 ? -1.0 : 1.0;
+  return say("{e} {} by {:.2g} {} per decade of {V} ({}).", sign < 0.0 ? "falls" : "rises",
+             sign * *effect.value, ends_words(effect, sign), p);
+}
+
+}  // namespace
+
+std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
+                                            const std::vector<Dataset>& datasets) {
+  std::vector<Sentence> means;
+  std::size_t more = 0;
+  for (const RestitutionMean& mean : summary.means) {
+    if (mean.velocity) continue;
+    if (means.size() == most_series) {
+      ++more;
+      continue;
+    }
+    const std::string count =
+        fmt::format(" ({} point{})", mean.points, mean.points == 1 ? "" : "s");
+    means.push_back(summary.several_series ? say("{} {}{}", series_words(mean, summary, datasets),
+                                                 mean_words(mean), count)
+                                           : mean_words(mean) + count);
+  }
+  if (means.empty()) return {};
+  std::vector<Sentence> sentences = {
+      say("Mean {e}: {}{}.", join(means, "; "),
+          more > 0 ? fmt::format("; {} more series", more) : std::string())};
+  sentences.push_back(dependence_words(summary.velocity));
+  const TestedEffect& differ = summary.series;
+  if (differ.p_value) {
+    const std::string p = p_of_summary(*differ.p_value);
+    const auto name = [&](std::size_t k) {
+      return series_words(summary.means[summary.most_different[k]], summary, datasets);
+    };
+    sentences.push_back(*differ.p_value < shown_level
+                            ? say("The series differ ({}), {} from {} by {:.2g} {}.", p, name(0),
+                                  name(1), *differ.value, ends_words(differ, 1.0))
+                            : say("No difference between the series is seen ({}).", p));
+  }
+  return sentences;
+}
+
+Table restitution_table(const RestitutionSummary& summary, const std::vector<Dataset>& datasets) {
+  Table table;
+  if (summary.means.size() < 2) return table;
+  const SizeUnit sizes = size_unit(datasets);
+  table.caption = say("Mean {e} of every series and setting, with 95 % intervals");
+  table.columns = {{"series", "", true},  {say("{d}"), sizes.name},
+                   {"setting", "", true}, {say("{V}"), "m/s"},
+                   {say("{e}")},          {"points"}};
+  for (const RestitutionMean& mean : summary.means) {
+    table.rows.push_back({Sentence(datasets[mean.dataset].series[mean.series]),
+                          Sentence(size_text(mean.diameter, sizes)),
+                          mean.setting.empty() ? Cell() : Cell(Sentence(mean.setting)),
+                          mean.velocity ? Cell(Number{*mean.velocity, significant(4)}) : Cell(),
+                          mean_words(mean), Number{static_cast<double>(mean.points), fixed(0)}});
+  }
+  return table;
 }
 
 }  // namespace recoil

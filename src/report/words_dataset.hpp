@@ -6,6 +6,7 @@
 #include "data/datapackage.hpp"
 #include "data/dataset.hpp"
 #include "document/document.hpp"
+#include "estimate/restitution_summary.hpp"
 #include "experiment/import.hpp"
 #include "predict/validity.hpp"
 
@@ -41,6 +42,14 @@ std::vector<std::string> passed_limits(const std::vector<Validity>& validity,
 
 /// Quantity, value and limit of one impact.
 Table validity_table(const std::vector<Validity>& validity);
+
+/// The mean of every series, whether e depends on V, whether series differ. Nothing without a
+/// rebound.
+std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
+                                            const std::vector<Dataset>& datasets);
+
+/// The mean of every series and setting, where there are several.
+Table restitution_table(const RestitutionSummary& summary, const std::vector<Dataset>& datasets);
 
 /// A note of `recoil import` as a sentence.
 std::string note_sentence(const ImportNote& note);

@@ -49,10 +49,17 @@ std::string variance_words(const Observations& data) {
                             margin < clear ? ", not clearly" : "");
 }
 
+std::string unknown_noise_words(const FitResult& fitted) {
+  return fmt::format(
+      "unknown: no standard deviation is stated, and {}",
+      fitted.dof > 0 ? "the readings do not scatter" : "there are no more points than parameters");
+}
+
 std::string verdict_words(const FitResult& fitted) {
   switch (fitted.noise_verdict) {
     case NoiseVerdict::unchecked:
-      return "not checked: there are no more points than parameters";
+      return fitted.data.noise.known ? "not checked: there are no more points than parameters"
+                                     : unknown_noise_words(fitted);
     case NoiseVerdict::estimated:
       return variance_words(fitted.data);
     case NoiseVerdict::explained:
@@ -83,12 +90,18 @@ std::string input_words(const std::vector<Observation>& points) {
       most, count);
 }
 
-std::string setting_words(const Observations& data) {
+std::string setting_words(const Observations& data, int free_count) {
   if (!data.shares_settings()) return "";
   const SettingCount count = count_settings(data);
   const std::string source =
       fmt::format("{}, {} settings, {} points", data.setting_sd_estimated ? "estimated" : "stated",
                   count.settings, count.points);
+  if (too_few_settings(data, free_count)) {
+    return fmt::format(
+        "; an error that the points of one setting share cannot be estimated from so few settings "
+        "({})",
+        source);
+  }
   return data.noise.setting_sd > 0.0
              ? fmt::format("; the points of one setting share an error of e of {:.2g} ({})",
                            data.noise.setting_sd, source)
@@ -120,6 +133,10 @@ Sentences undetermined_warnings(const FitResult& fitted) {
         say("the points do not depend on {} at the estimate: change its initial value, or fix "
             "it (free = false)",
             join(names, ", "))};
+  }
+  if (!fitted.data.noise.known) {
+    return {Sentence("the noise is " + unknown_noise_words(fitted) +
+                     ": no standard errors and no intervals")};
   }
   if (!fitted.covariance.empty()) return {};
   return {"the points do not determine all free parameters (J'J is singular): no standard errors"};
@@ -214,6 +231,7 @@ Sentence point_words(const MeasuredPoint& point) {
 Sentence equation_words(AdhesionLaw law) { return say(traits(law).description); }
 
 Sentence quality_words(const FitResult& f) {
+  if (!f.data.noise.known) return "The fit cannot be tested: its noise is not known.";
   if (!f.data.sd_stated) {
     return say(
         "The rms residual of {e} is {}; without stated standard deviations the fit cannot be "
@@ -239,7 +257,7 @@ std::string noise_words(const FitResult& fitted) {
     text += fmt::format("; the capture velocity scatters by {:.1f} % from impact to impact",
                         100.0 * data.noise.event_spread);
   }
-  text += setting_words(data);
+  text += setting_words(data, fitted.model.free_count());
   if (data.noise.student) {
     text += fmt::format("; Student's t residuals with {:g} degrees of freedom",
                         data.noise.student->dof);

@@ -273,6 +273,10 @@ std::string missing_words(const Interval& interval) {
       return "no sphere is captured under the fit";
     case NoInterval::no_covariance:
       return "the fit has no standard errors";
+    case NoInterval::all_captured:
+      return "all impacts were captured";
+    case NoInterval::noise_unknown:
+      return "the noise is not known";
   }
   return "";
 }

@@ -214,12 +214,14 @@ std::string digits_of(const FitResult& fitted) {
 BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,
                           const UncertaintyOptions& options) {
   Bootstrap run(fitted, capture, options);
-  for (int count = options.replicates_auto ? fewest_automatic : options.replicates;;) {
+  const bool known = fitted.data.noise.known;  // else there is nothing to draw
+  for (int count = !known ? 0 : options.replicates_auto ? fewest_automatic : options.replicates;;) {
     run.extend(count);
     BootstrapResult result = run.result();
     const double error = monte_carlo_error(fitted, result, capture, options.level);
     if (error > 0.0) result.relative_error = error;
-    if (!options.replicates_auto || error <= options.wanted_error || count >= most_automatic) {
+    if (!known || !options.replicates_auto || error <= options.wanted_error ||
+        count >= most_automatic) {
       return result;
     }
     count = more_replicates(count, error, options.wanted_error);

@@ -40,6 +40,7 @@ struct CaptureEstimate {
   double diameter = 0.0;  ///< [m]
   double value = 0.0;     ///< [m/s]
   bool found = false;
+  std::optional<double> above;  ///< all impacts were captured, up to this velocity [m/s]
   PerValue<CaptureIntervalKind, Interval> of_kind;
   Interval interval;                                             ///< the one to quote
   CaptureIntervalKind recommended = CaptureIntervalKind::delta;  ///< its kind

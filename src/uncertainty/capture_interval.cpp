@@ -42,7 +42,8 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
   }
   const double error = logarithmic_error(capture, fitted.covariance);
   if (!capture.found || !(capture.value > 0.0) || !(error > 0.0)) {
-    interval.missing = !capture.found           ? NoInterval::never_rebounds
+    interval.missing = !fitted.data.noise.known ? NoInterval::noise_unknown
+                       : !capture.found         ? NoInterval::never_rebounds
                        : !(capture.value > 0.0) ? NoInterval::never_captured
                                                 : NoInterval::no_covariance;
     return interval;
@@ -163,6 +164,8 @@ void add_resampled_captures(const FitResult& fitted, const BootstrapResult& repl
     Interval& studentized = capture[CaptureIntervalKind::studentized];
     if (nothing_free) {
       percentile = no_interval(NoInterval::nothing_free);
+    } else if (!fitted.data.noise.known) {
+      percentile = no_interval(NoInterval::noise_unknown);
     } else if (replicates.withheld()) {
       percentile = no_interval(NoInterval::refits_failed);
     } else {
@@ -173,6 +176,25 @@ void add_resampled_captures(const FitResult& fitted, const BootstrapResult& repl
       studentized.missing = percentile.missing;
     }
     recommend_capture(fitted, fitted.data.sd_stated, capture);
+  }
+}
+
+void limit_by_captures(const Observations& data, std::vector<CaptureEstimate>& captures) {
+  for (CaptureEstimate& capture : captures) {
+    double fastest = 0.0;
+    for (const Observation& point : data.points) {
+      if (point.dataset != capture.dataset || point.diameter != capture.diameter) continue;
+      fastest = std::max(fastest, point.velocity);
+    }
+    CaptureEstimate limit;
+    limit.dataset = capture.dataset;
+    limit.diameter = capture.diameter;
+    limit.above = fastest;
+    limit.interval = no_interval(NoInterval::all_captured);
+    for (const CaptureIntervalKind kind : values_of<CaptureIntervalKind>()) {
+      limit[kind] = limit.interval;
+    }
+    capture = limit;
   }
 }
 

@@ -45,17 +45,20 @@ enum class NoInterval {
   never_rebounds,            ///< a capture velocity: spheres of this size stay at any velocity
   never_captured,            ///< a capture velocity of spheres that always rebound
   no_covariance,             ///< the fit has no standard errors
+  noise_unknown,             ///< neither stated nor to be estimated
+  all_captured,              ///< a capture velocity where no sphere rebounded
 };
 template <>
 struct NamesOf<NoInterval> {
-  static constexpr std::array<std::string_view, 14> names = {
+  static constexpr std::array<std::string_view, 16> names = {
       "not_assessed",          "fixed",
       "nothing_free",          "no_standard_error",
       "refit_failed",          "few_replicates",
       "few_delete_one_refits", "one_sided_replicates",
       "large_acceleration",    "replicates_without_error",
       "refits_failed",         "never_rebounds",
-      "never_captured",        "no_covariance"};
+      "never_captured",        "no_covariance",
+      "noise_unknown",         "all_captured"};
 };
 
 /// The least number of replicates that have an interval: (B + 1) 0.025 >= 1.

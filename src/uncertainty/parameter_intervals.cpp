@@ -1,5 +1,6 @@
 #include "uncertainty/parameter_intervals.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -44,9 +45,16 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative
   std::vector<IntervalSet> sets(fitted.theta.size());
   parallel_over(sets.size(), threads, [&](std::size_t j) {
     IntervalSet& set = sets[j];
-    if (!fitted.model.slots[j].free) {
+    const bool free = fitted.model.slots[j].free;
+    if (std::find(fitted.flat.begin(), fitted.flat.end(), j) != fitted.flat.end()) {
       for (const IntervalKind kind : values_of<IntervalKind>()) {
-        set[kind] = no_interval(NoInterval::fixed);
+        set[kind] = no_interval(NoInterval::no_standard_error);
+      }
+      return;
+    }
+    if (!free || !fitted.data.noise.known) {
+      for (const IntervalKind kind : values_of<IntervalKind>()) {
+        set[kind] = no_interval(free ? NoInterval::noise_unknown : NoInterval::fixed);
       }
       return;
     }
@@ -59,7 +67,7 @@ std::vector<IntervalSet> likelihood_intervals(const std::vector<NoiseAlternative
 void add_profile_curves(const FitResult& fitted, double level, int threads,
                         std::vector<IntervalSet>& sets) {
   parallel_over(sets.size(), threads, [&](std::size_t j) {
-    if (!fitted.model.slots[j].free) return;
+    if (!fitted.model.slots[j].free || !fitted.data.noise.known) return;
     sets[j].profile_curve = profile_curve(fitted, j, level, sets[j][IntervalKind::profile]);
   });
 }
@@ -74,7 +82,8 @@ void add_resampled_intervals(const FitResult& fitted, const BootstrapResult& rep
   }
   for (std::size_t j = 0; j < slots.size(); ++j) {
     IntervalSet& set = sets[j];
-    if (slots[j].free) add_resampled(fitted, replicates, j, delete_one, level, set);
+    if (slots[j].free && fitted.data.noise.known)
+      add_resampled(fitted, replicates, j, delete_one, level, set);
     for (const IntervalKind kind : values_of<IntervalKind>()) note_bounds(set[kind], slots[j]);
     recommend(set, sd_stated);
   }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "estimate/leave_one_out.hpp"
 #include "uncertainty/bootstrap_result.hpp"
 #include "uncertainty/budget.hpp"
 #include "uncertainty/capture_estimate.hpp"
@@ -28,6 +29,7 @@ struct UncertaintyResult {
   std::optional<PosteriorResult> posterior;   ///< where it was asked for
   std::vector<ErrorBudget> budgets;           ///< [slots]
   std::vector<ErrorBudget> capture_budgets;   ///< in the order of `capture`
+  std::optional<OddPoint> odd_point;          ///< without which the others fit
   std::optional<ConditionalFit> conditional;  ///< where constants are uncertain
 };
 

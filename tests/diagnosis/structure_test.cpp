@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "estimate/residual.hpp"
+
 namespace recoil {
 namespace {
 
@@ -152,6 +154,119 @@ TEST(Structure, FreeFormFollowsAWaveAndLeavesNoiseAlone) {
   }
   EXPECT_LT(left, 0.02 * before);
   EXPECT_TRUE(made.statistics().free_form(std::vector<double>(r.size(), 0.0)).empty());
+}
+
+/// Drops from heights 2, 4, ... m/s apart, and a model of one parameter, 1 - e^2 = c V.
+struct Drops {
+  Observations data;
+  Refit fitted;
+  std::vector<double> predicted;
+
+  Drops(int heights, int each, bool stated) {
+    data.sd_stated = stated;
+    for (int h = 0; h < heights; ++h) {
+      for (int i = 0; i < each; ++i) {
+        Observation point;
+        point.diameter = 0.02;
+        point.velocity = 2.0 * std::pow(5.0, heights > 1 ? h / (heights - 1.0) : 0.0);
+        predicted.push_back(1.0 - 0.03 * point.velocity);
+        // Single readings, so that the weights of one height differ.
+        point.restitution = std::sqrt(predicted.back()) + 0.01 * (i % 3 - 1);
+        point.weights.sd = 0.01;
+        data.points.push_back(point);
+      }
+    }
+    fitted.usable = true;
+    fitted.theta = {0.03};
+    fitted.moving = {true};
+    for (std::size_t i = 0; i < data.points.size(); ++i) {
+      fitted.jacobian.push_back(-slope(i) * data.points[i].velocity);
+    }
+    fitted.residuals.assign(data.points.size(), 0.0);
+  }
+  double slope(std::size_t i) const {
+    return weighted_residual(data.points[i], predicted[i], std::nullopt).slope;
+  }
+  /// p-value of noise with an error of e of `off[i]`.
+  double p_of(std::mt19937& random, const std::vector<double>& off, std::uint64_t seed) {
+    std::normal_distribution<double> normal;
+    std::vector<double> r;
+    for (std::size_t i = 0; i < data.points.size(); ++i) {
+      r.push_back(normal(random) + off[i] * 2.0 * std::sqrt(predicted[i]) * slope(i));
+    }
+    const StructureStatistics statistics(data, fitted, predicted);
+    fitted.residuals = statistics.residuals_of_noise(r);
+    return quick_structure(data, fitted, predicted, 199, seed).p_value;
+  }
+};
+
+TEST(Structure, AsksNothingOfVelocityWithNoMoreVelocitiesThanParameters) {
+  for (const bool stated : {false, true}) {
+    const Drops drops(1, 10, stated);
+    const StructureStatistics statistics(drops.data, drops.fitted, drops.predicted);
+    for (const StructureQuestion question : values_of<StructureQuestion>()) {
+      EXPECT_EQ(statistics.asks(question), stated && question == StructureQuestion::scatter)
+          << name_of(question);
+    }
+  }
+  Drops unknown(5, 3, false);
+  unknown.data.noise.known = false;
+  const StructureStatistics statistics(unknown.data, unknown.fitted, unknown.predicted);
+  for (const StructureQuestion question : values_of<StructureQuestion>()) {
+    EXPECT_FALSE(statistics.asks(question));
+  }
+}
+
+TEST(Structure, AccusesDropsFromAnyNumberOfHeightsInFivePerCent) {
+  std::mt19937 random(17);
+  constexpr int sets = 100;
+  for (const bool stated : {false, true}) {
+    int accused = 0, all = 0;
+    for (const int heights : {1, 2, 3, 5, 17}) {
+      for (const int each : {3, 5, 10}) {
+        Drops drops(heights, each, stated);
+        const std::vector<double> nothing(drops.data.points.size(), 0.0);
+        int here = 0;
+        for (int k = 0; k < sets; ++k) {
+          here += drops.p_of(random, nothing, static_cast<std::uint64_t>(k)) <= 0.05 ? 1 : 0;
+        }
+        EXPECT_LE(here, 13) << heights << " heights, " << each << " drops";  // 5 +- 2.2
+        accused += here;
+        all += sets;
+      }
+    }
+    EXPECT_LE(accused, 0.05 * all + 3.0 * std::sqrt(0.0475 * all)) << stated;
+  }
+}
+
+/// e is the same at all heights, which the model cannot follow. Where its curve, refitted, is off
+/// by three standard errors of a mean at every height, it passes in 5 % of data sets at most.
+TEST(Structure, SeesACurveThatIsOffByThreeStandardErrorsOfAMean) {
+  std::mt19937 random(23);
+  constexpr int sets = 100;
+  for (const bool stated : {false, true}) {
+    for (const int heights : {3, 5, 17}) {
+      Drops drops(heights, 5, stated);
+      std::vector<double> off;
+      for (const Observation& point : drops.data.points) off.push_back(std::log(point.velocity));
+      // What the model leaves of it, scaled so that the root mean square over heights is 3 errors.
+      const StructureStatistics statistics(drops.data, drops.fitted, drops.predicted);
+      std::vector<double> r;
+      for (std::size_t i = 0; i < off.size(); ++i) {
+        r.push_back(off[i] * 2.0 * std::sqrt(drops.predicted[i]) * drops.slope(i));
+      }
+      r = statistics.residuals_of_noise(r);
+      double square = 0.0;
+      for (const double value : r) square += value * value;
+      const double scale = 3.0 * std::sqrt(heights / square);
+      for (double& value : off) value *= scale;
+      int passed = 0;
+      for (int k = 0; k < sets; ++k) {
+        passed += drops.p_of(random, off, static_cast<std::uint64_t>(k)) > 0.05 ? 1 : 0;
+      }
+      EXPECT_LE(passed, 5) << heights << " heights, " << stated;
+    }
+  }
 }
 
 }  // namespace

@@ -263,7 +263,7 @@ TEST(UnstatedErrors, AColumnSaysWhichPointsShareASetting) {
   // where the fit was told not to look for it.
   Dataset data = drops(2, 0.0);
   for (std::size_t i = 0; i < data.points.size(); ++i) {
-    data.points[i].setting = fmt::format("day {}", i % 6);
+    data.points[i].setting = fmt::format("day {}", i % 8);
     data.points[i].restitution += i % 2 == 0 ? 0.02 : -0.02;
   }
   EXPECT_EQ(find(asked(data), ErrorSource::shared_setting), nullptr);

@@ -238,5 +238,31 @@ TEST(Noise, ReweightingASecondTimeChangesNothing) {
   }
 }
 
+/// Neither stated nor to be seen: as many points as parameters, or readings that do not scatter.
+TEST(Noise, IsUnknownWhereNothingScatters) {
+  Dataset two = design(2);
+  for (ImpactPoint& point : two.points) point.restitution_sd.reset();
+  Dataset equal = two;
+  for (int k = 0; k < 8; ++k) equal.points.push_back(equal.points.front());
+  equal.points.erase(equal.points.begin() + 1);
+  for (const Dataset& data : {two, equal}) {
+    const FitResult result = fit_to(data);
+    ASSERT_TRUE(result.usable) << result.failure;
+    EXPECT_FALSE(result.data.noise.known);
+    EXPECT_EQ(result.noise_verdict, NoiseVerdict::unchecked);
+    EXPECT_TRUE(result.covariance.empty());
+    for (const double error : result.std_error) EXPECT_EQ(error, 0.0);
+  }
+}
+
+TEST(Noise, StatedErrorsNeedNoScatter) {
+  Dataset two = design(2);
+  for (ImpactPoint& point : two.points) point.restitution_sd = 0.01;
+  const FitResult result = fit_to(two);
+  ASSERT_TRUE(result.usable) << result.failure;
+  EXPECT_TRUE(result.data.noise.known);
+  EXPECT_GT(result.std_error[0], 0.0);
+}
+
 }  // namespace
 }  // namespace recoil

@@ -223,5 +223,45 @@ TEST(SharedSettings, FewerSettingsThanParametersSayNothing) {
   EXPECT_EQ(result.data.noise.setting_sd, 0.0);
 }
 
+/// Five deviations are the least that say how large sigma is; with C_H and C_A free that takes
+/// seven settings.
+TEST(SharedSettings, FewSettingsGiveNoEstimate) {
+  EXPECT_EQ(fitted(measured({.settings = 6, .shared = 0.05}, 2)).data.noise.setting_sd, 0.0);
+  EXPECT_GT(fitted(measured({.settings = 7, .shared = 0.05}, 2)).data.noise.setting_sd, 0.0);
+}
+
+/// Series that differ by 0.1 have no error of settings in common: what is left is that of 0.01.
+TEST(SharedSettings, DoNotAbsorbSeriesThatDiffer) {
+  const Dataset one = measured({.settings = 10, .shared = 0.01}, 4);
+  Dataset both = one;
+  both.series.emplace_back("others");
+  for (ImpactPoint point : one.points) {
+    point.series = 1;
+    point.restitution -= 0.1;
+    point.setting += " of the others";
+    both.points.push_back(point);
+  }
+  Observations data = gather({both});
+  std::vector<double> predicted;
+  for (const Observation& point : data.points) {
+    predicted.push_back(std::pow(e_at(point.velocity), 2));
+  }
+  renew_settings(predicted, 2, data);
+  // From 17 deviations: within a factor of 1.5 nearly always.
+  EXPECT_GT(data.noise.setting_sd, 0.01 / 1.5);
+  EXPECT_LT(data.noise.setting_sd, 0.01 * 1.5);
+}
+
+/// Where every velocity states its error, settings share no more than that makes of e.
+TEST(SharedSettings, AreBoundedByWhatIsStatedOfTheVelocities) {
+  Dataset data = measured({.settings = 12, .shared = 0.05}, 6);
+  double most = 0.0;
+  for (ImpactPoint& point : data.points) {
+    point.velocity_sd = 0.01 * point.incident_velocity;
+    most = std::max(most, 0.01 * point.restitution);
+  }
+  EXPECT_NEAR(fitted(data).data.noise.setting_sd, most, 1e-12);
+}
+
 }  // namespace
 }  // namespace recoil

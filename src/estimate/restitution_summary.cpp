@@ -1,0 +1,298 @@
+#include "estimate/restitution_summary.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "core/gsl_errors.hpp"
+#include "core/statistics.hpp"
+#include "estimate/reweighting.hpp"
+
+namespace recoil {
+namespace {
+
+constexpr double tail = 0.5 * (1.0 - summary_level);
+constexpr double lack_of_fit_level = 0.05;
+
+/// One point that rebounded.
+struct Reading {
+  double e = 0.0;
+  double sd = 0.0;  ///< stated; 0: none
+  double velocity = 0.0;
+  std::size_t series = 0;  ///< among all series of all datasets
+  std::size_t place = 0;   ///< of its setting among all of them
+};
+
+/// A series at one diameter.
+struct Group {
+  std::size_t dataset = 0;
+  std::size_t series = 0;
+  double diameter = 0.0;
+  std::map<std::tuple<std::string, double>, std::vector<const ImpactPoint*>> settings;
+};
+
+std::vector<Group> groups_of(const std::vector<Dataset>& datasets) {
+  std::map<std::tuple<std::size_t, std::size_t, double>, Group> groups;
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    for (const ImpactPoint& point : datasets[d].points) {
+      if (point.all_captured() || !(point.restitution > 0.0)) continue;
+      Group& group = groups[{d, point.series, point.diameter}];
+      group.dataset = d;
+      group.series = point.series;
+      group.diameter = point.diameter;
+      const bool named = !point.setting.empty();
+      group.settings[{point.setting, named ? 0.0 : point.incident_velocity}].push_back(&point);
+    }
+  }
+  std::vector<Group> found;
+  for (auto& [key, group] : groups) found.push_back(std::move(group));
+  return found;
+}
+
+RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*>& points) {
+  RestitutionMean found;
+  found.dataset = group.dataset;
+  found.series = group.series;
+  found.diameter = group.diameter;
+  std::vector<double> e;
+  double stated = 0.0;  // sum of variances
+  bool all_stated = true;
+  for (const ImpactPoint* point : points) {
+    e.push_back(point->restitution);
+    all_stated = all_stated && point->restitution_sd.has_value();
+    stated += std::pow(point->restitution_sd.value_or(0.0), 2);
+  }
+  const auto n = static_cast<double>(e.size());
+  found.points = static_cast<int>(e.size());
+  found.value = mean(e);
+  double half = all_stated ? gsl_cdf_ugaussian_Qinv(tail) * std::sqrt(stated) / n : 0.0;
+  const double scatter = standard_deviation(e);
+  if (scatter > least_noise) {
+    half = std::max(half, gsl_cdf_tdist_Qinv(tail, n - 1.0) * scatter / std::sqrt(n));
+  }
+  if (half > 0.0) {
+    found.interval = {found.value - half, found.value + half};
+  } else {
+    found.why = e.size() > 1 ? "the readings are equal, and no error is stated"
+                             : "one reading, and no error is stated";
+  }
+  return found;
+}
+
+void add_means(const Group& group, std::vector<RestitutionMean>& means) {
+  std::vector<const ImpactPoint*> all;
+  bool repeated = false;
+  for (const auto& [key, points] : group.settings) {
+    all.insert(all.end(), points.begin(), points.end());
+    repeated = repeated || points.size() > 1;
+  }
+  means.push_back(mean_of(group, all));
+  if (!repeated || group.settings.size() < 2) return;
+  for (const auto& [key, points] : group.settings) {
+    RestitutionMean of_setting = mean_of(group, points);
+    of_setting.setting = std::get<0>(key);
+    double sum = 0.0;
+    for (const ImpactPoint* point : points) sum += point->incident_velocity;
+    of_setting.velocity = sum / static_cast<double>(points.size());
+    means.push_back(std::move(of_setting));
+  }
+}
+
+/// e = a_series + b log10 V by weighted least squares.
+class Line {
+ public:
+  Line(const std::vector<Reading>& readings, std::size_t series)
+      : stated_(std::all_of(readings.begin(), readings.end(),
+                            [](const Reading& r) { return r.sd > 0.0; })) {
+    const auto n = static_cast<Eigen::Index>(readings.size());
+    const auto s = static_cast<Eigen::Index>(series);
+    Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n, s + 1);
+    Eigen::VectorXd y(n);
+    std::vector<double> middle(series, 0.0), count(series, 0.0);
+    for (const Reading& r : readings) {
+      middle[r.series] += std::log10(r.velocity);
+      count[r.series] += 1.0;
+    }
+    double spread = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Reading& r = readings[static_cast<std::size_t>(i)];
+      const double weight = stated_ ? 1.0 / r.sd : 1.0;
+      const double log_v = std::log10(r.velocity);
+      spread = std::max(spread, std::abs(log_v - middle[r.series] / count[r.series]));
+      X(i, static_cast<Eigen::Index>(r.series)) = weight;
+      X(i, s) = weight * log_v;
+      y(i) = weight * r.e;
+    }
+    sloped_ = spread > 1e-9;
+    if (!sloped_) X.conservativeResize(Eigen::NoChange, s);
+    dof_ = static_cast<int>(n - X.cols());
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(X);
+    solvable_ = dof_ >= 0 && qr.rank() == X.cols();
+    if (!solvable_) return;
+    coefficients_ = qr.solve(y);
+    inverse_ = (X.transpose() * X).inverse();
+    rest_ = y - X * coefficients_;
+    variance_ = dof_ > 0 ? rest_.squaredNorm() / dof_ : 0.0;
+    const double unit = stated_ ? 1.0 : least_noise;
+    scatters_ = dof_ > 0 && (stated_ || variance_ > unit * unit);
+  }
+
+  bool stated() const { return stated_; }
+  bool sloped() const { return sloped_; }
+  int dof() const { return dof_; }
+  double square() const { return rest_.squaredNorm(); }
+  double value(const Eigen::VectorXd& contrast) const { return contrast.dot(coefficients_); }
+  Eigen::Index columns() const { return inverse_.cols(); }
+  /// Is there an error, stated or seen?
+  bool has_errors() const { return solvable_ && (stated_ || scatters_); }
+  std::string missing() const {
+    return dof_ < 1 ? "as many unknowns as readings, and no error is stated"
+                    : "the readings do not scatter, and no error is stated";
+  }
+
+  std::array<double, 2> interval(const Eigen::VectorXd& contrast) const {
+    const double error = std::sqrt(contrast.dot(inverse_ * contrast));
+    double half = stated_ ? gsl_cdf_ugaussian_Qinv(tail) * error : 0.0;
+    if (dof_ > 0) {
+      half = std::max(half, gsl_cdf_tdist_Qinv(tail, dof_) * error * std::sqrt(variance_));
+    }
+    return {value(contrast) - half, value(contrast) + half};
+  }
+
+  /// That all `contrasts` (columns) are 0.
+  double p_value(const Eigen::MatrixXd& contrasts) const {
+    const Eigen::VectorXd seen = contrasts.transpose() * coefficients_;
+    const double square =
+        seen.dot((contrasts.transpose() * inverse_ * contrasts).ldlt().solve(seen));
+    const auto count = static_cast<double>(contrasts.cols());
+    double p = stated_ ? gsl_cdf_chisq_Q(square, count) : 0.0;
+    if (dof_ > 0 && variance_ > 0.0) {
+      p = std::max(p, gsl_cdf_fdist_Q(square / count / variance_, count, dof_));
+    }
+    return p;
+  }
+
+ private:
+  bool stated_ = false, sloped_ = false, solvable_ = false, scatters_ = false;
+  int dof_ = 0;
+  double variance_ = 0.0;
+  Eigen::VectorXd coefficients_, rest_;
+  Eigen::MatrixXd inverse_;
+};
+
+/// The mean reading of every place.
+std::vector<Reading> means_of_places(const std::vector<Reading>& readings) {
+  std::map<std::size_t, std::vector<Reading>> places;
+  for (const Reading& r : readings) places[r.place].push_back(r);
+  std::vector<Reading> means;
+  for (const auto& [place, own] : places) {
+    Reading sum = own.front();
+    sum.sd = 0.0;  // what their points state is not what they scatter by
+    sum.e = sum.velocity = 0.0;
+    for (const Reading& r : own) {
+      sum.e += r.e / static_cast<double>(own.size());
+      sum.velocity += r.velocity / static_cast<double>(own.size());
+    }
+    means.push_back(sum);
+  }
+  return means;
+}
+
+/// Do the means of places scatter more about the line than the readings of a place explain?
+bool places_scatter(const std::vector<Reading>& readings, const Line& line) {
+  std::map<std::size_t, std::array<double, 4>> sums;  // w, w e, w e^2, count
+  for (const Reading& r : readings) {
+    const double w = line.stated() ? 1.0 / (r.sd * r.sd) : 1.0;
+    auto& own = sums[r.place];
+    own[0] += w;
+    own[1] += w * r.e;
+    own[2] += w * r.e * r.e;
+    own[3] += 1.0;
+  }
+  double within = 0.0, freedom = 0.0;
+  for (const auto& [place, own] : sums) {
+    within += std::max(0.0, own[2] - own[1] * own[1] / own[0]);
+    freedom += own[3] - 1.0;
+  }
+  const double between = line.dof() - freedom;
+  if (!(freedom >= 1.0) || !(between >= 1.0)) return false;
+  const double square = std::max(0.0, line.square() - within) / between;
+  double p = line.stated() ? gsl_cdf_chisq_Q(square * between, between) : 0.0;
+  if (within > 0.0) p = std::max(p, gsl_cdf_fdist_Q(square / (within / freedom), between, freedom));
+  return p < lack_of_fit_level;
+}
+
+}  // namespace
+
+RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets) {
+  gsl_errors_are_values();
+  RestitutionSummary summary;
+  std::vector<Reading> readings;
+  std::vector<std::size_t> place_in_means;  // of every series
+  std::size_t place = 0;
+  for (const Group& group : groups_of(datasets)) {
+    place_in_means.push_back(summary.means.size());
+    for (const auto& [key, points] : group.settings) {
+      for (const ImpactPoint* point : points) {
+        readings.push_back({point->restitution, point->restitution_sd.value_or(0.0),
+                            point->incident_velocity, place_in_means.size() - 1, place});
+      }
+      ++place;
+    }
+    add_means(group, summary.means);
+  }
+  const std::size_t series = place_in_means.size();
+  summary.several_series = series > 1;
+  if (readings.empty()) {
+    summary.velocity.why = summary.series.why = "no sphere rebounded";
+    return summary;
+  }
+  Line line(readings, series);
+  if (places_scatter(readings, line)) line = Line(means_of_places(readings), series);
+  const auto s = static_cast<Eigen::Index>(series);
+  const auto assess = [&](const Eigen::VectorXd& contrast, const Eigen::MatrixXd& all,
+                          TestedEffect& effect) {
+    if (!line.has_errors()) {
+      effect.why = line.missing();
+      return;
+    }
+    effect.value = line.value(contrast);
+    effect.interval = line.interval(contrast);
+    effect.p_value = line.p_value(all);
+  };
+  if (line.sloped()) {
+    const Eigen::VectorXd slope = Eigen::VectorXd::Unit(s + 1, s);
+    assess(slope, slope, summary.velocity);
+  } else {
+    summary.velocity.why = series > 1 ? "one velocity in each series" : "one velocity";
+  }
+  if (series < 2) {
+    summary.series.why = "one series";
+    return summary;
+  }
+  Eigen::MatrixXd contrasts = Eigen::MatrixXd::Zero(s + (line.sloped() ? 1 : 0), s - 1);
+  contrasts.row(0).setOnes();
+  for (Eigen::Index k = 1; k < s; ++k) contrasts(k, k - 1) = -1.0;
+  Eigen::VectorXd largest = contrasts.col(0);
+  if (line.has_errors()) {
+    for (Eigen::Index a = 0; a < s; ++a) {
+      for (Eigen::Index b = 0; b < s; ++b) {
+        Eigen::VectorXd other = Eigen::VectorXd::Zero(contrasts.rows());
+        other(a) = 1.0;
+        other(b) -= 1.0;
+        if (line.value(other) < line.value(largest)) continue;
+        largest = other;
+        summary.most_different = {place_in_means[static_cast<std::size_t>(a)],
+                                  place_in_means[static_cast<std::size_t>(b)]};
+      }
+    }
+  }
+  assess(largest, contrasts, summary.series);
+  return summary;
+}
+
+}  // namespace recoil

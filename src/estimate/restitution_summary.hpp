@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/dataset.hpp"
+
+namespace recoil {
+
+inline constexpr double summary_level = 0.95;  ///< of every interval of a summary
+
+/// A mean of e over the points of one series and diameter, or of one setting (a drop height) of it.
+struct RestitutionMean {
+  std::size_t dataset = 0;
+  std::size_t series = 0;
+  double diameter = 0.0;           ///< [m]
+  std::string setting = {};        ///< its name; empty: all of the series, or without a name
+  std::optional<double> velocity;  ///< mean V of a setting [m/s]; none: all of the series
+  double value = 0.0;              ///< [1]
+  std::optional<std::array<double, 2>> interval;  ///< none: `why`
+  int points = 0;
+  std::string why = {};
+};
+
+/// A number that was tested against 0.
+struct TestedEffect {
+  std::optional<double> value;
+  std::optional<std::array<double, 2>> interval;
+  std::optional<double> p_value;
+  std::string why = {};  ///< what is missing, where something is
+};
+
+/// What points say of e without any model of the impact.
+///
+/// - A mean is that of the points as they are. Its interval is the wider one of two: Student's t
+/// with
+///   the scatter of the points, and the normal one with their stated errors.
+/// - `velocity` is b of e = a_series + b log10 V, by least squares weighted with the stated errors
+///   [1/decade]; a p-value is the larger one of those from stated errors and from the scatter.
+///   Where the means of the settings scatter more about the line than their points explain (F-test
+///   at 5 %), each of them counts as one reading.
+/// - `series` is the largest difference between two series at equal velocity, and the p-value that
+///   of all differences (analysis of covariance).
+struct RestitutionSummary {
+  std::vector<RestitutionMean> means;  ///< of every series, then of its settings
+  TestedEffect velocity;
+  TestedEffect series;
+  std::array<std::size_t, 2> most_different = {0, 0};  ///< places in `means`
+  bool several_series = false;
+};
+
+RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets);
+
+}  // namespace recoil
