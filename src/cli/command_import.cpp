@@ -34,10 +34,11 @@ struct OptionOfFormats {
 void require_used(const Command& command, ImportFormat format) {
   using enum ImportFormat;
   static const std::vector<OptionOfFormats> some = {
-      {"--axis", {webplotdigitizer}},      {"--reading-error", {webplotdigitizer}},
-      {"--scatter", {webplotdigitizer}},   {"--captured-below", {webplotdigitizer, heights}},
-      {"--drop-error", {heights}},         {"--rebound-error", {heights}},
-      {"--time-error", {intervals}},       {"--average", {heights}},
+      {"--axis", {webplotdigitizer}},         {"--reading-error", {webplotdigitizer}},
+      {"--error-series", {webplotdigitizer}}, {"--sd-of", {csv}},
+      {"--scatter", {webplotdigitizer}},      {"--captured-below", {webplotdigitizer, heights}},
+      {"--drop-error", {heights, intervals}}, {"--rebound-error", {heights}},
+      {"--time-error", {intervals}},          {"--average", {heights}},
       {"--gravity", {heights, intervals}},
   };
   for (const OptionOfFormats& one : some) {
@@ -80,8 +81,10 @@ void add_import(Program& program) {
   command.footer(
       "Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals "
       "(between\n"
-      "bounces) and csv. --map ties columns to quantities, with units: um, mm, cm, m; m/s, cm/s;\n"
-      "s, ms; %. What neither file nor options say is asked for; nothing is overwritten "
+      "bounces) and csv. --map ties columns to quantities, with units: um, mm, cm, m, in; m/s, "
+      "km/h;\n"
+      "s, ms; % (recoil help data). What neither file nor options say is asked for; nothing is "
+      "overwritten "
       "unasked.\n\n"
       "  recoil import fig7.csv --format webplotdigitizer --into datasets/mine \\\n"
       "    --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% --like "
@@ -103,7 +106,17 @@ void add_import(Program& program) {
   command.flag("--replace", r.replace,
                "replace the points of the existing dataset; it keeps its materials, and a "
                "reconstruction becomes digitised");
-  command.option("--map", r.map, "quantity=column:unit, several separated by commas").repeats();
+  command
+      .option("--map", r.map,
+              "quantity=column:unit, several separated by commas; quantity=a+b+c for repeats in "
+              "columns, quantity=100cm for a constant; a unit may have a factor, as 0.35mm")
+      .repeats();
+  command.flag("--decimal-comma", r.decimal_comma, "numbers are written 2,5");
+  command
+      .option("--sd-of", r.sd_of,
+              "the standard deviations of a table are those of one impact, or of the mean of a "
+              "point's events")
+      .one_of({"one", "mean"});
   command
       .option("--diameter", r.diameters,
               "diameter of the spheres: 4.9um, or SERIES=4.9um once for each series")
@@ -134,6 +147,11 @@ void add_import(Program& program) {
       .repeats();
   command.option("--reading-error", r.reading_error,
                  "one standard deviation of a reading: 0.5% of an axis, or 2px");
+  command
+      .option("--error-series", r.error_series,
+              "SERIES=UPPER or SERIES=UPPER,LOWER: these series are the ends of the error bars of "
+              "SERIES")
+      .repeats();
   command.option("--scatter", r.scatter,
                  "scatter of e in addition to the errors of reading: 10%, or 0.02");
   command
@@ -141,7 +159,7 @@ void add_import(Program& program) {
               "a restitution below this is a capture (digitised points, heights)")
       .within(0.0, 1.0);
   command.option("--drop-error", r.drop_error,
-                 "one standard deviation of the drop height: 1mm or 1%");
+                 "one standard deviation of the drop or release height: 1mm or 1%");
   command.option("--rebound-error", r.rebound_error,
                  "one standard deviation of the rebound height");
   command.option("--time-error", r.time_error,
@@ -155,6 +173,13 @@ void add_import(Program& program) {
       .within(0.0, limits::pressure.upper);
   command.option("--temperature", r.temperature, "temperature of the air [K] (default 293)")
       .within(limits::temperature.lower, limits::temperature.upper);
+  command.option("--method", r.method, "how velocities were measured (default: by the format)")
+      .one_of({"velocimeter", "drop_heights", "bounce_intervals", "video", "unknown"});
+  command
+      .option("--condition", r.conditions,
+              "NAME=VALUE under which all points were taken: target_thickness=5mm, "
+              "relative_humidity=40% (recoil help data)")
+      .repeats();
   command.runs([flags, command] { run_import(*flags, command); });
 }
 

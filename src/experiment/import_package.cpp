@@ -68,6 +68,12 @@ Provenance provenance_for(const ImportRequest& request,
                    "give --provenance measured, or digitised if they were read off a figure");
 }
 
+/// "5mm", or a number in SI units.
+double value_or_number(const std::string& word, Dimension dimension, const std::string& option) {
+  const auto number = parse_number(word);
+  return number ? *number : value_with_unit(word, dimension, option);
+}
+
 /// Writes the stated conditions; flights without any are through standard air.
 void put_conditions(const ImportRequest& request, Json& system) {
   const bool flights =
@@ -81,6 +87,17 @@ void put_conditions(const ImportRequest& request, Json& system) {
   };
   put("ambient_pressure", request.ambient_pressure, Air().pressure);
   put("temperature", request.temperature, Air().temperature);
+  for (const std::string& word : split_lists(request.conditions)) {
+    const auto pair = split_pair(word);
+    const auto condition = value_named<Condition>(pair ? pair->first : "");
+    if (!condition) {
+      throw InputError({}, fmt::format("--condition {} names no condition", quote(word)), "",
+                       did_you_mean(pair ? pair->first : word, all_names<Condition>()));
+    }
+    system["conditions"][pair->first] =
+        value_or_number(pair->second, dimension_of(quantity_of(*condition)),
+                        fmt::format("--condition {}", pair->first));
+  }
 }
 
 /// The name of the folder as a Frictionless name.
@@ -269,6 +286,7 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
   if (request.format == ImportFormat::intervals) {
     stated["method"] = name_of(Method::bounce_intervals);
   }
+  if (!request.method.empty()) stated["method"] = request.method;
   for (const auto& [key, value] : stated.items()) {
     if (key != "provenance") block[key] = value;
   }
