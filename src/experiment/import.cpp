@@ -12,6 +12,7 @@
 #include "experiment/import_flights.hpp"
 #include "experiment/import_package.hpp"
 #include "experiment/import_table.hpp"
+#include "experiment/import_track.hpp"
 
 namespace recoil {
 namespace {
@@ -153,6 +154,8 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
       return read_heights(request, sphere_in_air(system));
     case ImportFormat::intervals:
       return read_intervals(request, sphere_in_air(system));
+    case ImportFormat::track:
+      return read_track(request);
     case ImportFormat::csv:
       break;
   }

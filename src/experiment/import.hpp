@@ -19,13 +19,14 @@ enum class ImportFormat {
   heights,           ///< drop and rebound heights
   intervals,         ///< times of successive bounces, or between them
   csv,               ///< any table, with a map of its columns
+  track,             ///< heights over time
 };
 
 /// The names of the formats on the command line.
 template <>
 struct NamesOf<ImportFormat> {
-  static constexpr std::array<std::string_view, 4> names = {"webplotdigitizer", "heights",
-                                                            "intervals", "csv"};
+  static constexpr std::array<std::string_view, 5> names = {"webplotdigitizer", "heights",
+                                                            "intervals", "csv", "track"};
 };
 
 /// What to import, and what the file does not state, as on the command line. Values with units are
@@ -44,7 +45,9 @@ struct ImportRequest {
   std::string diameter_error;
   std::string series;  ///< name of the series when the file has none
 
-  std::string particle;  ///< a JSON file, or "material=...,density=...,youngs_modulus=..."
+  /// A JSON file, a name of the table of materials, both with "key=value" of other constants behind
+  /// a name, or "material=...,density=...,youngs_modulus=...".
+  std::string particle;
   std::string surface;
   std::filesystem::path like;             ///< a dataset whose materials are the same
   std::optional<double> adhesion_energy;  ///< [J/m2]; 0: no adhesion
@@ -65,6 +68,8 @@ struct ImportRequest {
   std::string gravity = "9.80665";         ///< [m/s2]
   std::optional<double> ambient_pressure;  ///< [Pa]; 0: vacuum
   std::optional<double> temperature;       ///< [K]
+  std::optional<double> fps;               ///< frames per second of a track [1/s]
+  std::string scale;                       ///< length of a pixel of a track: "0.4mm"
   std::string method;                      ///< how velocities were measured, if not by the format
   std::vector<std::string> conditions;     ///< "target_thickness=5mm"
 };
@@ -92,6 +97,9 @@ enum class ImportRemark {
   bounces_suspected,       ///< `names`: places where a bounce may be missing
   first_bounces_not_used,  ///< no error of the release height is stated
   shared_bounces,          ///< errors of successive points are not independent
+  impacts_skipped,         ///< tracks: `count` without enough of a flight on either side
+  track_fall,              ///< tracks: `fall` is not `gravity`
+  drag_stays,              ///< tracks: the drag of the air is not taken out
   no_source,
   licence_removed,  ///< that of the reconstruction
   recipe_set_aside,
@@ -122,6 +130,8 @@ struct ImportNote {
   std::vector<ReleaseCheck> releases = {};
   std::vector<LeftOverride> left_out = {};
   AirShare air = {};
+  double fall = 0.0;     ///< measured acceleration [m/s2]
+  double gravity = 0.0;  ///< [m/s2]
 };
 
 /// What was written.

@@ -15,16 +15,6 @@ namespace recoil {
 namespace {
 
 constexpr double thinnest_air = 1e-3;  // [Pa]
-constexpr Range gravities{1e-3, 1e3, "m/s2"};
-
-/// --gravity [m/s2].
-double gravity_of(const ImportRequest& request) {
-  const auto value = parse_number(request.gravity);
-  if (value && gravities.contains(*value)) return *value;
-  throw InputError(
-      {}, fmt::format("--gravity {} is not an acceleration in m/s2", quote(request.gravity)), "",
-      "write 9.80665 for standard gravity");
-}
 
 /// The flights of the spheres of one import, and the effect of the air on e.
 class Flights {

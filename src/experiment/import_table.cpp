@@ -344,6 +344,15 @@ void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
   if (!named.empty()) imported.notes.push_back({ImportRemark::diameters_from_names, named});
 }
 
+double gravity_of(const ImportRequest& request) {
+  constexpr Range gravities{1e-3, 1e3, "m/s2"};
+  const auto value = parse_number(request.gravity);
+  if (value && gravities.contains(*value)) return *value;
+  throw InputError(
+      {}, fmt::format("--gravity {} is not an acceleration in m/s2", quote(request.gravity)), "",
+      "write 9.80665 for standard gravity");
+}
+
 NumberFormat number_format(const ImportRequest& request) {
   return {request.decimal_comma ? "," : "."};
 }

@@ -72,6 +72,9 @@ std::optional<double> known_diameter(const ImportRequest& request, const std::st
 /// @throws InputError for a point without one, and for a --diameter that no series has.
 void settle_diameters(const ImportRequest& request, ImportedPoints& imported);
 
+/// --gravity [m/s2].
+double gravity_of(const ImportRequest& request);
+
 /// How the numbers of the file are written.
 NumberFormat number_format(const ImportRequest& request);
 

@@ -304,9 +304,19 @@ std::string note_sentence(const ImportNote& note) {
           "{}. An equal difference at all heights points to an offset of the scale",
           fmt::join(heights, "; "));
     }
+    case ImportRemark::impacts_skipped:
+      return fmt::format("{} impact{} left out: fewer than four samples of free flight on one side",
+                         note.count, note.count == 1 ? "" : "s");
+    case ImportRemark::track_fall:
+      return fmt::format(
+          "the tracks fall with {:.3g} m/s2 instead of {:.5g}: the scale or the frame rate is off, "
+          "or the air holds the ball; e does not depend on the scale, V does",
+          note.fall, note.gravity);
+    case ImportRemark::drag_stays:
+      return "the drag of the air was not taken out of the tracks";
     case ImportRemark::shared_bounces:
-      return "successive points of one launch share the time of a bounce; a fit takes their errors "
-             "as independent";
+      return "successive points of one launch share a flight; a fit takes their errors as "
+             "independent";
     case ImportRemark::no_source:
       return "no source is stated: add --source \"Author (year), journal, figure\"";
     case ImportRemark::licence_removed:

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "data/material_table.hpp"
 #include "import_folder.hpp"
+#include "support/workplace.hpp"
 
 namespace {
 
@@ -373,6 +375,72 @@ TEST(Forms, MethodAndConditionsOfEveryFormat) {
   request.conditions = {"relativ_humidity=0.4"};
   request.into = place.folder() / "other";
   EXPECT_THAT(complaint(request), HasSubstr("did you mean 'relative_humidity'?"));
+}
+
+TEST(Materials, ByNameWithErrorsAndSources) {
+  const Place place;
+  auto request = place.request(kTable, ImportFormat::csv);
+  request.map = {kMap};
+  request.particle = "polystyrene";
+  request.surface = "glass,youngs_modulus=72e9";
+  const Dataset made = recoil::import_points(request).dataset;
+  EXPECT_EQ(made.system.particle.name, "polystyrene");
+  EXPECT_DOUBLE_EQ(made.system.particle.density, 1050.0);
+  // The range 2.28 to 3.28 GPa as a uniform distribution.
+  EXPECT_DOUBLE_EQ(made.system.particle.youngs_modulus, 2.78e9);
+  EXPECT_NEAR(made.system.error_of(recoil::Body::particle, recoil::Constant::youngs_modulus),
+              1e9 / std::sqrt(12.0), 1.0);
+  EXPECT_DOUBLE_EQ(made.system.surface.youngs_modulus, 72e9);
+  EXPECT_EQ(made.system.error_of(recoil::Body::surface, recoil::Constant::youngs_modulus), 0.0);
+  ASSERT_EQ(made.sources.size(), 3U);
+  EXPECT_THAT(made.sources[1], AllOf(HasSubstr("Callister"), HasSubstr("polystyrene")));
+  request.particle = "polystyren";
+  request.into = place.folder() / "other";
+  EXPECT_THAT(complaint(request), HasSubstr("did you mean 'polystyrene'?"));
+}
+
+TEST(Materials, EveryOneOfTheTableIsAccepted) {
+  const Place place;
+  for (const recoil::TabledMaterial& material : recoil::tabled_materials()) {
+    auto request = place.request(kTable, ImportFormat::csv);
+    request.map = {kMap};
+    request.particle = request.surface = std::string(material.name);
+    request.into = place.folder() / std::string(material.name);
+    EXPECT_EQ(complaint(request), "no error") << material.name;
+  }
+}
+
+TEST(Table, TheCommandMakesAFitFileAndSaysWhatIsNext) {
+  const support::Workplace place;
+  place.write("table.csv", "V,e\n1,0.8\n2,0.78\n3,0.77\n4,0.75\n");
+  std::vector<std::string> words = {"import",
+                                    "table.csv",
+                                    "--format",
+                                    "csv",
+                                    "--into",
+                                    "mine",
+                                    "--map",
+                                    "incident_velocity=V:m/s,restitution=e",
+                                    "--particle",
+                                    "steel",
+                                    "--surface",
+                                    "glass",
+                                    "--diameter",
+                                    "5mm",
+                                    "--provenance",
+                                    "measured",
+                                    "--adhesion-energy",
+                                    "0"};
+  const auto made = place.run(words);
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("next:\n  recoil fit mine/fit.toml"));
+  EXPECT_EQ(place.run({"fit", "mine/fit.toml", "--replicates", "0"}).status, 0);
+  // A fit file that is there stays.
+  place.write("mine/fit.toml", "dataset = \".\"\n# mine\n");
+  words.emplace_back("--replace");
+  EXPECT_EQ(place.run(words).status, 0);
+  EXPECT_THAT(place.read("mine/fit.toml"), HasSubstr("# mine"));
+  EXPECT_THAT(place.run({"materials"}).out, AllOf(HasSubstr("stainless"), HasSubstr("Callister")));
 }
 
 }  // namespace
