@@ -41,7 +41,7 @@ void refuse_others(const JsonNode& node, const std::vector<std::string>& known,
 }
 
 /// `node` states what is done anyway. @param usual "\"default\"", true, ...
-void require_usual(const JsonNode& parent, const char* key, const Json& usual) {
+void require_usual(const JsonNode& parent, const char* key, const nlohmann::json& usual) {
   const auto node = parent.find(key);
   if (!node || node->scalar() == usual) return;
   node->fail(fmt::format("{} is not supported with this value", quote(key)),
