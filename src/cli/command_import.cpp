@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "experiment/import.hpp"
@@ -34,11 +35,19 @@ struct OptionOfFormats {
 void require_used(const Command& command, ImportFormat format) {
   using enum ImportFormat;
   static const std::vector<OptionOfFormats> some = {
-      {"--axis", {webplotdigitizer}},      {"--reading-error", {webplotdigitizer}},
-      {"--scatter", {webplotdigitizer}},   {"--captured-below", {webplotdigitizer, heights}},
-      {"--drop-error", {heights}},         {"--rebound-error", {heights}},
-      {"--time-error", {intervals}},       {"--average", {heights}},
-      {"--gravity", {heights, intervals}},
+      {"--axis", {webplotdigitizer}},
+      {"--reading-error", {webplotdigitizer}},
+      {"--error-series", {webplotdigitizer}},
+      {"--sd-of", {csv}},
+      {"--scatter", {webplotdigitizer}},
+      {"--captured-below", {webplotdigitizer, heights}},
+      {"--drop-error", {heights, intervals}},
+      {"--rebound-error", {heights}},
+      {"--time-error", {intervals}},
+      {"--average", {heights}},
+      {"--gravity", {heights, intervals, track}},
+      {"--fps", {track}},
+      {"--scale", {track}},
   };
   for (const OptionOfFormats& one : some) {
     const std::string option(one.option);
@@ -69,6 +78,14 @@ void run_import(ImportFlags flags, const Command& command) {
   fmt::print("{}", dataset_text(result.dataset));
   for (const ImportNote& note : result.notes) fmt::print("note: {}\n", note_sentence(note));
   fmt::print("{}: written\n", flags.into);
+  const std::filesystem::path fit_file = flags.request.into / "fit.toml";
+  std::error_code failed;
+  if (!std::filesystem::exists(fit_file, failed)) {
+    write_whole_file(fit_file,
+                     "# Made by recoil import. Every key with its default: recoil help fit-file\n"
+                     "dataset = \".\"\n");
+  }
+  fmt::print("next:\n  recoil fit {0}\n  recoil diagnose {0}\n", fit_file.string());
 }
 
 }  // namespace
@@ -80,8 +97,11 @@ void add_import(Program& program) {
   command.footer(
       "Formats: webplotdigitizer (all series as CSV), heights (drop and rebound), intervals "
       "(between\n"
-      "bounces) and csv. --map ties columns to quantities, with units: um, mm, cm, m; m/s, cm/s;\n"
-      "s, ms; %. What neither file nor options say is asked for; nothing is overwritten "
+      "bounces), track (heights over time) and csv. --map ties columns to quantities, with units: "
+      "um, mm, cm, m, in; m/s, "
+      "km/h;\n"
+      "s, ms; % (recoil help data). What neither file nor options say is asked for; nothing is "
+      "overwritten "
       "unasked.\n\n"
       "  recoil import fig7.csv --format webplotdigitizer --into datasets/mine \\\n"
       "    --axis x=log,1,100 --axis y=linear,0,1 --reading-error 0.5% --like "
@@ -90,6 +110,8 @@ void add_import(Program& program) {
       "    --map drop_height=h1:cm,rebound_height=h2:cm --particle ball.json --surface floor.json\n"
       "  recoil import bounces.csv --format intervals --into datasets/ball2 --diameter 40mm \\\n"
       "    --map launch=run,interval=t:s --time-error 1ms --like datasets/ball\n"
+      "  recoil import ball.txt --format track --into datasets/ball3 --diameter 40mm \\\n"
+      "    --map frame=f,pixel=y --fps 240 --particle nylon --surface concrete\n"
       "  recoil import table.csv --format csv --into datasets/wall1990-molybdenum --replace \\\n"
       "    --map incident_velocity=Vi:cm/s,rebound_velocity=Vr:cm/s,diameter=D:um,series=run");
   const auto flags = std::make_shared<ImportFlags>();
@@ -103,7 +125,17 @@ void add_import(Program& program) {
   command.flag("--replace", r.replace,
                "replace the points of the existing dataset; it keeps its materials, and a "
                "reconstruction becomes digitised");
-  command.option("--map", r.map, "quantity=column:unit, several separated by commas").repeats();
+  command
+      .option("--map", r.map,
+              "quantity=column:unit, several separated by commas; quantity=a+b+c for repeats in "
+              "columns, quantity=100cm for a constant; a unit may have a factor, as 0.35mm")
+      .repeats();
+  command.flag("--decimal-comma", r.decimal_comma, "numbers are written 2,5");
+  command
+      .option("--sd-of", r.sd_of,
+              "the standard deviations of a table are those of one impact, or of the mean of a "
+              "point's events")
+      .one_of({"one", "mean"});
   command
       .option("--diameter", r.diameters,
               "diameter of the spheres: 4.9um, or SERIES=4.9um once for each series")
@@ -111,9 +143,9 @@ void add_import(Program& program) {
   command.option("--diameter-error", r.diameter_error,
                  "one standard deviation of the diameters: 1% or 0.1um");
   command.option("--series", r.series, "name of the series when the file has none");
-  command.option(
-      "--particle", r.particle,
-      "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
+  command.option("--particle", r.particle,
+                 "the sphere: a name (recoil materials), a JSON file, or "
+                 "material=...,density=...,youngs_modulus=...,poisson_ratio=...");
   command.option("--surface", r.surface,
                  "the surface, in the same form; its density may be left out");
   command.option("--like", flags->like, "take the materials of this dataset");
@@ -134,6 +166,11 @@ void add_import(Program& program) {
       .repeats();
   command.option("--reading-error", r.reading_error,
                  "one standard deviation of a reading: 0.5% of an axis, or 2px");
+  command
+      .option("--error-series", r.error_series,
+              "SERIES=UPPER or SERIES=UPPER,LOWER: these series are the ends of the error bars of "
+              "SERIES")
+      .repeats();
   command.option("--scatter", r.scatter,
                  "scatter of e in addition to the errors of reading: 10%, or 0.02");
   command
@@ -141,7 +178,7 @@ void add_import(Program& program) {
               "a restitution below this is a capture (digitised points, heights)")
       .within(0.0, 1.0);
   command.option("--drop-error", r.drop_error,
-                 "one standard deviation of the drop height: 1mm or 1%");
+                 "one standard deviation of the drop or release height: 1mm or 1%");
   command.option("--rebound-error", r.rebound_error,
                  "one standard deviation of the rebound height");
   command.option("--time-error", r.time_error,
@@ -155,6 +192,16 @@ void add_import(Program& program) {
       .within(0.0, limits::pressure.upper);
   command.option("--temperature", r.temperature, "temperature of the air [K] (default 293)")
       .within(limits::temperature.lower, limits::temperature.upper);
+  command.option("--fps", r.fps, "frames per second of a track").number("fps", 1e-3, 1e9);
+  command.option("--scale", r.scale,
+                 "length of a pixel of a track: 0.4mm (default: the fall under gravity gives it)");
+  command.option("--method", r.method, "how velocities were measured (default: by the format)")
+      .one_of({"velocimeter", "drop_heights", "bounce_intervals", "video", "unknown"});
+  command
+      .option("--condition", r.conditions,
+              "NAME=VALUE under which all points were taken: target_thickness=5mm, "
+              "relative_humidity=40% (recoil help data)")
+      .repeats();
   command.runs([flags, command] { run_import(*flags, command); });
 }
 

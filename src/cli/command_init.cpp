@@ -242,9 +242,9 @@ void add_init(Program& program) {
       .option("--provenance", options->provenance,
               "where these points come from: measured or digitised")
       .one_of({"measured", "digitised"});
-  command.option(
-      "--particle", options->particle,
-      "the sphere: a JSON file, or material=...,density=...,youngs_modulus=...,poisson_ratio=...");
+  command.option("--particle", options->particle,
+                 "the sphere: a name (recoil materials), a JSON file, or "
+                 "material=...,density=...,youngs_modulus=...,poisson_ratio=...");
   command.option("--surface", options->surface,
                  "the surface, in the same form; its density may be left out");
   command.option("--like", options->like, "take the materials of this dataset").takes("DIR");

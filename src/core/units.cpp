@@ -11,29 +11,43 @@ struct Unit {
   double factor;
 };
 
-constexpr std::array<Unit, 22> known_units = {{
+constexpr std::array<Unit, 37> known_units = {{
     {Dimension::count, "1", 1.0},
     {Dimension::ratio, "1", 1.0},
     {Dimension::ratio, "%", 1e-2},
     {Dimension::length, "um", units::um},
-    {Dimension::length, "µm", units::um},
+    {Dimension::length, "µm", units::um},  // U+00B5, the micro sign
+    {Dimension::length, "μm", units::um},  // U+03BC, the Greek letter
     {Dimension::length, "nm", units::nm},
     {Dimension::length, "mm", units::mm},
     {Dimension::length, "cm", units::cm},
     {Dimension::length, "m", units::m},
+    {Dimension::length, "in", 0.0254},  // international yard and pound agreement of 1959
+    {Dimension::length, "ft", 0.3048},
     {Dimension::velocity, "m/s", 1.0},
     {Dimension::velocity, "cm/s", units::cm},
     {Dimension::velocity, "mm/s", units::mm},
+    {Dimension::velocity, "km/h", 1.0 / 3.6},
+    {Dimension::velocity, "ft/s", 0.3048},
+    {Dimension::velocity, "in/s", 0.0254},
+    {Dimension::velocity, "mph", 1609.344 / 3600.0},
     {Dimension::time, "s", 1.0},
     {Dimension::time, "ms", units::ms},
     {Dimension::time, "us", units::us},
     {Dimension::time, "µs", units::us},
+    {Dimension::time, "μs", units::us},
     {Dimension::pressure, "Pa", 1.0},
     {Dimension::pressure, "hPa", 100.0},
     {Dimension::pressure, "kPa", 1e3},
     {Dimension::pressure, "mbar", 100.0},
     {Dimension::pressure, "bar", 1e5},
+    {Dimension::pressure, "atm", 101325.0},
+    {Dimension::pressure, "Torr", 101325.0 / 760.0},
     {Dimension::temperature, "K", 1.0},
+    {Dimension::temperature, "degC", 1.0},  // zero: see Scale
+    {Dimension::temperature, "°C", 1.0},
+    {Dimension::temperature, "degF", 5.0 / 9.0},
+    {Dimension::temperature, "°F", 5.0 / 9.0},
 }};
 
 }  // namespace

@@ -16,21 +16,26 @@ constexpr std::size_t longest_cell = 10000;
 
 class CsvReader {
  public:
-  CsvReader(std::string_view text, const std::string& file, char delimiter)
-      : text_(text), file_(file), delimiter_(delimiter) {}
+  CsvReader(std::string_view text, const std::string& file, char delimiter, char comment)
+      : text_(text), file_(file), delimiter_(delimiter), comment_(comment) {}
 
   /// Reads the next row that is not blank. @returns false at the end of the text.
   bool next(CsvRow& row) {
     row.clear();
     skip_blanks();
-    while (!at_end() && at_line_end()) {
-      step();
+    while (!at_end() && (at_line_end() || at_comment())) {
+      while (!at_line_end()) step();
+      if (!at_end()) step();
       skip_blanks();
     }
     if (at_end()) return false;
     row.push_back(cell());
     while (!at_line_end()) {
       step();  // past the delimiter
+      if (delimiter_ == ' ') {
+        skip_blanks();
+        if (at_line_end()) break;
+      }
       row.push_back(cell());
     }
     return true;
@@ -40,9 +45,12 @@ class CsvReader {
   bool at_end() const { return at_ == text_.size(); }
   char peek() const { return text_[at_]; }
   bool at_line_end() const { return at_end() || peek() == '\n' || peek() == '\r'; }
-  bool at_cell_end() const { return at_line_end() || peek() == delimiter_; }
+  bool at_comment() const { return comment_ != '\0' && peek() == comment_; }
+  bool at_cell_end() const {
+    return at_line_end() || peek() == delimiter_ || (delimiter_ == ' ' && peek() == '\t');
+  }
   bool at_blank() const {
-    return !at_end() && (peek() == ' ' || peek() == '\t') && peek() != delimiter_;
+    return !at_end() && (peek() == ' ' || (peek() == '\t' && delimiter_ != '\t'));
   }
 
   char step() {
@@ -89,7 +97,7 @@ class CsvReader {
       }
       append(field);
     }
-    skip_blanks();
+    if (delimiter_ != ' ') skip_blanks();
     if (!at_cell_end()) fail_inside();
   }
 
@@ -111,6 +119,7 @@ class CsvReader {
   std::string_view text_;
   const std::string& file_;
   char delimiter_;
+  char comment_;
   std::size_t at_ = 0;
   int line_ = 1;
   int column_ = 1;
@@ -119,29 +128,83 @@ class CsvReader {
 }  // namespace
 
 void read_csv(std::string_view text, const std::string& file, char delimiter,
-              const std::function<void(const CsvRow&)>& on_row) {
-  CsvReader reader(text, file, delimiter);
+              const std::function<void(const CsvRow&)>& on_row, char comment) {
+  CsvReader reader(text, file, delimiter, comment);
   CsvRow row;
   while (reader.next(row)) on_row(row);
 }
 
-double number_in(const CsvField& cell, const std::string& file, const std::string& what) {
-  if (const auto value = parse_number(cell.text)) return *value;
+std::optional<double> parse_number(std::string_view text, const NumberFormat& format) {
+  std::string plain(trimmed(text));
+  const std::size_t mark = std::min(plain.find(format.decimal), plain.size());
+  const std::size_t whole = std::min(mark, std::min(plain.find_first_of("eE"), plain.size()));
+  std::string digits;
+  for (std::size_t at = 0; at < whole;) {
+    const std::size_t end =
+        format.group.empty() ? whole : std::min(plain.find(format.group, at), whole);
+    const std::string part = plain.substr(at, end - at);
+    const bool last = end == whole;
+    const bool grouped = at > 0 || !last;
+    const bool right =
+        at > 0 ? part.size() == 3 && part.find_first_not_of("0123456789") == std::string::npos
+               : part.size() <= (part.starts_with('-') || part.starts_with('+') ? 4U : 3U);
+    if (grouped && (!right || part.empty())) return std::nullopt;
+    digits += part;
+    at = last ? whole : end + format.group.size();
+    if (!last && at >= whole) return std::nullopt;  // a group mark that nothing follows
+  }
+  plain.replace(0, whole, digits);
+  if (format.decimal != ".") {
+    if (plain.find('.') != std::string::npos) return std::nullopt;
+    const std::size_t at = plain.find(format.decimal);
+    if (at != std::string::npos) plain.replace(at, format.decimal.size(), ".");
+  }
+  return parse_number(plain);
+}
+
+double number_in(const CsvField& cell, const std::string& file, const std::string& what,
+                 const NumberFormat& format) {
+  if (const auto value = parse_number(cell.text, format)) return *value;
   std::string word = cell.text;
   std::transform(word.begin(), word.end(), word.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::string suggestion = "write a decimal number such as 4.9 or 4.9e-6";
   const std::size_t comma = word.find(',');
-  if (comma != std::string::npos) {
+  if (format.decimal != ".") {
+    suggestion = fmt::format(
+        "decimals are written with '{}' here{}", format.decimal,
+        format.group.empty() ? ", and digits are not grouped"
+                             : fmt::format(", digits grouped in threes with '{}'", format.group));
+  } else if (comma != std::string::npos) {
+    const bool threes = word.size() == comma + 4;  // 1,250
+    const std::string joined = word.substr(0, comma) + word.substr(comma + 1);
     word[comma] = '.';
-    suggestion = parse_number(word) ? fmt::format("a decimal comma? write {}", word)
-                                    : "write decimals with a point";
+    suggestion = !parse_number(word) ? "write decimals with a point"
+                 : threes && parse_number(joined)
+                     ? fmt::format(
+                           "write {} if the comma groups thousands, {} if it is a decimal "
+                           "comma",
+                           joined, word)
+                     : fmt::format(
+                           "a decimal comma? write {}, or state it: --decimal-comma at an "
+                           "import, decimalChar in a schema",
+                           word);
   } else if (word.find("nan") != std::string::npos || word.find("inf") != std::string::npos ||
              word == "na" || word == "null" || word == "-") {
     suggestion = "remove the row, or leave the cell empty if the column is optional";
   }
   throw InputError(cell.in(file), fmt::format("{} is not a number", quote(cell.text)),
                    fmt::format("{} has to be a finite number", what), suggestion);
+}
+
+Scale known_scale(Dimension dimension, const std::string& unit, const std::string& of,
+                  const Location& where) {
+  Scale scale{known_factor(dimension, unit, of, where)};
+  if (dimension == Dimension::temperature) {
+    if (unit == "degC" || unit == "°C") scale.zero = 273.15;
+    if (unit == "degF" || unit == "°F") scale.zero = 459.67 * scale.factor;
+  }
+  return scale;
 }
 
 void require_width(const CsvRow& row, std::size_t width, const std::string& file) {

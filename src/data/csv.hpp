@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace recoil {
 
@@ -25,14 +27,41 @@ using CsvRow = std::vector<CsvField>;
 /// as a table, so a large file costs one row of memory.
 ///
 /// @param file the name that messages give.
+/// @param delimiter between cells; ' ' stands for any number of blanks and tabs
+/// @param comment lines that begin with it are skipped; '\0': none
 /// @throws InputError for a quotation mark that is not closed or in the wrong place and for a cell
 ///   of more than 10,000 bytes; and what `on_row` throws.
 void read_csv(std::string_view text, const std::string& file, char delimiter,
-              const std::function<void(const CsvRow&)>& on_row);
+              const std::function<void(const CsvRow&)>& on_row, char comment = '\0');
+
+/// How the numbers of a table are written: 2.5 or 2,5, and 2500 or 2.500 (Table Schema:
+/// decimalChar, groupChar).
+struct NumberFormat {
+  std::string decimal = ".";
+  std::string group = "";  ///< between groups of three digits; empty: none
+};
+
+/// The finite number that `text` consists of; nullopt for anything else, a mark that the format
+/// does not have and groups that are not of three digits included.
+std::optional<double> parse_number(std::string_view text, const NumberFormat& format);
 
 /// The finite number in a cell. @param what it has to be, for the message: "diameter in um"
 /// @throws InputError at the cell
-double number_in(const CsvField& cell, const std::string& file, const std::string& what);
+double number_in(const CsvField& cell, const std::string& file, const std::string& what,
+                 const NumberFormat& format = {});
+
+/// Converts the numbers of a column into SI.
+struct Scale {
+  double factor = 1.0;
+  double zero = 0.0;  ///< what 0 in the unit is in SI: 273.15 for degC
+
+  double operator()(double stated) const { return stated * factor + zero; }
+};
+
+/// The scale of `unit`. @param of what has this unit, for the message
+/// @throws InputError when the unit is unknown or measures something else.
+Scale known_scale(Dimension dimension, const std::string& unit, const std::string& of,
+                  const Location& where);
 
 /// @throws InputError for a row that has not as many cells as the header.
 void require_width(const CsvRow& row, std::size_t width, const std::string& file);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "core/files.hpp"
@@ -15,20 +16,96 @@ namespace {
 
 bool is_count(Quantity quantity) { return dimension_of(quantity) == Dimension::count; }
 
-/// Frictionless `type` of a field. @returns whether it asks for whole numbers.
-bool read_type(const JsonNode& field, Quantity quantity) {
+/// 0 or 1, or a count of which single impacts have 0 or 1.
+bool may_be_boolean(Quantity quantity) {
+  return is_count(quantity) && quantity != Quantity::events;
+}
+
+std::vector<std::string> read_words(const JsonNode& list) {
+  std::vector<std::string> words;
+  for (const JsonNode& word : list.items()) words.push_back(word.string());
+  return words;
+}
+
+/// Refuses the keys of `node` that are not among `known`: they change what a cell means.
+void refuse_others(const JsonNode& node, const std::vector<std::string>& known,
+                   const std::vector<std::string>& changing) {
+  for (const JsonNode& member : node.members()) {
+    const std::string& key = member.key();
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    if (std::find(changing.begin(), changing.end(), key) == changing.end()) continue;
+    member.fail(fmt::format("{} is not supported", quote(key)),
+                "the cells would be read differently from what it says",
+                fmt::format("remove it; supported: {}", join(known)));
+  }
+}
+
+/// `node` states what is done anyway. @param usual "\"default\"", true, ...
+void require_usual(const JsonNode& parent, const char* key, const nlohmann::json& usual) {
+  const auto node = parent.find(key);
+  if (!node || node->scalar() == usual) return;
+  node->fail(fmt::format("{} is not supported with this value", quote(key)),
+             "the cells would be read differently from what it says",
+             fmt::format("remove it, or write {}", usual.dump()));
+}
+
+/// decimalChar and groupChar of Table Schema.
+void read_number_format(const JsonNode& field, NumberFormat& format) {
+  require_usual(field, "bareNumber", true);
+  const auto read = [&](const char* key, std::string& mark) {
+    const auto node = field.find(key);
+    if (!node) return;
+    mark = node->string();
+    const bool right = !mark.empty() && mark.find_first_of("0123456789eE+-") == std::string::npos;
+    if (!right) node->fail(fmt::format("{} is {}", key, quote(mark)), "", "write \".\" or \",\"");
+  };
+  read("decimalChar", format.decimal);
+  read("groupChar", format.group);
+  if (format.decimal != format.group) return;
+  field.find("groupChar")->fail("groupChar and decimalChar are equal", "", "correct one of them");
+}
+
+void read_constraints(const JsonNode& field, Column& column) {
+  const auto constraints = field.find("constraints");
+  if (!constraints) return;
+  const bool text = dimension_of(column.quantity) == Dimension::text;
+  const std::vector<std::string> known =
+      text || column.boolean ? std::vector<std::string>{"required"}
+                             : std::vector<std::string>{"required", "minimum", "maximum"};
+  for (const JsonNode& member : constraints->members()) {
+    if (std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
+    member.fail(fmt::format("the constraint {} is not checked", quote(member.key())), "",
+                fmt::format("remove it; checked: {}", join(known)));
+  }
+  if (const auto node = constraints->find("required")) column.required = node->scalar() == true;
+  if (const auto node = constraints->find("minimum")) column.minimum = node->number();
+  if (const auto node = constraints->find("maximum")) column.maximum = node->number();
+}
+
+/// Frictionless `type` of a field.
+void read_type(const JsonNode& field, Column& column) {
+  const Quantity quantity = column.quantity;
   const bool text = dimension_of(quantity) == Dimension::text;
   const JsonNode type = field.require("type", "it says how the cells are read",
                                       text ? "write \"string\"" : "write \"number\"");
   const std::string word = type.string();
   std::vector<std::string> allowed = {"number", "integer"};
   if (text) allowed = {"string"};
-  if (quantity == Quantity::captured) allowed.emplace_back("boolean");
+  if (may_be_boolean(quantity)) allowed.emplace_back("boolean");
   if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) {
     type.fail(fmt::format("the type of '{}' is {}", name_of(quantity), quote(word)), "",
               fmt::format("write {}", join(allowed)));
   }
-  return word == "integer" || is_count(quantity);
+  column.integer = word == "integer" || is_count(quantity);
+  column.boolean = word == "boolean";
+  require_usual(field, "format", "default");
+  column.yes = {"true", "True", "TRUE", "1"};
+  column.no = {"false", "False", "FALSE", "0"};
+  if (const auto words = field.find("trueValues")) column.yes = read_words(*words);
+  if (const auto words = field.find("falseValues")) column.no = read_words(*words);
+  if (!text && !column.boolean) read_number_format(field, column.format);
+  if (const auto words = field.find("missingValues")) column.missing_values = read_words(*words);
+  read_constraints(field, column);
 }
 
 void read_unit(const JsonNode& field, Column& column) {
@@ -37,8 +114,8 @@ void read_unit(const JsonNode& field, Column& column) {
   const JsonNode node = field.require("unit", "values are converted by it",
                                       fmt::format("use {}", join(unit_names(dimension))));
   column.unit = node.string();
-  column.factor =
-      known_factor(dimension, column.unit, fmt::format("'{}'", column.name), node.where());
+  column.scale =
+      known_scale(dimension, column.unit, fmt::format("'{}'", column.name), node.where());
 }
 
 Column read_field(const JsonNode& field) {
@@ -54,7 +131,7 @@ Column read_field(const JsonNode& field) {
               did_you_mean(column.name, all_names<Quantity>()));
   }
   column.quantity = *quantity;
-  column.integer = read_type(field, *quantity);
+  read_type(field, column);
   if (dimension_of(*quantity) != Dimension::text) read_unit(field, column);
   return column;
 }
@@ -114,9 +191,8 @@ std::string read_path(const JsonNode& node) {
   return text;
 }
 
-char read_delimiter(const JsonNode& resource) {
-  const auto dialect = resource.find("dialect");
-  const auto node = dialect ? dialect->find("delimiter") : std::nullopt;
+char read_delimiter(const JsonNode& dialect) {
+  const auto node = dialect.find("delimiter");
   if (!node) return ',';
   const std::string text = node->string();
   constexpr std::string_view allowed = ",;|\t";
@@ -126,6 +202,44 @@ char read_delimiter(const JsonNode& resource) {
                "save the points with commas");
   }
   return text[0];
+}
+
+/// CSV Dialect and Table Dialect of Frictionless: how the file is cut into cells.
+void read_dialect(const JsonNode& resource, Package& package) {
+  require_usual(resource, "compression", "");
+  if (const auto node = resource.find("encoding")) {
+    std::string word = node->string();
+    std::erase(word, '-');
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (word != "utf8") {
+      node->fail(fmt::format("the encoding is {}", quote(node->string())), "only UTF-8 is read",
+                 "save the points as UTF-8 and write \"utf-8\"");
+    }
+  }
+  const auto dialect = resource.find("dialect");
+  if (!dialect) return;
+  package.delimiter = read_delimiter(*dialect);
+  if (const auto node = dialect->find("header")) {
+    if (node->scalar() != true && node->scalar() != false) {
+      node->fail("'header' is neither true nor false", "", "write false if there is none");
+    }
+    package.header = node->scalar() == true;
+  }
+  if (const auto node = dialect->find("commentChar")) {
+    const std::string mark = node->string();
+    if (mark.size() != 1) {
+      node->fail(fmt::format("commentChar is {}", quote(mark)), "it is one character",
+                 "write \"#\"");
+    }
+    package.comment = mark[0];
+  }
+  require_usual(*dialect, "quoteChar", "\"");
+  require_usual(*dialect, "doubleQuote", true);
+  refuse_others(*dialect,
+                {"delimiter", "header", "commentChar", "quoteChar", "doubleQuote", "lineTerminator",
+                 "skipInitialSpace", "caseSensitiveHeader", "csvddfVersion"},
+                {"escapeChar", "nullSequence", "headerRows", "headerJoin", "commentRows",
+                 "itemType", "itemKeys", "sheetNumber", "sheetName", "property", "table"});
 }
 
 void read_resource(const JsonNode& root, Package& package) {
@@ -141,14 +255,16 @@ void read_resource(const JsonNode& root, Package& package) {
       resource.require("path", "it names the file with the points", "write \"points.csv\"");
   package.points_path = read_path(path);
   package.points_where = path.where();
-  package.delimiter = read_delimiter(resource);
+  read_dialect(resource, package);
   const JsonNode schema = resource.require("schema", "it says what the columns are and their units",
                                            "list the fields with name, type and unit");
-  if (const auto missing = schema.find("missingValues")) {
-    for (const JsonNode& word : missing->items()) package.missing_values.push_back(word.string());
-  }
   package.columns = read_fields(schema.require("fields", "it says what the columns are",
                                                "list the fields with name, type and unit"));
+  if (const auto missing = schema.find("missingValues")) {
+    for (Column& column : package.columns) {
+      if (column.missing_values.empty()) column.missing_values = read_words(*missing);
+    }
+  }
 }
 
 /// Frictionless: a name is fit for a file name.

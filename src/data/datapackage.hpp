@@ -12,6 +12,7 @@
 #include "core/json.hpp"
 #include "core/names.hpp"
 #include "core/units.hpp"
+#include "data/csv.hpp"
 #include "data/json_document.hpp"
 #include "data/system.hpp"
 
@@ -68,8 +69,14 @@ struct Column {
   Quantity quantity = Quantity::series;
   std::string name;      ///< as in the header of the CSV file
   std::string unit;      ///< as the schema states it; empty for texts, may be empty for counts
-  double factor = 1.0;   ///< to SI
+  Scale scale;           ///< to SI
   bool integer = false;  ///< the schema says so, or the quantity is a count
+  bool boolean = false;  ///< cells are `yes` or `no`
+  std::vector<std::string> yes, no;  ///< Table Schema: trueValues, falseValues
+  NumberFormat format;
+  std::vector<std::string> missing_values;  ///< cells that mean "not known"; "" always does
+  bool required = false;                    ///< no cell may be empty
+  std::optional<double> minimum, maximum;   ///< of the values, in the unit of the column
 };
 
 /// `datapackage.json` (Frictionless Data Package) as read and validated, SI inside.
@@ -78,7 +85,8 @@ struct Column {
 /// the optional overrides `stiffness_K` [Pa], `adhesion_energy` [J/m2], `adhesion_force_f0` [N/m]
 /// and `reference_diameter` [m] (which the force needs), and `mixed_sizes`, the path of a size
 /// distribution over which every point averages. Unknown keys are refused there and allowed
-/// elsewhere, as Frictionless has it.
+/// elsewhere, as Frictionless has it, unless they change what a cell means: those are honoured or
+/// refused.
 struct Package {
   std::string id;
   std::string title;
@@ -87,10 +95,11 @@ struct Package {
   std::string mixed_sizes;  ///< path of the sizes over which every point averages; else empty
   Location mixed_sizes_where;
   std::vector<std::string> sources;
-  std::string points_path;                  ///< relative, inside the folder
-  Location points_where;                    ///< place of the path
-  char delimiter = ',';                     ///< Frictionless `dialect.delimiter`
-  std::vector<std::string> missing_values;  ///< cells that mean "not known"; "" always does
+  std::string points_path;  ///< relative, inside the folder
+  Location points_where;    ///< place of the path
+  char delimiter = ',';     ///< Frictionless `dialect.delimiter`
+  char comment = '\0';      ///< `dialect.commentChar`
+  bool header = true;  ///< `dialect.header`; without one, columns come in the order of the fields
   std::vector<Column> columns;
 };
 

@@ -29,8 +29,14 @@ class PointReader {
 
   void read_row(const CsvRow& row) {
     if (header_.empty()) {
-      read_header(row);
-      return;
+      if (package_.header) {
+        read_header(row);
+        return;
+      }
+      for (const Column& column : package_.columns) {
+        field_of_.emplace(column.quantity, header_.size());
+        header_.push_back(&column);
+      }
     }
     require_width(row, header_.size(), file_);
     row_ = &row;
@@ -94,17 +100,39 @@ class PointReader {
   const CsvField* cell(Quantity quantity) const {
     if (!field_of_.contains(quantity)) return nullptr;
     const CsvField& found = field(quantity);
-    const auto& missing = package_.missing_values;
+    const auto& missing = column(quantity).missing_values;
     const bool unknown = found.text.empty() ||
                          std::find(missing.begin(), missing.end(), found.text) != missing.end();
+    if (unknown && column(quantity).required) {
+      fail(found, fmt::format("'{}' is empty", column(quantity).name),
+           "the schema says that it is required", "fill it in or remove the row");
+    }
     return unknown ? nullptr : &found;
   }
 
   /// The value in the unit of the file.
   double stated(const CsvField& cell, const Column& column) const {
+    if (column.boolean) {
+      const auto among = [&](const std::vector<std::string>& words) {
+        return std::find(words.begin(), words.end(), cell.text) != words.end();
+      };
+      if (among(column.yes)) return 1.0;
+      if (among(column.no)) return 0.0;
+      fail(cell, fmt::format("{} is neither true nor false", quote(cell.text)),
+           "the schema says boolean",
+           fmt::format("write {} or {}", join(column.yes), join(column.no)));
+    }
     const double value = number_in(
         cell, file_,
-        fmt::format("'{}'{}", column.name, column.unit.empty() ? "" : " in " + column.unit));
+        fmt::format("'{}'{}", column.name, column.unit.empty() ? "" : " in " + column.unit),
+        column.format);
+    if (value < column.minimum.value_or(value) || value > column.maximum.value_or(value)) {
+      const bool low = value < column.minimum.value_or(value);
+      fail(cell, fmt::format("{} = {}", column.name, printable(cell.text)),
+           fmt::format("the schema's {} is {:g}", low ? "minimum" : "maximum",
+                       low ? *column.minimum : *column.maximum),
+           "correct it, or the constraint");
+    }
     if (column.integer && value != std::trunc(value)) {
       fail(cell, fmt::format("{} = {} is not a whole number", column.name, printable(cell.text)),
            "the schema says integer, or it counts impacts", "write 1, 2, 3, ...");
@@ -118,10 +146,10 @@ class PointReader {
     if (found == nullptr) return std::nullopt;
     const Column& col = column(quantity);
     const double given = stated(*found, col);
-    const double converted = given * col.factor;
+    const double converted = col.scale(given);
     if (range.contains(converted)) return converted;
     const std::string problem = fmt::format("{} = {:g}{}", col.name, given, unit_suffix(col.unit));
-    if (given < 0.0 || (given == 0.0 && range.lower > 0.0)) {
+    if (converted < 0.0 || (converted == 0.0 && range.lower > 0.0)) {
       const bool optional = quantity == Quantity::restitution_sd ||
                             quantity == Quantity::velocity_sd || quantity == Quantity::diameter_sd;
       fail(*found, problem, range.lower > 0.0 ? "it has to be positive" : "it cannot be negative",
@@ -218,7 +246,9 @@ class PointReader {
                            "or its unit"});
       if (known) known = std::min(*known / point.incident_velocity, largest);
     } else {
-      known = value(quantity, limits::restitution);
+      Range range = limits::restitution;
+      range.hint = "a rebound is not faster than the impact: correct it; in per cent its unit is %";
+      known = value(quantity, range);
     }
     if (point.all_captured()) {
       if (known.value_or(0.0) == 0.0) return 0.0;
@@ -243,6 +273,11 @@ class PointReader {
                             "'captured' is a part of 'events', which is 1 when it is not given"},
                            0);
     point.counted = cell(Quantity::captured) != nullptr;
+    if (point.counted && column(Quantity::captured).boolean && point.events > 1) {
+      fail(field(Quantity::captured), "'captured' is true or false of a single impact",
+           fmt::format("this point averages {} impacts", point.events),
+           "write how many were captured, and \"type\": \"integer\" in the schema");
+    }
     point.restitution = restitution(point);
     point.restitution_sd = value(Quantity::restitution_sd, limits::restitution_sd);
     point.velocity_sd = value(Quantity::velocity_sd, limits::velocity_sd);
@@ -305,7 +340,9 @@ Dataset with_points(const Package& package, const std::string& package_text,
   require_text(csv_text, file);
   Dataset dataset = without_points(package, package_text, folder);
   PointReader reader(file, package, dataset);
-  read_csv(csv_text, file, package.delimiter, [&](const CsvRow& row) { reader.read_row(row); });
+  read_csv(
+      csv_text, file, package.delimiter, [&](const CsvRow& row) { reader.read_row(row); },
+      package.comment);
   reader.finish();
   dataset.sha256 = sha256_hex(package_text + "\n" + csv_text);
   return dataset;

@@ -41,6 +41,8 @@ class JsonNode {
   std::vector<JsonNode> items() const;
 
   bool is_object() const { return value_->scalar.is_object(); }
+  /// A string, a number, true, false or null; for a list or an object it is empty.
+  const nlohmann::json& scalar() const { return value_->scalar; }
 
   /// @throws InputError when this is not a string (a number).
   std::string string() const;

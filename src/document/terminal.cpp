@@ -252,21 +252,23 @@ std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
     if (end == std::string_view::npos) end = text.size();
     std::string_view word = text.substr(start, end - start);
     at = end;
+    std::size_t length = code_points(word);
     const bool first = out.empty();
-    if (!first && column + 1 + code_points(word) > width) {
+    if (!first && column + 1 + length > width) {
       break_line();
     } else if (!first) {
       out += ' ';
       ++column;
     }
-    while (column + code_points(word) > width) {
+    while (column + length > width) {
       const std::size_t cut = cut_position(word, width - column);
       out += word.substr(0, cut);
       word.remove_prefix(cut);
+      length -= std::min(length, width - column);
       break_line();
     }
     out += word;
-    column += code_points(word);
+    column += length;
   }
   return out;
 }

@@ -12,6 +12,7 @@
 #include "experiment/import_flights.hpp"
 #include "experiment/import_package.hpp"
 #include "experiment/import_table.hpp"
+#include "experiment/import_track.hpp"
 
 namespace recoil {
 namespace {
@@ -27,7 +28,8 @@ std::vector<std::string> completed_map(const ImportRequest& request,
     if (const auto pair = split_pair(entry)) mapped.insert(pair->first);
   }
   std::set<std::string> columns;
-  const CsvRow header = import_rows(request.file).front();
+  std::vector<ImportNote> unused;
+  const CsvRow header = import_rows(request, unused).front();
   for (const CsvField& cell : header) columns.insert(cell.text);
   for (const std::string& entry : package_map) {
     const auto pair = split_pair(entry);
@@ -35,6 +37,66 @@ std::vector<std::string> completed_map(const ImportRequest& request,
     if (columns.contains(column) && !mapped.contains(pair->first)) map.push_back(entry);
   }
   return map;
+}
+
+/// Takes the magnitudes of velocities whose signs tell the direction: all that come in have one
+/// sign, all that leave the other one.
+void drop_signs(const ImportTable& table, ImportedPoints& out) {
+  const auto count = [&](Quantity quantity, auto sign) {
+    return std::count_if(out.points.begin(), out.points.end(), [&](const ImportedPoint& point) {
+      const auto value = point.value[quantity];
+      return value && sign(*value);
+    });
+  };
+  const auto below = [](double v) { return v < 0.0; };
+  const auto above = [](double v) { return v > 0.0; };
+  const auto in_below = count(Quantity::incident_velocity, below);
+  const auto in_above = count(Quantity::incident_velocity, above);
+  const auto out_below = count(Quantity::rebound_velocity, below);
+  const auto out_above = count(Quantity::rebound_velocity, above);
+  if (in_below == 0 && out_below == 0) return;
+  if ((in_below > 0 && in_above > 0) || (out_below > 0 && out_above > 0) ||
+      (in_below > 0 && out_below > 0)) {
+    table.fail(0, in_below > 0 ? "incident_velocity" : "rebound_velocity",
+               "the signs of the velocities are mixed",
+               "an impact comes in with one sign and leaves with the other",
+               "correct them, or give magnitudes");
+  }
+  for (ImportedPoint& point : out.points) {
+    for (const Quantity quantity : {Quantity::incident_velocity, Quantity::rebound_velocity}) {
+      auto& value = point.value[quantity];
+      if (value) value = std::abs(*value);
+    }
+  }
+  out.notes.push_back({ImportRemark::signed_velocities});
+}
+
+/// Standard deviations of single impacts become those of the means. @throws InputError where it is
+/// not known which of the two they are
+void settle_deviations(const ImportRequest& request, const ImportTable& table,
+                       std::vector<ImportedPoint>& points) {
+  for (const Quantity quantity : {Quantity::restitution_sd, Quantity::velocity_sd}) {
+    const bool of_means = request.sd_of.empty() && table.is_named(to_string(quantity));
+    if (of_means || request.sd_of == "mean") continue;
+    for (ImportedPoint& point : points) {
+      auto& sd = point.value[quantity];
+      double count = point.value[Quantity::events].value_or(1.0);
+      if (quantity == Quantity::restitution_sd) {
+        count -= point.value[Quantity::captured].value_or(0.0);
+      }
+      if (!sd || !(count > 1.0)) continue;
+      if (request.sd_of == "one") {
+        sd = *sd / std::sqrt(count);
+        continue;
+      }
+      throw InputError(
+          {request.file.string(), point.line, 1},
+          fmt::format("{} of {:g} impacts: is it that of one impact or of their mean?",
+                      name_of(quantity), count),
+          fmt::format("the two differ by sqrt({:g})", count),
+          "state it with --sd-of one or --sd-of mean (a standard error is that of the mean)");
+    }
+  }
 }
 
 /// Any table: its quantities are those of a dataset.
@@ -46,7 +108,7 @@ ImportedPoints read_columns(const ImportRequest& request,
     known.push_back(
         {to_string(quantity), dimension_of(quantity), quantity == Quantity::incident_velocity});
   }
-  const ImportTable table(request.file, completed_map(request, package_map), known);
+  ImportTable table(request, completed_map(request, package_map), known);
   if (table.has("restitution") == table.has("rebound_velocity")) {
     throw InputError({request.file.string(), 1, 1},
                      table.has("restitution") ? "both restitution and rebound_velocity are there"
@@ -61,13 +123,23 @@ ImportedPoints read_columns(const ImportRequest& request,
     point.series = table.text(r, "series");
     if (point.series.empty()) point.series = default_series(request);
     point.setting = table.text(r, "setting");
-    table.needed(r, "incident_velocity");
     for (const ImportQuantity& quantity : known) {
       if (quantity.dimension == Dimension::text) continue;
       point.value[*value_named<Quantity>(quantity.name)] = table.value(r, quantity.name);
     }
+    const bool rebound = table.has("restitution") ? !table.lacks(r, "restitution")
+                                                  : !table.lacks(r, "rebound_velocity");
+    const bool sized = !table.lacks(r, "diameter") || known_diameter(request, point.series, {});
+    if (table.lacks(r, "incident_velocity") || !sized ||
+        (!rebound && !(point.value[Quantity::captured].value_or(0.0) > 0.0))) {
+      table.leave_out(r);
+      continue;
+    }
     out.points.push_back(point);
   }
+  out.notes = table.notes();
+  drop_signs(table, out);
+  settle_deviations(request, table, out.points);
   const std::vector<std::string> unused = table.unused();
   if (!unused.empty()) out.notes.push_back({ImportRemark::columns_not_used, unused});
   return out;
@@ -82,6 +154,8 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
       return read_heights(request, sphere_in_air(system));
     case ImportFormat::intervals:
       return read_intervals(request, sphere_in_air(system));
+    case ImportFormat::track:
+      return read_track(request);
     case ImportFormat::csv:
       break;
   }
@@ -167,6 +241,7 @@ void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
 
 ImportResult import_points(const ImportRequest& request) {
   require_free(request);
+  require_table_file(request.file);
   read_text_file(request.file);  // a missing file is reported before missing options
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -149,7 +150,9 @@ struct Layout {
 Layout layout_of(const std::vector<CsvRow>& rows, const ImportRequest& request) {
   Layout layout;
   const CsvRow& first = rows.front();
-  if (first.size() >= 2 && parse_number(first[0].text) && parse_number(first[1].text)) {
+  const NumberFormat format = number_format(request);
+  if (first.size() >= 2 && parse_number(first[0].text, format) &&
+      parse_number(first[1].text, format)) {
     layout.series = {default_series(request)};
     return layout;
   }
@@ -173,11 +176,80 @@ Layout layout_of(const std::vector<CsvRow>& rows, const ImportRequest& request) 
   return layout;
 }
 
+/// The points of a series that are ends of error bars: --error-series SERIES=UPPER,LOWER.
+struct ErrorSeries {
+  std::string of;
+  std::vector<std::string> ends;
+};
+
+std::vector<ErrorSeries> error_series_of(const ImportRequest& request, const Layout& layout) {
+  std::vector<ErrorSeries> all;
+  for (const std::string& word : request.error_series) {
+    const auto pair = split_pair(word);
+    ErrorSeries one{pair ? pair->first : "",
+                    pair ? split_list(pair->second) : std::vector<std::string>()};
+    if (one.ends.empty() || one.ends.size() > 2) {
+      throw InputError({}, fmt::format("--error-series {} names no ends of bars", quote(word)), "",
+                       "write --error-series SERIES=UPPER or SERIES=UPPER,LOWER");
+    }
+    std::vector<std::string> names = one.ends;
+    names.push_back(one.of);
+    for (const std::string& name : names) {
+      if (std::find(layout.series.begin(), layout.series.end(), name) != layout.series.end())
+        continue;
+      throw InputError({}, fmt::format("--error-series: there is no series {}", quote(name)), "",
+                       did_you_mean(name, layout.series));
+    }
+    all.push_back(one);
+  }
+  return all;
+}
+
+/// Gives the points of a series the lengths of their error bars as standard deviations of the
+/// rebound, half the bar where both ends are given, and removes the ends from the points. Ends
+/// belong to points in the order of the incident velocity.
+void take_error_bars(const ErrorSeries& bars, const ImportRequest& request,
+                     std::vector<ImportedPoint>& points) {
+  const auto sorted = [&](const std::string& series) {
+    std::vector<ImportedPoint*> members;
+    for (ImportedPoint& point : points) {
+      if (point.series == series) members.push_back(&point);
+    }
+    std::stable_sort(
+        members.begin(), members.end(), [](const ImportedPoint* a, const ImportedPoint* b) {
+          return *a->value[Quantity::incident_velocity] < *b->value[Quantity::incident_velocity];
+        });
+    return members;
+  };
+  const std::vector<ImportedPoint*> own = sorted(bars.of);
+  std::vector<double> length(own.size(), 0.0);
+  for (const std::string& name : bars.ends) {
+    const std::vector<ImportedPoint*> ends = sorted(name);
+    if (ends.size() != own.size()) {
+      throw InputError({request.file.string()},
+                       fmt::format("'{}' has {} points and its error bars '{}' have {} ends",
+                                   bars.of, own.size(), name, ends.size()),
+                       "every point needs its end", "read the missing ones, or remove the others");
+    }
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const auto e = own[i]->restitution();
+      const auto end = ends[i]->restitution();
+      if (e && end) length[i] += std::abs(*end - *e) / static_cast<double>(bars.ends.size());
+    }
+  }
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (length[i] > 0.0) own[i]->value[Quantity::restitution_sd] = length[i];
+  }
+  std::erase_if(points, [&](const ImportedPoint& point) {
+    return std::find(bars.ends.begin(), bars.ends.end(), point.series) != bars.ends.end();
+  });
+}
+
 /// Reads one coordinate of a point; errors of readings are in the unit of the quantity.
 void read_coordinate(const CsvField& cell, const FigureAxis& axis, const ImportRequest& request,
                      ImportedPoint& point, std::optional<double>& error) {
   const std::string file = request.file.string();
-  const double printed = number_in(cell, file, to_string(axis.quantity));
+  const double printed = number_in(cell, file, to_string(axis.quantity), number_format(request));
   const double value = printed * axis.factor;
   if (axis.quantity == Quantity::incident_velocity && !(value > 0.0)) {
     throw InputError(cell.in(file), fmt::format("V = {:g} m/s", value),
@@ -220,10 +292,11 @@ ImportedPoint point_of(const CsvField& x, const CsvField& y, const FigureAxes& a
 }  // namespace
 
 ImportedPoints read_digitised(const ImportRequest& request) {
-  const std::vector<CsvRow> rows = import_rows(request.file);
+  ImportedPoints out;
+  const std::vector<CsvRow> rows = import_rows(request, out.notes);
   const Layout layout = layout_of(rows, request);
   const FigureAxes axes = axes_of(request);
-  ImportedPoints out;
+  const std::vector<ErrorSeries> bars = error_series_of(request, layout);
   for (std::size_t s = 0; s < layout.series.size(); ++s) {
     for (std::size_t r = layout.first_row; r < rows.size(); ++r) {
       const CsvRow& row = rows[r];
@@ -241,6 +314,8 @@ ImportedPoints read_digitised(const ImportRequest& request) {
       out.points.push_back(point);
     }
   }
+  for (const ErrorSeries& one : bars) take_error_bars(one, request, out.points);
+  if (!bars.empty()) return out;
   if (request.reading_error.empty()) {
     out.notes.push_back({ImportRemark::no_reading_error});
   } else if (request.scatter.empty()) {

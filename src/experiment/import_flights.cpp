@@ -15,16 +15,6 @@ namespace recoil {
 namespace {
 
 constexpr double thinnest_air = 1e-3;  // [Pa]
-constexpr Range gravities{1e-3, 1e3, "m/s2"};
-
-/// --gravity [m/s2].
-double gravity_of(const ImportRequest& request) {
-  const auto value = parse_number(request.gravity);
-  if (value && gravities.contains(*value)) return *value;
-  throw InputError(
-      {}, fmt::format("--gravity {} is not an acceleration in m/s2", quote(request.gravity)), "",
-      "write 9.80665 for standard gravity");
-}
 
 /// The flights of the spheres of one import, and the effect of the air on e.
 class Flights {
@@ -199,6 +189,7 @@ struct Launch {
   std::optional<double> release;  ///< height [m]
   std::optional<double> diameter;
   std::vector<Flight> flights;  ///< by number of the bounce
+  double next = 1.0;            ///< the number of the next bounce, where the file has none
 };
 
 /// The time of a bounce, and its number where bounces are counted.
@@ -231,56 +222,92 @@ std::vector<Launch> read_launches(const ImportTable& table, const ImportRequest&
   for (std::size_t r = 0; r < table.size(); ++r) {
     std::string name = table.text(r, "launch");
     if (name.empty()) name = default_series(request);
+    if (!table.has("launch") && table.has_replicates()) {
+      name = fmt::format("{} line {}", name, table.line(r));
+    }
     const auto [known, added] = index.try_emplace(name, launches.size());
     if (added) {
-      launches.push_back({name, table.value(r, "release_height"), table.value(r, "diameter"), {}});
+      launches.push_back(
+          {name, table.value(r, "release_height"), table.value(r, "diameter"), {}, 1.0});
     }
     Launch& launch = launches[known->second];
     const std::optional<double> number = table.value(r, "bounce");
     double duration = 0.0;
+    if (table.lacks(r, table.has("interval") ? "interval" : "time")) {
+      last.erase(name);  // a bounce that was not recorded
+      ++launch.next;
+      continue;
+    }
     if (table.has("interval")) {
       duration = table.positive(r, "interval");
     } else {
       const Bounce now{table.needed(r, "time"), number};
       const auto [before, first] = last.try_emplace(name, now);
-      if (first) continue;  // it begins the first flight
+      if (first) continue;  // it begins a flight
       const Bounce previous = std::exchange(before->second, now);
-      if (number && previous.number && *number != *previous.number + 1.0) continue;  // one missed
+      if (number && previous.number && *number != *previous.number + 1.0) {
+        launch.next += *number - *previous.number;
+        continue;  // bounces between them were missed
+      }
       duration = now.time - previous.time;
       if (!(duration > 0.0)) {
-        table.fail(r, "time", fmt::format("time = {:g}", duration), "it has to be positive",
-                   "correct it or remove the row");
+        table.fail(
+            r, "time", fmt::format("a flight of {:g} s", duration),
+            "the times of one launch have to ascend",
+            "state with --map launch=COLUMN which rows belong together, or correct the time");
       }
     }
-    const double bounce = number.value_or(static_cast<double>(launch.flights.size() + 1));
+    const bool numbered_by_end = table.has("time");
+    const double bounce = number ? *number - (numbered_by_end ? 1.0 : 0.0) : launch.next;
+    ++launch.next;
     launch.flights.push_back({duration, bounce, r});
   }
   for (Launch& launch : launches) sort_flights(table, launch);
   return launches;
 }
 
-/// The release height that the first two flights imply if the first bounce was like the second.
-std::vector<ReleaseCheck> release_checks(const std::vector<Launch>& launches,
-                                         const Flights& flights) {
+/// The bounce after the release, as the first two flights show it.
+struct FirstBounce {
+  ReleaseCheck check;     ///< of the height, if this bounce was like the next one
+  double velocity = 0.0;  ///< at the end of the fall [m/s]
+  int missed = 0;  ///< bounces between the release and the first flight, which are not listed
+};
+
+/// nullopt without a release height, or without two flights that follow each other from the first
+/// bounce on. The first flight rises with e^k sqrt(2 g h) after k bounces, so that k = ln(first) /
+/// ln(second) with the two e of `ReleaseCheck`; one that is a whole number from 2 on says that k -
+/// 1 bounces are not listed.
+std::optional<FirstBounce> first_bounce(const Launch& launch, const Flights& flights) {
   const double g = flights.gravity();
-  std::map<double, std::vector<ReleaseCheck>> by_height;
-  for (const Launch& launch : launches) {
-    if (!launch.release || launch.flights.size() < 2 || !(*launch.release > 0.0)) continue;
-    if (launch.flights[1].bounce != launch.flights[0].bounce + 1.0) continue;
-    const double height = *launch.release;
-    const double t0 = launch.flights[0].duration;
-    const double t1 = launch.flights[1].duration;
-    ReleaseCheck check{height, 0.5 * g * t0 / std::sqrt(2.0 * g * height), t1 / t0, 0.0};
-    check.missing = (check.first * check.first / (check.second * check.second) - 1.0) * height;
-    if (const auto air = flights.in_air(launch.name, launch.diameter)) {
-      const double up = air->launch_for_duration(t0);
-      check.first = up / air->fall(height).speed;
-      check.second = air->launch_for_duration(t1) / air->return_speed(up);
-      check.missing = air->fall_to_reach(up / check.second) - height;
-      if (!std::isfinite(check.missing)) continue;
-    }
-    by_height[height].push_back(check);
+  if (!launch.release || launch.flights.size() < 2 || !(*launch.release > 0.0)) return std::nullopt;
+  if (launch.flights[0].bounce != 1.0 || launch.flights[1].bounce != 2.0) return std::nullopt;
+  const double height = *launch.release;
+  const double t0 = launch.flights[0].duration;
+  const double t1 = launch.flights[1].duration;
+  FirstBounce bounce;
+  bounce.velocity = std::sqrt(2.0 * g * height);
+  ReleaseCheck& check = bounce.check;
+  check = {height, 0.5 * g * t0 / bounce.velocity, t1 / t0, 0.0};
+  check.missing = (check.first * check.first / (check.second * check.second) - 1.0) * height;
+  if (const auto air = flights.in_air(launch.name, launch.diameter)) {
+    const double up = air->launch_for_duration(t0);
+    bounce.velocity = air->fall(height).speed;
+    check.first = up / bounce.velocity;
+    check.second = air->launch_for_duration(t1) / air->return_speed(up);
+    check.missing = air->fall_to_reach(up / check.second) - height;
+    if (!std::isfinite(check.missing)) return std::nullopt;
   }
+  constexpr double whole = 0.15;  // widest distance of k from a whole number
+  const double k = std::log(check.first) / std::log(check.second);
+  if (check.second < 1.0 && k > 2.0 - whole && std::abs(k - std::round(k)) < whole) {
+    bounce.missed = static_cast<int>(std::round(k)) - 1;
+  }
+  return bounce;
+}
+
+/// The checks of the release heights, averaged over the launches from each.
+std::vector<ReleaseCheck> mean_checks(
+    const std::map<double, std::vector<ReleaseCheck>>& by_height) {
   std::vector<ReleaseCheck> means;
   for (const auto& [height, checks] : by_height) {
     ReleaseCheck sum{height};
@@ -295,11 +322,65 @@ std::vector<ReleaseCheck> release_checks(const std::vector<Launch>& launches,
   return means;
 }
 
+/// The bounce after the release: V is the end of the fall.
+ImportedPoint point_after_release(const Launch& launch, const FirstBounce& bounce,
+                                  const ImportTable& table, const StatedError& time,
+                                  const StatedError& drop) {
+  ImportedPoint point;
+  point.series = launch.name;
+  point.line = table.line(launch.flights.front().row);
+  point.value[Quantity::diameter] = launch.diameter;
+  point.value[Quantity::incident_velocity] = bounce.velocity;
+  point.value[Quantity::restitution] = bounce.check.first;
+  const double of_height = 0.5 * drop.of(bounce.check.height) / bounce.check.height;
+  const double duration = launch.flights.front().duration;
+  const double of_time = std::sqrt(2.0) * time.of(duration) / duration;
+  if (of_height > 0.0) {
+    point.value[Quantity::velocity_sd] = of_height * bounce.velocity;
+    point.value[Quantity::restitution_sd] = bounce.check.first * std::hypot(of_height, of_time);
+  }
+  return point;
+}
+
+/// The places where an interval may be missing: e is there the square of the median e of the
+/// launch, and every other e of it is near one or the other.
+std::vector<std::string> suspected_gaps(const Launch& launch,
+                                        const std::vector<ImportedPoint>& points) {
+  std::vector<double> logs;
+  for (const ImportedPoint& point : points) {
+    logs.push_back(std::log(*point.value[Quantity::restitution]));
+  }
+  if (logs.size() < 3) return {};
+  std::vector<double> sorted = logs;
+  std::sort(sorted.begin(), sorted.end());
+  const double middle = sorted[sorted.size() / 2];
+  if (!(middle < 0.0)) return {};
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const double times = logs[i] / middle;
+    constexpr double near = 0.25;
+    if (std::abs(times - 1.0) < near) continue;
+    if (std::abs(times - 2.0) > near) return {};
+    places.push_back(fmt::format("line {} of launch {}", points[i].line, launch.name));
+  }
+  return places;
+}
+
 /// The bounce between two successive flights.
 ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch& launch,
                              const ImportTable& table, const StatedError& time, Flights& flights) {
   const double g = flights.gravity();
   const double e_vacuum = back.duration / in.duration;
+  if (e_vacuum > limits::restitution.upper) {
+    table.fail(back.row, table.has("time") ? "time" : "interval",
+               fmt::format("restitution = {:.3g}: a flight of {:g} s after one of {:g} s", e_vacuum,
+                           back.duration, in.duration),
+               "no flight is longer than the one before; a bounce between them is missing, or they "
+               "are of two launches",
+               table.has("time")
+                   ? "put a row with an empty time before this one: the launch is then split there"
+                   : "leave the cell empty: the launch is then split there");
+  }
   const double v_vacuum = 0.5 * g * in.duration;
   double e = e_vacuum;
   double v = v_vacuum;
@@ -330,20 +411,26 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
 bool air_acts(const Air& air) { return air.pressure >= thinnest_air; }
 
 ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sphere) {
-  const ImportTable table(request.file, request.map,
-                          {{"series", Dimension::text},
-                           {"diameter", Dimension::length},
-                           {"drop_height", Dimension::length, true},
-                           {"rebound_height", Dimension::length, true},
-                           {"drop_height_sd", Dimension::length},
-                           {"rebound_height_sd", Dimension::length}});
+  ImportTable table(request, request.map,
+                    {{"series", Dimension::text},
+                     {"diameter", Dimension::length},
+                     {"drop_height", Dimension::length, true},
+                     {"rebound_height", Dimension::length, true},
+                     {"drop_height_sd", Dimension::length},
+                     {"rebound_height_sd", Dimension::length}});
   const HeightErrors errors = {
       stated_error(request.drop_error, Dimension::length, "--drop-error"),
       stated_error(request.rebound_error, Dimension::length, "--rebound-error")};
   Flights flights(request, sphere);
   std::vector<Drops> drops;
+  bool stated = errors.drop.stated();
   for (std::size_t r = 0; r < table.size(); ++r) {
+    if (table.lacks(r, "drop_height") || table.lacks(r, "rebound_height")) {
+      table.leave_out(r);
+      continue;
+    }
     drops.push_back(read_drop(table, r, request, errors, flights));
+    stated = stated || drops.back().height_sd > 0.0;
   }
   if (request.average) drops = joined(drops);
   // Where the table has captures, rows without one have counted none.
@@ -352,6 +439,7 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
   std::map<std::pair<std::string, double>, int> groups_of_height;
   for (const Drops& d : drops) ++groups_of_height[{d.series, d.height}];
   ImportedPoints out;
+  out.notes = table.notes();
   bool few = false;
   for (const Drops& d : drops) {
     ImportedPoint point = mean_of(d);
@@ -367,9 +455,7 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
     out.points.push_back(point);
   }
   if (few) out.notes.push_back({ImportRemark::few_drops});
-  if (!errors.drop.stated() && !table.has("drop_height_sd")) {
-    out.notes.push_back({ImportRemark::no_drop_error});
-  }
+  if (!stated) out.notes.push_back({ImportRemark::no_drop_error});
   out.notes.push_back(
       {air_acts(sphere.air) ? ImportRemark::same_point : ImportRemark::without_air});
   flights.add_notes(out.notes);
@@ -377,7 +463,7 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
 }
 
 ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& sphere) {
-  const ImportTable table(request.file, request.map,
+  const ImportTable table(request, request.map,
                           {{"launch", Dimension::text},
                            {"bounce", Dimension::count},
                            {"interval", Dimension::time},
@@ -392,20 +478,42 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
         "", "name one with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
   }
   const StatedError time = stated_error(request.time_error, Dimension::time, "--time-error");
+  const StatedError drop = stated_error(request.drop_error, Dimension::length, "--drop-error");
   Flights flights(request, sphere);
   const std::vector<Launch> launches = read_launches(table, request);
   ImportedPoints out;
+  out.notes = table.notes();
   std::size_t gaps = 0;
+  ImportNote missed{ImportRemark::first_bounces_missed};
+  ImportNote suspected{ImportRemark::bounces_suspected};
+  std::map<double, std::vector<ReleaseCheck>> by_height;
+  bool unused = false;
   for (const Launch& launch : launches) {
+    const auto first = first_bounce(launch, flights);
+    if (first && first->missed > 0) {
+      missed.names.push_back(fmt::format("{} ({})", launch.name, first->missed));
+    } else if (first) {
+      by_height[first->check.height].push_back(first->check);
+      // Without an error of the height it would count as exact beside points that have errors.
+      const bool usable = drop.stated() || !time.stated();
+      unused = unused || !usable;
+      if (usable && first->check.first <= limits::restitution.upper) {
+        out.points.push_back(point_after_release(launch, *first, table, time, drop));
+      }
+    }
+    std::vector<ImportedPoint> own;
     for (std::size_t i = 0; i + 1 < launch.flights.size(); ++i) {
       const Flight& in = launch.flights[i];
       const Flight& back = launch.flights[i + 1];
       if (back.bounce == in.bounce + 1.0) {
-        out.points.push_back(bounce_between(in, back, launch, table, time, flights));
+        own.push_back(bounce_between(in, back, launch, table, time, flights));
       } else {
         ++gaps;
       }
     }
+    const std::vector<std::string> places = suspected_gaps(launch, own);
+    suspected.names.insert(suspected.names.end(), places.begin(), places.end());
+    out.points.insert(out.points.end(), own.begin(), own.end());
   }
   if (out.points.empty()) {
     throw InputError({request.file.string(), 1, 1}, "no launch has two successive intervals",
@@ -413,8 +521,12 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
                      "state with --map launch=COLUMN which rows belong together");
   }
   if (gaps > 0) out.notes.push_back({ImportRemark::bounces_missing, {}, gaps});
-  const std::vector<ReleaseCheck> releases = release_checks(launches, flights);
-  if (!releases.empty()) out.notes.push_back({ImportRemark::release_heights, {}, 0, releases});
+  if (!missed.names.empty()) out.notes.push_back(missed);
+  if (!suspected.names.empty()) out.notes.push_back(suspected);
+  if (!by_height.empty()) {
+    out.notes.push_back({ImportRemark::release_heights, {}, 0, mean_checks(by_height)});
+  }
+  if (unused) out.notes.push_back({ImportRemark::first_bounces_not_used});
   flights.add_notes(out.notes);
   out.notes.push_back({ImportRemark::shared_bounces});
   return out;

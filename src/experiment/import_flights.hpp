@@ -27,7 +27,9 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
 /// / w_i. With an error tau of the time of one bounce
 ///   sd(e) = (tau / t_i) sqrt(1 + e + e^2) sqrt(2),   sd(V) = g tau / sqrt(2)
 /// of the vacuum values; the relative errors are the same in air.
-/// A stated release height is compared with the height that the first two flights imply.
+/// A cell that is empty splits the launch. The bounce after a stated release height h is a point,
+/// V = sqrt(2 g h) in vacuum, e = g t_1 / (2 V), unless the first two flights show that bounces
+/// before them are not listed; h is compared with the height that they imply.
 ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& sphere);
 
 }  // namespace recoil

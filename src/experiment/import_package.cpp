@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "core/files.hpp"
+#include "data/material_table.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
@@ -30,14 +31,19 @@ Json parse_json(const std::string& text, const std::filesystem::path& file) {
   return json;
 }
 
-/// "material=steel,density=7900,..." or a JSON file.
+/// "material=steel,density=7900,...", a JSON file, or a name of the table, "steel,density=7900".
 Json material(const std::string& words, const std::string& option) {
   std::error_code failed;
-  if (words.find('=') == std::string::npos || std::filesystem::exists(words, failed)) {
+  if (std::filesystem::exists(words, failed) || words.ends_with(".json")) {
     return parse_json(read_text_file(words), words);
   }
   Json json;
-  for (const std::string& part : split_list(words)) {
+  std::vector<std::string> parts = split_list(words);
+  if (!parts.empty() && !split_pair(parts.front())) {
+    json = tabled_material(parts.front(), option);
+    parts.erase(parts.begin());
+  }
+  for (const std::string& part : parts) {
     const auto pair = split_pair(part);
     if (!pair) {
       throw InputError({}, fmt::format("{}: {} is not of the form key=value", option, quote(part)),
@@ -58,6 +64,7 @@ Provenance provenance_for(const ImportRequest& request,
       return Provenance::digitised;
     case ImportFormat::heights:
     case ImportFormat::intervals:
+    case ImportFormat::track:
       return Provenance::measured;
     case ImportFormat::csv:
       break;
@@ -66,6 +73,12 @@ Provenance provenance_for(const ImportRequest& request,
   if (existing) return existing->provenance;
   throw InputError({}, "the provenance of these points is not known", "every result states it",
                    "give --provenance measured, or digitised if they were read off a figure");
+}
+
+/// "5mm", or a number in SI units.
+double value_or_number(const std::string& word, Dimension dimension, const std::string& option) {
+  const auto number = parse_number(word);
+  return number ? *number : value_with_unit(word, dimension, option);
 }
 
 /// Writes the stated conditions; flights without any are through standard air.
@@ -81,6 +94,17 @@ void put_conditions(const ImportRequest& request, Json& system) {
   };
   put("ambient_pressure", request.ambient_pressure, Air().pressure);
   put("temperature", request.temperature, Air().temperature);
+  for (const std::string& word : split_lists(request.conditions)) {
+    const auto pair = split_pair(word);
+    const auto condition = value_named<Condition>(pair ? pair->first : "");
+    if (!condition) {
+      throw InputError({}, fmt::format("--condition {} names no condition", quote(word)), "",
+                       did_you_mean(pair ? pair->first : word, all_names<Condition>()));
+    }
+    system["conditions"][pair->first] =
+        value_or_number(pair->second, dimension_of(quantity_of(*condition)),
+                        fmt::format("--condition {}", pair->first));
+  }
 }
 
 /// The name of the folder as a Frictionless name.
@@ -122,6 +146,12 @@ std::string description_of(const ImportRequest& request, const Air& air) {
           "Times between bounces, imported from {}: e is the ratio of successive "
           "intervals, V = g t / 2 with g = {} m/s2, {}.",
           request.file.filename().string(), request.gravity, air_words(air));
+    case ImportFormat::track:
+      return fmt::format(
+          "Tracks of falling spheres, imported from {}: e and V where the parabolas before and "
+          "after an impact meet{}.",
+          request.file.filename().string(),
+          request.scale.empty() ? "" : fmt::format("; a pixel is {}", request.scale));
     case ImportFormat::csv:
       break;
   }
@@ -253,7 +283,7 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
         {}, fmt::format("the {} is not known", sphere ? "sphere's material" : "surface's material"),
         "",
         fmt::format("give --{0} FILE.json, --{0} material=...,{1}youngs_modulus=...,poisson_ratio="
-                    "..., or --like DIR",
+                    "..., --{0} NAME (recoil materials), or --like DIR",
                     body, sphere ? "density=...," : ""));
   }
   std::vector<std::string> own;
@@ -269,6 +299,8 @@ Json imported_system(const ImportRequest& request, const std::optional<ExistingP
   if (request.format == ImportFormat::intervals) {
     stated["method"] = name_of(Method::bounce_intervals);
   }
+  if (request.format == ImportFormat::track) stated["method"] = name_of(Method::video);
+  if (!request.method.empty()) stated["method"] = request.method;
   for (const auto& [key, value] : stated.items()) {
     if (key != "provenance") block[key] = value;
   }
@@ -308,6 +340,16 @@ std::string imported_package(const ImportRequest& request, const Json& system,
     notes.push_back({ImportRemark::licence_removed});
   }
   package["sources"] = sources_of(request, existing, notes);
+  for (const auto& [body, words] :
+       {std::pair{"sphere", &request.particle}, std::pair{"surface", &request.surface}}) {
+    const std::vector<std::string> parts = split_list(*words);
+    const bool named =
+        !parts.empty() && !split_pair(parts.front()) && !parts.front().ends_with(".json");
+    if (!named) continue;
+    package["sources"].push_back(
+        {{"title", fmt::format("{}. Constants of the {}, {}.", tabled_materials_source, body,
+                               parts.front())}});
+  }
   const Json resource =
       csv_resource("points", existing ? existing->points_path : "points.csv", points.fields);
   if (existing) {

@@ -1,8 +1,11 @@
 #include "experiment/import_table.hpp"
 
 #include <fmt/format.h>
+#include <iconv.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 
@@ -40,7 +43,7 @@ std::optional<double> stated_diameter(const ImportRequest& request, const std::s
 /// The diameter in the name of a series: "2.58 um", "d = 4.9um on Mo".
 std::optional<double> diameter_in_name(const std::string& series) {
   static const std::regex pattern(
-      R"re((^|[^0-9.])([0-9]+\.?[0-9]*)\s*(nm|um|µm|mm)($|[^a-zA-Z]))re");
+      R"re((^|[^0-9.])([0-9]+\.?[0-9]*)\s*(nm|um|µm|μm|mm)($|[^a-zA-Z]))re");
   std::smatch match;
   if (!std::regex_search(series, match, pattern)) return std::nullopt;
   const auto number = parse_number(match[2].str());
@@ -56,6 +59,168 @@ std::string unit_in_brackets(const std::string& name) {
   return name.substr(open + 1, close - open - 1);
 }
 
+/// Does a cell say that its value is not known?
+bool is_unknown(const std::string& text) {
+  static const std::set<std::string> words = {"",    "-",   "–",   "NA",   "N/A",  "n/a", "#N/A",
+                                              "nan", "NaN", "NAN", "null", "NULL", "None"};
+  return words.contains(text);
+}
+
+/// "0.85 ± 0.02" or "0.85 +- 0.02" in two; the second part is empty where there is no error.
+std::pair<std::string, std::string> value_and_error(const std::string& text) {
+  for (const std::string_view mark : {"±", "+-", "+/-"}) {
+    const std::size_t at = text.find(mark);
+    if (at == std::string::npos || at == 0) continue;
+    return {std::string(trimmed(std::string_view(text).substr(0, at))),
+            std::string(trimmed(std::string_view(text).substr(at + mark.size())))};
+  }
+  return {text, ""};
+}
+
+/// The quantity that holds the standard deviation of another one.
+std::string error_name(const std::string& quantity) {
+  return quantity == "incident_velocity" ? "velocity_sd" : quantity + "_sd";
+}
+
+/// The whole file in UTF-8.
+std::string utf8_text(const std::filesystem::path& file, std::vector<ImportNote>& notes) {
+  std::string text = read_text_file(file);
+  try {
+    require_text(text, file.string());
+    return text;
+  } catch (const InputError&) {
+    const iconv_t converter = iconv_open("UTF-8", "WINDOWS-1252");
+    if (converter == reinterpret_cast<iconv_t>(-1)) throw;
+    std::string out(3 * text.size(), '\0');  // a euro sign has three bytes
+    char* in = text.data();
+    char* at = out.data();
+    std::size_t left = text.size();
+    std::size_t room = out.size();
+    const std::size_t failed = iconv(converter, &in, &left, &at, &room);
+    iconv_close(converter);
+    if (failed == static_cast<std::size_t>(-1)) throw;
+    out.resize(out.size() - room);
+    notes.push_back({ImportRemark::encoding_assumed});
+    return out;
+  }
+}
+
+/// A line of a text, without what ends it.
+struct Line {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  std::string_view of(const std::string& text) const {
+    return trimmed(std::string_view(text).substr(begin, end - begin));
+  }
+};
+
+/// The lines that are not blank.
+std::vector<Line> lines_of(const std::string& text) {
+  std::vector<Line> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    if (const Line line{at, end}; !line.of(text).empty()) lines.push_back(line);
+    at = end + 1;
+  }
+  return lines;
+}
+
+/// The delimiter that a first line "sep=;" states; the line is blanked.
+std::optional<char> take_separator(std::string& text, std::vector<Line>& lines) {
+  if (lines.empty()) return std::nullopt;
+  const std::string_view first = lines.front().of(text);
+  if (!first.starts_with("sep=") || first.size() != 5) return std::nullopt;
+  const char delimiter = first.back();
+  std::fill_n(text.begin() + static_cast<std::ptrdiff_t>(lines.front().begin),
+              lines.front().end - lines.front().begin, ' ');
+  lines.erase(lines.begin());
+  return delimiter;
+}
+
+/// The cells of one line; none where a quotation mark is in the wrong place.
+CsvRow cells_of(std::string_view line, char delimiter) {
+  CsvRow cells;
+  try {
+    read_csv(line, "", delimiter, [&](const CsvRow& row) { cells = row; });
+  } catch (const InputError&) {
+    cells.clear();
+  }
+  return cells;
+}
+
+bool has_number(const CsvRow& row, const NumberFormat& format) {
+  return std::any_of(row.begin(), row.end(),
+                     [&](const CsvField& cell) { return parse_number(cell.text, format); });
+}
+
+/// The delimiter that gives the lines the same number of cells, a title above the header apart;
+/// where none does, the most frequent of the first line.
+char likely_delimiter(const std::string& text, const std::vector<Line>& lines,
+                      const NumberFormat& format) {
+  constexpr std::size_t enough = 200;  // lines
+  for (const char delimiter : {'\t', ';', ',', '|', ' '}) {
+    if (format.decimal == std::string(1, delimiter)) continue;
+    std::size_t width = 0;
+    std::size_t above = 0;
+    bool even = true;
+    for (std::size_t i = 0; even && i < std::min(enough, lines.size()); ++i) {
+      const std::string_view line = lines[i].of(text);
+      if (line.starts_with('#')) continue;
+      // A line that ends with a tab has an empty cell at its end.
+      const CsvRow cells = cells_of(
+          std::string_view(text).substr(lines[i].begin, lines[i].end - lines[i].begin), delimiter);
+      if (width == 0 && cells.size() == 1) {
+        ++above;
+      } else if (width == 0) {
+        width = cells.size();
+        even = width > 1 && (above == 0 || !has_number(cells, format));
+      } else {
+        even = cells.size() == width;
+      }
+    }
+    if (even && width > 1) return delimiter;
+  }
+  const auto first = std::find_if(lines.begin(), lines.end(), [&](const Line& line) {
+    return !line.of(text).starts_with('#');
+  });
+  return first == lines.end() ? ',' : delimiter_of(first->of(text));
+}
+
+/// Blanks the lines that begin with '#', unless one heads the columns. @throws InputError for one
+/// below the header that could be a row.
+void blank_comments(std::string& text, const std::vector<Line>& lines, char delimiter,
+                    const ImportRequest& request, std::vector<ImportNote>& notes) {
+  const auto is_comment = [&](const Line& line) { return line.of(text).starts_with('#'); };
+  const auto first = std::find_if_not(lines.begin(), lines.end(), is_comment);
+  if (first == lines.end()) return;
+  const auto last = std::find_if_not(lines.rbegin(), lines.rend(), is_comment);
+  const std::size_t width = cells_of(last->of(text), delimiter).size();
+  const bool headless = has_number(cells_of(first->of(text), delimiter), number_format(request));
+  std::vector<std::string> skipped;
+  for (auto line = lines.begin(); line != lines.end(); ++line) {
+    if (!is_comment(*line)) continue;
+    const std::size_t at = text.find('#', line->begin);
+    const bool like_row = width > 1 && cells_of(line->of(text), delimiter).size() == width;
+    const bool heads = headless && std::next(line) == first && width > 1;
+    const CsvRow rest = cells_of(line->of(text).substr(1), delimiter);
+    if (heads && (like_row || rest.size() == width)) {
+      if (rest.size() == width && !rest.front().text.empty()) text[at] = ' ';
+      continue;
+    }
+    const Location where = locate(text, at, request.file.string());
+    if (line > first && like_row) {
+      throw InputError(where, "a row that begins with '#'",
+                       "it is not known whether it is a comment or a point",
+                       "remove it, or write its first cell without '#'");
+    }
+    std::fill_n(text.begin() + static_cast<std::ptrdiff_t>(line->begin), line->end - line->begin,
+                ' ');
+    skipped.push_back(fmt::format("line {}", where.line));
+  }
+  if (!skipped.empty()) notes.push_back({ImportRemark::lines_skipped, skipped});
+}
+
 }  // namespace
 
 double value_with_unit(const std::string& word, Dimension dimension, const std::string& option) {
@@ -63,7 +228,10 @@ double value_with_unit(const std::string& word, Dimension dimension, const std::
   if (const auto parts = number_and_rest(word)) {
     const bool plain = dimension == Dimension::ratio && parts->second.empty();
     const auto factor = plain ? 1.0 : unit_factor(dimension, parts->second);
-    if (factor) return parts->first * *factor;
+    if (factor) {
+      const std::string unit = plain ? "1" : parts->second;
+      return known_scale(dimension, unit, option, {})(parts->first);
+    }
   }
   throw InputError({}, fmt::format("{} {} is not a number with a unit", option, quote(word)),
                    fmt::format("units are {}", join(names)),
@@ -176,42 +344,101 @@ void settle_diameters(const ImportRequest& request, ImportedPoints& imported) {
   if (!named.empty()) imported.notes.push_back({ImportRemark::diameters_from_names, named});
 }
 
-std::vector<CsvRow> import_rows(const std::filesystem::path& file) {
-  const std::string text = read_text_file(file);
-  require_text(text, file.string());
-  const char delimiter = delimiter_of(std::string_view(text).substr(0, text.find('\n')));
+double gravity_of(const ImportRequest& request) {
+  constexpr Range gravities{1e-3, 1e3, "m/s2"};
+  const auto value = parse_number(request.gravity);
+  if (value && gravities.contains(*value)) return *value;
+  throw InputError(
+      {}, fmt::format("--gravity {} is not an acceleration in m/s2", quote(request.gravity)), "",
+      "write 9.80665 for standard gravity");
+}
+
+NumberFormat number_format(const ImportRequest& request) {
+  return {request.decimal_comma ? "," : "."};
+}
+
+void require_table_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  char start[4] = {};
+  stream.read(start, sizeof start);
+  const std::string_view bytes(start, static_cast<std::size_t>(stream.gcount()));
+  if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("\xD0\xCF\x11\xE0")) {
+    throw InputError({file.string()}, "this is a workbook, not a table of text", "recoil reads CSV",
+                     "save the sheet as CSV, or convert it: xlsx2csv FILE.xlsx > FILE.csv (package "
+                     "xlsx2csv), ssconvert FILE.xlsx FILE.csv (package gnumeric)");
+  }
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+    throw InputError({file.string()}, "this file is in UTF-16", "recoil reads UTF-8",
+                     "save it as UTF-8, or convert it: iconv -f UTF-16 -t UTF-8 FILE > NEW");
+  }
+}
+
+std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<ImportNote>& notes) {
+  const std::string file = request.file.string();
+  std::string text = utf8_text(request.file, notes);
+  std::vector<Line> lines = lines_of(text);
+  const std::optional<char> stated = take_separator(text, lines);
+  const char delimiter = stated ? *stated : likely_delimiter(text, lines, number_format(request));
+  blank_comments(text, lines, delimiter, request, notes);
   std::vector<CsvRow> rows;
-  read_csv(text, file.string(), delimiter, [&](const CsvRow& row) {
+  read_csv(text, file, delimiter, [&](const CsvRow& row) {
     const bool empty =
         std::all_of(row.begin(), row.end(), [](const CsvField& cell) { return cell.text.empty(); });
     if (!empty) rows.push_back(row);
   });
   if (rows.empty()) {
-    throw InputError({file.string(), 1, 1}, "the file is empty", "", "export the points again");
+    throw InputError({file, 1, 1}, "the file is empty", "", "export the points again");
   }
   return rows;
 }
 
-ImportTable::ImportTable(const std::filesystem::path& file, const std::vector<std::string>& map,
+ImportTable::ImportTable(const ImportRequest& request, const std::vector<std::string>& map,
                          const std::vector<ImportQuantity>& known)
-    : file_(file.string()), known_(known), rows_(import_rows(file)) {
-  header_ = rows_.front();
-  rows_.erase(rows_.begin());
+    : file_(request.file.string()),
+      format_(number_format(request)),
+      known_(known),
+      rows_(import_rows(request, notes_)) {
+  read_header();
   for (const CsvRow& row : rows_) require_width(row, header_.size(), file_);
   for (const std::string& entry : split_lists(map)) read_map(entry);
   find_columns_by_name();
   for (const ImportQuantity& quantity : known_) {
     if (!quantity.needed || has(quantity.name)) continue;
-    throw InputError({file_, header_.front().line, 1},
-                     fmt::format("which column is {}?", quantity.name),
-                     fmt::format("the header has {}", listed(header_names())),
-                     fmt::format("name it with --map {}=COLUMN{}", quantity.name,
-                                 quantity.dimension == Dimension::text ? "" : ":UNIT"));
+    throw InputError(
+        {file_, header_.front().line, 1}, fmt::format("which column is {}?", quantity.name),
+        named_
+            ? fmt::format("the header has {}", listed(header_names()))
+            : fmt::format("there is no header: the columns are called {}", listed(header_names())),
+        fmt::format("name it with --map {}=COLUMN{}", quantity.name,
+                    quantity.dimension == Dimension::text ? "" : ":UNIT"));
   }
+  settle_replicates();
   if (rows_.empty()) {
     throw InputError({file_, header_.front().line, 1}, "there is a header but no row below it", "",
                      "export the points again");
   }
+}
+
+/// Takes the header off the rows, and a title of one cell above it.
+void ImportTable::read_header() {
+  const auto filled = [](const CsvRow& row) {
+    return std::count_if(row.begin(), row.end(), [](const CsvField& c) { return !c.text.empty(); });
+  };
+  while (rows_.size() > 1 && filled(rows_.front()) == 1 && rows_.back().size() > 1 &&
+         filled(rows_[1]) > 1) {
+    notes_.push_back(
+        {ImportRemark::lines_skipped, {fmt::format("line {}", rows_.front().front().line)}});
+    rows_.erase(rows_.begin());
+  }
+  header_ = rows_.front();
+  named_ = !std::all_of(header_.begin(), header_.end(), [&](const CsvField& cell) {
+    return cell.text.empty() || parse_number(cell.text, format_);
+  });
+  if (named_) {
+    rows_.erase(rows_.begin());
+    return;
+  }
+  for (std::size_t i = 0; i < header_.size(); ++i) header_[i].text = std::to_string(i + 1);
 }
 
 /// A column with the name of a quantity stands for it.
@@ -223,6 +450,22 @@ void ImportTable::find_columns_by_name() {
     if (cell != header_.end() && !has(quantity.name)) {
       read_map(fmt::format("{}=\"{}\"", quantity.name, cell->text));
     }
+  }
+}
+
+/// Replicates of one quantity go with those of the others.
+void ImportTable::settle_replicates() {
+  for (const ImportQuantity& quantity : known_) {
+    const auto found = columns_.find(quantity.name);
+    if (quantity.dimension == Dimension::text || found == columns_.end()) continue;
+    const std::size_t count = found->second.at.size();
+    if (count <= 1) continue;
+    if (replicates_ > 1 && count != replicates_) {
+      throw InputError({}, fmt::format("--map {} names {} columns", quantity.name, count),
+                       fmt::format("another quantity has {}", replicates_),
+                       "name one column, or as many as the other has");
+    }
+    replicates_ = count;
   }
 }
 
@@ -252,22 +495,43 @@ void ImportTable::read_map(const std::string& entry) {
   }
   std::string unit;
   const std::vector<std::string> header = header_names();
-  const bool whole = std::find(header.begin(), header.end(), column) != header.end();
-  if (const std::size_t at = column.rfind(':'); !whole && at != std::string::npos) {
+  const auto is_column = [&](const std::string& name) {
+    return std::find(header.begin(), header.end(), name) != header.end();
+  };
+  if (const std::size_t at = column.rfind(':'); !is_column(column) && at != std::string::npos) {
     unit = column.substr(at + 1);
     column = column.substr(0, at);
   }
+  const bool text = quantity->dimension == Dimension::text;
   Source source;
-  if (quantity->dimension == Dimension::text) {
+  const auto constant = number_and_rest(column);
+  if (!text && !is_column(column) && constant && unit.empty() &&
+      (constant->second.empty() || dimension_of_unit(constant->second))) {
+    const bool pure = unit_factor(quantity->dimension, "1").has_value();
+    source.constant =
+        known_scale(quantity->dimension, constant->second.empty() && pure ? "1" : constant->second,
+                    fmt::format("--map {}", quantity->name), {})(constant->first);
+  } else if (is_column(column)) {
+    source.at = {column_named(column)};
+  } else {
     for (std::size_t at = 0; at != std::string::npos;) {
       const std::size_t plus = column.find('+', at);
       source.at.push_back(
           column_named(column.substr(at, plus == std::string::npos ? plus : plus - at)));
       at = plus == std::string::npos ? plus : plus + 1;
     }
-  } else {
-    source.at = {column_named(column)};
-    source.factor = factor_of(*quantity, unit, source.at.front());
+  }
+  for (const std::size_t at : source.at) {
+    if (text) break;
+    source.scale.push_back(scale_of(*quantity, unit, at));
+    for (const auto& [other, used] : columns_) {
+      if (used.scale.empty() || other == quantity->name) continue;
+      if (std::find(used.at.begin(), used.at.end(), at) == used.at.end()) continue;
+      throw InputError(header_[at].in(file_),
+                       fmt::format("the column {} is taken for both {} and {}",
+                                   quote(header_[at].text), other, quantity->name),
+                       "", "name another column in --map");
+    }
   }
   if (!columns_.emplace(quantity->name, source).second) {
     throw InputError({}, fmt::format("--map {} is given twice", quantity->name), "", "remove one");
@@ -283,32 +547,114 @@ std::vector<std::string> ImportTable::header_names() const {
 std::size_t ImportTable::column_named(const std::string& name) const {
   const std::vector<std::string> names = header_names();
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  throw InputError({file_, header_.front().line, 1},
-                   fmt::format("no column is called {}", quote(name)), "--map asks for it",
-                   did_you_mean(name, names));
+  if (found != names.end()) {
+    const auto again = std::find(std::next(found), names.end(), name);
+    const auto at = static_cast<std::size_t>(found - names.begin());
+    if (again == names.end()) return at;
+    throw InputError(header_[static_cast<std::size_t>(again - names.begin())].in(file_),
+                     fmt::format("the column {} appears twice", quote(name)),
+                     "it is not known which one --map means", "rename one of them");
+  }
+  throw InputError(
+      {file_, header_.front().line, 1}, fmt::format("no column is called {}", quote(name)),
+      named_ ? "--map asks for it" : "there is no header, and --map asks for it",
+      named_ ? did_you_mean(name, names) : fmt::format("the columns are called {}", listed(names)));
 }
 
-double ImportTable::factor_of(const ImportQuantity& quantity, const std::string& unit,
-                              std::size_t column) const {
+Scale ImportTable::scale_of(const ImportQuantity& quantity, const std::string& unit,
+                            std::size_t column) const {
   const CsvField& cell = header_[column];
   std::string name = unit.empty() ? unit_in_brackets(cell.text) : unit;
+  // "0.35mm", or a factor to SI: "0.0254"
+  const auto factor = number_and_rest(name);
+  if (factor) name = factor->second;
   const bool pure =
       quantity.dimension == Dimension::count || quantity.dimension == Dimension::ratio;
   if (name.empty() && pure) name = "1";
+  if (name.empty() && factor) return {factor->first};
   if (name.empty()) {
     throw InputError(cell.in(file_), fmt::format("the unit of {} is not stated", quote(cell.text)),
                      "", fmt::format("write --map {}={}:UNIT", quantity.name, listed({cell.text})));
   }
-  return known_factor(quantity.dimension, name, quantity.name, cell.in(file_));
+  Scale scale = known_scale(quantity.dimension, name, quantity.name, cell.in(file_));
+  if (factor) scale.factor *= factor->first;
+  return scale;
+}
+
+std::pair<const CsvField*, Scale> ImportTable::cell_of(std::size_t row,
+                                                       const Source& source) const {
+  if (source.at.empty()) return {nullptr, {}};
+  const std::size_t k = std::min(row % replicates_, source.at.size() - 1);
+  return {&cells(row)[source.at[k]], source.scale.empty() ? Scale{} : source.scale[k]};
+}
+
+double ImportTable::number(const CsvField& cell, const std::string& text,
+                           const std::string& quantity) const {
+  return number_in({text, cell.line, cell.column}, file_, quantity, format_);
+}
+
+bool ImportTable::lacks(std::size_t row, const std::string& quantity) const {
+  const auto found = columns_.find(quantity);
+  if (found == columns_.end()) return false;
+  const CsvField* const cell = cell_of(row, found->second).first;
+  return cell != nullptr && is_unknown(cell->text);
+}
+
+bool ImportTable::is_named(const std::string& quantity) const {
+  const auto found = columns_.find(quantity);
+  return found != columns_.end() && !found->second.at.empty() &&
+         header_[found->second.at.front()].text.starts_with(quantity);
+}
+
+void ImportTable::leave_out(std::size_t row) { left_out_.insert(row); }
+
+std::vector<ImportNote> ImportTable::notes() const {
+  std::vector<ImportNote> notes = notes_;
+  if (left_out_.empty()) return notes;
+  if (left_out_.size() == size()) {
+    throw InputError({file_, line(0), 1}, "every row has an empty cell", "no point is left",
+                     "check the columns that --map names");
+  }
+  std::vector<std::string> lines;
+  for (const std::size_t row : left_out_) {
+    const std::string name = fmt::format("line {}", line(row));
+    if (lines.empty() || lines.back() != name) lines.push_back(name);
+  }
+  notes.push_back({ImportRemark::rows_left_out, lines, left_out_.size()});
+  return notes;
 }
 
 std::optional<double> ImportTable::value(std::size_t row, const std::string& quantity) const {
   const auto found = columns_.find(quantity);
-  if (found == columns_.end()) return std::nullopt;
-  const CsvField& cell = rows_[row][found->second.at.front()];
-  if (cell.text.empty()) return std::nullopt;
-  return number_in(cell, file_, quantity) * found->second.factor;
+  if (found == columns_.end()) return error_beside(row, quantity);
+  if (found->second.constant) return found->second.constant;
+  const auto [cell, scale] = cell_of(row, found->second);
+  if (is_unknown(cell->text)) return std::nullopt;
+  const auto [text, error] = value_and_error(cell->text);
+  if (!error.empty()) {
+    const std::string sd = error_name(quantity);
+    const bool takes = std::any_of(known_.begin(), known_.end(),
+                                   [&](const ImportQuantity& q) { return q.name == sd; });
+    if (!takes || has(sd)) {
+      fail(row, quantity, fmt::format("{} is a value and its error", quote(cell->text)),
+           takes ? fmt::format("{} has a column of its own", sd)
+                 : fmt::format("no error of {} is read", quantity),
+           takes ? "remove one of the two" : "remove the error");
+    }
+  }
+  return scale(number(*cell, text, quantity));
+}
+
+/// The error of another quantity that stands in its cell: 0.02 in "0.85 ± 0.02".
+std::optional<double> ImportTable::error_beside(std::size_t row,
+                                                const std::string& quantity) const {
+  for (const auto& [other, source] : columns_) {
+    if (error_name(other) != quantity || source.at.empty()) continue;
+    const auto [cell, scale] = cell_of(row, source);
+    const std::string error = value_and_error(cell->text).second;
+    if (!error.empty()) return number(*cell, error, quantity) * scale.factor;
+  }
+  return std::nullopt;
 }
 
 double ImportTable::needed(std::size_t row, const std::string& quantity) const {
@@ -320,7 +666,7 @@ double ImportTable::positive(std::size_t row, const std::string& quantity) const
   const double known = needed(row, quantity);
   if (known > 0.0) return known;
   fail(row, quantity, fmt::format("{} = {:g}", quantity, known), "it has to be positive",
-       "correct it or remove the row");
+       "correct it, or leave the cell empty");
 }
 
 std::string ImportTable::text(std::size_t row, const std::string& quantity) const {
@@ -329,7 +675,7 @@ std::string ImportTable::text(std::size_t row, const std::string& quantity) cons
   std::string joined;
   for (const std::size_t column : found->second.at) {
     if (!joined.empty()) joined += '/';
-    joined += rows_[row][column].text;
+    joined += cells(row)[column].text;
   }
   return joined;
 }
@@ -337,8 +683,10 @@ std::string ImportTable::text(std::size_t row, const std::string& quantity) cons
 void ImportTable::fail(std::size_t row, const std::string& quantity, const std::string& problem,
                        const std::string& why, const std::string& suggestion) const {
   const auto found = columns_.find(quantity);
-  const CsvField& cell = rows_[row][found == columns_.end() ? 0 : found->second.at.front()];
-  throw InputError(cell.in(file_), problem, why, suggestion);
+  const CsvField* const cell =
+      found == columns_.end() ? nullptr : cell_of(row, found->second).first;
+  throw InputError((cell != nullptr ? *cell : cells(row).front()).in(file_), problem, why,
+                   suggestion);
 }
 
 std::vector<std::string> ImportTable::unused() const {

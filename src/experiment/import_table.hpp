@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -71,9 +72,22 @@ std::optional<double> known_diameter(const ImportRequest& request, const std::st
 /// @throws InputError for a point without one, and for a --diameter that no series has.
 void settle_diameters(const ImportRequest& request, ImportedPoints& imported);
 
-/// Rows of a delimited file; commas, semicolons and tabs are told apart by the first line.
+/// --gravity [m/s2].
+double gravity_of(const ImportRequest& request);
+
+/// How the numbers of the file are written.
+NumberFormat number_format(const ImportRequest& request);
+
+/// Rows of the request's file. The delimiter is the tab, semicolon, comma or bar, or else the
+/// blank, that gives all lines the same number of cells; a first line `sep=;` states it. Lines that
+/// begin with '#' are comments, unless they head the columns. What is not UTF-8 is read as
+/// Windows-1252.
+/// @param notes what was skipped or assumed
 /// @throws InputError when the file has no rows.
-std::vector<CsvRow> import_rows(const std::filesystem::path& file);
+std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<ImportNote>& notes);
+
+/// An error of a workbook or another file that is no text, before it is read.
+void require_table_file(const std::filesystem::path& file);
 
 /// A quantity that a format knows.
 struct ImportQuantity {
@@ -82,17 +96,29 @@ struct ImportQuantity {
   bool needed = false;
 };
 
-/// A table with a header whose columns are tied to quantities by --map.
+/// A table whose columns are tied to quantities by --map. Columns without a header are called 1, 2,
+/// ... A cell "0.85 ± 0.02" (or +-) holds a value and its standard deviation.
 class ImportTable {
  public:
-  /// @param map entries "quantity=column:unit"; several columns of a text are joined by '+'
+  /// @param map entries "quantity=column:unit", where the unit may have a factor ("0.35mm"), or
+  ///   "quantity=100cm", a constant. Several columns "a+b" of a text are joined; of a number they
+  ///   are replicates: every row of the file is then as many rows here.
   /// @throws InputError for an unknown quantity or column, a unit that is missing or measures
   ///   something else, and a needed quantity without a column.
-  ImportTable(const std::filesystem::path& file, const std::vector<std::string>& map,
+  ImportTable(const ImportRequest& request, const std::vector<std::string>& map,
               const std::vector<ImportQuantity>& known);
 
-  std::size_t size() const { return rows_.size(); }
+  std::size_t size() const { return rows_.size() * replicates_; }
   bool has(const std::string& quantity) const { return columns_.contains(quantity); }
+  bool has_replicates() const { return replicates_ > 1; }
+  /// Is there such a column, and does this cell say that its value is not known?
+  bool lacks(std::size_t row, const std::string& quantity) const;
+  /// Is the column of this quantity called by its name?
+  bool is_named(const std::string& quantity) const;
+  /// Keeps in mind that a row has no use because a cell is empty.
+  void leave_out(std::size_t row);
+  /// What was skipped, assumed and left out. @throws InputError where all rows were.
+  std::vector<ImportNote> notes() const;
 
   /// In SI; nullopt when the cell is empty or there is no such column. @throws InputError
   std::optional<double> value(std::size_t row, const std::string& quantity) const;
@@ -101,7 +127,7 @@ class ImportTable {
   /// @throws InputError unless it is positive.
   double positive(std::size_t row, const std::string& quantity) const;
   std::string text(std::size_t row, const std::string& quantity) const;
-  int line(std::size_t row) const { return rows_[row].front().line; }
+  int line(std::size_t row) const { return cells(row).front().line; }
 
   /// @throws InputError at the cell of a quantity.
   [[noreturn]] void fail(std::size_t row, const std::string& quantity, const std::string& problem,
@@ -112,22 +138,34 @@ class ImportTable {
 
  private:
   struct Source {
-    std::vector<std::size_t> at;  ///< columns
-    double factor = 1.0;
+    std::vector<std::size_t> at;     ///< columns
+    std::vector<Scale> scale;        ///< of each, where they hold numbers
+    std::optional<double> constant;  ///< SI, instead of columns
   };
 
+  void read_header();
   void read_map(const std::string& entry);
   void find_columns_by_name();
+  void settle_replicates();
   std::vector<std::string> header_names() const;
   std::size_t column_named(const std::string& name) const;
-  double factor_of(const ImportQuantity& quantity, const std::string& unit,
-                   std::size_t column) const;
+  Scale scale_of(const ImportQuantity& quantity, const std::string& unit, std::size_t column) const;
+  const CsvRow& cells(std::size_t row) const { return rows_[row / replicates_]; }
+  /// The cell of a quantity in a row, and the scale of its column.
+  std::pair<const CsvField*, Scale> cell_of(std::size_t row, const Source& source) const;
+  double number(const CsvField& cell, const std::string& text, const std::string& quantity) const;
+  std::optional<double> error_beside(std::size_t row, const std::string& quantity) const;
 
+  std::vector<ImportNote> notes_;
   std::string file_;
+  NumberFormat format_;
   std::vector<ImportQuantity> known_;
   CsvRow header_;
+  bool named_ = true;  ///< the columns have a header
   std::vector<CsvRow> rows_;
+  std::size_t replicates_ = 1;
   std::map<std::string, Source> columns_;
+  std::set<std::size_t> left_out_;  ///< rows
 };
 
 }  // namespace recoil

@@ -242,6 +242,29 @@ Table validity_table(const std::vector<Validity>& validity) {
 
 std::string note_sentence(const ImportNote& note) {
   switch (note.remark) {
+    case ImportRemark::encoding_assumed:
+      return "the file is not UTF-8 and was read as Windows-1252: check names with accents";
+    case ImportRemark::lines_skipped:
+      return fmt::format("skipped as a comment or title: {}", listed(note.names));
+    case ImportRemark::rows_left_out:
+      return fmt::format("left out, because a cell that is needed is empty: {}",
+                         listed(note.names));
+    case ImportRemark::signed_velocities:
+      return "the signs of the velocities were taken as directions";
+    case ImportRemark::first_bounces_missed:
+      return fmt::format(
+          "bounces between the release and the first one listed were missed, by launch: {}. The "
+          "release height is not used there",
+          listed(note.names));
+    case ImportRemark::bounces_suspected:
+      return fmt::format(
+          "a bounce may be missing before {}: e is there the square of the others. If so, put a "
+          "row "
+          "with an empty cell in its place: the launch is then split there",
+          listed(note.names));
+    case ImportRemark::first_bounces_not_used:
+      return "the bounces after the release are not used as points, as no error of the release "
+             "height is stated: state it with --drop-error 2mm";
     case ImportRemark::diameter_not_used:
       return "--diameter was not used: the file has a diameter for every point";
     case ImportRemark::diameters_from_names:
@@ -284,9 +307,19 @@ std::string note_sentence(const ImportNote& note) {
           "{}. An equal difference at all heights points to an offset of the scale",
           fmt::join(heights, "; "));
     }
+    case ImportRemark::impacts_skipped:
+      return fmt::format("{} impact{} left out: fewer than four samples of free flight on one side",
+                         note.count, note.count == 1 ? "" : "s");
+    case ImportRemark::track_fall:
+      return fmt::format(
+          "the tracks fall with {:.3g} m/s2 instead of {:.5g}: the scale or the frame rate is off, "
+          "or the air holds the ball; e does not depend on the scale, V does",
+          note.fall, note.gravity);
+    case ImportRemark::drag_stays:
+      return "the drag of the air was not taken out of the tracks";
     case ImportRemark::shared_bounces:
-      return "successive points of one launch share the time of a bounce; a fit takes their errors "
-             "as independent";
+      return "successive points of one launch share a flight; a fit takes their errors as "
+             "independent";
     case ImportRemark::no_source:
       return "no source is stated: add --source \"Author (year), journal, figure\"";
     case ImportRemark::licence_removed:

@@ -15,6 +15,14 @@ TEST(Units, ConvertToSi) {
   EXPECT_EQ(unit_factor(Dimension::ratio, "%"), 1e-2);
   EXPECT_EQ(unit_factor(Dimension::count, "1"), 1.0);
   EXPECT_EQ(unit_factor(Dimension::time, "ms"), 1e-3);
+  // NIST SP 811, appendix B: in, ft and mile are exact.
+  EXPECT_EQ(unit_factor(Dimension::length, "in"), 0.0254);
+  EXPECT_DOUBLE_EQ(*unit_factor(Dimension::length, "ft"), 12 * 0.0254);
+  EXPECT_DOUBLE_EQ(*unit_factor(Dimension::velocity, "mph"), 0.44704);
+  EXPECT_DOUBLE_EQ(*unit_factor(Dimension::velocity, "km/h"), 1000.0 / 3600.0);
+  // Both letters mu.
+  EXPECT_EQ(unit_factor(Dimension::length, "\xC2\xB5m"), 1e-6);
+  EXPECT_EQ(unit_factor(Dimension::length, "\xCE\xBCm"), 1e-6);
 }
 
 TEST(Units, KeepDimensionsApart) {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -179,6 +180,114 @@ TEST(LoadDataset, HonoursFrictionlessDelimiterAndMissingValues) {
                                       "\"schema\": { \"missingValues\": [\"\", \"NA\"],"),
                               changed(example::points, "0.912,,", "0.912,NA,"));
   EXPECT_FALSE(load_dataset(missing.path()).points[2].restitution_sd.has_value());
+}
+
+/// A dataset of the columns series, diameter [um], incident_velocity [mm/s], restitution and
+/// events.
+/// @param keys more keys of every number's field: ", \"decimalChar\": \",\""
+std::string package_of_numbers(const std::string& keys, const std::string& dialect) {
+  std::string fields = R"({ "name": "series", "type": "string" })";
+  for (const char* const field :
+       {R"("diameter", "type": "number", "unit": "um")",
+        R"("incident_velocity", "type": "number", "unit": "mm/s")",
+        R"("restitution", "type": "number", "unit": "1")", R"("events", "type": "integer")"}) {
+    fields += fmt::format(R"(, {{ "name": {}{} }})", field, keys);
+  }
+  return fmt::format(
+      R"({{ "name": "numbers", "resources": [ {{ "path": "points.csv", "dialect": {{ {} }},
+         "schema": {{ "fields": [ {} ] }} }} ], "recoil": {{ "provenance": "synthetic",
+         "particle": {{ "material": "ps", "density": 1050, "youngs_modulus": 2.56e9,
+                        "poisson_ratio": 0.35 }},
+         "surface": {{ "material": "si", "youngs_modulus": 131e9, "poisson_ratio": 0.28 }} }} }})",
+      dialect, fields);
+}
+
+constexpr const char* german = R"(, "decimalChar": ",", "groupChar": ".")";
+constexpr const char* semicolons = R"("delimiter": ";")";
+constexpr const char* numbers_header = "series;diameter;incident_velocity;restitution;events\n";
+
+TEST(LoadDataset, NumbersAreReadWithTheMarksThatTheFieldsState) {
+  // Table Schema: groupChar groups digits, so that 2.500 mm/s is 2.5 m/s.
+  const Dataset dataset = parse_dataset(package_of_numbers(german, semicolons),
+                                        numbers_header + std::string("a;4,9;2.500;0,57;20\n"
+                                                                     "a;4,9;1.002.500,5;0,73;20\n"),
+                                        "numbers");
+  EXPECT_DOUBLE_EQ(dataset.points[0].diameter, 4.9e-6);
+  EXPECT_DOUBLE_EQ(dataset.points[0].incident_velocity, 2.5);
+  EXPECT_DOUBLE_EQ(dataset.points[0].restitution, 0.57);
+  EXPECT_DOUBLE_EQ(dataset.points[1].incident_velocity, 1002.5005);
+  for (const char* const cell : {"2.50", "25.00", "2.5000", "2,5,0", ".500", "2500.", "1.25.000"}) {
+    EXPECT_THAT(support::message_of([&] {
+                  parse_dataset(package_of_numbers(german, semicolons),
+                                fmt::format("{}a;4,9;{};0,57;20\n", numbers_header, cell),
+                                "numbers");
+                }),
+                testing::HasSubstr("is not a number"))
+        << cell;
+  }
+}
+
+TEST(LoadDataset, TheDialectIsHonoured) {
+  const Dataset dataset = parse_dataset(
+      package_of_numbers("", R"("delimiter": ";", "header": false, "commentChar": "#")"),
+      "# \"a comment\na;4.9;2500;0.57;20\n#b;1;1;1;1\n", "numbers");
+  ASSERT_EQ(dataset.points.size(), 1U);
+  EXPECT_DOUBLE_EQ(dataset.points[0].incident_velocity, 2.5);
+  EXPECT_EQ(dataset.points[0].events, 20);
+}
+
+TEST(LoadDataset, AFieldHasItsOwnMissingValues) {
+  const std::string package =
+      changed(example::package, R"("restitution_sd", "type": "number")",
+              R"("restitution_sd", "type": "number", "missingValues": ["-"])");
+  EXPECT_FALSE(parse_dataset(package, changed(example::points, "0.912,,", "0.912,-,"), "x")
+                   .points[2]
+                   .restitution_sd.has_value());
+  EXPECT_THROW(parse_dataset(package, changed(example::points, ",4,40,3", ",-,40,3"), "x"),
+               InputError);
+}
+
+TEST(LoadDataset, CapturedMayBeTrueOrFalse) {
+  const auto package = [](const std::string& keys) {
+    return changed(package_of_numbers("", ""), R"("events", "type": "integer")",
+                   R"("captured", "type": "boolean")" + keys);
+  };
+  const auto points = [](const std::string& yes, const std::string& no) {
+    return fmt::format(
+        "series,diameter,incident_velocity,restitution,captured\na,4,500,,{}\na,4,2000,0.8,{}\n",
+        yes, no);
+  };
+  for (const auto& [yes, no] : std::vector<std::pair<std::string, std::string>>{
+           {"true", "false"}, {"TRUE", "FALSE"}, {"True", "False"}, {"1", "0"}}) {
+    const Dataset dataset = parse_dataset(package(""), points(yes, no), "x");
+    EXPECT_TRUE(dataset.points[0].all_captured());
+    EXPECT_EQ(dataset.points[1].captured, 0);
+  }
+  const std::string own = package(R"(, "trueValues": ["yes"], "falseValues": ["no"])");
+  EXPECT_TRUE(parse_dataset(own, points("yes", "no"), "x").points[0].all_captured());
+  EXPECT_THAT(support::message_of([&] { parse_dataset(own, points("true", "no"), "x"); }),
+              testing::HasSubstr("points.csv:2:10: 'true' is neither true nor false"));
+}
+
+TEST(LoadDataset, WhatChangesTheMeaningOfACellIsNotIgnored) {
+  const auto refused = [](const std::string& keys, const std::string& dialect) {
+    return support::message_of([&] {
+      parse_dataset(package_of_numbers(keys, dialect),
+                    numbers_header + std::string("a;4.9;2500;0.57;20\n"), "x");
+    });
+  };
+  using testing::HasSubstr;
+  EXPECT_EQ(refused("", semicolons), "no error");
+  EXPECT_EQ(refused(R"(, "constraints": { "minimum": 0.1, "required": true })", semicolons),
+            "no error");
+  EXPECT_THAT(refused(R"(, "constraints": { "minimum": 1e6 })", semicolons),
+              HasSubstr("points.csv:2:3: diameter = 4.9 (the schema's minimum is 1e+06)"));
+  EXPECT_THAT(refused(R"(, "constraints": { "pattern": "x" })", semicolons),
+              HasSubstr("the constraint 'pattern' is not checked"));
+  EXPECT_THAT(refused(R"(, "bareNumber": false)", semicolons), HasSubstr("'bareNumber'"));
+  EXPECT_THAT(refused(R"(, "format": "any")", semicolons), HasSubstr("'format'"));
+  EXPECT_THAT(refused("", R"("delimiter": ";", "quoteChar": "'")"), HasSubstr("'quoteChar'"));
+  EXPECT_THAT(refused("", R"("delimiter": ";", "headerRows": [2])"), HasSubstr("'headerRows'"));
 }
 
 TEST(LoadDataset, KeysThatOnlyFrictionlessKnowsAreAllowed) {

@@ -63,7 +63,7 @@ const Mistake points_mistakes[] = {
     {"restitution_above_the_limit", "0.71", "1.21", "points.csv:2:16: ", "restitution = 1.21",
      "correct it"},
     {"restitution_in_per_cent", "0.71", "71", "points.csv:2:16: ", "restitution = 71",
-     "has the unit %"},
+     "in per cent its unit is %"},
     {"restitution_negative", "0.71", "-0.1", "points.csv:2:16: ", "it cannot be negative",
      "correct it"},
     {"restitution_empty", "0.71", "", "points.csv:2:16: ", "'restitution' is empty", "fill it in"},

@@ -35,6 +35,15 @@ TEST(Terminal, WrapCountsCharactersAndKeepsThemWhole) {
   EXPECT_EQ(wrap("", 80, 4), "");
 }
 
+TEST(Terminal, AWordWithoutBlanksIsCutInATimeInProportionToItsLength) {
+  // Were what is left counted again for every line, this would be 6e11 steps.
+  constexpr std::size_t letters = 10'000'000;
+  const std::string text = wrap(std::string(letters, 'x'), 80, 0);
+  EXPECT_EQ(text.size(), letters + letters / 80 - 1);
+  EXPECT_EQ(text.substr(0, 82), std::string(80, 'x') + "\nx");
+  EXPECT_EQ(wrap("ab µµµµµ cd", 4, 1), "ab\n µµµ\n µµ\n cd");
+}
+
 TEST(Terminal, AlignsNumbersRightAndWordsLeftAndDropsSilentColumns) {
   EXPECT_EQ(terminal_text(small_table(), 2),
             "  parameter  estimate [s/m]  remark\n"

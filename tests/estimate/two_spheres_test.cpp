@@ -59,7 +59,7 @@ TEST(TwoSpheres, MoveWithTheReducedMassOnTheRelativeRadius) {
       ASSERT_GT(e, 0.0);
       EXPECT_NEAR(predict(model, theta, 0, size, velocity, false).restitution_squared, e * e, 1e-8);
     }
-    const double V = capture_velocity(model, theta, 0, size);
+    const double V = capture_velocity(model, theta, 0, size).value;
     EXPECT_EQ(true_restitution_of_two(size, 0.9999 * V), 0.0);
     EXPECT_GT(true_restitution_of_two(size, 1.0001 * V), 0.0);
   }

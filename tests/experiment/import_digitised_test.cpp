@@ -155,4 +155,19 @@ TEST(Digitised, SemicolonsAndMistakes) {
   EXPECT_FALSE(other.has("made"));
 }
 
+TEST(Digitised, ErrorBarsAreASecondSeries) {
+  const Place place;
+  const std::string text =
+      "balls,,upper,,lower,\nX,Y,X,Y,X,Y\n2,0.5,4.01,0.85,2,0.48\n4,0.8,2.01,0.54,4,0.77\n";
+  auto request = place.request(text, kFormat);
+  request.error_series = {"balls=upper,lower"};
+  const Dataset made = recoil::import_points(request).dataset;
+  ASSERT_EQ(made.points.size(), 2U);
+  EXPECT_NEAR(*made.points[0].restitution_sd, 0.5 * (0.04 + 0.02), 1e-12);
+  EXPECT_NEAR(*made.points[1].restitution_sd, 0.5 * (0.05 + 0.03), 1e-12);
+  request.error_series = {"balls=top"};
+  request.into = place.folder() / "other";
+  EXPECT_THAT(complaint(request), HasSubstr("there is no series 'top'"));
+}
+
 }  // namespace

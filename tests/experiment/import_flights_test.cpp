@@ -1,7 +1,9 @@
 // Drop and rebound heights, and times between bounces, with their errors.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/random.hpp"
@@ -203,6 +205,109 @@ TEST(Intervals, WhatIsAskedFor) {
   negative.map = {"drop_height=h1:m,rebound_height=h2:m"};
   EXPECT_THAT(complaint(negative), HasSubstr("input.csv:2:1: drop_height = -1"));
   EXPECT_FALSE(place.has("made"));
+}
+
+/// One launch with e = 0.9 at every bounce, of which one interval is not known.
+std::vector<recoil::ImportNote> import_launch(const Place& place, const std::string& text,
+                                              const std::string& map, Dataset& made,
+                                              const std::string& drop_error = "") {
+  auto request = place.request(text, ImportFormat::intervals);
+  request.map = {map};
+  request.time_error = "1ms";
+  request.drop_error = drop_error;
+  const auto result = recoil::import_points(request);
+  made = result.dataset;
+  return result.notes;
+}
+
+std::vector<double> restitutions(const Dataset& dataset) {
+  std::vector<double> e;
+  for (const auto& point : dataset.points) e.push_back(point.restitution);
+  return e;
+}
+
+TEST(Intervals, AMissingIntervalSplitsTheLaunch) {
+  const auto near = [](std::vector<double> e) {
+    return testing::Pointwise(testing::DoubleNear(1e-6), e);
+  };
+  Dataset made;
+  const Place place;
+  import_launch(place, "run,t\n1,0.600\n1,0.540\n1,\n1,0.4374\n1,0.39366\n",
+                "launch=run,interval=t:s", made);
+  EXPECT_THAT(restitutions(made), near({0.9, 0.9}));
+  const Place numbered;
+  import_launch(numbered, "run,b,t\n1,1,0.600\n1,2,0.540\n1,4,0.4374\n1,5,0.39366\n",
+                "launch=run,bounce=b,interval=t:s", made);
+  EXPECT_THAT(restitutions(made), near({0.9, 0.9}));
+  const Place times;
+  import_launch(times, "run,t\n1,0\n1,0.600\n1,1.140\n1,\n1,2.0634\n1,2.45706\n1,2.811354\n",
+                "launch=run,time=t:s", made);
+  EXPECT_THAT(restitutions(made), near({0.9, 0.9}));
+}
+
+TEST(Intervals, AMissingBounceIsCalledOne) {
+  const Place place;
+  auto request =
+      place.request("run,t\n1,0\n1,0.600\n1,1.140\n1,2.0634\n1,2.45706\n", ImportFormat::intervals);
+  request.map = {"launch=run,time=t:s"};
+  EXPECT_THAT(complaint(request), testing::AllOf(HasSubstr("input.csv:5:3: restitution = 1.71"),
+                                                 HasSubstr("a bounce between them is missing"),
+                                                 HasSubstr("put a row with an empty time")));
+  // An interval that is not in the table cannot be known, but its e is the square of the others.
+  Dataset made;
+  const Place gap;
+  const auto notes = import_launch(gap, "run,t\n1,0.600\n1,0.540\n1,0.4374\n1,0.39366\n",
+                                   "launch=run,interval=t:s", made);
+  const auto suspected = [](const std::vector<recoil::ImportNote>& all) {
+    return std::count_if(all.begin(), all.end(), [](const recoil::ImportNote& note) {
+      return note.remark == recoil::ImportRemark::bounces_suspected;
+    });
+  };
+  EXPECT_EQ(suspected(notes), 1);
+  // e that falls with the velocity, as of a real ball, is no gap.
+  const Place real;
+  EXPECT_EQ(suspected(import_launch(real, "t\n0.6\n0.48\n0.39\n0.33\n0.29\n0.26\n", "interval=t:s",
+                                    made)),
+            0);
+}
+
+TEST(Intervals, ReleaseHeightsArePointsUnlessBouncesBeforeTheFirstAreMissing) {
+  // e = 0.81, dropped from 2 m and from 1.2 m in vacuum, g = 9.80665: times of the bounces; the
+  // second recording begins after two bounces.
+  const double g = 9.80665;
+  const auto times = [&](const std::string& run, double height, int skipped) {
+    std::string text;
+    double time = std::sqrt(2.0 * height / g);
+    double speed = 0.81 * std::sqrt(2.0 * g * height);
+    for (int k = 0; k < 6; ++k) {
+      if (k >= skipped) text += fmt::format("{},{:.9f},{}\n", run, time, height);
+      time += 2.0 * speed / g;
+      speed *= 0.81;
+    }
+    return text;
+  };
+  const std::string table = "run,t,h\n" + times("a", 2.0, 0) + times("b", 1.2, 2);
+  Dataset made;
+  const Place place;
+  const auto notes =
+      import_launch(place, table, "launch=run,time=t:s,release_height=h:m", made, "4mm");
+  ASSERT_EQ(made.points.size(), 5U + 2U);
+  EXPECT_NEAR(made.points[0].incident_velocity, std::sqrt(2.0 * g * 2.0), 1e-8);
+  EXPECT_NEAR(made.points[0].restitution, 0.81, 1e-7);
+  // sd(V) / V = sd(h) / (2 h); e = g t / (2 V) with the flight t of two instants of 1 ms / each.
+  const double flight = 2.0 * 0.81 * std::sqrt(2.0 * g * 2.0) / g;
+  EXPECT_NEAR(*made.points[0].velocity_sd, 0.001 * std::sqrt(2.0 * g * 2.0), 1e-8);
+  EXPECT_NEAR(*made.points[0].restitution_sd,
+              0.81 * std::hypot(0.001, 0.001 * std::sqrt(2.0) / flight), 1e-8);
+  const auto missed = std::find_if(notes.begin(), notes.end(), [](const recoil::ImportNote& note) {
+    return note.remark == recoil::ImportRemark::first_bounces_missed;
+  });
+  ASSERT_NE(missed, notes.end());
+  EXPECT_EQ(missed->names, std::vector<std::string>{"b (2)"});
+  // Without an error of the height the release is no point beside those that have errors.
+  const Place unstated;
+  import_launch(unstated, table, "launch=run,time=t:s,release_height=h:m", made);
+  EXPECT_EQ(made.points.size(), 4U + 2U);
 }
 
 }  // namespace

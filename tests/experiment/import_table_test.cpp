@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "data/material_table.hpp"
 #include "import_folder.hpp"
+#include "support/workplace.hpp"
 
 namespace {
 
@@ -173,6 +176,271 @@ TEST(Table, NothingIsOverwrittenUnasked) {
   EXPECT_THAT(complaint(request), HasSubstr("no column is called 'nothing'"));
   EXPECT_EQ(place.read("made/points.csv"), points);
   EXPECT_EQ(place.read("made/datapackage.json"), package);
+}
+
+/// The points of a table of the columns run, D (um), Vi (m/s), e in some form.
+Dataset read_form(const Place& place, const std::string& text, const std::string& into,
+                  bool decimal_comma = false,
+                  const std::string& map =
+                      "series=run,diameter=\"D (um)\",incident_velocity=\"Vi "
+                      "(m/s)\",restitution=e") {
+  auto request = place.request(text, ImportFormat::csv);
+  request.map = {map};
+  request.decimal_comma = decimal_comma;
+  request.into = place.folder() / into;
+  return recoil::import_points(request).dataset;
+}
+
+TEST(Forms, DelimitersCommentsTitlesAndMarks) {
+  // Every form holds the same two points.
+  const std::vector<std::pair<std::string, bool>> forms = {
+      {"run,D (um),Vi (m/s),e\na,4.9,2.12,0.57\na,4.9,3.1,0.73\n", false},
+      {"run;D (um);Vi (m/s);e\na;4,9;2,12;0,57\na;4,9;3,10;0,73\n", true},
+      {"run\tD (um)\tVi (m/s)\te\na\t4.9\t2.12\t0.57\na\t4.9\t3.1\t0.73\n", false},
+      {"sep=;\nrun;D (um);Vi (m/s);e\na;4.9;2.12;0.57\na;4.9;3.1;0.73\n", false},
+      {"sep=|\r\nrun|D (um)|Vi (m/s)|e\r\na|4.9|2.12|0.57\r\na|4.9|3.1|0.73\r\n", false},
+      {"# a \"comment\n# and, with, four, cells\nrun,D (um),Vi (m/s),e\na,4.9,2.12,0.57\n"
+       "# the second\na,4.9,3.1,0.73\n",
+       false},
+      {"\xEF\xBB\xBFrun,D (um),Vi (m/s),e\r\na,4.9,2.12,0.57\r\na,4.9,3.1,0.73\r\n", false},
+      {"mass A,,,\nrun,D (um),Vi (m/s),e\na,4.9,2.12,0.57\na,4.9,3.1,0.73\n", false},
+      {"mass A\nrun;D (um);Vi (m/s);e\na;4.9;2.12;0.57\na;4.9;3.1;0.73\n", false},
+      {"\"run\"  \"D (um)\" \"Vi (m/s)\"\te\n a 4.9 2.12 0.57 \na 4.9  3.1\t0.73\n", false},
+  };
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const Place place;
+    const Dataset made = read_form(place, forms[i].first, "made", forms[i].second);
+    ASSERT_EQ(made.points.size(), 2U) << i;
+    EXPECT_EQ(made.series, std::vector<std::string>{"a"}) << i;
+    EXPECT_DOUBLE_EQ(made.points[0].diameter, 4.9e-6) << i;
+    EXPECT_DOUBLE_EQ(made.points[0].incident_velocity, 2.12) << i;
+    EXPECT_DOUBLE_EQ(made.points[1].incident_velocity, 3.1) << i;
+    EXPECT_DOUBLE_EQ(made.points[1].restitution, 0.73) << i;
+  }
+}
+
+TEST(Forms, CommasInsideHeaderCellsOfOtherDelimiters) {
+  const Place place;
+  const std::string map =
+      "series=run,diameter=\"D, mean (um)\",incident_velocity=\"Vi (m/s)\",restitution=e";
+  EXPECT_EQ(read_form(place, "run;D, mean (um);Vi (m/s);e\na;4.9;2.12;0.57\n", "a", false, map)
+                .points.size(),
+            1U);
+  EXPECT_EQ(
+      read_form(place, "run\tD, mean (um)\tVi (m/s)\te\na\t4.9\t2.12\t0.57\n", "b", false, map)
+          .points.size(),
+      1U);
+}
+
+TEST(Forms, ColumnsWithoutAHeaderAreNumbered) {
+  const Place place;
+  const Dataset made =
+      read_form(place, "1.0 0.56\n0.5 0.28\n", "a", false, "incident_velocity=1:m/s,restitution=2");
+  EXPECT_DOUBLE_EQ(made.points[0].incident_velocity, 1.0);
+  EXPECT_DOUBLE_EQ(made.points[1].restitution, 0.28);
+  // numpy.savetxt writes its header as a comment.
+  const Dataset headed = read_form(place, "# Vi e\n1.0 0.56\n0.5 0.28\n", "b", false,
+                                   "incident_velocity=Vi:m/s,restitution=e");
+  EXPECT_DOUBLE_EQ(headed.points[1].incident_velocity, 0.5);
+  const Dataset counted = read_form(place, "#,Vi,e\n1,1.0,0.56\n2,0.5,0.28\n", "c", false,
+                                    "incident_velocity=Vi:m/s,restitution=e");
+  EXPECT_DOUBLE_EQ(counted.points[1].incident_velocity, 0.5);
+}
+
+TEST(Forms, BothLettersMuAndOtherEncodings) {
+  const Place place;
+  for (const char* const mu : {"\xC2\xB5", "\xCE\xBC", "\xB5"}) {  // the last is Windows-1252
+    const std::string name = "D (" + std::string(mu) + "m)";
+    const std::string utf8 = std::string(mu).size() == 1 ? "D (\xC2\xB5m)" : name;
+    EXPECT_DOUBLE_EQ(read_form(place, "Vi," + name + ",e\n1,4.9,0.5\n", mu, false,
+                               "incident_velocity=Vi:m/s,restitution=e,diameter=\"" + utf8 + "\"")
+                         .points[0]
+                         .diameter,
+                     4.9e-6);
+  }
+  place.write("input.csv", "");
+  auto request = place.request("PK\x03\x04 workbook", ImportFormat::csv);
+  EXPECT_THAT(complaint(request), HasSubstr("this is a workbook"));
+  request = place.request("\xFF\xFEV", ImportFormat::csv);
+  EXPECT_THAT(complaint(request), HasSubstr("UTF-16"));
+}
+
+TEST(Forms, WhatIsAmbiguousIsAsked) {
+  const auto answer = [](const std::string& text, const std::string& map) {
+    const Place place;
+    auto request = place.request(text, ImportFormat::csv);
+    request.map = {map};
+    return complaint(request);
+  };
+  const std::string map = "incident_velocity=V:m/s,restitution=e";
+  EXPECT_THAT(answer("V,V,e\n1,2,0.5\n", map),
+              HasSubstr("input.csv:1:3: the column 'V' appears twice"));
+  EXPECT_THAT(answer("V,e\n1,0.5\n", "incident_velocity=V:m/s,rebound_velocity=V:m/s"),
+              HasSubstr("the column 'V' is taken for both incident_velocity and rebound_velocity"));
+  EXPECT_THAT(
+      answer("V,e\n\"1,250\",0.5\n", map),
+      HasSubstr("write 1250 if the comma groups thousands, 1.250 if it is a decimal comma"));
+  EXPECT_THAT(answer("V;e\n1,25;0,5\n", map), HasSubstr("--decimal-comma"));
+  EXPECT_THAT(answer("V,e\n1,0.5\n#2,0.5\n", map), HasSubstr("input.csv:3:1: a row that begins"));
+  EXPECT_THAT(answer("V,e,s,n\n1,0.5,0.1,4\n", map + ",restitution_sd=s,events=n"),
+              HasSubstr("is it that of one impact or of their mean?"));
+  EXPECT_THAT(answer("V,R\n-1,0.5\n2,0.5\n", "incident_velocity=V:m/s,rebound_velocity=R:m/s"),
+              HasSubstr("the signs of the velocities are mixed"));
+  EXPECT_THAT(answer("V,R\n-1,-0.5\n", "incident_velocity=V:m/s,rebound_velocity=R:m/s"),
+              HasSubstr("the signs of the velocities are mixed"));
+  EXPECT_THAT(answer("V,e\n1,1.71\n", map), HasSubstr("a rebound is not faster than the impact"));
+}
+
+TEST(Forms, RowsWithAnEmptyCellAreLeftOutAndNamed) {
+  const Place place;
+  auto request = place.request("V,e\n1,0.5\n,0.6\n2,\n3,NA\n4,0.7\n", ImportFormat::csv);
+  request.map = {"incident_velocity=V:m/s,restitution=e"};
+  const auto result = recoil::import_points(request);
+  ASSERT_EQ(result.dataset.points.size(), 2U);
+  EXPECT_DOUBLE_EQ(result.dataset.points[1].incident_velocity, 4.0);
+  EXPECT_EQ(result.notes.front().remark, recoil::ImportRemark::rows_left_out);
+  EXPECT_EQ(result.notes.front().names, (std::vector<std::string>{"line 3", "line 4", "line 5"}));
+  auto nothing = place.request("V,e\n1,\n", ImportFormat::csv);
+  nothing.map = request.map;
+  nothing.into = place.folder() / "other";
+  EXPECT_THAT(complaint(nothing), HasSubstr("every row has an empty cell"));
+}
+
+TEST(Forms, UnitsFactorsConstantsAndSigns) {
+  const Place place;
+  auto request = place.request("v,r,T\n-70,30,20\n-10,5,\n", ImportFormat::csv);
+  request.map = {
+      "incident_velocity=v:mph,rebound_velocity=r:mph,diameter=2.9in,temperature=T:degC,events=4"};
+  const Dataset made = recoil::import_points(request).dataset;
+  EXPECT_DOUBLE_EQ(made.points[0].incident_velocity, 70.0 * 1609.344 / 3600.0);
+  EXPECT_DOUBLE_EQ(made.points[0].restitution, 3.0 / 7.0);
+  EXPECT_NEAR(made.points[0].diameter, 2.9 * 0.0254, 1e-12);
+  EXPECT_EQ(made.points[1].events, 4);
+  EXPECT_NEAR(*made.series_conditions[made.points[0].series].of(recoil::Condition::temperature),
+              293.15, 1e-9);
+  auto pixels = place.request("v,e\n100,0.5\n", ImportFormat::csv);
+  pixels.map = {"incident_velocity=v:0.35mm/s,restitution=e"};
+  pixels.into = place.folder() / "pixels";
+  EXPECT_DOUBLE_EQ(recoil::import_points(pixels).dataset.points[0].incident_velocity, 0.035);
+}
+
+TEST(Forms, ErrorsBesideTheirValues) {
+  const Place place;
+  auto request = place.request(
+      "V,e\n1.0 +- 0.1,0.85\xC2\xB1"
+      "0.02\n2.0,0.83 +/- 0.03\n",
+      ImportFormat::csv);
+  request.map = {"incident_velocity=V:m/s,restitution=e"};
+  const Dataset made = recoil::import_points(request).dataset;
+  EXPECT_DOUBLE_EQ(*made.points[0].restitution_sd, 0.02);
+  EXPECT_DOUBLE_EQ(*made.points[0].velocity_sd, 0.1);
+  EXPECT_DOUBLE_EQ(*made.points[1].restitution_sd, 0.03);
+  EXPECT_FALSE(made.points[1].velocity_sd.has_value());
+}
+
+TEST(Forms, DeviationsOfOneImpactBecomeThoseOfTheMean) {
+  for (const auto& [of, sd] : std::vector<std::pair<std::string, double>>{
+           {"one", 0.02 / std::sqrt(8.0)}, {"mean", 0.02}}) {
+    const Place place;
+    auto request = place.request("V,e,sd,N,c\n1.0,0.85,0.02,10,2\n", ImportFormat::csv);
+    request.map = {"incident_velocity=V:m/s,restitution=e,restitution_sd=sd,events=N,captured=c"};
+    request.sd_of = of;
+    // 8 of the 10 rebounded, and e is their mean.
+    EXPECT_NEAR(*recoil::import_points(request).dataset.points[0].restitution_sd, sd, 1e-10);
+  }
+}
+
+TEST(Forms, RepeatsInColumnsAreOnePointEach) {
+  const Place place;
+  auto request =
+      place.request("ball;h1;h2;h3\na;0.81;0.64;\nb;0.49;0.36;0.25\n", ImportFormat::heights);
+  request.map = {"series=ball,drop_height=100cm,rebound_height=h1+h2+h3:m"};
+  const Dataset made = recoil::import_points(request).dataset;
+  std::vector<double> e;
+  for (const auto& point : made.points) e.push_back(point.restitution);
+  EXPECT_THAT(e, testing::Pointwise(testing::DoubleNear(1e-9), {0.9, 0.8, 0.7, 0.6, 0.5}));
+  EXPECT_EQ(made.points[1].setting, "a from 1000 mm");
+}
+
+TEST(Forms, MethodAndConditionsOfEveryFormat) {
+  const Place place;
+  auto request = place.request("1, 0.5\n2, 0.6\n", ImportFormat::webplotdigitizer);
+  request.method = "video";
+  request.conditions = {"target_thickness=5mm,relative_humidity=40%", "temperature=300"};
+  const Dataset made = recoil::import_points(request).dataset;
+  EXPECT_EQ(made.system.method, recoil::Method::video);
+  EXPECT_DOUBLE_EQ(*made.system.conditions.of(recoil::Condition::target_thickness), 0.005);
+  EXPECT_DOUBLE_EQ(*made.system.conditions.of(recoil::Condition::relative_humidity), 0.4);
+  EXPECT_DOUBLE_EQ(*made.system.conditions.of(recoil::Condition::temperature), 300.0);
+  request.conditions = {"relativ_humidity=0.4"};
+  request.into = place.folder() / "other";
+  EXPECT_THAT(complaint(request), HasSubstr("did you mean 'relative_humidity'?"));
+}
+
+TEST(Materials, ByNameWithErrorsAndSources) {
+  const Place place;
+  auto request = place.request(kTable, ImportFormat::csv);
+  request.map = {kMap};
+  request.particle = "polystyrene";
+  request.surface = "glass,youngs_modulus=72e9";
+  const Dataset made = recoil::import_points(request).dataset;
+  EXPECT_EQ(made.system.particle.name, "polystyrene");
+  EXPECT_DOUBLE_EQ(made.system.particle.density, 1050.0);
+  // The range 2.28 to 3.28 GPa as a uniform distribution.
+  EXPECT_DOUBLE_EQ(made.system.particle.youngs_modulus, 2.78e9);
+  EXPECT_NEAR(made.system.error_of(recoil::Body::particle, recoil::Constant::youngs_modulus),
+              1e9 / std::sqrt(12.0), 1.0);
+  EXPECT_DOUBLE_EQ(made.system.surface.youngs_modulus, 72e9);
+  EXPECT_EQ(made.system.error_of(recoil::Body::surface, recoil::Constant::youngs_modulus), 0.0);
+  ASSERT_EQ(made.sources.size(), 3U);
+  EXPECT_THAT(made.sources[1], AllOf(HasSubstr("Callister"), HasSubstr("polystyrene")));
+  request.particle = "polystyren";
+  request.into = place.folder() / "other";
+  EXPECT_THAT(complaint(request), HasSubstr("did you mean 'polystyrene'?"));
+}
+
+TEST(Materials, EveryOneOfTheTableIsAccepted) {
+  const Place place;
+  for (const recoil::TabledMaterial& material : recoil::tabled_materials()) {
+    auto request = place.request(kTable, ImportFormat::csv);
+    request.map = {kMap};
+    request.particle = request.surface = std::string(material.name);
+    request.into = place.folder() / std::string(material.name);
+    EXPECT_EQ(complaint(request), "no error") << material.name;
+  }
+}
+
+TEST(Table, TheCommandMakesAFitFileAndSaysWhatIsNext) {
+  const support::Workplace place;
+  place.write("table.csv", "V,e\n1,0.8\n2,0.78\n3,0.77\n4,0.75\n");
+  std::vector<std::string> words = {"import",
+                                    "table.csv",
+                                    "--format",
+                                    "csv",
+                                    "--into",
+                                    "mine",
+                                    "--map",
+                                    "incident_velocity=V:m/s,restitution=e",
+                                    "--particle",
+                                    "steel",
+                                    "--surface",
+                                    "glass",
+                                    "--diameter",
+                                    "5mm",
+                                    "--provenance",
+                                    "measured",
+                                    "--adhesion-energy",
+                                    "0"};
+  const auto made = place.run(words);
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("next:\n  recoil fit mine/fit.toml"));
+  EXPECT_EQ(place.run({"fit", "mine/fit.toml", "--replicates", "0"}).status, 0);
+  // A fit file that is there stays.
+  place.write("mine/fit.toml", "dataset = \".\"\n# mine\n");
+  words.emplace_back("--replace");
+  EXPECT_EQ(place.run(words).status, 0);
+  EXPECT_THAT(place.read("mine/fit.toml"), HasSubstr("# mine"));
+  EXPECT_THAT(place.run({"materials"}).out, AllOf(HasSubstr("stainless"), HasSubstr("Callister")));
 }
 
 }  // namespace

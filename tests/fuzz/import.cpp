@@ -39,6 +39,9 @@ recoil::ImportRequest request_for(const std::string& format, const fs::path& pla
       request.map = {"launch=run,interval=t:s"};
       request.time_error = "1ms";
       break;
+    case recoil::ImportFormat::track:
+      request.map = {"time=t:s,pixel=y"};
+      break;
     case recoil::ImportFormat::csv:
       request.map = {"incident_velocity=V:m/s"};
       break;

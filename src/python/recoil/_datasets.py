@@ -96,6 +96,8 @@ class Dataset:
         fields = []
         for column in map(str, frame.columns):
             kind = "string" if column in _TEXTS else "integer" if column in _COUNTS else "number"
+            if column in _COUNTS and str(frame[column].dtype) in ("bool", "boolean"):
+                kind = "boolean"
             field = {"name": column, "type": kind}
             if column in said:
                 field["unit"] = said[column]
@@ -112,9 +114,16 @@ class Dataset:
         import pandas
 
         resource = self._package["resources"][0]
+        dialect = resource.get("dialect", {})
+        fields = resource["schema"]["fields"]
+        numbers = next((field for field in fields if "decimalChar" in field), {})
         frame = pandas.read_csv(
             io.StringIO(self._csv),
-            sep=resource.get("dialect", {}).get("delimiter", ","),
+            sep=dialect.get("delimiter", ","),
+            comment=dialect.get("commentChar"),
+            decimal=numbers.get("decimalChar", "."),
+            thousands=next((f["groupChar"] for f in fields if "groupChar" in f), None),
+            **({} if dialect.get("header", True) else {"names": [f["name"] for f in fields]}),
             dtype={name: str for name in _TEXTS},
             keep_default_na=False,
             na_values=["", *resource["schema"].get("missingValues", [])],

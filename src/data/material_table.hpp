@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/json.hpp"
+
+namespace recoil {
+
+/// A common material of spheres and surfaces, with one standard deviation of each constant.
+struct TabledMaterial {
+  std::string_view name;
+  std::string_view what;           ///< which kind of it the values belong to
+  double density = 0.0;            ///< [kg/m3], known to `density_error`
+  double lowest_modulus = 0.0;     ///< Young's modulus [Pa]: the range that the source gives
+  double highest_modulus = 0.0;    ///< [Pa]; equal to the lowest where it gives one value
+  double poisson_ratio = 0.0;      ///< [1]
+  double poisson_ratio_sd = 0.01;  ///< [1]
+
+  double youngs_modulus() const { return 0.5 * (lowest_modulus + highest_modulus); }
+  /// That of a uniform distribution over the range; 2 % of a single value.
+  double youngs_modulus_sd() const;
+};
+
+/// The relative standard deviation of every density in the table [1]; the source states none.
+inline constexpr double tabled_density_error = 0.01;
+
+/// Callister, W. D. & Rethwisch, D. G. (2008), Fundamentals of Materials Science and Engineering,
+/// 3rd ed., Wiley, tables B.1 (density), B.2 (Young's modulus) and B.3 (Poisson's ratio), which
+/// compile the ASM Handbooks and manufacturers' data.
+std::span<const TabledMaterial> tabled_materials();
+inline constexpr std::string_view tabled_materials_source =
+    "Callister, W. D. & Rethwisch, D. G. (2008). Fundamentals of Materials Science and "
+    "Engineering, 3rd ed., Wiley, tables B.1 to B.3";
+
+/// The material as a dataset states it. @throws InputError for an unknown name, with the nearest
+/// one. @param option names it in messages: "--particle"
+Json tabled_material(const std::string& name, const std::string& option);
+
+}  // namespace recoil

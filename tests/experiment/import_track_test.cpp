@@ -1,0 +1,150 @@
+// Heights over time: impacts, the parabolas on either side, and whether the errors hold the truth.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.hpp"
+#include "import_folder.hpp"
+
+namespace {
+
+using import_folder::complaint;
+using import_folder::Place;
+using recoil::Dataset;
+using recoil::ImportFormat;
+using testing::HasSubstr;
+
+constexpr double kStandardGravity = 9.80665;
+
+/// A ball that is held for a while, dropped from `drop` and bounces `bounces` times with `e`, in
+/// vacuum: its height [m] at a time [s], from the closed form of free flight.
+struct Ball {
+  double drop = 1.0;
+  double e = 0.8;
+  double held = 0.3;
+  int bounces = 6;
+
+  double height(double time) const {
+    if (time < held) return drop;
+    double begin = held + std::sqrt(2.0 * drop / kStandardGravity);
+    if (time < begin) return drop - 0.5 * kStandardGravity * (time - held) * (time - held);
+    double speed = std::sqrt(2.0 * kStandardGravity * drop);
+    for (int k = 0; k < bounces; ++k) {
+      speed *= e;
+      const double t = time - begin;
+      if (t < 2.0 * speed / kStandardGravity) return speed * t - 0.5 * kStandardGravity * t * t;
+      begin += 2.0 * speed / kStandardGravity;
+    }
+    return 0.0;
+  }
+  double end() const {
+    double time = held + std::sqrt(2.0 * drop / kStandardGravity);
+    double speed = std::sqrt(2.0 * kStandardGravity * drop);
+    for (int k = 0; k < bounces; ++k) {
+      speed *= e;
+      time += 2.0 * speed / kStandardGravity;
+    }
+    return time;
+  }
+};
+
+TEST(Track, TheStatedErrorsHoldTheTruth) {
+  int inside_e = 0;
+  int inside_v = 0;
+  int count = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    recoil::RandomStream random(seed, recoil::RandomPurpose::bootstrap, 0);
+    const Ball ball;
+    std::string text = "t y\n";
+    for (double t = 0.0002 * seed; t < ball.end(); t += 1.0 / 120.0) {
+      text += fmt::format("{:.9f} {:.9f}\n", t, ball.height(t) + 1e-3 * random.normal());
+    }
+    const Place place;
+    auto request = place.request(text, ImportFormat::track);
+    request.map = {"time=t:s,height=y:m"};
+    const Dataset made = recoil::import_points(request).dataset;
+    ASSERT_EQ(made.points.size(), 6U) << seed;
+    EXPECT_EQ(made.system.method, recoil::Method::video);
+    for (std::size_t k = 0; k < made.points.size(); ++k) {
+      const auto& point = made.points[k];
+      const double v = std::sqrt(2.0 * kStandardGravity) * std::pow(0.8, static_cast<double>(k));
+      inside_e += std::abs(point.restitution - 0.8) < 1.96 * *point.restitution_sd ? 1 : 0;
+      inside_v += std::abs(point.incident_velocity - v) < 1.96 * *point.velocity_sd ? 1 : 0;
+      ++count;
+    }
+  }
+  // 95 % of 240, within three standard deviations of a binomial count (0.014), and a little for
+  // points of one track that share a flight.
+  EXPECT_NEAR(static_cast<double>(inside_e) / count, 0.95, 0.05);
+  EXPECT_NEAR(static_cast<double>(inside_v) / count, 0.95, 0.05);
+}
+
+TEST(Track, FramesAndPixelsOfSeveralBallsAreScaledByTheFall) {
+  const Ball a{0.5, 0.7, 0.3, 4};
+  const Ball b{0.8, 0.9, 0.1, 4};
+  std::string text = "ball;frame;y\n";
+  for (const auto& [name, ball] : {std::pair{"a", a}, std::pair{"b", b}}) {
+    // 2.5 mm are a pixel, rows count downward, the floor is in row 900.
+    for (int i = 0; i / 240.0 < ball.end(); ++i) {
+      text += fmt::format("{};{};{:.6f}\n", name, i, 900.0 - 400.0 * ball.height(i / 240.0));
+    }
+  }
+  const Place place;
+  auto request = place.request(text, ImportFormat::track);
+  request.map = {"series=ball,frame=frame,pixel=y"};
+  EXPECT_THAT(complaint(request), HasSubstr("give --fps 240"));
+  request.fps = 240.0;
+  for (const char* const scale : {"", "2.5mm"}) {
+    request.scale = scale;
+    request.into = place.folder() / fmt::format("made{}", scale);
+    const Dataset made = recoil::import_points(request).dataset;
+    ASSERT_EQ(made.points.size(), 8U);
+    EXPECT_NEAR(made.points[0].restitution, 0.7, 1e-5);
+    EXPECT_NEAR(made.points[0].incident_velocity, std::sqrt(2.0 * kStandardGravity * 0.5), 1e-4);
+    EXPECT_NEAR(made.points[7].restitution, 0.9, 1e-5);
+    EXPECT_NEAR(made.points[7].incident_velocity,
+                std::sqrt(2.0 * kStandardGravity * 0.8) * 0.9 * 0.9 * 0.9, 1e-4);
+  }
+  // With a scale that is wrong by a tenth the fall is wrong by a tenth, and e is not.
+  request.scale = "2.75mm";
+  request.into = place.folder() / "wrong";
+  const auto result = recoil::import_points(request);
+  EXPECT_NEAR(result.dataset.points[0].restitution, 0.7, 1e-5);
+  EXPECT_EQ(result.notes.front().remark, recoil::ImportRemark::track_fall);
+  EXPECT_NEAR(result.notes.front().fall, 1.1 * kStandardGravity, 1e-3);
+}
+
+TEST(Track, LostSamplesRestAndTitlesDoNoHarm) {
+  const Ball ball{1.0, 0.6, 0.2, 3};
+  std::string text = "mass A\t\t\nt\tx\ty\n";
+  for (int i = 0; i / 240.0 < ball.end() + 0.5; ++i) {  // it lies still at the end
+    const double t = i / 240.0;
+    text += i % 7 == 3 ? fmt::format("{:.6f}\t0\t\n", t)
+                       : fmt::format("{:.6f}\t0\t{:.6f}\n", t, ball.height(t));
+  }
+  const Place place;
+  auto request = place.request(text, ImportFormat::track);
+  request.map = {"time=t:s,height=y:m"};
+  const Dataset made = recoil::import_points(request).dataset;
+  ASSERT_GE(made.points.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(made.points[k].restitution, 0.6, 1e-4) << k;
+}
+
+TEST(Track, WhatIsAskedFor) {
+  const Place place;
+  auto request = place.request("t,y\n0,1\n0.1,0.9\n0.2,0.8\n", ImportFormat::track);
+  EXPECT_THAT(complaint(request), HasSubstr("--map time=COLUMN:s, or frame=COLUMN"));
+  request.map = {"time=t:s"};
+  EXPECT_THAT(complaint(request), HasSubstr("--map height=COLUMN:m, or pixel=COLUMN"));
+  request.map = {"time=t:s,height=y:m"};
+  EXPECT_THAT(complaint(request), HasSubstr("no impact was found in these tracks"));
+  request.scale = "1mm";
+  EXPECT_THAT(complaint(request), HasSubstr("--scale without pixels"));
+  auto back = place.request("t,y\n0,1\n0.1,0.9\n0,1\n", ImportFormat::track);
+  back.map = request.map;
+  EXPECT_THAT(complaint(back), HasSubstr("input.csv:4:1: a time of 0 s"));
+}
+
+}  // namespace
