@@ -77,7 +77,7 @@ CandidateResult described(const SearchBase& base, Candidate candidate, Refit ref
 bool knows_series(const Mechanism& mechanism) {
   const auto& parameters = mechanism.info.parameters;
   return std::any_of(parameters.begin(), parameters.end(),
-                     [](const Parameter& p) { return p.per_series || p.stated_by; });
+                     [](const Parameter& p) { return p.per_series || !p.stated_by.empty(); });
 }
 
 bool can_be_released(const Candidate& candidate) {
