@@ -132,11 +132,17 @@ void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
     fmt::print("outcome: {}\n", to_string(impact.outcome));
     fmt::print("rebound velocity: {:.6g} m/s\n", captured ? 0.0 : e * c.velocity);
   }
-  fmt::print("contact time: {:.6g} ns{}\n", impact.contact_time * scales.time / units::ns,
-             captured ? " (until the first outer turning point)" : "");
-  fmt::print("largest penetration: {:.6g} nm\n",
-             impact.penetration_max * scales.length / units::nm);
-  fmt::print("largest push: {:.6g} uN\n", impact.force_compression * scales.force * 1e6);
+  if (simulated.yields) {
+    print_line(
+        "the contact yields: contact time, largest penetration and push of the impact are not "
+        "computed; what follows is the elastic rebound of the flattened contact");
+  } else {
+    fmt::print("contact time: {:.6g} ns{}\n", impact.contact_time * scales.time / units::ns,
+               captured ? " (until the first outer turning point)" : "");
+    fmt::print("largest penetration: {:.6g} nm\n",
+               impact.penetration_max * scales.length / units::nm);
+    fmt::print("largest push: {:.6g} uN\n", impact.force_compression * scales.force * 1e6);
+  }
   fmt::print("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
   fmt::print("{}", terminal_text(energy_budget(groups, scales, impact, simulated.jumps), indent));
   fmt::print("groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)\n",

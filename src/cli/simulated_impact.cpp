@@ -48,6 +48,7 @@ Json energy_json(const SimulatedImpact& s) {
 Json contact_json(const SimulatedImpact& s) {
   const bool captured = s.impact.outcome == ImpactOutcome::captured;
   const double e = std::sqrt(std::max(s.impact.restitution_squared, 0.0));
+  const auto of_whole = [&](double value) { return s.yields ? Json() : number_or_null(value); };
   return {{"incident_velocity", s.conditions.velocity},
           {"diameter_um", s.diameter / units::um},
           {"restitution", captured ? Json(0.0) : number_or_null(e)},
@@ -55,9 +56,9 @@ Json contact_json(const SimulatedImpact& s) {
           {"stiffness_K_Pa", number_or_null(s.conditions.stiffness)},
           {"f0_N_per_m", number_or_null(s.conditions.adhesion_force)},
           {"density_kg_per_m3", number_or_null(s.density)},
-          {"contact_time_s", number_or_null(s.impact.contact_time * s.scales.time)},
-          {"penetration_m", number_or_null(s.impact.penetration_max * s.scales.length)},
-          {"largest_push_N", number_or_null(s.impact.force_compression * s.scales.force)},
+          {"contact_time_s", of_whole(s.impact.contact_time * s.scales.time)},
+          {"penetration_m", of_whole(s.impact.penetration_max * s.scales.length)},
+          {"largest_push_N", of_whole(s.impact.force_compression * s.scales.force)},
           {"largest_pull_N", number_or_null(s.impact.force_tension * s.scales.force)},
           {"energy_J", energy_json(s)}};
 }
@@ -91,9 +92,11 @@ SimulatedImpact simulate_at(const ImpactModel& model, const std::vector<Dataset>
     out.conditions.velocity = view.encounter.velocity;
     out.diameter = value_of(view.encounter.diameter);
     out.conditions.adhesion_force = view.encounter.adhesion_force;
+    out.yields = view.encounter.flow_pressure > 0.0;
   }
   out.impact = simulate_impact(out.groups, options, &out.history);
   if (!out.impact.usable()) refuse_impact(at, "", out.impact.outcome);
+  if (out.yields) out.history.clear();
   if (!out.extended) out.restitution_squared = out.impact.restitution_squared;
   out.jumps = lost_by_jumps(out.groups, options);
   out.validity = impact_validity(model, datasets[at.dataset].system, theta, at);

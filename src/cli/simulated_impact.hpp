@@ -31,6 +31,10 @@ struct SimulatedImpact {
   std::vector<ImpactMoment> history;
   std::vector<Validity> validity;
 
+  /// The contact yields. Only its elastic rebound is simulated: `impact` has neither the largest
+  /// penetration and push nor the contact time of the whole impact, and `history` is empty.
+  bool yields = false;
+
   bool captured() const { return !(restitution_squared > 0.0); }
 };
 

@@ -134,6 +134,7 @@ AdhesiveYield adhesive_yield(double energy, double tension) {
   result.yielded = true;
   const double kappa = tension;
   const double x = turning_point(contact, energy);
+  result.contact = x;
   const auto [root, s, force] = contact.at(x);
   const double slope = force * contact.path(x);  // d work / d x
   const double x_by_energy = 1.0 / slope;

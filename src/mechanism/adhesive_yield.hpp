@@ -9,6 +9,7 @@ struct AdhesiveYield {
                            ///< does not even get there
   double recovered_by_energy = 1.0;   ///< its derivative by `energy`
   double recovered_by_tension = 0.0;  ///< its derivative by `tension`
+  double contact = 0.0;               ///< x at the turning point, where it yielded [1]
   double flatness = 1.0;              ///< R_p / R of the unloading [1]
   double flatness_by_energy = 0.0;
   double flatness_by_tension = 0.0;

@@ -40,8 +40,12 @@ Mechanism capillary() {
           "loss 4 pi r gamma l: the force of the bridge over the length l at which it "
           "breaks, gamma = 0.0728 N/m; where the humidity is stated, l is the Kelvin radius; "
           "none below 100 Pa",
-      .source = "Israelachvili, J. N., Intermolecular and Surface Forces (force of a liquid bridge "
-                "at small contact angle)",
+      .source =
+          "Israelachvili, J. N., Intermolecular and Surface Forces (force of a liquid bridge "
+          "at small contact angle). The Kelvin radius is that of a bridge in equilibrium with its "
+          "vapour. An impact of nanoseconds gives it no time to grow or shrink: a bridge that "
+          "keeps its volume takes 8 pi r gamma r_K, twice as much. Where a film is known to be "
+          "thicker or thinner, state bridge_length in the fit file",
       .fingerprint =
           "1 - e^2 ~ V^(-2) d^(-2), V* ~ d^(-1); depends on the humidity, gone in vacuum",
       .parameters =

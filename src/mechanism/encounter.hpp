@@ -67,13 +67,15 @@ struct Encounter {
   T wave_mobility;                                    ///< D of `elastic_waves` [m s / N]
   T measured_velocity;                                ///< as the dataset has it [m/s]
   T diameter;                                         ///< of the sphere: its mass [m]
-  T contact_radius;    ///< of the curvature that unloads the contact [m]
-  T velocity;          ///< inward [m/s]
-  T adhesion_force;    ///< f0 at this sphere's diameter [N/m]
-  T hertz_damping;     ///< C_H [s/m]
-  T adhesion_damping;  ///< C_A [s/m]
-  T relaxation;        ///< of a dashpot -(3/2) relaxation sqrt(contact_radius n) K n' [s]
-  T square;            ///< on the way out [m2/s2]
+  T contact_radius;            ///< of the curvature that unloads the contact [m]
+  T velocity;                  ///< inward [m/s]
+  T adhesion_force;            ///< f0 at this sphere's diameter [N/m]
+  T hertz_damping;             ///< C_H [s/m]
+  T adhesion_damping;          ///< C_A [s/m]
+  T relaxation;                ///< of a dashpot -(3/2) relaxation sqrt(contact_radius n) K n' [s]
+  T square;                    ///< on the way out [m2/s2]
+  double flow_pressure = 0.0;  ///< at which the contact yielded [Pa]; 0: it did not
+  double flow_radius = 0.0;    ///< of the contact when it had yielded most [m]
 
   /// R* of the bodies as they are, without flattening; on a flat the sphere's radius [m].
   T radius() const { return relative_radius(*at, diameter); }

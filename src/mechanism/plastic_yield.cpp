@@ -49,6 +49,9 @@ struct PlasticYield {
     }
     const AdhesiveYield yield = adhesive_yield(value_of(energy), value_of(tension));
     if (!yield.yielded) return;
+    e.flow_pressure = value_of(pressure);
+    e.flow_radius =
+        yield.contact * pi * value_of(e.radius()) * e.flow_pressure / (2.0 * value_of(E));
     T recovered = yield.recovered;
     add_slopes(recovered, yield.recovered_by_energy, energy);
     add_slopes(recovered, yield.recovered_by_tension, tension);

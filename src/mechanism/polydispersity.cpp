@@ -8,10 +8,10 @@ namespace recoil {
 namespace {
 
 /// ln(d / mean) of the sphere at z for a standard deviation s: of the sizes that the dataset
-/// states; else lognormal, whose mean is exp(s^2 / 2) times its median.
+/// states, else lognormal and cut off.
 template <class T>
 T logarithm_at(const MixedSizes& sizes, const T& s, double z) {
-  if (!sizes.mixed()) return s * z - 0.5 * s * s;
+  if (!sizes.mixed()) return s * (cut_scale() * z) - cut_lognormal_mean(s);
   const auto& nodes = spread_positions();
   const auto node = std::find(nodes.begin(), nodes.end(), z);
   assert(node != nodes.end());
@@ -39,8 +39,9 @@ Mechanism polydispersity() {
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::spread,
       .formula =
-          "diameters are lognormal with the stated one as their mean (by number), d = d_mean "
-          "exp(s z - s^2 / 2); a point is the mean e of those that rebound",
+          "diameters are lognormal with the stated one as their mean (by number) and s as the "
+          "standard deviation of ln d, cut off at 2.62 s; a point is the mean e of those that "
+          "rebound",
       .source = "Hinds, W. C., Aerosol Technology (lognormal sizes)",
       .fingerprint = "rounds e(V) off near capture, where only the large ones come back: e too "
                      "high just above V*, where the mean sphere would hardly rebound",

@@ -1,4 +1,5 @@
 #include "mechanism/mechanism.hpp"
+#include "mechanism/survivors_mean.hpp"
 
 namespace recoil {
 namespace {
@@ -6,7 +7,7 @@ namespace {
 struct SurvivorBias {
   template <class T>
   static void vary(Encounter<T>& e, std::span<const T> own, double z) {
-    e.adhesion_force *= exponential(own[0] * z);
+    e.adhesion_force *= exponential(own[0] * (cut_scale() * z));
   }
 };
 
@@ -20,7 +21,8 @@ Mechanism survivor_bias() {
       .kind = MechanismKind::measurement,
       .place = MechanismPlace::spread,
       .formula =
-          "f0 is lognormal from impact to impact; a point is the mean e of those that rebound",
+          "f0 is lognormal from impact to impact, cut off at 2.62 standard deviations of ln f0; a "
+          "point is the mean e of those that rebound",
       .source = "Rabinovich, Y. I. et al. (2000), J. Colloid Interface Sci. 232, 10-16 (adhesion "
                 "between rough surfaces) for why adhesion scatters",
       .fingerprint = "flattens e(V) near capture and hides the capture velocity: spheres are seen "

@@ -188,6 +188,14 @@ const std::array<double, spread_nodes>& spread_positions() {
   return positions;
 }
 
+double cut_scale() {
+  // Variance of a normal distribution cut off at b: 1 - 2 b phi(b) / (2 Phi(b) - 1).
+  static const double scale =
+      1.0 / std::sqrt(1.0 - 2.0 * spread_reach * normal_density(spread_reach) /
+                                (2.0 * normal_probability(spread_reach) - 1.0));
+  return scale;
+}
+
 std::array<double, spread_nodes> interpolation_weights(double z) { return basis_at(z).value; }
 
 template <class T>

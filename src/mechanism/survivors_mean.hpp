@@ -8,10 +8,25 @@
 
 namespace recoil {
 
-/// Where the spheres of a point are sampled, in standard deviations: the Chebyshev-Lobatto points
-/// of [-spread_reach, spread_reach], where the distribution is cut off. Among some tens of impacts
-/// none lies further out; beyond, the picture "normal" is not known to hold.
+/// z of the spheres at which a point is sampled: the Chebyshev-Lobatto points of [-spread_reach,
+/// spread_reach], where the normal distribution of z is cut off. Among some tens of impacts none
+/// lies further out; beyond, the picture "normal" is not known to hold.
 const std::array<double, spread_nodes>& spread_positions();
+
+/// The scale that gives the cut distribution the standard deviation 1: what varies with the
+/// standard deviation s is s cut_scale() z. 1.0476.
+double cut_scale();
+
+/// ln of the mean of exp(s cut_scale() z) over the cut distribution.
+template <class T>
+T cut_lognormal_mean(const T& s) {
+  const auto within = [](const T& shift) {
+    return normal_probability(spread_reach - shift) -
+           normal_probability(-1.0 * shift - spread_reach);
+  };
+  const T shift = s * cut_scale();
+  return 0.5 * shift * shift + logarithm(within(shift) / within(T(0.0)));
+}
 
 /// What each node counts in the polynomial through all of them, at z.
 std::array<double, spread_nodes> interpolation_weights(double z);

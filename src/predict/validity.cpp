@@ -46,6 +46,30 @@ double undamped_contact(const ContactProperties& contact, double diameter, doubl
   return std::sqrt(n / r);
 }
 
+struct LargestContact {
+  double radius = 0.0;    ///< [m]
+  double pressure = 0.0;  ///< in its middle [Pa]
+};
+
+/// At the deepest penetration n [m] of an impact. Where the contact yields, at the end of the
+/// loading, at the pressure at which it flows. Else by the law: a^2 = R n; under jkr a^2 / R = n +
+/// (8 pi W a / 3K)^(1/2), where adhesion lowers the pressure 2 E* a / (pi R) by (2 W E* / (pi
+/// a))^(1/2) (Johnson 1985, section 5.5); under maugis a of the undamped impact.
+LargestContact largest_contact_of(AdhesionLaw law, const ContactView& view, double n, double work) {
+  const Encounter<double>& e = view.encounter;
+  if (e.flow_pressure > 0.0) return {e.flow_radius, e.flow_pressure};
+  const double radius = e.radius();
+  double a = law == AdhesionLaw::maugis ? std::sqrt(e.contact_square()) : std::sqrt(radius * n);
+  double lowered = 0.0;
+  if (law == AdhesionLaw::jkr) {
+    for (int step = 0; step < 100; ++step) {
+      a = std::sqrt(radius * (n + std::sqrt(8.0 * pi * work * a / (3.0 * e.stiffness))));
+    }
+    lowered = std::sqrt(2.0 * work * e.reduced_modulus() / (pi * a));
+  }
+  return {a, 2.0 * e.reduced_modulus() * a / (pi * radius) - lowered};
+}
+
 /// The points of one dataset at which a quantity can be worst: the largest contact, the fastest
 /// and the smallest sphere.
 std::vector<PointConditions> extreme_points(const FitResult& fitted, std::size_t dataset) {
@@ -84,8 +108,13 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
 
   const double radius = view.encounter.diameter / 2.0;
   const double modulus = 0.75 * contact.stiffness;  // E*
-  const double contact_radius = std::sqrt(impact.penetration_max * view.scales.length / radius);
-  const double pressure = 2.0 * modulus * contact_radius / pi;
+  const double f0 = view.encounter.adhesion_force;
+  // f0 is that of the curvature that unloads the contact.
+  const double work = adhesion_energy_for(f0, view.encounter.contact_radius, contact.stiffness);
+  const LargestContact largest =
+      largest_contact_of(model.adhesion, view, impact.penetration_max * view.scales.length, work);
+  const double contact_radius = largest.radius / radius;
+  const double pressure = largest.pressure;
   std::vector<Validity> found;
   const auto add = [&](ValidityQuantity quantity, double value, double limit) -> Validity& {
     found.push_back({quantity, value, limit, point.dataset, point.diameter, point.velocity});
@@ -103,18 +132,17 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
     found_yield.yield_pressure = yield_of(first);
     found_yield.yield_stated = first.yield_pressure().has_value();
   }
-  const double f0 = view.encounter.adhesion_force;
   const bool adheres = f0 > 0.0 && !without_adhesion(model, point.dataset);
   if (adheres && !traits(model.adhesion).has_range) {
-    // eq. 12: f0^3 = 9 W^2 K r / (2 pi)
-    const double work = std::sqrt(2.0 * pi * f0 * f0 * f0 / (9.0 * contact.stiffness * radius));
     const double tabor =
         std::cbrt(radius * work * work / (modulus * modulus)) / equilibrium_separation;
     add(ValidityQuantity::tabor, tabor, least_tabor);
   }
-  const double wave = std::sqrt(system.particle.youngs_modulus / system.particle.density);
-  add(ValidityQuantity::wave_transits,
-      impact.contact_time * view.scales.time * wave / view.encounter.diameter, least_transits);
+  if (view.encounter.flow_pressure == 0.0) {
+    const double wave = std::sqrt(system.particle.youngs_modulus / system.particle.density);
+    add(ValidityQuantity::wave_transits,
+        impact.contact_time * view.scales.time * wave / view.encounter.diameter, least_transits);
+  }
   return found;
 }
 

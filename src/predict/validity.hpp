@@ -12,10 +12,11 @@ namespace recoil {
 
 /// What has to be small, or large, for the equations of an impact to hold.
 enum class ValidityQuantity {
-  /// a_max / R, a^2 = r n. Hertz' theory takes the strains as small and the sphere as a parabola:
-  /// good to about 0.3.
+  /// a_max / R, a of the law of adhesion, or of the contact that has yielded. Hertz' theory takes
+  /// the strains as small and the sphere as a parabola: good to about 0.3.
   contact_radius,
-  /// p_0 / E*, p_0 = 2 E* a_max / (pi R), the largest pressure of the contact. No solid resists a
+  /// p_0 / E*, p_0 the largest pressure of the contact: 2 E* a_max / (pi R) where a^2 = R n, and
+  /// where it yields the pressure at which it does. No solid resists a
   /// shear of more than about a tenth of its modulus (Frenkel 1926, Z. Phys. 37, 572-609), and a
   /// contact flows at 2.8 times the yield stress (Tabor 1951, The Hardness of Metals): limit 0.3.
   pressure_modulus,
@@ -60,7 +61,8 @@ struct Validity {
 };
 
 /// Every quantity for one impact of a sphere as measured. Quantities that do not apply are left
-/// out: the Tabor parameter without adhesion, the yield pressure where the model yields.
+/// out: the Tabor parameter without adhesion, the yield pressure where the model yields, and the
+/// time of a contact that yields, which the model does not know.
 /// @param theta [slots]
 /// @return empty when the impact has no answer
 std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSystem& system,
