@@ -32,8 +32,8 @@ bool yields(const ImpactModel& model) {
 /// (2/5) K sqrt(r) n^(5/2) - (4/3) pi sqrt(r) f0 n^(3/2) = m V^2 / 2, by Newton from above.
 double undamped_contact(const ContactProperties& contact, double diameter, double velocity,
                         double f0) {
-  const double r = diameter / 2.0;
-  const double m = sphere_mass(diameter, contact.particle_density);
+  const double r = contact.relative_radius(diameter);
+  const double m = contact.reduced_mass(diameter, contact.particle_density);
   const double hertz =
       std::pow(1.25 * m * velocity * velocity / (contact.stiffness * std::sqrt(r)), 0.4);
   double n = hertz + 10.0 / 3.0 * pi * f0 / contact.stiffness;
@@ -83,7 +83,7 @@ std::vector<PointConditions> extreme_points(const FitResult& fitted, std::size_t
   const double f0 = adhesion_force_under(model, fitted.theta, dataset);
   const auto contact_of = [&](const PointConditions& p) {
     return undamped_contact(contact, p.diameter, p.velocity,
-                            adhesion_force_at(f0, contact.reference_diameter, p.diameter));
+                            contact.adhesion_force_at(f0, p.diameter));
   };
   const auto worst = [&](const auto& more) {
     return *std::max_element(
@@ -106,7 +106,7 @@ std::vector<Validity> impact_validity(const ImpactModel& model, const ImpactSyst
   const ImpactResult impact = simulate_impact(view.groups, options);
   if (!impact.usable()) return {};
 
-  const double radius = view.encounter.diameter / 2.0;
+  const double radius = view.encounter.radius();
   const double modulus = 0.75 * contact.stiffness;  // E*
   const double f0 = view.encounter.adhesion_force;
   // f0 is that of the curvature that unloads the contact.
