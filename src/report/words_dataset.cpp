@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "core/units.hpp"
 #include "data/dataset.hpp"
@@ -354,13 +355,11 @@ Sentence dependence_words(const TestedEffect& effect) {
 std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
                                             const std::vector<Dataset>& datasets) {
   std::vector<Sentence> means;
-  std::size_t more = 0;
+  double least = INFINITY, most = 0.0;
   for (const RestitutionMean& mean : summary.means) {
     if (mean.velocity) continue;
-    if (means.size() == most_series) {
-      ++more;
-      continue;
-    }
+    least = std::min(least, mean.value);
+    most = std::max(most, mean.value);
     const std::string count =
         fmt::format(" ({} point{})", mean.points, mean.points == 1 ? "" : "s");
     means.push_back(summary.several_series ? say("{} {}{}", series_words(mean, summary, datasets),
@@ -369,8 +368,9 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
   }
   if (means.empty()) return {};
   std::vector<Sentence> sentences = {
-      say("Mean {e}: {}{}.", join(means, "; "),
-          more > 0 ? fmt::format("; {} more series", more) : std::string())};
+      means.size() > most_series
+          ? say("Mean {e} of {} series: {:.3f} to {:.3f}.", means.size(), least, most)
+          : say("Mean {e}: {}.", join(means, "; "))};
   sentences.push_back(dependence_words(summary.velocity));
   const TestedEffect& differ = summary.series;
   if (differ.p_value) {
