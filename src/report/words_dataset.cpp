@@ -378,10 +378,14 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
     const auto name = [&](std::size_t k) {
       return series_words(summary.means[summary.most_different[k]], summary, datasets);
     };
-    sentences.push_back(*differ.p_value < shown_level
-                            ? say("The series differ ({}), {} from {} by {:.2g} {}.", p, name(0),
-                                  name(1), *differ.value, ends_words(differ, 1.0))
-                            : say("No difference between the series is seen ({}).", p));
+    if (*differ.p_value >= shown_level) {
+      sentences.push_back(say("No difference between the series is seen ({}).", p));
+    } else if (means.size() > most_series) {
+      sentences.push_back(say("The series differ ({}), by up to {:.2g}.", p, *differ.value));
+    } else {
+      sentences.push_back(say("The series differ ({}), {} from {} by {:.2g} {}.", p, name(0),
+                              name(1), *differ.value, ends_words(differ, 1.0)));
+    }
   }
   return sentences;
 }
