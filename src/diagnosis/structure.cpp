@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 #include "core/random.hpp"
 #include "diagnosis/discrepancy.hpp"
@@ -72,6 +73,13 @@ StructureStatistics::StructureStatistics(const Observations& data, const Refit& 
     used_[i] = !(data.points[i].censored && predicted[i] <= 0.0);
     slopes_[i] = weighted_residual(data.points[i], predicted[i], data.noise.student).slope;
   }
+  std::map<std::tuple<std::size_t, std::size_t, double, double>, std::size_t> impacts;
+  for (const Observation& point : data.points) {
+    const std::size_t next = impacts.size();
+    impact_.push_back(
+        impacts.try_emplace({point.dataset, point.series, point.diameter, point.velocity}, next)
+            .first->second);
+  }
   used_count_ = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
   for (std::size_t j = 0; j < p; ++j) {
     if (!fitted.moving[j]) continue;
@@ -102,6 +110,24 @@ bool StructureStatistics::orthogonalise(Column& column, const std::vector<Column
   return true;
 }
 
+/// A function is a slope times one number for each kind of impact, and so is what is left of it.
+/// The slopes in the Jacobian and in what whitens differ from these by rounding, which grows
+/// tenfold from one power of ln V to the next until it follows the readings themselves: it is taken
+/// out.
+void StructureStatistics::keep_to_impacts(Column& column) const {
+  std::vector<double> along(impact_.size(), 0.0), square(impact_.size(), 0.0);
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (!used_[i]) continue;
+    along[impact_[i]] += slopes_[i] * column[i];
+    square[impact_[i]] += slopes_[i] * slopes_[i];
+  }
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (used_[i]) column[i] = slopes_[i] * along[impact_[i]] / square[impact_[i]];
+  }
+  const double length = std::sqrt(dot(column, column));
+  for (double& value : column) value /= length;
+}
+
 /// Weighs and whitens `column`, a discrepancy of e^2, and keeps what neither the model nor `into`
 /// can follow.
 bool StructureStatistics::take(Column column, std::vector<Column>& into) const {
@@ -112,6 +138,7 @@ bool StructureStatistics::take(Column column, std::vector<Column>& into) const {
     if (!used_[i]) column[i] = 0.0;
   }
   if (!orthogonalise(column, into)) return false;
+  keep_to_impacts(column);
   into.push_back(std::move(column));
   return true;
 }

@@ -83,12 +83,14 @@ class StructureStatistics {
   void add_global_functions(const Observations& data);
   bool orthogonalise(Column& column, const std::vector<Column>& against) const;
   bool take(Column column, std::vector<Column>& into) const;
+  void keep_to_impacts(Column& column) const;
   double square_along(const std::vector<Column>& columns, std::span<const double> r) const;
 
   bool stated_ = true;
   bool noise_known_ = true;
-  std::vector<double> slopes_;                      // d residual / d e^2 [points]
-  SharedSettings settings_;                         // whiten functions as they did the residuals
+  std::vector<double> slopes_;       // d residual / d e^2 [points]
+  std::vector<std::size_t> impact_;  // number of the series, size and velocity [points]
+  SharedSettings settings_;          // whiten functions as they did the residuals
   std::shared_ptr<const Discrepancy> discrepancy_;  // likewise
   std::vector<bool> used_;
   std::size_t used_count_ = 0;

@@ -232,8 +232,8 @@ Section next_section(const Analysis& a) {
   if (a.spec.file.empty()) return next;
   const std::string file = a.spec.file.generic_string();
   next.blocks = {List{{say("what the model misses: {}", code("recoil diagnose " + file)),
-                       say("a page with pictures: {}", code("recoil report " + file)),
-                       say("all details: {}", code("recoil fit " + file + " --verbose"))}}};
+                       say("a page with pictures: {}; all details here: {}",
+                           code("recoil report " + file), code("--verbose"))}}};
   return next;
 }
 

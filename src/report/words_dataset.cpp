@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "core/units.hpp"
 #include "data/dataset.hpp"
@@ -387,13 +388,11 @@ Sentence dependence_words(const TestedEffect& effect) {
 std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
                                             const std::vector<Dataset>& datasets) {
   std::vector<Sentence> means;
-  std::size_t more = 0;
+  double least = INFINITY, most = 0.0;
   for (const RestitutionMean& mean : summary.means) {
     if (mean.velocity) continue;
-    if (means.size() == most_series) {
-      ++more;
-      continue;
-    }
+    least = std::min(least, mean.value);
+    most = std::max(most, mean.value);
     const std::string count =
         fmt::format(" ({} point{})", mean.points, mean.points == 1 ? "" : "s");
     means.push_back(summary.several_series ? say("{} {}{}", series_words(mean, summary, datasets),
@@ -402,8 +401,9 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
   }
   if (means.empty()) return {};
   std::vector<Sentence> sentences = {
-      say("Mean {e}: {}{}.", join(means, "; "),
-          more > 0 ? fmt::format("; {} more series", more) : std::string())};
+      means.size() > most_series
+          ? say("Mean {e} of {} series: {:.3f} to {:.3f}.", means.size(), least, most)
+          : say("Mean {e}: {}.", join(means, "; "))};
   sentences.push_back(dependence_words(summary.velocity));
   const TestedEffect& differ = summary.series;
   if (differ.p_value) {
@@ -411,10 +411,14 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
     const auto name = [&](std::size_t k) {
       return series_words(summary.means[summary.most_different[k]], summary, datasets);
     };
-    sentences.push_back(*differ.p_value < shown_level
-                            ? say("The series differ ({}), {} from {} by {:.2g} {}.", p, name(0),
-                                  name(1), *differ.value, ends_words(differ, 1.0))
-                            : say("No difference between the series is seen ({}).", p));
+    if (*differ.p_value >= shown_level) {
+      sentences.push_back(say("No difference between the series is seen ({}).", p));
+    } else if (means.size() > most_series) {
+      sentences.push_back(say("The series differ ({}), by up to {:.2g}.", p, *differ.value));
+    } else {
+      sentences.push_back(say("The series differ ({}), {} from {} by {:.2g} {}.", p, name(0),
+                              name(1), *differ.value, ends_words(differ, 1.0)));
+    }
   }
   return sentences;
 }

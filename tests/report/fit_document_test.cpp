@@ -192,7 +192,8 @@ TEST(FitDocument, FoldsTheDetailsUnderFiveHeadings) {
   for (const Section& section : page.sections) {
     if (section.importance == Importance::detail) details.push_back(section.id);
   }
-  EXPECT_THAT(details, ElementsAre("sizes", "certainty", "comparison", "warnings", "inputs"));
+  EXPECT_THAT(details,
+              ElementsAre("restitution", "sizes", "certainty", "comparison", "warnings", "inputs"));
 }
 
 TEST(FitDocument, StaysNarrowWhateverTheWordsAre) {

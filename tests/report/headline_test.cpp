@@ -16,6 +16,8 @@ Diagnosis answered(Verdict verdict, std::vector<std::string> rivals = {}) {
   Diagnosis d;
   d.verdict = verdict;
   d.rivals = std::move(rivals);
+  d.structure.tests = {{StructureQuestion::scatter, 1.0, 0.5},
+                       {StructureQuestion::trend, 1.0, 0.5}};
   return d;
 }
 
@@ -24,6 +26,12 @@ TEST(Headline, SaysWhatIsNamed) {
   d.named = {"plastic_yield", "gas_film"};
   EXPECT_EQ(headline(d), "What the model misses: plastic yield, gas film");
   EXPECT_EQ(headline(answered(Verdict::adequate)), "The model describes these points");
+}
+
+TEST(Headline, PraisesNoModelThatWasNotTested) {
+  Diagnosis d = answered(Verdict::adequate);
+  d.structure.tests.pop_back();  // the scatter alone was asked
+  EXPECT_EQ(headline(d), "These points cannot test the model");
 }
 
 TEST(Headline, TellsTheCertainFromTheDoubtful) {
