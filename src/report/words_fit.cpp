@@ -89,6 +89,10 @@ std::string setting_words(const Observations& data) {
   const std::string source =
       fmt::format("{}, {} settings, {} points", data.setting_sd_estimated ? "estimated" : "stated",
                   count.settings, count.points);
+  if (data.setting_velocity_stated && !(data.noise.setting_sd > 0.0)) {
+    return fmt::format("; the points of one setting share its stated error of velocity ({})",
+                       source);
+  }
   return data.noise.setting_sd > 0.0
              ? fmt::format("; the points of one setting share an error of e of {:.2g} ({})",
                            data.noise.setting_sd, source)
