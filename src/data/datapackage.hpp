@@ -31,6 +31,7 @@ enum class Quantity {
   events,
   captured,
   setting,
+  setting_velocity_sd,
   // The conditions, in the order of `Condition`.
   ambient_pressure,
   relative_humidity,
@@ -45,10 +46,10 @@ enum class Quantity {
 template <>
 struct NamesOf<Quantity> {
   static constexpr auto names = [] {
-    constexpr std::array<std::string_view, 11> own = {
-        "series",         "diameter",    "incident_velocity", "restitution", "rebound_velocity",
-        "restitution_sd", "velocity_sd", "diameter_sd",       "events",      "captured",
-        "setting"};
+    constexpr std::array<std::string_view, 12> own = {
+        "series",           "diameter",       "incident_velocity", "restitution",
+        "rebound_velocity", "restitution_sd", "velocity_sd",       "diameter_sd",
+        "events",           "captured",       "setting",           "setting_velocity_sd"};
     std::array<std::string_view, own.size() + count_of<Condition>> all{};
     for (std::size_t i = 0; i < own.size(); ++i) all[i] = own[i];
     for (const Condition condition : values_of<Condition>()) {

@@ -150,8 +150,9 @@ class PointReader {
     if (range.contains(converted)) return converted;
     const std::string problem = fmt::format("{} = {:g}{}", col.name, given, unit_suffix(col.unit));
     if (converted < 0.0 || (converted == 0.0 && range.lower > 0.0)) {
-      const bool optional = quantity == Quantity::restitution_sd ||
-                            quantity == Quantity::velocity_sd || quantity == Quantity::diameter_sd;
+      const bool optional =
+          quantity == Quantity::restitution_sd || quantity == Quantity::velocity_sd ||
+          quantity == Quantity::setting_velocity_sd || quantity == Quantity::diameter_sd;
       fail(*found, problem, range.lower > 0.0 ? "it has to be positive" : "it cannot be negative",
            optional ? "leave the cell empty when it is not known" : "correct it or remove the row");
     }
@@ -281,6 +282,7 @@ class PointReader {
     point.restitution = restitution(point);
     point.restitution_sd = value(Quantity::restitution_sd, limits::restitution_sd);
     point.velocity_sd = value(Quantity::velocity_sd, limits::velocity_sd);
+    point.setting_velocity_sd = value(Quantity::setting_velocity_sd, limits::velocity_sd);
     point.diameter_sd = value(Quantity::diameter_sd, limits::diameter_sd);
     if (const CsvField* const setting = cell(Quantity::setting)) point.setting = setting->text;
     remark(point);

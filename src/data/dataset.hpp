@@ -25,10 +25,13 @@ struct ImpactPoint {
   double restitution = 0.0;        ///< e = V_rebound / V [1], 0 <= e <= 1.2; 0 when all captured
   std::optional<double> restitution_sd;  ///< one standard deviation of `restitution` [1]
   std::optional<double> velocity_sd;     ///< one standard deviation of `incident_velocity` [m/s]
-  std::optional<double> diameter_sd;     ///< one standard deviation of `diameter` [m]
-  int events = 1;                        ///< impacts averaged in this point, captured ones included
-  int captured = 0;                      ///< how many of them did not rebound
-  bool counted = false;                  ///< `captured` is stated: 0 is a count, not unknown
+  /// One standard deviation of an error of `incident_velocity` that all points of its setting share
+  /// [m/s]; e, a ratio to this velocity, shares it.
+  std::optional<double> setting_velocity_sd;
+  std::optional<double> diameter_sd;  ///< one standard deviation of `diameter` [m]
+  int events = 1;                     ///< impacts averaged in this point, captured ones included
+  int captured = 0;                   ///< how many of them did not rebound
+  bool counted = false;               ///< `captured` is stated: 0 is a count, not unknown
   /// Points of one setting of the apparatus share its error. Empty without such a column: then
   /// points of one series, diameter and incident velocity have one setting.
   std::string setting;

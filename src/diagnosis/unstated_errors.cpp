@@ -269,7 +269,9 @@ Refit fit_with_settings(const SearchBase& base, double sd) {
 
 std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   const Observations& data = base.fitted.data;
-  if (base.spec.noise.setting_sd.value_or(0.0) > 0.0) return std::nullopt;  // somebody knows it
+  if (base.spec.noise.setting_sd.value_or(0.0) > 0.0 || data.setting_velocity_stated) {
+    return std::nullopt;  // somebody knows it
+  }
   if (!has_settings_of_several_points(data)) return std::nullopt;
   const int free = base.candidate.free_count;
   const double step = std::log(largest_error / smallest_setting_error) / (steps - 1);

@@ -31,7 +31,8 @@ struct MeasuredPoint {
   bool counted = false;           ///< captures were counted: `captured = 0` is a measurement
   bool rebound_measured = false;  ///< e is the quotient of two velocities: it shares the error of V
   double velocity_sd = 0.0;       ///< [m/s]; 0: none
-  double diameter_sd = 0.0;       ///< [m]; 0: none
+  double setting_velocity_sd = 0.0;  ///< of an error that its setting shares [m/s]; 0: none
+  double diameter_sd = 0.0;          ///< [m]; 0: none
 
   int rebounds() const { return events - captured; }
   /// Are there both rebounds and captures among the impacts of this point?
@@ -57,6 +58,7 @@ struct PointWeights {
   double scatter = 0.0;       ///< sd of e^2 from impact to impact [1]; 0: not in use
   double shift = 0.0;         ///< mean e^2 of the impacts minus that of the mean impact [1]
   double mean_sd = 0.0;       ///< sd of the mean e with its share of input_sd, beside scatter [1]
+  double setting_sd = 0.0;    ///< sd of e that the stated error of V of its setting causes [1]
   double setting_load = 0.0;  ///< |dr / de| of the residual times the error of e that the points of
                               ///< its setting share [1]
   DeviancePeak peak;          ///< where scatter is in use and some sphere rebounded

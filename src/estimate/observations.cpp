@@ -40,6 +40,7 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
   if (spec.velocity_errors) {
     point.velocity_sd = p.velocity_sd.value_or(spec.velocity_relative_sd * p.incident_velocity);
   }
+  point.setting_velocity_sd = p.setting_velocity_sd.value_or(0.0);
   if (spec.diameter_errors) {
     point.diameter_sd = p.diameter_sd.value_or(spec.diameter_relative_sd * p.diameter);
   }
@@ -153,7 +154,15 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
     }
   }
   const bool several = number_settings(datasets, data);
-  data.setting_sd_estimated = several && !spec.setting_sd && !spec.student;
+  data.setting_velocity_stated =
+      std::any_of(data.points.begin(), data.points.end(),
+                  [](const Observation& point) { return point.setting_velocity_sd > 0.0; });
+  if (data.setting_velocity_stated && spec.student) {
+    throw InputError({}, "residuals = \"student\" beside setting_velocity_sd",
+                     "errors that points share are normal", "leave out one of them");
+  }
+  data.setting_sd_estimated = several && !spec.setting_sd && !spec.student &&
+                              (spec.every_setting || !data.setting_velocity_stated);
   if (spec.variance == VarianceFunction::stated && missing > 0) {
     throw InputError(
         variance_place,

@@ -59,9 +59,11 @@ struct Observations {
   /// Is the error that the points of one setting share to be estimated from them? By default where
   /// a dataset names its settings and some have several points.
   bool setting_sd_estimated = false;
+  /// Is an error of V that the points of a setting share stated?
+  bool setting_velocity_stated = false;
   /// Do the points of one setting share an error, stated or estimated?
   bool shares_settings() const {
-    return setting_sd_estimated || spec.setting_sd.value_or(0.0) > 0.0;
+    return setting_sd_estimated || setting_velocity_stated || spec.setting_sd.value_or(0.0) > 0.0;
   }
 
   /// Must the weights be found together with the parameters?

@@ -167,6 +167,7 @@ bool too_few_settings(const Observations& data, int free_count) {
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data) {
   if (!data.shares_settings()) return;
   double& error = data.noise.setting_sd;
+<<<<<<< HEAD
   if (data.spec.setting_sd) {
     error = *data.spec.setting_sd;
   } else if (too_few_settings(data, free_count)) {
@@ -175,23 +176,31 @@ void renew_settings(std::span<const double> predicted, int free_count, Observati
     error = std::min(estimated_setting_error(data, predicted, free_count, series_offsets(data)),
                      stated_setting_error(data));
   }
+=======
+  error = data.spec.setting_sd        ? *data.spec.setting_sd
+          : data.setting_sd_estimated ? estimated_setting_error(data, predicted, free_count)
+                                      : 0.0;
+>>>>>>> files
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     Observation& point = data.points[i];
     point.weights.setting_load =
         point.censored
             ? 0.0
-            : error * slope_in_restitution(weighted_residual(point, predicted[i]), predicted[i]);
+            : std::hypot(error, point.weights.setting_sd) *
+                  slope_in_restitution(weighted_residual(point, predicted[i]), predicted[i]);
   }
 }
 
 std::vector<double> draw_setting_errors(const Observations& data, RandomStream& random) {
   std::vector<double> errors(data.points.size(), 0.0);
-  if (!(data.noise.setting_sd > 0.0)) return errors;
-  std::map<std::size_t, double> drawn;
+  if (!(data.noise.setting_sd > 0.0) && !data.setting_velocity_stated) return errors;
+  std::map<std::size_t, double> drawn;  // in standard deviations
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const auto [place, is_new] = drawn.try_emplace(data.points[i].setting, 0.0);
-    if (is_new) place->second = data.noise.setting_sd * random.normal();
-    errors[i] = place->second;
+    if (is_new) place->second = random.normal();
+    const double stated = data.points[i].weights.setting_sd;
+    errors[i] = place->second *
+                (stated > 0.0 ? std::hypot(data.noise.setting_sd, stated) : data.noise.setting_sd);
   }
   return errors;
 }

@@ -12,9 +12,10 @@ namespace recoil {
 double slope_in_restitution(const WeightedResidual& residual, double restitution_squared);
 
 /// The errors that the points of one setting of the apparatus share: a height, a day. Every setting
-/// k has an error z_k of e, normal with standard deviation sigma, so that the weighted residuals r
-/// of its points have the covariance I + g g', with loads g_i = sigma |dr_i / de|. Whitening takes
-/// them to
+/// k has an error z_k of e, normal with standard deviation sigma, to which a stated error s of its
+/// V adds |e + V de/dV| s / V in quadrature (its points have one V, so that both act alike), so
+/// that the weighted residuals r of its points have the covariance I + g g', with loads g_i = sigma
+/// |dr_i / de|. Whitening takes them to
 ///   (I + g g')^(-1/2) r = r - c g (g'r),  c = (1 - 1 / sqrt(1 + g'g)) / g'g,
 /// whose sum of squares is that of the generalised least squares. A captured point has no e, and
 /// its load is 0.

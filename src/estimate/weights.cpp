@@ -81,6 +81,8 @@ class Renewal {
       all.push_back(p.conditions());
       if (everything_ && p.velocity_sd > 0.0)
         beside(p, error_step(p.velocity_sd / p.velocity), true);
+      if (everything_ && p.setting_velocity_sd > 0.0)
+        beside(p, error_step(p.setting_velocity_sd / p.velocity), true);
       if (everything_ && p.diameter_sd > 0.0)
         beside(p, error_step(p.diameter_sd / p.diameter), false);
       if (mixed_) beside(p, std::sqrt(3.0) * data_.noise.event_spread, true);
@@ -149,15 +151,22 @@ class Renewal {
     }
     double variance = 0.0;
     point.weights.input_bias = 0.0;
-    for (const bool in_velocity : {true, false}) {
-      const double relative =
-          in_velocity ? point.velocity_sd / point.velocity : point.diameter_sd / point.diameter;
-      if (!(relative > 0.0)) continue;
+    point.weights.setting_sd = 0.0;
+    const auto add = [&](double relative, double shared) {
+      if (!(relative > 0.0)) return;
       const Local at = local(m, error_step(relative));
-      const double shared = in_velocity && point.rebound_measured ? 2.0 * std::max(m, 0.0) : 0.0;
       variance += std::pow((at.slope + shared) * relative, 2);
       point.weights.input_bias += 0.5 * at.bend * relative * relative;
+    };
+    const double of_ratio = 2.0 * std::max(m, 0.0);  // d e^2 / d ln V of e = V_rebound / V
+    add(point.velocity_sd / point.velocity, point.rebound_measured ? of_ratio : 0.0);
+    if (const double relative = point.setting_velocity_sd / point.velocity; relative > 0.0) {
+      const Local at = local(m, error_step(relative));
+      if (m > 0.0) {
+        point.weights.setting_sd = std::abs(at.slope + of_ratio) * relative / (2.0 * std::sqrt(m));
+      }
     }
+    add(point.diameter_sd / point.diameter, 0.0);
     point.weights.input_sd = std::sqrt(variance);
   }
 

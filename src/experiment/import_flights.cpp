@@ -150,14 +150,18 @@ std::vector<Drops> joined(const std::vector<Drops>& drops) {
 
 /// The mean of the drops. Their error is that of the rebound heights, as stated or as the
 /// repetitions show it, whichever is larger, and that of the drop height, which they share.
-ImportedPoint mean_of(const Drops& drops) {
+/// @param shared other points share the drop height: its error is one of V of their setting, and
+/// not
+///   in that of e
+ImportedPoint mean_of(const Drops& drops, bool shared) {
   ImportedPoint point;
   point.series = drops.series;
   point.line = drops.line;
   point.value[Quantity::diameter] = drops.diameter;
   point.value[Quantity::incident_velocity] = drops.velocity;
   if (drops.height_sd > 0.0) {
-    point.value[Quantity::velocity_sd] = 0.5 * drops.velocity * drops.height_sd / drops.height;
+    point.value[shared ? Quantity::setting_velocity_sd : Quantity::velocity_sd] =
+        0.5 * drops.velocity * drops.height_sd / drops.height;
   }
   if (drops.e.empty()) return point;
   const double n = static_cast<double>(drops.e.size());
@@ -170,7 +174,8 @@ ImportedPoint mean_of(const Drops& drops) {
   double own =
       drops.rebound_sd / (2.0 * drops.height * in_vacuum) * (mean / in_vacuum) / std::sqrt(n);
   if (drops.e.size() > 1) own = std::max(own, std::sqrt(squares / (n - 1.0) / n));
-  const double sd = std::hypot(own, 0.5 * mean * drops.height_sd / drops.height);
+  const double of_height = shared ? 0.0 : 0.5 * mean * drops.height_sd / drops.height;
+  const double sd = std::hypot(own, of_height);
   point.value[Quantity::restitution] = mean;
   if (sd > 0.0) point.value[Quantity::restitution_sd] = sd;
   return point;
@@ -442,14 +447,15 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
   out.notes = table.notes();
   bool few = false;
   for (const Drops& d : drops) {
-    ImportedPoint point = mean_of(d);
+    const bool shared = groups_of_height[{d.series, d.height}] > 1;
+    ImportedPoint point = mean_of(d, shared);
     few = few || (d.e.size() > 1 && d.e.size() < 5);
     if (request.average || counted) {
       point.value[Quantity::events] = static_cast<double>(d.e.size()) + d.captured;
     }
     if (counted) point.value[Quantity::captured] = d.captured;
     // Drops from one height share the error with which it was set.
-    if (groups_of_height[{d.series, d.height}] > 1) {
+    if (shared) {
       point.setting = fmt::format("{} from {:.6g} mm", d.series, d.height / units::mm);
     }
     out.points.push_back(point);

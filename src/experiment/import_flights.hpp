@@ -16,9 +16,11 @@ bool air_acts(const Air& air);
 
 /// Drop height h1 and rebound height h2. In vacuum e = sqrt(h2 / h1), V = sqrt(2 g h1); in air V is
 /// the end of the fall and e V the launch that rises to h2 (see AirFlight).
-/// sd(e) = (e/2) sqrt((s1/h1)^2 + (s2/h2)^2), sd(V) = (V/2) s1/h1. With `average`, drops from the
-/// same height make one point: the mean e, its standard error from their scatter, and s1 once. A
-/// rebound height of zero, or an e below `captured_below`, is a capture, and in no mean.
+/// sd(e) = (e/2) sqrt((s1/h1)^2 + (s2/h2)^2), sd(V) = (V/2) s1/h1. Where several points come from
+/// one height, its error is shared: setting_velocity_sd = (V/2) s1/h1 and sd(e) = (e/2) s2/h2. With
+/// `average`, drops from the same height make one point: the mean e, its standard error from their
+/// scatter, and s1 once. A rebound height of zero, or an e below `captured_below`, is a capture,
+/// and in no mean.
 ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sphere);
 
 /// Flights of duration t between bounces. In vacuum a ball that leaves with v returns after t = 2 v

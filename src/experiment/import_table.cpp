@@ -149,6 +149,13 @@ CsvRow cells_of(std::string_view line, char delimiter) {
   return cells;
 }
 
+/// "m/s" of "(m/s)" or "[m/s]".
+std::string without_brackets(const std::string& text) {
+  const bool enclosed = text.size() > 2 && ((text.front() == '(' && text.back() == ')') ||
+                                            (text.front() == '[' && text.back() == ']'));
+  return enclosed ? text.substr(1, text.size() - 2) : text;
+}
+
 bool has_number(const CsvRow& row, const NumberFormat& format) {
   return std::any_of(row.begin(), row.end(),
                      [&](const CsvField& cell) { return parse_number(cell.text, format); });
@@ -436,6 +443,14 @@ void ImportTable::read_header() {
   });
   if (named_) {
     rows_.erase(rows_.begin());
+    const auto is_unit = [](const CsvField& cell) {
+      return cell.text.empty() || dimension_of_unit(without_brackets(cell.text));
+    };
+    if (rows_.size() > 1 && filled(rows_.front()) > 0 && !has_number(rows_.front(), format_) &&
+        std::all_of(rows_.front().begin(), rows_.front().end(), is_unit)) {
+      units_ = rows_.front();
+      rows_.erase(rows_.begin());
+    }
     return;
   }
   for (std::size_t i = 0; i < header_.size(); ++i) header_[i].text = std::to_string(i + 1);
@@ -565,6 +580,7 @@ Scale ImportTable::scale_of(const ImportQuantity& quantity, const std::string& u
                             std::size_t column) const {
   const CsvField& cell = header_[column];
   std::string name = unit.empty() ? unit_in_brackets(cell.text) : unit;
+  if (name.empty() && column < units_.size()) name = without_brackets(units_[column].text);
   // "0.35mm", or a factor to SI: "0.0254"
   const auto factor = number_and_rest(name);
   if (factor) name = factor->second;

@@ -161,6 +161,7 @@ class ImportTable {
   NumberFormat format_;
   std::vector<ImportQuantity> known_;
   CsvRow header_;
+  CsvRow units_;       ///< a row below the header that has nothing but units; may be empty
   bool named_ = true;  ///< the columns have a header
   std::vector<CsvRow> rows_;
   std::size_t replicates_ = 1;

@@ -92,7 +92,8 @@ std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations&
   if ((scheme == Scheme::residual || scheme == Scheme::wild) && all_captured) {
     return SchemeObstacle::no_residuals;
   }
-  if ((scheme == Scheme::residual || scheme == Scheme::cases) && data.noise.setting_sd > 0.0) {
+  if ((scheme == Scheme::residual || scheme == Scheme::cases) &&
+      (data.noise.setting_sd > 0.0 || data.setting_velocity_stated)) {
     return SchemeObstacle::shared_settings;
   }
   if (scheme == Scheme::cluster && clusters_of(data).size() < 2) {

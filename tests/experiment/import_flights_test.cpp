@@ -97,6 +97,22 @@ TEST(Heights, SpheresThatStayedAreCountedAndInNoMean) {
   EXPECT_NEAR(one_by_one.points[4].restitution, 0.05, 1e-12) << "below no limit that was stated";
 }
 
+TEST(Heights, DropsFromOneHeightShareItsError) {
+  const Place place;
+  auto request = place.request("h1,h2\n1,0.64\n1,0.5625\n0.5,0.32\n", ImportFormat::heights);
+  request.map = {"drop_height=h1:m,rebound_height=h2:m"};
+  request.drop_error = "10mm";
+  request.rebound_error = "1mm";
+  const Dataset made = recoil::import_points(request).dataset;
+  const double velocity = std::sqrt(2.0 * 9.80665);
+  EXPECT_NEAR(*made.points[0].setting_velocity_sd, velocity * 0.005, 1e-8);
+  EXPECT_FALSE(made.points[0].velocity_sd.has_value());
+  EXPECT_NEAR(*made.points[0].restitution_sd, 0.8 * 0.5 * 0.001 / 0.64, 1e-9);
+  // A height from which one drop was made has errors of its own.
+  EXPECT_FALSE(made.points[2].setting_velocity_sd.has_value());
+  EXPECT_NEAR(*made.points[2].velocity_sd, velocity * std::sqrt(0.5) * 0.01, 1e-8);
+}
+
 TEST(Intervals, OneRestitutionPerBounce) {
   const Place place;
   auto request =

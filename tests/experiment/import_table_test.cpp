@@ -324,6 +324,16 @@ TEST(Forms, UnitsFactorsConstantsAndSigns) {
   EXPECT_DOUBLE_EQ(recoil::import_points(pixels).dataset.points[0].incident_velocity, 0.035);
 }
 
+TEST(Forms, ARowOfUnitsBelowTheHeader) {
+  const Place place;
+  auto request = place.request("V\te\tnote\n(cm/s)\t[%]\t\n100\t50\tx\n", ImportFormat::csv);
+  request.map = {"incident_velocity=V,restitution=e"};
+  const Dataset made = recoil::import_points(request).dataset;
+  ASSERT_EQ(made.points.size(), 1U);
+  EXPECT_DOUBLE_EQ(made.points[0].incident_velocity, 1.0);
+  EXPECT_DOUBLE_EQ(made.points[0].restitution, 0.5);
+}
+
 TEST(Forms, ErrorsBesideTheirValues) {
   const Place place;
   auto request = place.request(

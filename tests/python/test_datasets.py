@@ -90,3 +90,14 @@ def test_materials_that_are_missing_are_asked_for(here):
         recoil.Dataset.from_pandas(frame, particle=PARTICLE, provenance="synthetic")
     with pytest.raises(recoil.InputError, match="provenance is not known"):
         recoil.Dataset.from_pandas(frame, particle=PARTICLE, surface=SURFACE)
+
+
+def test_true_and_false_are_captures(here):
+    frame = pd.DataFrame({"series": ["a", "a"], "diameter": [4.0, 4.0],
+                          "incident_velocity": [0.5, 2.0], "restitution": [np.nan, 0.8],
+                          "captured": [True, False]})
+    made = recoil.Dataset.from_pandas(frame, "own", particle=PARTICLE, surface=SURFACE,
+                                      provenance="synthetic")
+    again = made.to_pandas()
+    assert list(again["captured"]) == [True, False]
+    assert made.package["resources"][0]["schema"]["fields"][-1]["type"] == "boolean"
