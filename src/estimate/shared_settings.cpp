@@ -167,20 +167,14 @@ bool too_few_settings(const Observations& data, int free_count) {
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data) {
   if (!data.shares_settings()) return;
   double& error = data.noise.setting_sd;
-<<<<<<< HEAD
   if (data.spec.setting_sd) {
     error = *data.spec.setting_sd;
-  } else if (too_few_settings(data, free_count)) {
+  } else if (!data.setting_sd_estimated || too_few_settings(data, free_count)) {
     error = 0.0;
   } else {
     error = std::min(estimated_setting_error(data, predicted, free_count, series_offsets(data)),
                      stated_setting_error(data));
   }
-=======
-  error = data.spec.setting_sd        ? *data.spec.setting_sd
-          : data.setting_sd_estimated ? estimated_setting_error(data, predicted, free_count)
-                                      : 0.0;
->>>>>>> files
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     Observation& point = data.points[i];
     point.weights.setting_load =

@@ -96,17 +96,15 @@ std::string setting_words(const Observations& data, int free_count) {
   const std::string source =
       fmt::format("{}, {} settings, {} points", data.setting_sd_estimated ? "estimated" : "stated",
                   count.settings, count.points);
-<<<<<<< HEAD
+  if (data.setting_velocity_stated && !(data.noise.setting_sd > 0.0)) {
+    return fmt::format("; the points of one setting share its stated error of velocity ({})",
+                       source);
+  }
   if (too_few_settings(data, free_count)) {
     return fmt::format(
         "; an error that the points of one setting share cannot be estimated from so few settings "
         "({})",
         source);
-=======
-  if (data.setting_velocity_stated && !(data.noise.setting_sd > 0.0)) {
-    return fmt::format("; the points of one setting share its stated error of velocity ({})",
-                       source);
->>>>>>> files
   }
   return data.noise.setting_sd > 0.0
              ? fmt::format("; the points of one setting share an error of e of {:.2g} ({})",

@@ -223,7 +223,6 @@ TEST(SharedSettings, FewerSettingsThanParametersSayNothing) {
   EXPECT_EQ(result.data.noise.setting_sd, 0.0);
 }
 
-<<<<<<< HEAD
 /// Five deviations are the least that say how large sigma is; with C_H and C_A free that takes
 /// seven settings.
 TEST(SharedSettings, FewSettingsGiveNoEstimate) {
@@ -262,7 +261,8 @@ TEST(SharedSettings, AreBoundedByWhatIsStatedOfTheVelocities) {
     most = std::max(most, 0.01 * point.restitution);
   }
   EXPECT_NEAR(fitted(data).data.noise.setting_sd, most, 1e-12);
-=======
+}
+
 /// Drops from heights whose velocities are off by `relative` of V, the same for all drops of one:
 /// e is read as the rebound over the velocity that was meant.
 Dataset measured_from_heights(double relative, int settings, int each, unsigned seed) {
@@ -334,7 +334,6 @@ TEST(SettingVelocities, DoNotGoWithStudentsResiduals) {
   NoiseSpec noise;
   noise.student = true;
   EXPECT_THROW(gather({measured_from_heights(0.02, 4, 3, 1)}, noise), InputError);
->>>>>>> files
 }
 
 }  // namespace
