@@ -89,6 +89,31 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
   fmt::print("{}", terminal_text(table, indent));
 }
 
+/// Where the energy of the whole impact went, mechanisms included.
+Table whole_energy_table(const ImpactModel& model, const WholeImpactEnergy& energy) {
+  Table table;
+  table.caption =
+      say("energy budget of the whole impact, of {:.6g} J incident as measured:", energy.incident);
+  table.columns = {{}, {"share", "%"}, {"energy", "J"}};
+  double left = energy.incident;
+  const auto share = [&](const std::string& name, double taken) {
+    left -= taken;
+    if (taken == 0.0) return;
+    table.rows.push_back({Sentence(name), Number{100.0 * taken / energy.incident, fixed(5)},
+                          Number{taken, significant(6)}});
+  };
+  for (std::size_t k = 0; k < energy.in.size(); ++k) {
+    share(std::string(model.chain[k]->info.id) + ", on the way in", energy.in[k]);
+  }
+  share("the impact of the base model (below)", energy.contact);
+  for (std::size_t k = energy.out.size(); k-- > 0;) {
+    share(std::string(model.chain[k]->info.id) + ", on the way out", energy.out[k]);
+  }
+  share(energy.rebound > 0.0 ? "rebound" : "lacking for a rebound", energy.rebound);
+  table.rows.push_back({"audit (should be 0)", Number{left / energy.incident, scientific(1)}, {}});
+  return table;
+}
+
 /// Where the incident energy went.
 /// @param jumps what the contact loses by itself, in jumping in and out [m V^2]
 Table energy_budget(const ImpactGroups& groups, const ImpactScales& scales,
@@ -217,7 +242,10 @@ void simulate(const SimulateOptions& options) {
                  ? "initial values of the fit file (--parameters fit.json takes fitted ones)"
                  : "from " + options.parameters,
              start.hertz_damping, start.adhesion_damping);
-  if (simulated.extended) print_mechanisms(model, d, at.diameter, at.velocity);
+  if (simulated.extended) {
+    print_mechanisms(model, d, at.diameter, at.velocity);
+    fmt::print("{}", terminal_text(whole_energy_table(model, simulated.whole), indent));
+  }
   print_impact(simulated, datasets[d], model.contacts[d], model.phase);
   fmt::print("{}", terminal_text(validity_table(simulated.validity), indent));
   for (const std::string& sentence : passed_limits(simulated.validity, {})) {

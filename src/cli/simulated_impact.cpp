@@ -97,6 +97,7 @@ SimulatedImpact simulate_at(const ImpactModel& model, const std::vector<Dataset>
   out.impact = simulate_impact(out.groups, options, &out.history);
   if (!out.impact.usable()) refuse_impact(at, "", out.impact.outcome);
   if (out.yields) out.history.clear();
+  if (out.extended) out.whole = whole_impact_energy(model, theta, at, out.impact);
   if (!out.extended) out.restitution_squared = out.impact.restitution_squared;
   out.jumps = lost_by_jumps(out.groups, options);
   out.validity = impact_validity(model, datasets[at.dataset].system, theta, at);
@@ -150,6 +151,18 @@ std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>
   out["restitution_squared"] = number_or_null(s.restitution_squared);
   out["outcome"] = s.captured() ? "captured" : "rebound";
   out["rebound_velocity"] = number_or_null(e * s.asked.velocity);
+  if (s.extended) {
+    Json mechanisms = Json::array();
+    for (std::size_t k = 0; k < model.chain.size(); ++k) {
+      mechanisms.push_back({{"id", std::string(model.chain[k]->info.id)},
+                            {"on_the_way_in", number_or_null(s.whole.in[k])},
+                            {"on_the_way_out", number_or_null(s.whole.out[k])}});
+    }
+    out["whole_impact_J"] = {{"incident", number_or_null(s.whole.incident)},
+                             {"mechanisms", mechanisms},
+                             {"contact", number_or_null(s.whole.contact)},
+                             {"rebound", number_or_null(s.whole.rebound)}};
+  }
   out["contact"] = contact_json(s);
   out["validity"] = Json::array();
   for (const Validity& one : s.validity) {

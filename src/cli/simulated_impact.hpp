@@ -28,6 +28,7 @@ struct SimulatedImpact {
   ImpactScales scales;
   ImpactResult impact;  ///< of the base model, with budget and gradient
   double jumps = 0.0;   ///< what the contact loses in jumping in and out, without damping [m V^2]
+  WholeImpactEnergy whole;  ///< with mechanisms
   std::vector<ImpactMoment> history;
   std::vector<Validity> validity;
 

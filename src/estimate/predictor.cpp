@@ -297,8 +297,11 @@ Prediction predict(const ImpactModel& model, std::span<const double> theta, std:
   return predict(model, theta, {{dataset, diameter, velocity}}, gradient).front();
 }
 
-ContactView contact_view(const ImpactModel& model, std::span<const double> theta,
-                         const PointConditions& point) {
+namespace {
+
+/// C_H, C_A, f0, then the parameters of the chain, as they act on `point`.
+std::vector<double> values_at(const ImpactModel& model, std::span<const double> theta,
+                              const PointConditions& point) {
   std::vector<double> values = {theta[model.slot_C_H[point.dataset]],
                                 theta[model.slot_C_A[point.dataset]],
                                 adhesion_force_under(model, theta, point.dataset)};
@@ -309,11 +312,25 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
       values.push_back(slot ? theta[*slot] : p.null_value);
     }
   }
+  return values;
+}
+
+}  // namespace
+
+ContactView contact_view(const ImpactModel& model, std::span<const double> theta,
+                         const PointConditions& point) {
   const Surroundings now = surroundings_under(model, theta, point.dataset);
-  ContactView view =
-      view_contact(model.chain, {&now, point.diameter, point.velocity, point.series}, values);
+  ContactView view = view_contact(model.chain, {&now, point.diameter, point.velocity, point.series},
+                                  values_at(model, theta, point));
   view.encounter.at = &model.surroundings[point.dataset];
   return view;
+}
+
+WholeImpactEnergy whole_impact_energy(const ImpactModel& model, std::span<const double> theta,
+                                      const PointConditions& point, const ImpactResult& impact) {
+  const Surroundings now = surroundings_under(model, theta, point.dataset);
+  return whole_impact_energy(model.chain, {&now, point.diameter, point.velocity, point.series},
+                             values_at(model, theta, point), impact);
 }
 
 }  // namespace recoil

@@ -103,4 +103,8 @@ ContactView contact_view(const ImpactModel& model, std::span<const double> theta
 std::vector<Prediction> predict(const ImpactModel& model, std::span<const double> theta,
                                 std::vector<PointConditions> points, bool gradient);
 
+/// Where the kinetic energy of that sphere goes. @param impact of the base model at its contact
+WholeImpactEnergy whole_impact_energy(const ImpactModel& model, std::span<const double> theta,
+                                      const PointConditions& point, const ImpactResult& impact);
+
 }  // namespace recoil

@@ -327,4 +327,35 @@ ContactView view_contact(std::span<const Mechanism* const> chain, const Extended
   return view;
 }
 
+WholeImpactEnergy whole_impact_energy(std::span<const Mechanism* const> chain,
+                                      const ExtendedPoint& point, std::span<const double> values,
+                                      const ImpactResult& impact) {
+  const std::span<const double> own = values.subspan(base_directions - 2);
+  Encounter<double> e = approaching<double>(point, values, point.velocity, point.diameter);
+  WholeImpactEnergy energy;
+  along<double>(chain, own, [&](const Mechanism& mechanism, std::span<const double> its) {
+    const MechanismLaw<double>& law = mechanism.law<double>();
+    if (law.vary != nullptr) law.vary(e, its, 0.0);
+    const double before = e.velocity * e.velocity + e.square;
+    if (law.before != nullptr) law.before(e, its);
+    energy.in.push_back(before - e.velocity * e.velocity - e.square);
+  });
+  const double returned = base_square(groups_at_contact(e), impact) * e.velocity * e.velocity;
+  energy.contact = e.velocity * e.velocity - returned;
+  e.square += returned;
+  back_along<double>(chain, own, [&](const Mechanism& mechanism, std::span<const double> its) {
+    const MechanismLaw<double>& law = mechanism.law<double>();
+    const double before = e.square;
+    if (law.after != nullptr) law.after(e, its);
+    energy.out.insert(energy.out.begin(), before - e.square);
+  });
+  const double half_mass = 0.5 * e.mass();
+  energy.incident = half_mass * point.velocity * point.velocity;
+  energy.contact *= half_mass;
+  energy.rebound = half_mass * e.square;
+  for (double& taken : energy.in) taken *= half_mass;
+  for (double& taken : energy.out) taken *= half_mass;
+  return energy;
+}
+
 }  // namespace recoil

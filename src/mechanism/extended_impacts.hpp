@@ -104,4 +104,18 @@ struct ContactView {
 ContactView view_contact(std::span<const Mechanism* const> chain, const ExtendedPoint& point,
                          std::span<const double> values);
 
+/// Where the kinetic energy of one sphere goes, the middle one where spheres of a point differ [J].
+/// An error of the measurement counts as energy between what is read and what moves.
+struct WholeImpactEnergy {
+  double incident = 0.0;   ///< m V^2 / 2 as measured
+  std::vector<double> in;  ///< what each mechanism of the chain takes on the way in; below 0: gives
+  double contact = 0.0;    ///< what the impact of the base model takes
+  std::vector<double> out;  ///< what each takes on the way out
+  double rebound = 0.0;     ///< what is left; below 0: what a captured sphere lacks
+};
+/// @param impact of the base model at the contact, see `view_contact`
+WholeImpactEnergy whole_impact_energy(std::span<const Mechanism* const> chain,
+                                      const ExtendedPoint& point, std::span<const double> values,
+                                      const ImpactResult& impact);
+
 }  // namespace recoil

@@ -244,7 +244,8 @@ std::string several_words(const Diagnosis& d) {
                : fmt::format("It takes two causes at once: {}, and one of {}.",
                              titles_of(d.common, " and "), titles_of(others, "; "));
   }
-  return fmt::format("These data cannot tell which of these causes it is: {}.", all);
+  return fmt::format(
+      "These data cannot tell which of these causes it is, or whether it is another one: {}.", all);
 }
 
 /// What has the shape of the misfit, and why it is not believed all the same.

@@ -11,6 +11,7 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/predictor.hpp"
+#include "impact/reference_solver.hpp"
 #include "mechanism/catalogue.hpp"
 #include "support/independent_impact.hpp"
 #include "support/synthetic.hpp"
@@ -135,6 +136,30 @@ TEST(MechanismFit, NullValuesGiveTheBaseModel) {
                 predict(base, base.initial(), 0, 4.9e-6, v, false).restitution_squared, 1e-10);
   }
   EXPECT_EQ(base.initial().size(), 3U);
+}
+
+// Every joule is found once.
+TEST(WholeImpact, EnergyIsWhatPredictionsLeave) {
+  const std::vector<Dataset> datasets = {synthetic::dataset({})};
+  const ImpactModel model =
+      make_model(parsed("\"plastic_yield\", \"gas_film\", \"hysteretic_loss\"", ""), datasets);
+  const std::vector<double> theta = model.initial();
+  for (const double v : {4.0, 20.0}) {
+    const PointConditions point = {0, 4.9e-6, v};
+    const ContactView view = contact_view(model, theta, point);
+    const ImpactResult impact = simulate_impact(view.groups, model.impact_options(false));
+    const WholeImpactEnergy energy = whole_impact_energy(model, theta, point, impact);
+    EXPECT_NEAR(energy.incident, 0.5 * mass(4.9e-6) * v * v, 1e-9 * energy.incident);
+    EXPECT_NEAR(energy.rebound / energy.incident,
+                predict(model, theta, 0, 4.9e-6, v, false).restitution_squared, 1e-6);
+    double sum = energy.contact + energy.rebound;
+    for (std::size_t k = 0; k < 3; ++k) sum += energy.in[k] + energy.out[k];
+    EXPECT_NEAR(sum / energy.incident, 1.0, 1e-12);
+    EXPECT_GT(energy.in[1], 0.0);  // the film slows the sphere on both ways
+    EXPECT_GT(energy.out[1], 0.0);
+    EXPECT_EQ(energy.in[2], 0.0);
+    EXPECT_GT(energy.out[2], 0.0);
+  }
 }
 
 TEST(MechanismCapture, FollowsTheExtendedModelAndForgetsTheMeasurement) {
