@@ -241,8 +241,8 @@ void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
 
 ImportResult import_points(const ImportRequest& request) {
   require_free(request);
-  require_table_file(request.file);
-  read_text_file(request.file);  // a missing file is reported before missing options
+  std::vector<ImportNote> unused;
+  table_text(request.file, unused);  // a missing file is reported before missing options
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();
   ImportResult result;

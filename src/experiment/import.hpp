@@ -77,6 +77,7 @@ struct ImportRequest {
 /// An assumption, an omission or the result of a check.
 enum class ImportRemark {
   encoding_assumed,      ///< the file is not UTF-8 and was read as Windows-1252
+  workbook_converted,    ///< `names`: the program that made a table of its first sheet
   lines_skipped,         ///< `names`: comments, and titles above the header
   rows_left_out,         ///< `names`: a cell that is needed is empty
   signed_velocities,     ///< directions were told by signs; their magnitudes were taken

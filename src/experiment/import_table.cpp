@@ -1,11 +1,18 @@
 #include "experiment/import_table.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <iconv.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <regex>
 #include <set>
 
@@ -82,9 +89,40 @@ std::string error_name(const std::string& quantity) {
   return quantity == "incident_velocity" ? "velocity_sd" : quantity + "_sd";
 }
 
+/// What a program writes to standard output; nullopt where it is not installed or fails.
+std::optional<std::string> output_of(std::vector<std::string> words) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), &std::fclose);
+  if (!out) return std::nullopt;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, fileno(out.get()), STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int failed =
+      posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) return std::nullopt;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return std::nullopt;
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
+  std::rewind(out.get());
+  std::string text;
+  char part[65536];
+  for (std::size_t got = 0; (got = std::fread(part, 1, sizeof part, out.get())) > 0;) {
+    text.append(part, got);
+  }
+  return text;
+}
+
 /// The whole file in UTF-8.
 std::string utf8_text(const std::filesystem::path& file, std::vector<ImportNote>& notes) {
-  std::string text = read_text_file(file);
+  std::string text = table_text(file, notes);
   try {
     require_text(text, file.string());
     return text;
@@ -364,20 +402,31 @@ NumberFormat number_format(const ImportRequest& request) {
   return {request.decimal_comma ? "," : "."};
 }
 
-void require_table_file(const std::filesystem::path& file) {
+std::string table_text(const std::filesystem::path& file, std::vector<ImportNote>& notes) {
   std::ifstream stream(file, std::ios::binary);
   char start[4] = {};
   stream.read(start, sizeof start);
   const std::string_view bytes(start, static_cast<std::size_t>(stream.gcount()));
-  if (bytes.starts_with("PK\x03\x04") || bytes.starts_with("\xD0\xCF\x11\xE0")) {
-    throw InputError({file.string()}, "this is a workbook, not a table of text", "recoil reads CSV",
-                     "save the sheet as CSV, or convert it: xlsx2csv FILE.xlsx > FILE.csv (package "
-                     "xlsx2csv), ssconvert FILE.xlsx FILE.csv (package gnumeric)");
-  }
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
     throw InputError({file.string()}, "this file is in UTF-16", "recoil reads UTF-8",
                      "save it as UTF-8, or convert it: iconv -f UTF-16 -t UTF-8 FILE > NEW");
   }
+  if (!bytes.starts_with("PK\x03\x04") && !bytes.starts_with("\xD0\xCF\x11\xE0")) {
+    return read_text_file(file);
+  }
+  const std::string name = std::filesystem::absolute(file).string();
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"xlsx2csv", name},
+        std::vector<std::string>{"ssconvert", "--export-type=Gnumeric_stf:stf_csv", name,
+                                 "fd://1"}}) {
+    if (auto text = output_of(words)) {
+      notes.push_back({ImportRemark::workbook_converted, {words.front()}});
+      return *text;
+    }
+  }
+  throw InputError({file.string()}, "this is a workbook, and no program that reads it is installed",
+                   "recoil reads CSV",
+                   "save the sheet as CSV, or install the package xlsx2csv or gnumeric");
 }
 
 std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<ImportNote>& notes) {

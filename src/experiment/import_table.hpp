@@ -86,8 +86,9 @@ NumberFormat number_format(const ImportRequest& request);
 /// @throws InputError when the file has no rows.
 std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<ImportNote>& notes);
 
-/// An error of a workbook or another file that is no text, before it is read.
-void require_table_file(const std::filesystem::path& file);
+/// The text of a table as it is in the file; of a workbook the first sheet, by xlsx2csv or
+/// ssconvert. @throws InputError for a workbook where neither is installed, and for UTF-16
+std::string table_text(const std::filesystem::path& file, std::vector<ImportNote>& notes);
 
 /// A quantity that a format knows.
 struct ImportQuantity {

@@ -245,6 +245,8 @@ std::string note_sentence(const ImportNote& note) {
   switch (note.remark) {
     case ImportRemark::encoding_assumed:
       return "the file is not UTF-8 and was read as Windows-1252: check names with accents";
+    case ImportRemark::workbook_converted:
+      return fmt::format("the first sheet of the workbook was read by {}", listed(note.names));
     case ImportRemark::lines_skipped:
       return fmt::format("skipped as a comment or title: {}", listed(note.names));
     case ImportRemark::rows_left_out:

@@ -8,6 +8,7 @@
 
 #include "data/material_table.hpp"
 #include "import_folder.hpp"
+#include "support/command.hpp"
 #include "support/workplace.hpp"
 
 namespace {
@@ -263,6 +264,28 @@ TEST(Forms, BothLettersMuAndOtherEncodings) {
   EXPECT_THAT(complaint(request), HasSubstr("this is a workbook"));
   request = place.request("\xFF\xFEV", ImportFormat::csv);
   EXPECT_THAT(complaint(request), HasSubstr("UTF-16"));
+}
+
+TEST(Forms, AWorkbookIsReadByTheConverterThatIsThere) {
+  const support::Workplace place;
+  place.write("book.xlsx", "PK\x03\x04 a zip archive");
+  place.write("xlsx2csv", "#!/bin/sh\nprintf 'V,e\\n1,0.8\\n2,0.7\\n'\n");
+  const auto import = [&](const std::string& path) {
+    return support::run_command(
+        {"sh", "-c",
+         "chmod +x xlsx2csv; PATH=" + path +
+             " " RECOIL_BINARY " import book.xlsx --format csv --into made --replace --map "
+             "incident_velocity=V:m/s,restitution=e --particle steel --surface glass --diameter "
+             "5mm --provenance measured"},
+        place.path());
+  };
+  const auto missing = import("/nowhere");
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, HasSubstr("install the package xlsx2csv"));
+  const auto made = import("$PWD:$PATH");
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("the first sheet of the workbook was read by xlsx2csv"));
+  EXPECT_THAT(place.read("made/points.csv"), HasSubstr("book,5,2,0.7"));
 }
 
 TEST(Forms, WhatIsAmbiguousIsAsked) {

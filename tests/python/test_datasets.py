@@ -1,5 +1,8 @@
 """Datasets from and to pandas, and what is wrong with them."""
 
+import json
+import os
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -101,3 +104,22 @@ def test_true_and_false_are_captures(here):
     again = made.to_pandas()
     assert list(again["captured"]) == [True, False]
     assert made.package["resources"][0]["schema"]["fields"][-1]["type"] == "boolean"
+
+
+def test_marks_of_numbers_are_those_of_the_package(here):
+    fields = [{"name": "series", "type": "string"},
+              {"name": "diameter", "type": "number", "unit": "um", "decimalChar": ","},
+              {"name": "incident_velocity", "type": "number", "unit": "mm/s", "decimalChar": ",",
+               "groupChar": "."},
+              {"name": "restitution", "type": "number", "unit": "1", "decimalChar": ","}]
+    package = recoil.load_dataset("mine").package
+    package["resources"] = [{"path": "points.csv", "dialect": {"delimiter": ";"},
+                             "schema": {"fields": fields}}]
+    os.mkdir("german")
+    with open("german/datapackage.json", "w", encoding="utf-8") as file:
+        json.dump(package, file)
+    with open("german/points.csv", "w", encoding="utf-8") as file:
+        file.write("series;diameter;incident_velocity;restitution\na;4,9;2.500;0,57\n")
+    frame = recoil.load_dataset("german").to_pandas()
+    assert list(frame["incident_velocity"]) == [2500]
+    assert list(frame["diameter"]) == [4.9]

@@ -117,7 +117,7 @@ class Dataset:
         resource = self._package["resources"][0]
         dialect = resource.get("dialect", {})
         fields = resource["schema"]["fields"]
-        numbers = next((field for field in fields if "decimalChar" in field), {})
+        numbers: dict[str, Any] = next((field for field in fields if "decimalChar" in field), {})
         frame = pandas.read_csv(
             io.StringIO(self._csv),
             sep=dialect.get("delimiter", ","),
