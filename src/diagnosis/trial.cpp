@@ -80,6 +80,12 @@ bool knows_series(const Mechanism& mechanism) {
                      [](const Parameter& p) { return p.per_series || !p.stated_by.empty(); });
 }
 
+std::size_t series_count(const Observations& data) {
+  std::set<std::pair<std::size_t, std::size_t>> series;
+  for (const Observation& point : data.points) series.insert({point.dataset, point.series});
+  return series.size();
+}
+
 bool can_be_released(const Candidate& candidate) {
   return std::any_of(
       candidate.model.slots.begin(), candidate.model.slots.end(), [&](const ParameterSlot& slot) {
@@ -93,6 +99,9 @@ bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
   const Observations& data = base.fitted.data;
   if (!data.noise.known) return false;
   const std::vector<const Mechanism*> added = chain_of(candidate.added);
+  const bool batch =
+      std::any_of(added.begin(), added.end(), [](const Mechanism* m) { return m->is_batch(); });
+  if (batch && series_count(data) < 2) return false;  // series differ from other series
   const bool by_series =
       std::any_of(added.begin(), added.end(), [](const Mechanism* m) { return knows_series(*m); });
   std::set<std::tuple<std::size_t, std::size_t, double, double>> impacts;

@@ -16,7 +16,8 @@ CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<c
                         int tries);
 
 /// Can the points show what `candidate` adds? Its parameters need as many distinct impacts (size
-/// and velocity; series, where the mechanism knows series), and more than the base model moves.
+/// and velocity; series, where the mechanism knows series), and more than the base model moves. A
+/// batch takes two series.
 bool can_be_seen(const SearchBase& base, const Candidate& candidate);
 
 /// What a fitted candidate is, gains and leaves.
