@@ -99,6 +99,53 @@ TEST(Diagnose, OffsetsThatRunSmoothlyWithSizeAreNoBatch) {
   }
 }
 
+/// Polystyrene of 0.99 um with 17,000 elementary charges on silicon (eps = 11.7), without adhesion:
+/// E = q / (4 pi eps0 r^2), w = (3/2) eps0 (eps - 1) / (eps + 1) E^2 / rho, V_c^2 = V^2 + w, Hunt &
+/// Crossley's closed form C_H V_c (1 + e_c) = ln((1 + C_H V_c) / (1 - e_c C_H V_c)), and
+/// e^2 = (e_c^2 V_c^2 - w) / V^2.
+TEST(Diagnose, FindsAStrongCharge) {
+  constexpr double field = 9.9905713e7, C_H = 4e-3;
+  const double well = 1.5 * 8.8541878128e-12 * 10.7 / 12.7 * field * field / 1050.0;
+  Dataset data;
+  data.id = "charged";
+  data.provenance = Provenance::synthetic;
+  data.system.particle = {"polystyrene", 1050.0, 2.56e9, 0.35, std::nullopt};
+  data.system.surface = {"silicon", 2330.0, 131e9, 0.28, std::nullopt};
+  data.system.surface.relative_permittivity = 11.7;
+  data.system.adhesion_energy = 0.0;
+  data.system.reference_diameter = 0.99e-6;
+  data.series = {"0"};
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 24; ++i) {
+    ImpactPoint point;
+    point.diameter = 0.99e-6;
+    point.incident_velocity = 3.0 * std::pow(10.0, i / 23.0);
+    const double v2 = point.incident_velocity * point.incident_velocity;
+    const double x = C_H * std::sqrt(v2 + well);
+    double low = 0.0, high = 1.0;
+    for (int k = 0; k < 100; ++k) {
+      const double e = 0.5 * (low + high);
+      (x * (1.0 + e) < std::log1p(x) - std::log1p(-e * x) ? high : low) = e;
+    }
+    point.restitution = std::sqrt((low * low * (v2 + well) - well) / v2) + 0.01 * normal(random);
+    point.restitution_sd = 0.01;
+    data.points.push_back(point);
+  }
+  const Diagnosis found = diagnose(synthetic::spec(), {data}, quick());
+  const auto charge = std::find_if(
+      found.candidates.begin(), found.candidates.end(),
+      [](const CandidateResult& c) { return c.candidate.name() == "electrostatic_image"; });
+  ASSERT_NE(charge, found.candidates.end());
+  EXPECT_TRUE(charge->plausible);
+  const FoundParameter& surface_field = charge->parameters.front();
+  EXPECT_NEAR(surface_field.value, field, 3.0 * surface_field.sd);
+  EXPECT_LT(surface_field.sd, 0.1 * field);
+  std::set<std::string> listed(found.named.begin(), found.named.end());
+  listed.insert(found.rivals.begin(), found.rivals.end());
+  EXPECT_TRUE(listed.count("electrostatic_image")) << found.rivals.size();
+}
+
 TEST(Diagnose, ConsidersOnlyErrorsThatTheMethodCanHave) {
   Dataset data = noisy(1, 0.008, by_series);
   const auto considered = [&](Method method) {
