@@ -59,20 +59,27 @@ RestitutionMean mean_of(const Group& group, const std::vector<const ImpactPoint*
   found.series = group.series;
   found.diameter = group.diameter;
   std::vector<double> e;
-  double stated = 0.0;  // sum of variances
+  double stated = 0.0;                   // sum of variances
+  std::map<std::string, double> shared;  // by setting: sum of the errors of e that it shares
   bool all_stated = true;
   for (const ImpactPoint* point : points) {
     e.push_back(point->restitution);
     all_stated = all_stated && point->restitution_sd.has_value();
     stated += std::pow(point->restitution_sd.value_or(0.0), 2);
+    shared[point->setting] +=
+        point->restitution * point->setting_velocity_sd.value_or(0.0) / point->incident_velocity;
   }
   const auto n = static_cast<double>(e.size());
   found.points = static_cast<int>(e.size());
   found.value = mean(e);
-  double half = all_stated ? gsl_cdf_ugaussian_Qinv(tail) * std::sqrt(stated) / n : 0.0;
+  double of_settings = 0.0;
+  for (const auto& [setting, error] : shared) of_settings += error * error;
+  const double normal = gsl_cdf_ugaussian_Qinv(tail);
+  double half = all_stated ? normal * std::sqrt(stated + of_settings) / n : 0.0;
   const double scatter = standard_deviation(e);
   if (scatter > least_noise) {
-    half = std::max(half, gsl_cdf_tdist_Qinv(tail, n - 1.0) * scatter / std::sqrt(n));
+    half = std::max(half, std::hypot(gsl_cdf_tdist_Qinv(tail, n - 1.0) * scatter / std::sqrt(n),
+                                     normal * std::sqrt(of_settings) / n));
   }
   if (half > 0.0) {
     found.interval = {found.value - half, found.value + half};

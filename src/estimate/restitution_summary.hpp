@@ -36,8 +36,8 @@ struct TestedEffect {
 /// What points say of e without any model of the impact.
 ///
 /// - A mean is that of the points as they are. Its interval is the wider one of two: Student's t
-/// with
-///   the scatter of the points, and the normal one with their stated errors.
+///   with the scatter of the points, and the normal one with their stated errors. A stated error s
+///   of V that a setting shares adds e s / V once per setting.
 /// - `velocity` is b of e = a_series + b log10 V, by least squares weighted with the stated errors
 ///   [1/decade]; a p-value is the larger one of those from stated errors and from the scatter.
 ///   Where the means of the settings scatter more about the line than their points explain (F-test

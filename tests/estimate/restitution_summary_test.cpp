@@ -72,6 +72,18 @@ TEST(RestitutionSummary, StatedErrorsThatAreLargerThanTheScatterDecide) {
   EXPECT_NEAR(*found.series.p_value, 6.708934509697094e-06, 1e-12);
 }
 
+TEST(RestitutionSummary, AnErrorThatAHeightSharesDoesNotAverageOut) {
+  Dataset data = dataset_of(std::vector<Row>(10, {0, 1.0, 0.8}), 0.01);
+  for (ImpactPoint& point : data.points) {
+    point.setting = "500 mm";
+    point.setting_velocity_sd = 0.02;
+  }
+  // 1.959964 (0.01^2 / 10 + (0.8 * 0.02)^2)^(1/2)
+  const auto found = summarise_restitution({data}).means[0].interval;
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR((*found)[1] - 0.8, 0.0319657, 1e-6);
+}
+
 TEST(RestitutionSummary, HeightsThatScatterMoreThanTheirDropsCountAsOneReadingEach) {
   std::vector<Row> rows;
   const double velocity[] = {2.0, 3.0, 4.0, 6.0};
