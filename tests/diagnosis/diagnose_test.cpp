@@ -10,6 +10,8 @@
 
 #include "core/error.hpp"
 #include "diagnosis/extended_toml.hpp"
+#include "diagnosis/search.hpp"
+#include "diagnosis/trial.hpp"
 #include "mechanism/mechanism.hpp"
 #include "quick_diagnosis.hpp"
 #include "support/synthetic.hpp"
@@ -178,6 +180,23 @@ TEST(Diagnose, DoesNotTryWhatCannotMatter) {
   }
   EXPECT_FALSE(tried.contains("height_origin"));
   EXPECT_TRUE(tried.contains("plastic_yield"));
+}
+
+/// An offset that all points share is no difference between series.
+TEST(Diagnose, TriesNoBatchWithASingleSeries) {
+  Dataset data = noisy(1, 0.008, by_series);
+  for (ImpactPoint& point : data.points) point.series = 0;
+  data.series.resize(1);
+  const std::vector<Dataset> datasets = {data};
+  const FitSpec spec = synthetic::spec();
+  const DiagnosisOptions options = quick();
+  const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
+  const SearchBase base = search_base(spec, datasets, fitted, options);
+  const auto seen = [&](const char* id) {
+    return can_be_seen(base, make_candidate(spec, datasets, {id}));
+  };
+  EXPECT_FALSE(seen("series_offset"));
+  EXPECT_TRUE(seen("plastic_yield"));
 }
 
 TEST(Diagnose, PointsAtTheOnePointThatIsOff) {
