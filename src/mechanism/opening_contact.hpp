@@ -84,12 +84,14 @@ struct OpeningContact {
       q = next_q;
       u = next_u;
     }
-    // The part of the last step that ends at u = 0. There q does not depend on it.
-    double low = 0.0, high = h;
-    for (int i = 0; i < 50; ++i) {
-      const double middle = 0.5 * (low + high);
-      (step(middle) ? low : high) = middle;
+    // The part of the last step that ends at u = 0, by Newton's rule. There q does not depend on
+    // it.
+    double part = 0.0;
+    for (int i = 0; i < 6; ++i) {
+      step(part);
+      part -= value_of(next_u) / value_of(push(next_q, next_u, 0.0));
     }
+    step(part);
     return next_q;
   }
 
@@ -144,7 +146,7 @@ struct OpeningContact {
 /// @pre the law of adhesion is not maugis
 template <class T>
 T opening_loss(const Encounter<T>& e, const T& work, const T& exponent) {
-  using N = std::conditional_t<std::is_same_v<T, double>, double, Dual<8>>;
+  using N = std::conditional_t<std::is_same_v<T, double>, double, Dual<6>>;
   constexpr double most_kappa = 12.0;  // of a sphere that its dashpot stops altogether
   const T scale = e.scale();
   const T beta = e.beta();
