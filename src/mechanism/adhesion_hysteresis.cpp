@@ -1,5 +1,4 @@
 #include "mechanism/mechanism.hpp"
-#include "mechanism/opening_contact.hpp"
 
 namespace recoil {
 namespace {
@@ -7,12 +6,7 @@ namespace {
 struct AdhesionHysteresis {
   template <class T>
   static void after(Encounter<T>& e, std::span<const T> own) {
-    const T work = own[0] * e.adhesion_energy;
-    if (e.at->adhesion == AdhesionLaw::maugis) {
-      e.lose(std::numbers::pi * work * e.contact_square());
-    } else {
-      e.square -= opening_loss(e, work, T(0.0));
-    }
+    e.lose(std::numbers::pi * e.adhesion_energy * e.contact_square() * own[0]);
   }
 };
 
@@ -25,12 +19,13 @@ Mechanism adhesion_hysteresis() {
       .cause = "adhesion hysteresis",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
-      .formula =
-          "loss pi a_max^2 dW, dW = s W_A with W_A of the two bodies, taken along the way out, "
-          "which it slows; under maugis at once, with a_max of the undamped impact",
+      .formula = "loss pi a_max^2 dW, dW = s W_A with W_A of the two bodies, and a_max of the "
+                 "undamped impact",
       .source =
           "Chaudhury, M. K. & Whitesides, G. M. (1991), Langmuir 7, 1013-1025 (adhesion hysteresis "
-          "of contacts); that dW of unlike targets has the ratio of their W_A is an assumption",
+          "of contacts); that dW of unlike targets has the ratio of their W_A is an assumption; "
+          "that "
+          "damping makes the contact smaller is left out",
       .fingerprint = "1 - e^2 falls like V^(-6/5) d^(-1), slower than for a constant energy; V* ~ "
                      "d^(-5/6), which a freed size law takes for f0 ~ r^(5/9); grows with W_A from "
                      "target to target",

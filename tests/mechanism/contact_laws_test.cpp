@@ -55,9 +55,8 @@ TEST(ContactLaws, LeaveTheExponentsOfTheirFingerprints) {
   };
   check("jkr_hysteresis", {0.3}, 20.0, -2.0, -5.0 / 3.0);
   check("adhesion_hysteresis", {0.03}, 20.0, -1.2, -1.0);
-  // So small that the loss does not slow the sphere.
-  check("crack_rate", {3e-4, 0.5}, 20.0, -0.9, -1.0, 1e-4);
-  check("crack_rate", {3e-4, 0.7}, 20.0, -0.78, -1.0, 1e-4);
+  check("crack_rate", {0.03, 0.5}, 20.0, -0.9, -1.0);
+  check("crack_rate", {0.003, 0.7}, 20.0, -0.78, -1.0);
   check("capillary", {1e-9}, 20.0, -2.0, -2.0);
   check("asperity_loss", {1e-13}, 20.0, -2.0, -3.0);
   check("elastic_waves", {1.0}, 20.0, 0.6, 0.0, 1e-5);
@@ -249,28 +248,26 @@ double deepest(const Surroundings& at, double d, double v) {
 TEST(AdhesionHysteresis, LosesTheContactAreaTimesTheDifference) {
   const double area = pi * 0.5 * kDiameter * deepest(kSoft, kDiameter, 8.0);
   EXPECT_NEAR(1.0 - square(kSoft, {"adhesion_hysteresis"}, {0.07 / kSoftWork}, kDiameter, 8.0),
-              0.07 * area / (0.5 * mass(kSoft, kDiameter) * 64.0), 1e-7);
+              0.07 * area / (0.5 * mass(kSoft, kDiameter) * 64.0), 1e-9);
 }
 
-/// x'' = -x^(3/2) (1 + C_H n') + beta x^(1/2) (1 + C_A |n'| on the way out) + s W_A pi r v_c^k on
+/// What leaving the loss out of the motion costs, as docs/adhesion.md says: capture velocities by
+///   n'' = -x^(3/2) (1 + C_H n') + beta x^(1/2) (1 + C_A |n'| on the way out) + s W_A pi r v_c^k on
 /// the way out, by DOP853 of scipy in time with dt = 2 q dsigma (rtol 1e-10), V* by bisection: C_H
 /// = 3e-3 s/m, C_A = 0.03 s/m, f0 = 8.9 N/m, W_A = 0.33554639 J/m2, 4.9 um.
-TEST(AdhesionLosses, SlowTheSphereWhileTheyAct) {
+TEST(AdhesionLosses, PutTheCaptureVelocityTooHigh) {
   const one_point::Base base{3e-3, 0.03, 8.9};
   struct Loss {
-    const char* id;
     std::vector<double> own;
-    double capture;
+    double capture, excess;  // the part by which V* is too high
   };
-  for (const auto& [id, own, capture] :
-       {Loss{"crack_rate", {0.05, 0.5}, 1.237045}, Loss{"crack_rate", {0.15, 0.5}, 1.673428},
-        Loss{"crack_rate", {0.5, 0.5}, 2.982585}, Loss{"crack_rate", {0.3, 0.9}, 4.083913},
-        Loss{"adhesion_hysteresis", {0.3}, 1.498226}}) {
-    EXPECT_LT(square(kSoft, {id}, own, kDiameter, 0.9995 * capture, base), 0.0) << id << own[0];
-    EXPECT_GT(square(kSoft, {id}, own, kDiameter, 1.0005 * capture, base), 0.0) << id << own[0];
+  for (const auto& [own, capture, excess] :
+       {Loss{{0.05, 0.5}, 1.237045, 0.04}, Loss{{0.15, 0.5}, 1.673428, 0.09},
+        Loss{{0.5, 0.5}, 2.982585, 0.21}}) {
+    EXPECT_LT(square(kSoft, {"crack_rate"}, own, kDiameter, capture, base), 0.0) << own[0];
+    EXPECT_GT(square(kSoft, {"crack_rate"}, own, kDiameter, (1.0 + excess) * capture, base), 0.0)
+        << own[0];
   }
-  EXPECT_NEAR(std::sqrt(square(kSoft, {"crack_rate"}, {0.15, 0.5}, kDiameter, 2.0, base)), 0.423008,
-              1e-5);
 }
 
 TEST(CrackRate, IsTheIntegralOverTheOpeningContact) {
@@ -285,14 +282,13 @@ TEST(CrackRate, IsTheIntegralOverTheOpeningContact) {
           const double n = nm * std::pow(std::sin(t), 4);
           const double speed = V * std::sqrt(std::max(0.0, 1.0 - std::pow(n / nm, 2.5)));
           const double crack = std::sqrt(r) * speed / (2.0 * std::sqrt(n));
-          return 3e-5 * std::pow(crack, k) * pi * r * nm * 4.0 * std::pow(std::sin(t), 3) *
+          return 0.03 * std::pow(crack, k) * pi * r * nm * 4.0 * std::pow(std::sin(t), 3) *
                  std::cos(t);
         },
         0.0, pi / 2.0);
-    // so little that the loss does not slow the sphere
-    EXPECT_NEAR((1.0 - square(kSoft, {"crack_rate"}, {3e-5 / kSoftWork, k}, kDiameter, V)) * 0.5 *
+    EXPECT_NEAR((1.0 - square(kSoft, {"crack_rate"}, {0.03 / kSoftWork, k}, kDiameter, V)) * 0.5 *
                     mass(kSoft, kDiameter) * V * V / work,
-                1.0, 2e-4)
+                1.0, 1e-5)
         << k;
   }
 }
