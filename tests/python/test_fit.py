@@ -61,7 +61,7 @@ def test_lmfits_names(here):
     p = result.params["C_H"]
     assert (p.value, p.stderr, p.vary) == (result.parameters.C_H.value,
                                            result.parameters.C_H.std_error, True)
-    assert (p.min, p.max, p.init_value) == (0.0, 1.0, 0.003)
+    assert (p.min, p.max, p.init_value) == (0.0, 30.0 / 25.0, 0.003)
     assert p.interval == result.parameters.C_H.intervals[result.parameters.C_H.recommended.interval]
     assert not result.params["f0"].vary
     assert result.best_values["C_A"] == result.parameters.C_A.value
