@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <vector>
@@ -26,6 +27,23 @@ TEST(Readme, TheTourRunsAsPrinted) {
   EXPECT_TRUE(fs::is_regular_file(sandbox.folder() / "my-result/fit.json"));
   EXPECT_TRUE(fs::is_regular_file(sandbox.folder() / "my-pages/my-spheres.html"));
   EXPECT_TRUE(fs::is_regular_file(sandbox.folder() / "my-pages/index.html"));
+}
+
+TEST(Readme, TheThreeCalibrationsAreThoseOfTheFit) {
+  const page::Sandbox sandbox;
+  const auto run = sandbox.run(
+      "build/release/recoil fit fits/wall1990-molybdenum.toml --replicates 39 --out fitted");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const auto fit = nlohmann::json::parse(tree::text_of(sandbox.folder() / "fitted/fit.json"));
+  const auto rows = page::table_of(readme(), "| molybdenum");
+  ASSERT_EQ(rows.size(), fit["comparison"].size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto& way = fit["comparison"][k];
+    const double found[] = {way["C_H"], way["C_A"], way["f0"], way["rmse"]};
+    for (std::size_t j = 0; j < 4; ++j) {
+      EXPECT_NEAR(std::stod(rows[k][j + 1]) / found[j], 1.0, 5e-3) << rows[k][0];  // three digits
+    }
+  }
 }
 
 TEST(Readme, IsShort) { EXPECT_LE(tree::lines_of(tree::text_of(readme())).size(), 200U); }
@@ -53,8 +71,8 @@ TEST(Readme, NamesEveryShippedDataset) {
     std::size_t count = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(tree::root() / "datasets")) {
       if (!entry.is_directory()) continue;
-      const std::string row = "| `" + entry.path().filename().string() + "` |";
-      EXPECT_NE(text.find(row), std::string::npos) << file << " lacks the row " << row;
+      const std::string name = "`" + entry.path().filename().string() + "`";
+      EXPECT_NE(text.find(name), std::string::npos) << file << " lacks " << name;
       ++count;
     }
     EXPECT_EQ(count, 6U);
