@@ -79,6 +79,8 @@ td.words, th.words { text-align: left; }
 td.prose { white-space: normal; min-width: 16rem; }
 table.compact { font-size: .8rem; }
 table.compact th, table.compact td { padding: .18rem .7rem; font-weight: 400; }
+.answer table.compact td { padding: .18rem .4rem; }
+.answer table.compact td.words { white-space: normal; min-width: 4rem; }
 dt { font-weight: 600; margin-top: .7rem; }
 dd { margin: .1rem 0 0 1.2rem; }
 details summary { cursor: pointer; color: var(--accent); margin: .5rem 0; }

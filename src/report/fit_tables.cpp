@@ -151,9 +151,17 @@ Table parameters_table(const Analysis& a) {
                    {say("estimate {+/-} standard error")},
                    {level_of(a) + " interval"},
                    {"", "", true}};
+  bool adheres = false;
+  for (std::size_t d = 0; d < f.model.contacts.size(); ++d) {
+    adheres = adheres || !without_adhesion(f.model, d);
+  }
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {
     const ParameterSlot& slot = f.model.slots[s];
     if (slot.is_constant()) continue;
+    if (!adheres && (slot.parameter->is_adhesion() ||
+                     slot.parameter->role == ParameterRole::adhesion_damping)) {
+      continue;
+    }
     const Interval interval = recommended_interval(intervals_of(a, s));
     const bool follows = followed_in(f.model, s).has_value();
     double error = s < f.std_error.size() ? f.std_error[s] : 0.0;
@@ -337,12 +345,8 @@ Sentence compared_words(ComparisonWay row) {
 Table two_point_table(const Analysis& a, const TwoPointComparison& comparison) {
   const FitResult& f = a.fitted;
   Table table;
-  table.columns = {{"with exact materials"},
-                   {symbol("C_H"), "s/m"},
-                   {symbol("C_A"), "s/m"},
-                   {"f0", "N/m"},
-                   {"rms of e"},
-                   {"held out"}};
+  table.columns = {{"with exact materials"}, {symbol("C_H"), "s/m"}, {symbol("C_A"), "s/m"},
+                   {say("{f0}"), "N/m"},     {say("rms of {e}")},    {"held out"}};
   const std::size_t d = comparison.dataset;
   for (const ComparisonRow& row : comparison.rows) {
     const auto f0 = row.theta.empty() ? std::nullopt
