@@ -55,23 +55,17 @@ double adhesion_energy_for(double adhesion_force, double radius, double stiffnes
          (6.0 * std::numbers::pi * std::sqrt(stiffness * radius));
 }
 
-double adhesion_force_at(double f0_reference, double reference_diameter, double diameter) {
-  return f0_reference * std::cbrt(diameter / reference_diameter);
-}
-
 double sphere_mass(double diameter, double density) {
   return density * pi / 6.0 * diameter * diameter * diameter;
 }
 
 double ContactProperties::relative_radius(double diameter) const {
-  const double radius = diameter / 2.0;
-  return surface_diameter > 0.0 ? radius / (1.0 + diameter / surface_diameter) : radius;
+  return recoil::relative_radius(diameter, surface_diameter);
 }
 
 double ContactProperties::reduced_mass(double diameter, double density) const {
-  const double mass = sphere_mass(diameter, density);
-  if (surface_diameter == 0.0) return mass;
-  return mass / (1.0 + mass / sphere_mass(surface_diameter, surface_density));
+  return recoil::reduced_mass(sphere_mass(diameter, density),
+                              sphere_mass(surface_diameter, surface_density));
 }
 
 double ContactProperties::adhesion_force_at(double f0_reference, double diameter) const {

@@ -7,6 +7,20 @@
 
 namespace recoil {
 
+/// 1 / R* = 2 / d + 2 / d2 (Johnson 1985, Contact Mechanics, eq. 4.17) [m]; d / 2 where
+/// `second_diameter` is 0, a flat.
+template <class T>
+T relative_radius(const T& diameter, double second_diameter) {
+  const T radius = diameter * 0.5;
+  return second_diameter > 0.0 ? radius / (1.0 + diameter * (1.0 / second_diameter)) : radius;
+}
+
+/// 1 / m* = 1 / m1 + 1 / m2 [kg]; m1 where `second_mass` is 0, a flat.
+template <class T>
+T reduced_mass(const T& mass, double second_mass) {
+  return second_mass > 0.0 ? mass / (1.0 + mass * (1.0 / second_mass)) : mass;
+}
+
 /// Everything that the impact model derives from the two materials, in SI units. Equation numbers
 /// are those of Li, Dunn & Brach (1999), J. Aerosol Sci. 30, 439-449.
 ///
@@ -31,11 +45,9 @@ struct ContactProperties {
   double surface_density = 0.0;           ///< of that sphere [kg/m3]
   std::vector<std::string> contradictions;  ///< what disagrees, and which value is used
 
-  /// Relative radius R* of curvature where a sphere of `diameter` [m] touches: 1 / R* = 2 / d, and
-  /// 2 / d2 more for a second sphere (Johnson 1985, Contact Mechanics, eq. 4.17) [m].
+  /// R* where a sphere of `diameter` [m] touches [m].
   double relative_radius(double diameter) const;
-  /// Mass m* that the relative motion has: that of the sphere; with a second one, 1 / m* = 1 / m1 +
-  /// 1 / m2 [kg].
+  /// m* of the relative motion [kg].
   double reduced_mass(double diameter, double density) const;
   /// f0 at another diameter by f0 ~ R*^(1/3), eq. 12 [N/m].
   double adhesion_force_at(double f0_reference, double diameter) const;
@@ -76,9 +88,6 @@ double adhesion_force_for(double adhesion_energy, double radius, double stiffnes
 
 /// Its inverse: W = (2 pi f0)^(3/2) / (6 pi (K r)^(1/2)) [J/m2].
 double adhesion_energy_for(double adhesion_force, double radius, double stiffness);
-
-/// f0 at another diameter by f0 ~ r^(1/3), eq. 12 [N/m].
-double adhesion_force_at(double f0_reference, double reference_diameter, double diameter);
 
 /// Mass of a sphere [kg].
 double sphere_mass(double diameter, double density);

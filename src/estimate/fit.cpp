@@ -294,6 +294,16 @@ FitResult fitted_here(const ImpactModel& model, Observations&& observed,
 
 }  // namespace
 
+std::vector<std::size_t> held_back_dampings(const FitResult& fitted) {
+  std::vector<std::size_t> found;
+  for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
+    const ParameterSlot& slot = fitted.model.slots[j];
+    const bool rests = fitted.at_bound[j] && fitted.theta[j] >= slot.upper;
+    if (slot.parameter->is_damping() && rests) found.push_back(j);
+  }
+  return found;
+}
+
 const StartSummary& FitResult::best_start() const {
   return *std::find_if(starts.begin(), starts.end(), [](const StartSummary& start) {
     return start.outcome == StartOutcome::best;

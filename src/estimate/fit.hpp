@@ -113,6 +113,9 @@ struct FitResult {
 /// end, as far as these points cannot tell the ends apart, the fit to all points begins.
 FitResult fit(const ImpactModel& model, Observations data, const FitOptions& options = {});
 
+/// The dampings that rest on their upper bound: slots of C_H and C_A.
+std::vector<std::size_t> held_back_dampings(const FitResult& fitted);
+
 /// Root mean square of e - e_model over the points whose index is in `subset` (all when empty);
 /// captured points count with e = 0, means of survivors beside `expected_restitution`.
 double root_mean_square(const ImpactModel& model, std::span<const double> theta,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/statistics.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
@@ -27,12 +28,6 @@ struct Track {
   std::vector<Sample> samples;
 };
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 /// The differences of the given order between successive heights.
 std::vector<double> differences(const std::vector<Sample>& samples, int order) {
   std::vector<double> values;
@@ -50,7 +45,7 @@ std::vector<double> differences(const std::vector<Sample>& samples, int order) {
 double noise_of(const std::vector<Sample>& samples) {
   std::vector<double> third = differences(samples, 3);
   for (double& value : third) value = std::abs(value);
-  return median_of(third) / (0.6745 * std::sqrt(20.0));
+  return median(third) / (0.6745 * std::sqrt(20.0));
 }
 
 /// The minima from which the height rises on both sides by six standard deviations of the noise,
@@ -176,7 +171,7 @@ void reject_others(const std::vector<Sample>& samples, std::vector<Arc>& arcs) {
     errors[k] = noise * std::sqrt(own.covariance(2, 2));
     known.push_back(falls[k]);
   }
-  const double usual = median_of(known);
+  const double usual = median(known);
   for (std::size_t k = 0; k < arcs.size(); ++k) {
     const double off = std::abs(falls[k] - usual);
     if (off > 0.3 * std::abs(usual) && off > 4.0 * errors[k]) arcs[k].good = false;
@@ -239,7 +234,7 @@ class TrackReader {
     }
     if (skipped_ > 0) out_.notes.push_back({ImportRemark::impacts_skipped, {}, skipped_});
     ImportNote fall{ImportRemark::track_fall};
-    fall.fall = median_of(falls_);
+    fall.fall = median(falls_);
     fall.gravity = gravity_;
     if (scaled_ && std::abs(fall.fall / gravity_ - 1.0) > 0.02) out_.notes.push_back(fall);
     out_.notes.push_back({ImportRemark::drag_stays});
@@ -340,7 +335,7 @@ std::vector<Track> read_tracks(ImportTable& table, const ImportRequest& request)
   if (!pixels) return tracks;
   // Rows of a picture count downward in most programs: what falls tells which way is up.
   for (Track& track : tracks) {
-    if (!(median_of(differences(track.samples, 2)) > 0.0)) continue;
+    if (!(median(differences(track.samples, 2)) > 0.0)) continue;
     for (Sample& sample : track.samples) sample.height = -sample.height;
   }
   return tracks;

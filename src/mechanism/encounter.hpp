@@ -41,13 +41,6 @@ struct Surroundings {
   }
 };
 
-/// R* of a sphere of `diameter` [m] with the surface, see `ContactProperties` [m].
-template <class T>
-T relative_radius(const Surroundings& at, const T& diameter) {
-  const T own = diameter * 0.5;
-  return at.surface_diameter > 0.0 ? own / (1.0 + diameter * (1.0 / at.surface_diameter)) : own;
-}
-
 /// @param contact derived from `system`
 Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties& contact);
 
@@ -78,11 +71,11 @@ struct Encounter {
   double flow_radius = 0.0;    ///< of the contact when it had yielded most [m]
 
   /// R* of the bodies as they are, without flattening; on a flat the sphere's radius [m].
-  T radius() const { return relative_radius(*at, diameter); }
+  T radius() const { return relative_radius(diameter, at->surface_diameter); }
   /// m* of the relative motion; on a flat the sphere's mass [kg].
   T mass() const {
-    const T own = diameter * diameter * diameter * (density * (std::numbers::pi / 6.0));
-    return at->surface_mass > 0.0 ? own / (1.0 + own * (1.0 / at->surface_mass)) : own;
+    return reduced_mass(diameter * diameter * diameter * (density * (std::numbers::pi / 6.0)),
+                        at->surface_mass);
   }
   T reduced_modulus() const { return stiffness * 0.75; }
   /// The air around, at 1 Pa: its density is that per pressure, its free path that times pressure.

@@ -40,9 +40,9 @@ Encounter<T> approaching(const ExtendedPoint& point, std::span<const T> values, 
   e.velocity = velocity;
   e.hertz_damping = values[0];
   e.adhesion_damping = values[1];
-  e.adhesion_force =
-      values[2] *
-      power(e.radius() / relative_radius(*point.at, point.at->reference_diameter), 1.0 / 3.0);
+  e.adhesion_force = values[2] * power(e.radius() / relative_radius(point.at->reference_diameter,
+                                                                    point.at->surface_diameter),
+                                       1.0 / 3.0);
   e.relaxation = T(0.0);
   e.square = T(0.0);
   return e;

@@ -163,17 +163,13 @@ std::string found_words(const Diagnosis& d) {
 
 /// A damping of the base model that its upper bound holds back.
 std::string bound_words(const Diagnosis& d) {
-  for (std::size_t j = 0; j < d.base.theta.size(); ++j) {
-    const ParameterSlot& slot = d.base.model.slots[j];
-    if (!slot.parameter->is_damping() || !d.base.at_bound[j] || d.base.theta[j] < slot.upper) {
-      continue;
-    }
-    return fmt::format(
-        "{} rests on its upper bound of {:.3g}{}: widen the bounds before reading anything into "
-        "the misfit.",
-        slot.label(), slot.upper, unit_suffix(slot.parameter->unit));
-  }
-  return "";
+  const std::vector<std::size_t> held = held_back_dampings(d.base);
+  if (held.empty()) return "";
+  const ParameterSlot& slot = d.base.model.slots[held.front()];
+  return fmt::format(
+      "{} rests on its upper bound of {:.3g}{}: widen the bounds before reading anything into "
+      "the misfit.",
+      slot.label(), slot.upper, unit_suffix(slot.parameter->unit));
 }
 
 /// What these points cannot show.

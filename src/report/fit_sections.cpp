@@ -82,10 +82,8 @@ Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
 /// A parameter of the model that its upper bound holds back.
 Sentence bound_words(const FitResult& f) {
   std::vector<Sentence> names;
-  for (std::size_t j = 0; j < f.theta.size(); ++j) {
-    const ParameterSlot& slot = f.model.slots[j];
-    if (!slot.parameter->is_damping() || !f.at_bound[j] || f.theta[j] < slot.upper) continue;
-    names.push_back(symbol(slot.label()));
+  for (const std::size_t j : held_back_dampings(f)) {
+    names.push_back(symbol(f.model.slots[j].label()));
   }
   if (names.empty()) return {};
   return say("{} rests on its upper bound: widen the bounds before reading anything into the fit.",

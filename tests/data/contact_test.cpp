@@ -53,9 +53,9 @@ TEST(Contact, EquationsNineTenAndTwelveAgree) {
 }
 
 TEST(Contact, AdhesionForceGrowsWithTheCubeRootOfTheRadius) {
-  const double at_reference = derive_contact(system_of(table_1[0]), 4.9e-6).adhesion_force;
+  const ContactProperties at_reference = derive_contact(system_of(table_1[0]), 4.9e-6);
   const double derived = derive_contact(system_of(table_1[0]), 2.58e-6).adhesion_force;
-  EXPECT_NEAR(adhesion_force_at(at_reference, 4.9e-6, 2.58e-6), derived, 1e-12);
+  EXPECT_NEAR(at_reference.adhesion_force_at(at_reference.adhesion_force, 2.58e-6), derived, 1e-12);
 }
 
 TEST(Contact, SteelRowContradictsItselfAndSaysWhichIsUsed) {

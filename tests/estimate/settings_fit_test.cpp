@@ -142,21 +142,33 @@ TEST(Observations, ASubsetKeepsEverythingButTheOtherPoints) {
   EXPECT_EQ(part.setting_sd_estimated, all.setting_sd_estimated);
 }
 
+/// The means of every `each` points in turn, of no setting, with the errors sd(mean).
+template <class Error>
+Dataset means_of(const Dataset& all, std::size_t each, Error sd) {
+  Dataset means = all;
+  means.points.clear();
+  for (std::size_t i = 0; i < all.points.size(); i += each) {
+    ImpactPoint mean = all.points[i];
+    mean.restitution = 0.0;
+    for (std::size_t k = 0; k < each; ++k) {
+      mean.restitution += all.points[i + k].restitution / static_cast<double>(each);
+    }
+    mean.restitution_sd = sd(mean);
+    mean.setting_velocity_sd.reset();
+    mean.setting = "";
+    means.points.push_back(mean);
+  }
+  return means;
+}
+
 /// Ten drops from one height are one height's worth: with the shared error known, the fit of all
 /// drops is that of their means with the variance shared^2 + own^2 / n.
 TEST(SharedSettings, AllDropsSayWhatTheirMeansSay) {
   const Drops drops{.settings = 8, .each = 10};
   const Dataset all = measured(drops, 3);
-  Dataset means = all;
-  means.points.clear();
-  for (std::size_t i = 0; i < all.points.size(); i += 10) {
-    ImpactPoint mean = all.points[i];
-    mean.restitution = 0.0;
-    for (std::size_t k = 0; k < 10; ++k) mean.restitution += all.points[i + k].restitution / 10.0;
-    mean.restitution_sd = std::hypot(drops.shared, own_sd / std::sqrt(10.0));
-    mean.setting = "";
-    means.points.push_back(mean);
-  }
+  const Dataset means = means_of(all, 10, [&](const ImpactPoint&) {
+    return std::hypot(drops.shared, own_sd / std::sqrt(10.0));
+  });
   NoiseSpec noise;
   noise.setting_sd = drops.shared;
   const FitResult by_drops = fitted(all, noise);
@@ -286,21 +298,13 @@ Dataset measured_from_heights(double relative, int settings, int each, unsigned 
 TEST(SettingVelocities, AreTheErrorsOfTheMeansOfTheirSettings) {
   const double relative = 0.02;
   const Dataset all = measured_from_heights(relative, 8, 10, 7);
-  Dataset means = all;
-  means.points.clear();
-  for (std::size_t i = 0; i < all.points.size(); i += 10) {
-    ImpactPoint mean = all.points[i];
-    mean.restitution = 0.0;
-    for (std::size_t k = 0; k < 10; ++k) mean.restitution += all.points[i + k].restitution / 10.0;
-    // e_read = e(V (1 + x)) (1 + x): d e_read / dx = e + V de/dV, by differences of the simulator.
+  // e_read = e(V (1 + x)) (1 + x): d e_read / dx = e + V de/dV, by differences of the simulator.
+  const Dataset means = means_of(all, 10, [&](const ImpactPoint& mean) {
     const double velocity = mean.incident_velocity;
     const double slope =
         (e_at(velocity * 1.01) * 1.01 - e_at(velocity * 0.99) * 0.99) / (2.0 * 0.01);
-    mean.restitution_sd = std::hypot(slope * relative, own_sd / std::sqrt(10.0));
-    mean.setting_velocity_sd.reset();
-    mean.setting = "";
-    means.points.push_back(mean);
-  }
+    return std::hypot(slope * relative, own_sd / std::sqrt(10.0));
+  });
   const FitResult by_drops = fitted(all);
   const FitResult by_means = fitted(means);
   EXPECT_FALSE(by_drops.data.setting_sd_estimated) << "what is stated is not estimated";

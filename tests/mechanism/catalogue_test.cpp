@@ -107,7 +107,7 @@ TEST_P(EveryMechanism, VanishesAtItsNullValue) {
   own.front() = m.info.parameters.front().null_value;
   for (const double V : {0.4, 0.9, 1.27, 1.5, 6.0, 90.0}) {
     ImpactConditions c{2.58e-6, V, kSoft.density, kSoft.stiffness, 0.0, kBase.C_H, kBase.C_A};
-    c.adhesion_force = adhesion_force_at(kBase.f0, 4.9e-6, c.diameter);
+    c.adhesion_force = kBase.f0 * std::cbrt(c.diameter / 4.9e-6);
     const double base = simulate_impact_fast(impact_groups(c), {}).restitution_squared;
     const Answer answer = ask(kSoft, {GetParam()}, own, c.diameter, V, kBase);
     ASSERT_TRUE(answer.usable);

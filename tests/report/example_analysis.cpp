@@ -45,7 +45,7 @@ double restitution(const ContactProperties& contact, const std::array<double, 3>
   c.velocity = velocity;
   c.density = contact.particle_density;
   c.stiffness = contact.stiffness;
-  c.adhesion_force = adhesion_force_at(theta[2], contact.reference_diameter, diameter);
+  c.adhesion_force = contact.adhesion_force_at(theta[2], diameter);
   c.hertz_damping = theta[0];
   c.adhesion_damping = theta[1];
   return std::sqrt(std::max(0.0, simulate_impact(impact_groups(c)).restitution_squared));
