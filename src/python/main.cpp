@@ -24,6 +24,7 @@
 #include "core/program.hpp"
 #include "core/units.hpp"
 #include "coverage/coverage_truth.hpp"
+#include "data/material_table.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/extended_toml.hpp"
 #include "document/html.hpp"
@@ -167,6 +168,24 @@ std::string summary_html(const Analysis& analysis) {
     if (answer) blocks.emplace_back(section);
   }
   return html_of(blocks);
+}
+
+/// The profile likelihood of every free parameter by its label: values, rises, allowed rises.
+py::dict profiles_of(const Analysis& analysis) {
+  py::dict profiles;
+  const std::vector<IntervalSet>& sets = analysis.uncertainty.intervals;
+  for (std::size_t j = 0; j < sets.size(); ++j) {
+    if (sets[j].profile_curve.empty()) continue;
+    std::vector<double> value, rise, allowed;
+    for (const ProfilePoint& point : sets[j].profile_curve) {
+      value.push_back(point.value);
+      rise.push_back(point.rise);
+      allowed.push_back(point.allowed);
+    }
+    profiles[py::str(analysis.fitted.model.slots[j].label())] =
+        py::make_tuple(value, rise, allowed);
+  }
+  return profiles;
 }
 
 /// The pictures of a result by name.
@@ -349,6 +368,13 @@ void bind_inputs(py::module_& module) {
       },
       py::arg("package"), py::arg("csv"), py::arg("folder"));
 
+  module.def(
+      "material",
+      [](const std::string& name, const std::string& body) {
+        return tabled_material(name, body).dump();
+      },
+      py::arg("name"), py::arg("body"));
+
   py::class_<FitInputs>(module, "Inputs")
       .def_property_readonly("id", [](const FitInputs& inputs) { return inputs.spec.id; })
       .def_property_readonly("datasets", [](const FitInputs& inputs) { return inputs.datasets; });
@@ -386,12 +412,17 @@ void bind_results(py::module_& module) {
   py::class_<Analysis, std::shared_ptr<Analysis>>(module, "Analysis")
       .def("json", &fit_json, Released())
       .def(
-          "text", [](const Analysis& a) { return fit_text(a, Importance::detail); }, Released())
+          "text",
+          [](const Analysis& a, bool verbose) {
+            return fit_text(a, verbose ? Importance::detail : Importance::answer);
+          },
+          py::arg("verbose"), Released())
       .def(
           "page", [](const Analysis& a) { return fit_html(a); }, Released())
       .def("summary", &summary_html, Released())
       .def(
           "pictures", [](const Analysis& a) { return pictures_of(fit_document(a)); }, Released())
+      .def("profiles", &profiles_of)
       .def("model", [](const Analysis& a) { return model_of(a); })
       .def(
           "predict",
@@ -427,8 +458,11 @@ void bind_results(py::module_& module) {
   py::class_<Diagnosis>(module, "Diagnosis")
       .def("json", &diagnosis_json, Released())
       .def(
-          "text", [](const Diagnosis& d) { return diagnosis_text(d, Importance::detail); },
-          Released())
+          "text",
+          [](const Diagnosis& d, bool verbose) {
+            return diagnosis_text(d, verbose ? Importance::detail : Importance::answer);
+          },
+          py::arg("verbose"), Released())
       .def("page", &diagnosis_html, Released())
       .def(
           "summary", [](const Diagnosis& d) { return html_of(diagnosis_summary(d).blocks); },

@@ -2,7 +2,8 @@
 its parameters?
 
     import recoil
-    result = recoil.fit("fits/dahneke1975-quartz.toml")
+    result = recoil.fit(V, e, d=4.9, particle="polystyrene", surface="silicon")
+    print(result)
     result.parameters.C_H.value, result.parameters.C_H.intervals.bca
     result.plot()
 
@@ -15,14 +16,18 @@ from __future__ import annotations
 import json
 import os
 from importlib import resources
-from typing import Any, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import _recoil
-from ._datasets import Dataset
-from ._errors import ComputationError, InputError
+from ._datasets import Dataset, Material
+from ._errors import ComputationError, InputError, refuse
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
 from ._results import Comparison, Diagnosis, FitResult, Pairing, Parameter, Prediction
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    import pandas
 
 __version__: str = _recoil.__version__
 
@@ -50,6 +55,7 @@ __all__ = [
 
 PathLike = Union[str, "os.PathLike[str]"]
 Source = Union[PathLike, Dataset, Sequence[Union[PathLike, Dataset]]]
+Points = Union[Source, "pandas.DataFrame", "npt.ArrayLike"]
 Table = Mapping[str, Any]
 
 
@@ -72,9 +78,8 @@ def _inputs(source: Source, tables: Mapping[str, Optional[Table]], name: str) ->
     given = {key: table for key, table in tables.items() if table is not None}
     if isinstance(source, (str, os.PathLike)) and not os.path.isdir(source):
         if given:
-            problem = f"{', '.join(given)} cannot be given together with a fit file"
-            suggestion = "state it in the file, or give the dataset instead of the file"
-            raise InputError(f"{problem}; {suggestion}", problem=problem, suggestion=suggestion)
+            refuse(f"{', '.join(given)} cannot be given together with a fit file",
+                   "state it in the file, or give the dataset instead of the file")
         return _recoil.load_fit(os.fspath(source))
     listed = [source] if isinstance(source, (str, os.PathLike, Dataset)) else list(source)
     datasets = [one if isinstance(one, Dataset) else Dataset(one) for one in listed]
@@ -95,15 +100,11 @@ def _options(
     schemes = ("", "auto", "parametric", "residual", "wild", "case", "cluster")
     for what, word, known in (("scheme", scheme, schemes), ("solver", solver, ("fast", "reference"))):
         if word not in known:
-            problem = f"{what} is {word!r}"
-            suggestion = f"choose one of {', '.join(k for k in known if k)}"
-            raise InputError(f"{problem}; {suggestion}", problem=problem, suggestion=suggestion)
+            refuse(f"{what} is {word!r}", f"choose one of {', '.join(k for k in known if k)}")
     automatic = replicates == "auto"
     if replicates is not None and not automatic:
         if isinstance(replicates, str) or not 0 <= int(replicates) <= 1000000:
-            problem = f"replicates is {replicates!r}"
-            suggestion = "give a number from 0 to 1000000, or 'auto'"
-            raise InputError(f"{problem}; {suggestion}", problem=problem, suggestion=suggestion)
+            refuse(f"replicates is {replicates!r}", "give a number from 0 to 1000000, or 'auto'")
     number = None if replicates is None or automatic else int(replicates)
     return _recoil.Options(number, automatic, scheme, seed, threads, solver)
 
@@ -116,9 +117,59 @@ def load_dataset(folder: PathLike) -> Dataset:
     return Dataset(folder)
 
 
+def _points(source: Any, e: Any, stated: Mapping[str, Any]) -> Source:
+    """``source``; of a frame or of arrays, the dataset that they make with what is ``given``."""
+    given: dict[str, Any] = {name: one for name, one in stated.items() if one is not None}
+    if hasattr(source, "to_csv"):
+        frame: Any = source
+        for name, column in (("e", e), *((n, given.get(n)) for n in _ARRAYS if n != "d")):
+            if column is not None:
+                refuse(f"{name} is given beside a frame", "make it a column of the frame")
+        if "d" in given:
+            if "diameter" in frame.columns:
+                refuse("d is given, and the frame has a column diameter", "remove one")
+            frame = frame.assign(diameter=given.pop("d"))
+        given.setdefault("provenance", "measured")
+        return Dataset.from_pandas(frame, **given)
+    if e is not None:
+        for name in ("d", "particle", "surface"):
+            if name not in given:
+                refuse(f"{name} is not known", f"give {name}=...")
+        return Dataset.from_arrays(source, e, **given)
+    if given:
+        refuse(f"{', '.join(given)} cannot be given together with a file or a dataset",
+               "they belong to arrays and frames")
+    if not _is_source(source):
+        refuse(f"{type(source).__name__} is no fit file, dataset, folder or frame",
+               "give V and e as arrays, or a frame of pandas")
+    sources: Source = source
+    return sources
+
+
+_ARRAYS = ("d", "e_sd", "V_sd", "events", "captured", "series")
+
+
+def _is_source(source: Any) -> bool:
+    one = (str, os.PathLike, Dataset)
+    if isinstance(source, one):
+        return True
+    return isinstance(source, (list, tuple)) and all(isinstance(s, one) for s in source) and source != []
+
+
 def fit(
-    source: Source,
+    source: Points,
+    e: Optional[npt.ArrayLike] = None,
     *,
+    d: Optional[npt.ArrayLike] = None,
+    particle: Optional[Material] = None,
+    surface: Optional[Material] = None,
+    e_sd: Optional[npt.ArrayLike] = None,
+    V_sd: Optional[npt.ArrayLike] = None,  # noqa: N803
+    events: Optional[npt.ArrayLike] = None,
+    captured: Optional[npt.ArrayLike] = None,
+    series: Union[str, Sequence[str], None] = None,
+    provenance: Optional[str] = None,
+    units: Optional[Mapping[str, str]] = None,
     parameters: Optional[Table] = None,
     model: Optional[Table] = None,  # noqa: A002
     noise: Optional[Table] = None,
@@ -133,7 +184,13 @@ def fit(
 ) -> FitResult:
     """Fits all points, with intervals and the two-point comparison: ``recoil fit``.
 
-    ``source``: a fit file; or a dataset, a dataset's folder, or a list of them, with the tables of
+    ``fit(V, e, d=4.9, particle="polystyrene", surface="silicon")`` fits arrays: incident velocity
+    [m/s], restitution [1], diameter [um], with the other arguments of ``Dataset.from_arrays``.
+    ``fit(frame, particle=..., surface=...)`` fits a frame of pandas with the columns of points.csv;
+    ``d`` is then the diameter of all rows, and ``units`` as of ``Dataset.from_pandas``.
+    ``provenance`` is ``"measured"`` unless given.
+
+    Else ``source`` is a fit file; or a dataset, a dataset's folder, or a list of them, with the tables of
     a fit file as dictionaries: ``parameters={"C_H": {"initial": 3e-3, "bounds": [0, 1]}}``,
     ``model={"adhesion": "jkr"}``, ``noise``, ``uncertainty``, ``diagnosis``, and its ``name``.
     ``recoil help fit-file`` lists their keys.
@@ -154,7 +211,10 @@ def fit(
         "uncertainty": uncertainty,
         "diagnosis": diagnosis,
     }
-    inputs = _inputs(source, tables, name)
+    given = {"d": d, "particle": particle, "surface": surface, "e_sd": e_sd, "V_sd": V_sd,
+             "events": events, "captured": captured, "series": series,
+             "provenance": provenance, "units": units}
+    inputs = _inputs(_points(source, e, given), tables, name)
     return FitResult(_recoil.fit(inputs, _options(replicates, scheme, seed, threads, solver)))
 
 
@@ -213,18 +273,13 @@ def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
                 message = f"{os.fspath(one)}: {error.strerror}"
                 raise InputError(message, file=os.fspath(one), problem=str(error.strerror)) from error
     if len(named) < 2:
-        problem = "a comparison needs two or more fits"
-        raise InputError(problem, problem=problem)
+        refuse(f"a comparison needs two or more fits, not {len(named)}", "give another one")
     return Comparison(*_recoil.compare(named))
-
-
-def _refuse(problem: str, suggestion: str) -> None:
-    raise InputError(f"{problem}; {suggestion}", problem=problem, suggestion=suggestion)
 
 
 def _within(name: str, value: Optional[float], least: float, most: float) -> None:
     if value is not None and not least <= value <= most:
-        _refuse(f"{name} is {value!r}", f"give a number from {least:g} to {most:g}")
+        refuse(f"{name} is {value!r}", f"give a number from {least:g} to {most:g}")
 
 
 def pair(
@@ -261,7 +316,7 @@ def pair(
     impact is found.
     """
     if positive not in ("towards", "away"):
-        _refuse(f"positive is {positive!r}", "choose one of towards, away")
+        refuse(f"positive is {positive!r}", "choose one of towards, away")
     _within("height", height, 1e-3, 1e3)
     _within("height_range", height_range, 1.01, 10)
     _within("diameter_tolerance", diameter_tolerance, 1e-3, 2)
@@ -273,9 +328,9 @@ def pair(
     _within("size_classes", size_classes, 1, 100)
     edges = [float(edge) for edge in size_edges]
     if len(edges) == 1 or any(not low < high for low, high in zip([0.0, *edges], edges)):
-        _refuse(f"size_edges is {edges!r}", "give two limits or more that ascend: [20, 40, 60]")
+        refuse(f"size_edges is {edges!r}", "give two limits or more that ascend: [20, 40, 60]")
     if edges and size_classes != 1:
-        _refuse("size_edges and size_classes are both given", "remove one")
+        refuse("size_edges and size_classes are both given", "remove one")
     arguments = _recoil.PairArguments()
     arguments.units = dict(units or {})
     arguments.columns = dict(columns or {})
@@ -297,8 +352,10 @@ def schema(name: str) -> dict[str, Any]:
     file = folder / f"{name}.schema.json"
     if not file.is_file():
         known = sorted(f.name.split(".")[0] for f in folder.iterdir())
-        problem = f"there is no schema {name!r}"
-        suggestion = f"there are {', '.join(known)}"
-        raise InputError(f"{problem}; {suggestion}", problem=problem, suggestion=suggestion)
+        refuse(f"there is no schema {name!r}", f"choose one of {', '.join(known)}")
     found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     return found
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

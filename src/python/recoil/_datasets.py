@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
+import math
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import _recoil
-from ._errors import InputError
+from ._errors import InputError, refuse
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     import pandas
 
 PathLike = Union[str, "os.PathLike[str]"]
+Material = Union[str, Mapping[str, Any]]
 
 _UNITS = {
     "diameter": "um",
@@ -28,6 +32,59 @@ _UNITS = {
 }
 _TEXTS = ("series", "setting")
 _COUNTS = ("events", "captured")
+
+
+def _material(body: str, stated: Any) -> Any:
+    """A name as what the table of materials has under it."""
+    return json.loads(_recoil.material(stated, body)) if isinstance(stated, str) else stated
+
+
+def _stated(like: Optional["Dataset"], **given: Any) -> dict[str, Any]:
+    """The object ``recoil`` of datapackage.json: what is given, and the rest of ``like``."""
+    own: dict[str, Any] = {} if like is None else dict(like._package["recoil"])
+    for key, value in given.items():
+        if value is not None:
+            own[key] = _material(key, value) if key in ("particle", "surface") else value
+    for key in ("particle", "surface", "provenance"):
+        if key not in own:
+            refuse(f"{key} is not known", f"give {key}=..., or like= a dataset that has it")
+    return own
+
+
+def _series_of(diameters: list[str]) -> list[str]:
+    """One series for each of up to 12 diameters; one for all where there are more."""
+    few = len(set(diameters)) <= 12
+    return [f"d = {d}" if few else "points" for d in diameters]
+
+
+def _numbers(
+    name: str, values: Any, points: Optional[int], *, empty: bool = False, whole: bool = False
+) -> list[str]:
+    """One cell per point. ``points``: how many, None: as many as there are; ``empty``: NaN is a
+    missing value; ``whole``: counts."""
+    import numpy as np
+
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        refuse(f"{name} has an entry that is no number", f"give numbers as {name}")
+    if array.ndim == 0 and points is not None:
+        array = np.full(points, float(array))
+    if array.ndim != 1 or (points is not None and len(array) != points):
+        shape = " x ".join(map(str, array.shape)) or "one"
+        wanted = "one entry per point" if points is None else f"{points} entries, as V has"
+        refuse(f"{name} has {shape} entries", f"give {wanted}")
+    cells = []
+    for i, value in enumerate(array.tolist()):
+        if empty and math.isnan(value):
+            cells.append("")
+            continue
+        if not math.isfinite(value):
+            refuse(f"{name}[{i}] is {value}", "leave the point out")
+        if whole and value != int(value):
+            refuse(f"{name}[{i}] is {value}", "give whole numbers")
+        cells.append(str(int(value)) if whole else repr(value))
+    return cells
 
 
 class Dataset:
@@ -58,8 +115,8 @@ class Dataset:
         frame: "pandas.DataFrame",
         name: str = "points",
         *,
-        particle: Optional[Mapping[str, Any]] = None,
-        surface: Optional[Mapping[str, Any]] = None,
+        particle: Optional[Material] = None,
+        surface: Optional[Material] = None,
         provenance: Optional[str] = None,
         like: Optional["Dataset"] = None,
         title: str = "",
@@ -72,28 +129,23 @@ class Dataset:
         ``incident_velocity`` [m/s], ``restitution`` [1] or ``rebound_velocity`` [m/s]; optional
         ``restitution_sd``, ``velocity_sd``, ``diameter_sd``, ``events``, ``captured``, ``setting``,
         ``setting_velocity_sd`` and the conditions. Missing values are empty cells.
+        Without ``series`` the points of each diameter are one.
         ``units``: of columns in other units than these, ``{"diameter": "mm"}``.
-        ``particle``, ``surface``: ``{"material": ..., "density": 1050, "youngs_modulus": 2.56e9,
-        "poisson_ratio": 0.35}`` [kg/m3, Pa, 1]; ``provenance``: ``"measured"``, ``"digitised"``,
+        ``particle``, ``surface``: a name (``recoil materials`` lists them), or ``{"material": ...,
+        "density": 1050, "youngs_modulus": 2.56e9, "poisson_ratio": 0.35}`` [kg/m3, Pa, 1];
+        ``provenance``: ``"measured"``, ``"digitised"``,
         ``"reconstruction"`` or ``"synthetic"``. What is not given is that of ``like``.
         ``more``: other keys of ``recoil`` in datapackage.json, such as ``stiffness_K``,
         ``method`` or ``conditions``.
 
-        Raises ``InputError`` that names the column, or the line as the frame would have it as CSV.
+        Raises ``InputError`` that names the column and the row, counted from 0.
         """
-        own: dict[str, Any] = {} if like is None else dict(like._package["recoil"])
-        given = {"particle": particle, "surface": surface, "provenance": provenance, **more}
-        own.update({key: value for key, value in given.items() if value is not None})
-        for key in ("particle", "surface", "provenance"):
-            if key not in own:
-                raise InputError(
-                    f"{key} is not known; give {key}=..., or like= a dataset that has it",
-                    problem=f"{key} is not known",
-                    suggestion=f"give {key}=..., or like= a dataset that has it",
-                )
+        own = _stated(like, particle=particle, surface=surface, provenance=provenance, **more)
         said = dict(_UNITS)
         for known in (like.units if like else {}, frame.attrs.get("units", {}), units or {}):
             said.update(known)
+        if "series" not in frame.columns and "diameter" in frame.columns:
+            frame = frame.assign(series=_series_of([f"{d}" for d in frame["diameter"]]))
         fields = []
         for column in map(str, frame.columns):
             kind = "string" if column in _TEXTS else "integer" if column in _COUNTS else "number"
@@ -103,11 +155,79 @@ class Dataset:
             if column in said:
                 field["unit"] = said[column]
             fields.append(field)
+        return cls._parsed(name, title, fields, own, frame.to_csv(index=False))
+
+    @classmethod
+    def from_arrays(
+        cls,
+        V: npt.ArrayLike,  # noqa: N803
+        e: npt.ArrayLike,
+        *,
+        d: npt.ArrayLike,
+        particle: Material,
+        surface: Material,
+        e_sd: Optional[npt.ArrayLike] = None,
+        V_sd: Optional[npt.ArrayLike] = None,  # noqa: N803
+        events: Optional[npt.ArrayLike] = None,
+        captured: Optional[npt.ArrayLike] = None,
+        series: Union[str, Sequence[str], None] = None,
+        provenance: str = "measured",
+        name: str = "points",
+        **more: Any,
+    ) -> "Dataset":
+        """A dataset of arrays.
+
+        ``V``: incident velocity [m/s]; ``e``: restitution [1], NaN where every sphere stays;
+        ``d``: diameter [um]; ``e_sd``, ``V_sd``: their standard deviations; ``events`` and
+        ``captured``: impacts, and how many of them stay. A number counts for all points.
+        ``series``: names; unless given, the points of each diameter are a series.
+        ``particle``, ``surface``, ``provenance``, ``more``: as of ``from_pandas``.
+
+        Raises ``InputError`` that names the argument and its entry.
+        """
+        velocity = _numbers("V", V, None)
+        points = len(velocity)
+        diameters = _numbers("d", d, points)
+        if series is None:
+            names = _series_of(diameters)
+        else:
+            names = [series] * points if isinstance(series, str) else [str(one) for one in series]
+        if len(names) != points:
+            refuse(f"series has {len(names)} entries and V has {points}", "give one per point")
+        columns = {"series": names, "diameter": diameters, "incident_velocity": velocity,
+                   "restitution": _numbers("e", e, points, empty=captured is not None)}
+        given = {"restitution_sd": ("e_sd", e_sd), "velocity_sd": ("V_sd", V_sd),
+                 "events": ("events", events), "captured": ("captured", captured)}
+        for column, (argument, values) in given.items():
+            if values is not None:
+                columns[column] = _numbers(argument, values, points, whole=column in _COUNTS)
+        fields = [{"name": column, "type": "string" if column in _TEXTS
+                   else "integer" if column in _COUNTS else "number",
+                   **({"unit": _UNITS[column]} if column in _UNITS else {})} for column in columns]
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*columns.values()))
+        own = _stated(None, particle=particle, surface=surface, provenance=provenance, **more)
+        return cls._parsed(name, "", fields, own, text.getvalue())
+
+    @classmethod
+    def _parsed(
+        cls, name: str, title: str, fields: list[dict[str, str]], own: dict[str, Any], points: str
+    ) -> "Dataset":
         resource = {"name": "points", "path": "points.csv", "schema": {"fields": fields}}
         package = {"name": name, "title": title or name, "resources": [resource], "recoil": own}
-        csv = frame.to_csv(index=False)
-        data = _recoil.parse_dataset(json.dumps(package), csv, name)
-        return cls._of(data, package, csv)
+        try:
+            data = _recoil.parse_dataset(json.dumps(package), points, name)
+        except InputError as error:  # names a file that is not there
+            problem = error.problem
+            if error.file.endswith("points.csv") and error.line > 1:
+                problem = f"entry {error.line - 2} (from 0): {problem}"
+            message = problem + (f" ({error.why})" if error.why else "")
+            message += f"; {error.suggestion}" if error.suggestion else ""
+            raise InputError(message, problem=problem, why=error.why,
+                             suggestion=error.suggestion) from None
+        return cls._of(data, package, points)
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The points as a frame, one row each, columns and numbers as in the file;

@@ -1,5 +1,9 @@
 """What recoil raises."""
 
+from __future__ import annotations
+
+from typing import NoReturn
+
 
 class InputError(ValueError):
     """Something that you can put right: a file, a key, a value.
@@ -42,6 +46,11 @@ class InputError(ValueError):
     def __reduce__(self) -> tuple[type, tuple[object, ...]]:
         parts = (self.file, self.line, self.column, self.problem, self.why, self.suggestion)
         return (type(self), (str(self), *parts))
+
+
+def refuse(problem: str, suggestion: str) -> NoReturn:
+    """Raises ``InputError`` for an argument."""
+    raise InputError(f"{problem}; {suggestion}", problem=problem, suggestion=suggestion)
 
 
 class ComputationError(RuntimeError):

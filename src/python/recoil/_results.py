@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
 
 from . import _recoil
+from ._errors import refuse
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
 
@@ -151,7 +152,7 @@ class FitResult(_WithPictures):
     def __init__(self, analysis: _recoil.Analysis) -> None:
         self._analysis = analysis
         self._json = analysis.json()
-        self._text = analysis.text()
+        self._text = analysis.text(False)
         self._fitted = Model(analysis.model())
         self._pictures = analysis.pictures()
 
@@ -196,9 +197,21 @@ class FitResult(_WithPictures):
         predicted = self._analysis.predict(os.fspath(sizes), unit, height_mm, midpoints, dataset)
         return Prediction(predicted)
 
-    def report(self) -> str:
-        """What ``recoil fit`` prints."""
-        return self._text
+    def report(self, verbose: bool = False) -> str:
+        """What ``recoil fit`` prints; ``verbose``: with ``--verbose``."""
+        return self._analysis.text(verbose)
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """The parameters as a frame: value, standard error, the ends of the recommended interval,
+        unit."""
+        import pandas
+
+        rows = {}
+        for name, one in self.params.items():
+            lower, upper = one.interval or (None, None)
+            rows[name] = {"value": one.value, "std_error": one.stderr, "lower": lower,
+                          "upper": upper, "unit": one.unit}
+        return pandas.DataFrame.from_dict(rows, orient="index")
 
     def save(self, folder: PathLike) -> Path:
         """Writes ``folder``/fit.json, and returns its path."""
@@ -210,16 +223,41 @@ class FitResult(_WithPictures):
         """Writes the page of ``recoil report``: one HTML file, pictures (by gnuplot) inside."""
         write_whole(Path(file), self._analysis.page())
 
-    def plot(self, ax: "Optional[Axes]" = None) -> "Axes":
-        """Draws e against V with matplotlib: the points with their errors, the fit and its band,
-        one colour for each series. On ``ax``, or on a figure of its own; returns the axes."""
+    def plot(
+        self, ax: "Optional[Axes]" = None, what: str = "fit", *, parameter: str = ""
+    ) -> "Axes":
+        """Draws with matplotlib on ``ax``, or on a figure of its own; returns the axes.
+
+        ``what``: ``"fit"``, e against V with the points' errors and the band of the curve, one
+        colour for each series; ``"residuals"``, weighted residuals against V; ``"profile"``, the
+        rise of chi-square along ``parameter`` (the first free one), the others refitted, and the
+        rise at which the interval ends.
+        """
+        known = ("fit", "residuals", "profile")
+        if what not in known:
+            refuse(f"what is {what!r}", f"choose one of {', '.join(known)}")
+        if parameter and what != "profile":
+            refuse(f"parameter is given, and what is {what!r}", 'give what="profile"')
         if ax is None:
             import matplotlib.pyplot as plt
 
             ax = plt.figure().add_subplot()
+        if what == "profile":
+            self._draw_profile(ax, parameter)
+        elif what == "residuals":
+            self._draw_residuals(ax)
+        else:
+            self._draw_fit(ax)
+        return ax
+
+    def _series(self) -> Iterator[tuple[str, str, str]]:
+        """Colour, dataset and name of each series."""
         series = dict.fromkeys((row.dataset, row.series) for row in self.residuals)
         for number, (dataset, name) in enumerate(series):
-            colour = f"C{number % 10}"
+            yield f"C{number % 10}", dataset, name
+
+    def _draw_fit(self, ax: "Axes") -> None:
+        for colour, dataset, name in self._series():
             points = [r for r in self.residuals if (r.dataset, r.series) == (dataset, name)]
             curve = [r for r in self.curve if (r.dataset, r.series) == (dataset, name)]
             ax.errorbar(
@@ -235,7 +273,30 @@ class FitResult(_WithPictures):
             ax.fill_between(velocity, lower, upper, color=colour, alpha=0.2, linewidth=0)
         ax.set(xscale="log", xlabel="incident velocity V [m/s]", ylabel="restitution e")
         ax.legend()
-        return ax
+
+    def _draw_residuals(self, ax: "Axes") -> None:
+        for colour, dataset, name in self._series():
+            points = [r for r in self.residuals if (r.dataset, r.series) == (dataset, name)]
+            ax.plot(_numbers([p.incident_velocity for p in points]),
+                    _numbers([p.weighted_residual for p in points]),
+                    "o", color=colour, label=name or dataset)
+        ax.axhline(0.0, color="0.5", linewidth=1)
+        ax.set(xscale="log", xlabel="incident velocity V [m/s]", ylabel="weighted residual")
+        ax.legend()
+
+    def _draw_profile(self, ax: "Axes", parameter: str) -> None:
+        profiles = self._analysis.profiles()
+        if not profiles:
+            refuse("no parameter is free", "there is no profile to plot")
+        name = parameter or next(iter(profiles))
+        if name not in profiles:
+            refuse(f"parameter is {name!r}", f"choose one of {', '.join(profiles)}")
+        value, rise, allowed = (_numbers(list(column)) for column in profiles[name])
+        ax.plot(value, rise, "o-", color="C0")
+        ax.plot(value, allowed, "--", color="0.5", label="where the interval ends")
+        ax.axvline(self.parameters[name].value, color="0.5", linewidth=1)
+        ax.set(xlabel=f"{name} [{self.parameters[name].unit}]", ylabel="rise of chi-square")
+        ax.legend()
 
     plot_fit = plot
 
@@ -314,8 +375,8 @@ class FitResult(_WithPictures):
         return self.simulate(V, d, dataset=dataset).restitution
 
     def fit_report(self) -> str:
-        """``report``."""
-        return self._text
+        """``report(verbose=True)``."""
+        return self.report(verbose=True)
 
     def conf_interval(self) -> dict[str, dict[str, Optional[list[float]]]]:
         """Every interval of every free parameter, [lower, upper] or None, by name and kind."""
@@ -354,12 +415,12 @@ class Diagnosis(_WithPictures):
     def __init__(self, diagnosis: _recoil.Diagnosis) -> None:
         self._diagnosis = diagnosis
         self._json = diagnosis.json()
-        self._text = diagnosis.text()
+        self._text = diagnosis.text(False)
         self._pictures = diagnosis.pictures()
 
-    def report(self) -> str:
-        """What ``recoil diagnose`` prints."""
-        return self._text
+    def report(self, verbose: bool = False) -> str:
+        """What ``recoil diagnose`` prints; ``verbose``: with ``--verbose``."""
+        return self._diagnosis.text(verbose)
 
     def save(self, folder: PathLike) -> Path:
         """Writes diagnosis.json and extended.toml (a fit file of the extended model) into
