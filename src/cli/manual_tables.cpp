@@ -197,14 +197,6 @@ std::string limits_table() {
   return out;
 }
 
-std::string topics_table() {
-  std::string out = "| page | is about |\n|---|---|\n";
-  for (const ManualPage& page : manual_pages()) {
-    out += fmt::format("| [{0}]({0}.md) | {1} |\n", page.topic, page.title());
-  }
-  return out;
-}
-
 /// A table by its name.
 struct ManualTable {
   const char* name;
@@ -218,7 +210,6 @@ ManualTable table(const char* name, const Text& text) {
 
 const std::vector<ManualTable>& tables() {
   static const std::vector<ManualTable> all = {
-      table("topics", topics_table),
       {"commands", commands_table},
       table("base parameters", base_parameters_table),
       table("keys of [model]", [] { return fit_keys_table("model"); }),

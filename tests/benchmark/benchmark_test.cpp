@@ -220,9 +220,9 @@ double seconds_in(const std::string& cell) {
   return value * units.at(unit.substr(0, unit.find_first_not_of("numsih")));
 }
 
-TEST(Table, TheReadmeQuotesTheLastRun) {
+TEST(Table, TheManualQuotesTheLastRun) {
   const fs::path root = RECOIL_SOURCE_DIR;
-  const std::string block = between_markers(read_text_file(root / "README.md"));
+  const std::string block = between_markers(read_text_file(root / "docs/speed.md"));
   EXPECT_EQ(block, between_markers(read_text_file(root / "reports/benchmark.md")));
 
   int ratios = 0;

@@ -1,6 +1,6 @@
 // ./run bench: how fast the fast path, the bootstrap and a fit are, beside the reference and beside
 // Python and R, and how the cost grows. Writes benchmark.json into the build folder,
-// reports/benchmark.md, and the table of the README.
+// reports/benchmark.md, and the table of docs/speed.md.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -242,9 +242,9 @@ int run_all(const fs::path& program, const fs::path& root, std::size_t most_poin
   const Json earlier = Json::parse(read_text_file(root / "tests/benchmark/earlier.json"));
   write_whole_file(build / "benchmark.json", results.dump(2) + "\n");
   write_whole_file(root / "reports/benchmark.md", benchmark_page(results, earlier));
-  const fs::path readme = root / "README.md";
-  write_whole_file(readme, with_block(read_text_file(readme), short_table(results)));
-  fmt::print("\n{}\nWrote {}, reports/benchmark.md and the table of README.md\n",
+  const fs::path page = root / "docs/speed.md";
+  write_whole_file(page, with_block(read_text_file(page), short_table(results)));
+  fmt::print("\n{}\nWrote {}, reports/benchmark.md and the table of docs/speed.md\n",
              short_table(results), fs::relative(build / "benchmark.json", root).string());
   return 0;
 }

@@ -10,18 +10,38 @@ import pytest
 SOURCE = Path(os.environ["RECOIL_SOURCE"])
 BINARY = os.environ["RECOIL_BINARY"]
 
-README = (SOURCE / "README.md").read_text()
-
-
-def block(begin):
-    """The block of code in the README that begins so."""
-    code = README[README.index("\n" + begin) + 1:]
-    return code[:code.index("```")]
-
-
-# The dataset of the tour, with short names of its series.
-POINTS = block("series,diameter,").replace("ps-2-um", "a").replace("ps-4-um", "b")
-PACKAGE = json.loads(block('{\n  "name": "my-spheres"'))
+# Two sizes of polystyrene on silicon: the base model with noise.
+POINTS = """\
+series,diameter,incident_velocity,restitution,restitution_sd,events,captured
+a,2,1.6,0,0.015,20,20
+a,2,2,0.492,0.015,20,0
+a,2,2.4,0.651,0.015,20,0
+a,2,3.2,0.761,0.015,20,0
+a,2,8,0.866,0.015,20,0
+a,2,25,0.900,0.015,20,0
+b,4,0.65,0,0.015,20,20
+b,4,0.8,0.505,0.015,20,0
+b,4,1,0.705,0.015,20,0
+b,4,1.4,0.825,0.015,20,0
+b,4,5,0.937,0.015,20,0
+b,4,25,0.933,0.015,20,0
+"""
+PACKAGE = {
+    "name": "my-spheres",
+    "title": "Polystyrene spheres on silicon (a synthetic example)",
+    "resources": [{"name": "points", "path": "points.csv", "schema": {"fields": [
+        {"name": "series", "type": "string"},
+        {"name": "diameter", "type": "number", "unit": "um"},
+        {"name": "incident_velocity", "type": "number", "unit": "m/s"},
+        {"name": "restitution", "type": "number", "unit": "1"},
+        {"name": "restitution_sd", "type": "number", "unit": "1"},
+        {"name": "events", "type": "integer"},
+        {"name": "captured", "type": "integer"}]}}],
+    "recoil": {
+        "provenance": "synthetic",
+        "particle": {"material": "polystyrene", "density": 1050, "youngs_modulus": 2.56e9,
+                     "poisson_ratio": 0.35},
+        "surface": {"material": "silicon", "youngs_modulus": 131e9, "poisson_ratio": 0.28}}}
 PARTICLE = PACKAGE["recoil"]["particle"]
 SURFACE = PACKAGE["recoil"]["surface"]
 
