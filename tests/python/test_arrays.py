@@ -38,7 +38,7 @@ def test_arrays_frames_and_files_are_the_same_fit(here):
     assert (of_arrays.parameters.C_H.value, of_arrays.chisqr) == wanted
     assert (of_frame.parameters.C_H.value, of_frame.chisqr) == wanted
     assert of_arrays.dataset.provenance == "measured"
-    assert {row.series for row in of_arrays.residuals} == {"d = 4.0"}
+    assert {row.series for row in of_arrays.residuals} == {"4 um"}
 
 
 def test_materials_by_name():

@@ -1,4 +1,4 @@
-"""The tour as a notebook: valid, without outputs, and every cell runs from the first to the last."""
+"""The notebook: valid, with its outputs, and every cell runs and prints what is committed."""
 
 import ast
 import json
@@ -6,6 +6,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import nbformat
+import pandas
 import pytest
 from conftest import SOURCE
 
@@ -18,11 +19,14 @@ def close_figures():
     plt.close("all")
 
 
-def test_the_tour_is_a_notebook_without_outputs():
+def test_the_tour_is_a_notebook_that_ran_from_the_first_cell_to_the_last():
     tour = nbformat.read(TOUR, as_version=nbformat.NO_CONVERT)
     nbformat.validate(tour)
-    for cell in tour.cells:
-        assert cell.cell_type != "code" or (cell.outputs == [] and cell.execution_count is None)
+    code = [cell for cell in tour.cells if cell.cell_type == "code"]
+    assert [cell.execution_count for cell in code] == list(range(1, len(code) + 1))
+    kinds = [output.output_type for cell in code for output in cell.outputs]
+    assert "error" not in kinds and kinds.count("display_data") >= 3
+    assert all(output.get("name") != "stderr" for cell in code for output in cell.outputs)
 
 
 def run_cell(source, names):
@@ -36,27 +40,31 @@ def run_cell(source, names):
     return None if source.rstrip().endswith(";") else shown
 
 
-def test_every_cell_of_the_tour_runs(tmp_path, monkeypatch):
+def test_every_cell_of_the_tour_prints_what_is_committed(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    names, shown = {}, []
+    names = {}
     for cell in json.loads(TOUR.read_text())["cells"]:
         if cell["cell_type"] != "code":
             continue
-        value = run_cell("".join(cell["source"]), names)
-        if value is not None:
-            shown.append(getattr(value, "_repr_html_", value.__repr__)())
+        capsys.readouterr()
+        run_cell("".join(cell["source"]), names)
         for number in plt.get_fignums():
             plt.figure(number).canvas.draw()
-    assert any("<i>C</i><sub>H</sub>" in page for page in shown)
+        streams = [o for o in cell["outputs"] if o["output_type"] == "stream"]
+        assert capsys.readouterr().out == "".join("".join(o["text"]) for o in streams)
     assert Path("my-result/fit.json").is_file()
     assert "<svg" in Path("my-result/my-spheres.html").read_text()
-    readme = (SOURCE / "README.md").read_text()
-    rows = readme.split("```csv\n")[1].split("```")[0].splitlines()[1:]
-    found = names["data"].to_pandas()
-    assert len(rows) == len(found)
-    for row, (_, point) in zip(rows, found.iterrows()):  # the same points as in the README's tour
-        series, d, v, e, sd, events, captured = row.split(",")
-        assert series == point.series and int(events) == point.events
-        assert (float(d), float(v), float(e), float(sd), int(captured)) == (
-            point.diameter, point.incident_velocity, point.restitution, point.restitution_sd,
-            point.captured)
+
+
+def test_its_points_are_those_of_the_tutorial(tmp_path):
+    text = (SOURCE / "docs/tutorial.md").read_text().split("```csv\n")[1].split("```")[0]
+    (tmp_path / "measured.csv").write_text(text)
+    wanted = pandas.read_csv(tmp_path / "measured.csv")
+    names = {"pd": pandas}
+    source = next("".join(c["source"]) for c in json.loads(TOUR.read_text())["cells"]
+                  if "".join(c["source"]).startswith("points ="))
+    run_cell(source, names)
+    found = names["points"][["diameter", "incident_velocity", "restitution", "restitution_sd",
+                             "events", "captured"]]
+    found.columns = wanted.columns
+    pandas.testing.assert_frame_equal(found, wanted, check_dtype=False)

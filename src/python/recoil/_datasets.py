@@ -51,10 +51,13 @@ def _stated(like: Optional["Dataset"], **given: Any) -> dict[str, Any]:
     return own
 
 
-def _series_of(diameters: list[str]) -> list[str]:
+def _series_of(diameters: Any, unit: str) -> list[str]:
     """One series for each of up to 12 diameters; one for all where there are more."""
     few = len(set(diameters)) <= 12
-    return [f"d = {d}" if few else "points" for d in diameters]
+    try:
+        return [f"{float(d):g} {unit}" if few else "points" for d in diameters]
+    except (TypeError, ValueError):  # the reader of the points says what is wrong
+        return ["points"] * len(diameters)
 
 
 def _numbers(
@@ -145,7 +148,7 @@ class Dataset:
         for known in (like.units if like else {}, frame.attrs.get("units", {}), units or {}):
             said.update(known)
         if "series" not in frame.columns and "diameter" in frame.columns:
-            frame = frame.assign(series=_series_of([f"{d}" for d in frame["diameter"]]))
+            frame = frame.assign(series=_series_of(frame["diameter"], said["diameter"]))
         fields = []
         for column in map(str, frame.columns):
             kind = "string" if column in _TEXTS else "integer" if column in _COUNTS else "number"
@@ -189,7 +192,7 @@ class Dataset:
         points = len(velocity)
         diameters = _numbers("d", d, points)
         if series is None:
-            names = _series_of(diameters)
+            names = _series_of(diameters, "um")
         else:
             names = [series] * points if isinstance(series, str) else [str(one) for one in series]
         if len(names) != points:
