@@ -10,7 +10,7 @@ docs = Path(__file__).resolve().parent.parent
 project = "recoil"
 author = "The recoil authors"
 copyright = author  # noqa: A001
-release = re.search(r"VERSION ([\d.]+)", (docs.parent / "CMakeLists.txt").read_text()).group(1)
+release = re.search(r"project\(recoil VERSION ([\d.]+)", (docs.parent / "CMakeLists.txt").read_text()).group(1)
 
 extensions = ["myst_parser"]
 source_suffix = {".md": "markdown"}

@@ -3,6 +3,7 @@
 import io
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import pandas
 import recoil
 
@@ -24,10 +25,50 @@ def tutorial():
                       name="tutorial")
 
 
+def drawn(axes):
+    """A figure of matplotlib as SVG, the same bytes every time."""
+    with plt.rc_context({"svg.hashsalt": "recoil"}):
+        text = io.StringIO()
+        axes.figure.savefig(text, format="svg", metadata={"Date": None}, bbox_inches="tight")
+    plt.close(axes.figure)
+    return "\n".join(line.rstrip() for line in text.getvalue().splitlines()) + "\n"
+
+
+def forces(model):
+    """Both forces of one impact against penetration."""
+    history = model.impact(2.0, 4.9).history
+    axes = plt.figure(figsize=(6, 3.6)).add_subplot()
+    for name, label in (("hertz", "elastic"), ("adhesion", "adhesion")):
+        force = [a + b for a, b in zip(history[f"{name}_force_uN"],
+                                       history[f"{name}_damping_force_uN"])]
+        axes.plot(history["penetration_nm"], force, label=label)
+    axes.axhline(0.0, color="0.5", linewidth=0.8)
+    axes.set(xlabel="penetration n [nm]", ylabel="force [µN], outward positive")
+    axes.legend()
+    return drawn(axes)
+
+
+def energy(model):
+    """Where the incident energy of impacts goes, against velocity."""
+    velocities = [0.5 * 200 ** (k / 80) for k in range(81)]
+    budgets = [model.impact(v, 4.9).contact.energy_J for v in velocities]
+    names = {"rebound": "rebound", "adhesion_damping": "adhesion damping",
+             "hertz_damping": "elastic damping"}
+    axes = plt.figure(figsize=(6, 3.6)).add_subplot()
+    axes.stackplot(velocities, *([100 * b[name] / b.incident for b in budgets] for name in names),
+                   labels=names.values())
+    axes.set(xscale="log", xlabel="incident velocity V [m/s]", ylabel="share of the energy [%]",
+             xlim=(velocities[0], velocities[-1]), ylim=(0, 100))
+    axes.legend(loc="center right")
+    return drawn(axes)
+
+
 quartz, silicon, molybdenum = map(fit, ("dahneke1975-quartz", "wall1990-silicon",
                                         "wall1990-molybdenum"))
 steel = fit("li1999-sst65-silicon").predict(root / "datasets/li1999-sst65-silicon/sizes.csv")
 pictures = {
+    docs / "pictures/forces.svg": forces(molybdenum),
+    docs / "pictures/energy.svg": energy(molybdenum),
     root / "reports/pictures/dahneke1975-quartz.svg": quartz.svg("restitution-1"),
     docs / "pictures/restitution.svg": quartz.svg("restitution-1"),
     docs / "pictures/sizes.svg": silicon.svg("overview"),
