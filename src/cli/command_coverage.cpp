@@ -6,13 +6,13 @@
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/json_coverage.hpp"
 #include "cli/shard_flags.hpp"
 #include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/statistics.hpp"
 #include "coverage/coverage_truth.hpp"
+#include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {

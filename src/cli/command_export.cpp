@@ -7,7 +7,6 @@
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/fitted_values.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
@@ -18,6 +17,7 @@
 #include "export/openfoam.hpp"
 #include "export/table.hpp"
 #include "export/yade.hpp"
+#include "json/fitted_values.hpp"
 #include "report/words_export.hpp"
 
 namespace recoil {

@@ -8,7 +8,6 @@
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/fitted_values.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/units.hpp"
@@ -17,6 +16,7 @@
 #include "estimate/predictor.hpp"
 #include "experiment/import.hpp"
 #include "experiment/import_table.hpp"
+#include "json/fitted_values.hpp"
 
 namespace recoil {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "cli/simulated_impact.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "estimate/predictor.hpp"
+#include "predict/simulated_impact.hpp"
 
 namespace recoil {
 namespace {

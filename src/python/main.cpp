@@ -14,10 +14,6 @@
 #include <numbers>
 
 #include "analysis/analysis.hpp"
-#include "cli/fitted_values.hpp"
-#include "cli/json_coverage.hpp"
-#include "cli/paired_passages.hpp"
-#include "cli/simulated_impact.hpp"
 #include "core/error.hpp"
 #include "core/gsl_errors.hpp"
 #include "core/interrupt.hpp"
@@ -29,9 +25,12 @@
 #include "diagnosis/extended_toml.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
+#include "experiment/paired_passages.hpp"
 #include "experiment/pairing_files.hpp"
+#include "json/fitted_values.hpp"
 #include "plot/draw.hpp"
 #include "predict/polydisperse.hpp"
+#include "predict/simulated_impact.hpp"
 #include "python/impacts.hpp"
 #include "report/comparison_page.hpp"
 #include "report/diagnosis_sections.hpp"

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "analysis/analysis.hpp"
+#include "coverage/coverage.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "experiment/averages.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/passages.hpp"
 #include "json/diagnosis_file.hpp"
 #include "json/fit_file.hpp"
+#include "predict/simulated_impact.hpp"
 #include "report/comparison_page.hpp"
 
 /// The JSON files of results. Numbers that do not exist are null, where possible with a reason.
@@ -45,6 +47,16 @@ std::string diagnosis_json(const Diagnosis& diagnosis);
 /// one quantity, in the order of the fits (null where a fit does not have it).
 /// @throws InputError when the fits are not of the same data. @pre two or more
 std::string comparison_json(const std::vector<ComparedFit>& fits);
+
+/// What `recoil coverage --json` prints.
+std::string coverage_json(const CoverageResult& result, const FitSpec& spec,
+                          const CoverageOptions& options, const std::vector<Dataset>& datasets);
+
+/// What `recoil simulate --json` prints.
+/// @param values where the parameters come from: "initial values", or the name of a fit.json
+std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>& datasets,
+                            const SimulatedImpact& simulated, const std::string& fit,
+                            const std::string& values);
 
 /// What `recoil pair --json` prints: the passages that were read, the measuring plane, the impacts,
 /// passages without a rebound, and the points.

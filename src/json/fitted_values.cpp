@@ -1,4 +1,4 @@
-#include "cli/fitted_values.hpp"
+#include "json/fitted_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

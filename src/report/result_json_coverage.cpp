@@ -1,8 +1,7 @@
-#include "cli/json_coverage.hpp"
-
 #include "core/json.hpp"
 #include "core/program.hpp"
 #include "core/statistics.hpp"
+#include "report/result_json.hpp"
 
 namespace recoil {
 namespace {

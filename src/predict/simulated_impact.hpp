@@ -52,10 +52,4 @@ struct HistoryColumn {
 };
 std::vector<HistoryColumn> history_columns(const SimulatedImpact& simulated);
 
-/// What `recoil simulate --json` prints.
-/// @param values where the parameters come from: "initial values", or the name of a fit.json
-std::string simulation_json(const ImpactModel& model, const std::vector<Dataset>& datasets,
-                            const SimulatedImpact& simulated, const std::string& fit,
-                            const std::string& values);
-
 }  // namespace recoil

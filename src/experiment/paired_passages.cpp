@@ -1,4 +1,4 @@
-#include "cli/paired_passages.hpp"
+#include "experiment/paired_passages.hpp"
 
 #include <fmt/format.h>
 
