@@ -40,9 +40,11 @@ std::string code(std::string_view text) { return fmt::format("`{}`", text); }
 // ---- commands
 // --------------------------------------------------------------------------------
 
-std::string commands_table(const Program& program) {
+/// The options of these commands.
+std::string commands_table(const Program& program, const std::vector<std::string>& names) {
   std::string out;
   for (const Command& command : program.commands()) {
+    if (std::find(names.begin(), names.end(), command.name()) == names.end()) continue;
     std::string arguments;
     std::string rows;
     for (const OptionText& option : command.options()) {
@@ -100,11 +102,22 @@ std::string plausible_words(const Parameter& p) {
                      within, literal(p.limit.why));
 }
 
-std::string mechanism_details_table() {
+enum class Where { measurement, surroundings, contact, adhesion };
+
+Where where_of(const MechanismInfo& info) {
+  if (info.place == MechanismPlace::gas || info.place == MechanismPlace::field) {
+    return Where::surroundings;
+  }
+  if (info.place != MechanismPlace::contact) return Where::measurement;
+  return info.needs_adhesion ? Where::adhesion : Where::contact;
+}
+
+std::string mechanism_details_table(Where where) {
   std::string out;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     const MechanismInfo& info = mechanism.info;
-    out += fmt::format("{}### {}\n\n{} ({}).\n\n", out.empty() ? "" : "\n", info.id, info.title,
+    if (where_of(info) != where) continue;
+    out += fmt::format("{}## {}\n\n{} ({}).\n\n", out.empty() ? "" : "\n", info.id, info.title,
                        to_string(info.kind));
     out += fmt::format("- Law: {}\n- Leaves: {}\n- Source: {}\n", info.formula, info.fingerprint,
                        info.source);
@@ -210,7 +223,19 @@ ManualTable table(const char* name, const Text& text) {
 
 const std::vector<ManualTable>& tables() {
   static const std::vector<ManualTable> all = {
-      {"commands", commands_table},
+      {"commands for data",
+       [](const Program& program) {
+         return commands_table(program, {"check", "init", "import", "materials"});
+       }},
+      {"commands for fits",
+       [](const Program& program) {
+         return commands_table(
+             program, {"fit", "diagnose", "simulate", "report", "compare", "predict", "export"});
+       }},
+      {"other commands",
+       [](const Program& program) {
+         return commands_table(program, {"pair", "plan", "coverage", "cluster", "merge", "help"});
+       }},
       table("base parameters", base_parameters_table),
       table("keys of [model]", [] { return fit_keys_table("model"); }),
       table("keys of a parameter", [] { return fit_keys_table("parameter"); }),
@@ -222,7 +247,12 @@ const std::vector<ManualTable>& tables() {
             [] { return fit_keys_table("uncertainty") + "\n" + words_table<Scheme>("scheme"); }),
       table("keys of [diagnosis]", [] { return fit_keys_table("diagnosis"); }),
       table("mechanisms", mechanisms_table),
-      table("mechanism details", mechanism_details_table),
+      table("mechanisms of the measurement",
+            [] { return mechanism_details_table(Where::measurement); }),
+      table("mechanisms of the surroundings",
+            [] { return mechanism_details_table(Where::surroundings); }),
+      table("mechanisms of the contact", [] { return mechanism_details_table(Where::contact); }),
+      table("mechanisms of the adhesion", [] { return mechanism_details_table(Where::adhesion); }),
       table("units", units_table),
       table("limits", limits_table)};
   return all;

@@ -55,6 +55,38 @@ TEST(Manual, HelpPrintsEveryPage) {
   }
 }
 
+/// How often `heading` is a line of the pages whose names begin with `pages`.
+std::size_t times_headed(const std::string& pages, const std::string& heading) {
+  std::size_t count = 0;
+  for (const std::string& name : page_names()) {
+    if (name.rfind(pages, 0) != 0) continue;
+    for (const std::string& line :
+         tree::lines_of(tree::text_of(tree::root() / "docs" / (name + ".md")))) {
+      if (line == heading || line.rfind(heading + " ", 0) == 0) ++count;
+    }
+  }
+  return count;
+}
+
+TEST(Manual, EveryCommandAndMechanismStandsOnOnePage) {
+  const page::Sandbox sandbox;
+  const std::string help = sandbox.run("build/release/recoil --help\n").output;
+  static const std::regex command(R"re(\n  ([a-z]+)  +)re");
+  const std::string list = help.substr(help.find("Subcommands:"));
+  std::size_t commands = 0;
+  for (auto it = std::sregex_iterator(list.begin(), list.end(), command);
+       it != std::sregex_iterator(); ++it, ++commands) {
+    EXPECT_EQ(times_headed("commands", "## recoil " + (*it)[1].str()), 1U) << (*it)[1];
+  }
+  EXPECT_GE(commands, 15U) << "the search itself seems broken";
+  const auto mechanisms = page::table_of(tree::root() / "docs/mechanisms.md", "| id |");
+  EXPECT_GE(mechanisms.size(), 20U);
+  for (const auto& row : mechanisms) {
+    const std::string id = row.at(0).substr(1, row.at(0).size() - 2);
+    EXPECT_EQ(times_headed("mechanisms-", "## " + id), 1U) << id;
+  }
+}
+
 TEST(Manual, HelpForACommandWithoutAPageIsItsOptions) {
   const page::Sandbox sandbox;
   const page::Sandbox::Outcome outcome = sandbox.run("build/release/recoil help check\n");
