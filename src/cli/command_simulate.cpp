@@ -15,6 +15,7 @@
 #include "json/fitted_values.hpp"
 #include "predict/simulated_impact.hpp"
 #include "predict/validity.hpp"
+#include "report/result_json.hpp"
 #include "report/words_dataset.hpp"
 
 namespace recoil {
