@@ -8,8 +8,10 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/fitted_values.hpp"
+#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
 #include "export/fluent.hpp"
@@ -85,6 +87,17 @@ Fitted fitted_before(const ExportOptions& options) {
   return out;
 }
 
+/// @throws InputError where every impact was captured: the values are where the fit began
+void require_rebounds(const Dataset& dataset) {
+  if (std::any_of(dataset.points.begin(), dataset.points.end(),
+                  [](const ImpactPoint& point) { return !point.all_captured(); })) {
+    return;
+  }
+  throw InputError({dataset.folder.string()}, "nothing of this dataset can be exported",
+                   "all of its impacts were captured, which determines no parameter",
+                   "measure faster impacts");
+}
+
 /// The stated range, or that of the points.
 ExportRequest request_of(const ExportOptions& options, const Dataset& dataset, std::size_t index) {
   ExportRequest request;
@@ -155,16 +168,18 @@ void require_stock_model(const ExportOptions& options, ExportTarget target) {
                    "it gets e(V, d) as a table", "leave --stock out, or take lammps or yade");
 }
 
-void print_line(const std::string& words) { fmt::print("{}\n", wrap(words, terminal_columns, 2)); }
+void print_line(const std::string& words) { print_text("{}\n", wrap(words, terminal_columns, 2)); }
 
 void run_export(const ExportOptions& options) {
   const ExportTarget target = *value_named<ExportTarget>(options.to);
   require_stock_model(options, target);
   require_writable_folder(options.out);
+  const Claim claim(std::filesystem::path(options.out) / "export");
   Fitted fitted = options.parameters.empty() ? fitted_now(options, target == ExportTarget::table)
                                              : fitted_before(options);
   const std::size_t d = choose_dataset(fitted.datasets, options.dataset);
   const Dataset& dataset = fitted.datasets[d];
+  require_rebounds(dataset);
   const ExportRequest request = request_of(options, dataset, d);
   fitted.source.fit = options.fit_file;
   fitted.source.dataset = dataset.id;
@@ -180,7 +195,9 @@ void run_export(const ExportOptions& options) {
     job.refitted = refitted_force(job.impact);
     job.force = job.refitted->force;
   }
-  if (job.form == ExportForm::approximation) job.stock = nearest(stock_model(target), job.impact);
+  if (job.form == ExportForm::approximation) {
+    job.stock = nearest(stock_model(target), job.impact, least_restitution(target));
+  }
   if (job.form == ExportForm::lookup && target != ExportTarget::table) {
     job.lookup =
         restitution_lookup(fitted.model, fitted.theta,
@@ -196,7 +213,7 @@ void run_export(const ExportOptions& options) {
   }
   write_whole_files(whole);
 
-  for (const std::string& line : job.heading) fmt::print("{}\n", line);
+  for (const std::string& line : job.heading) print_text("{}\n", line);
   if (!holds_all_sizes(target) && options.diameter <= 0.0 && sizes.size() > 1) {
     print_line(fmt::format("note: no --diameter was given; {:g} um is the middle one of {} sizes",
                            request.diameter / units::um, sizes.size()));
@@ -205,9 +222,9 @@ void run_export(const ExportOptions& options) {
     print_line("note: without bands, which need the bootstrap: leave --parameters out");
   }
   for (const ExportedFile& file : files) {
-    fmt::print("written: {}\n", (std::filesystem::path(options.out) / file.name).string());
+    print_text("written: {}\n", (std::filesystem::path(options.out) / file.name).string());
   }
-  fmt::print("use: {}\n", export_use(target));
+  print_text("use: {}\n", export_use(target));
 }
 
 }  // namespace

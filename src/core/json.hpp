@@ -268,7 +268,10 @@ void read_json(const Json& json, Value& value) {
     expect(json.is_boolean(), "true or false");
     value = json.get<bool>();
   } else if constexpr (std::is_integral_v<Value>) {
-    expect(json.is_number_integer(), "an integer");
+    expect(json.is_number_unsigned()
+               ? std::in_range<Value>(json.get<std::uint64_t>())
+               : json.is_number_integer() && std::in_range<Value>(json.get<std::int64_t>()),
+           "an integer of this size");
     value = json.get<Value>();
   } else if constexpr (std::is_floating_point_v<Value>) {
     value = json_detail::number_from_json(json);
