@@ -166,7 +166,7 @@ void run_init(InitOptions options) {
   }
   require_writable_folder(folder);
   complete(options);
-  const Claim claim(fit_file);
+  const Claim claim(folder / "points.csv");
   ImportRequest request;
   request.format = ImportFormat::csv;
   request.into = folder;

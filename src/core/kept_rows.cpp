@@ -28,8 +28,7 @@ std::ifstream open_rows(const std::filesystem::path& file) {
 
 /// The checksum of head and rows. @param head without its own "sha256"
 std::string checksum(const Json& head, std::string_view rows) {
-  return sha256_hex(head.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n" +
-                    std::string(rows));
+  return sha256_hex(json_line(head) + "\n" + std::string(rows));
 }
 
 /// The head in the first line of `in`.
@@ -64,7 +63,7 @@ void write_rows(const std::filesystem::path& file, Json head, const Rows& rows) 
   head["rows"] = rows.size();
   head["bytes"] = text.size();
   head["sha256"] = checksum(head, text);
-  write_whole_file(file, head.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n" + text);
+  write_whole_file(file, json_line(head) + "\n" + text);
 }
 
 std::optional<Json> read_row_head(const std::filesystem::path& file) {
@@ -135,7 +134,7 @@ bool KeptRows::has(std::size_t piece) const {
 
 void KeptRows::put(std::size_t piece, const Json& row) {
   end_if_called_off();
-  std::string text = row.dump();
+  std::string text = json_line(row);
   const std::lock_guard lock(mutex_);
   rows_[piece] = std::move(text);
   if (!file_.empty() && pace_.is_due()) pace_.keep([this] { write(); });

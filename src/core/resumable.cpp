@@ -109,7 +109,7 @@ Origin origin_here(std::vector<std::string> command, const std::string& inputs, 
 std::string key_of(const Origin& origin) {
   Json fields = as_json(origin);
   fields.erase("folder");
-  return sha256_hex(fields.dump());
+  return sha256_hex(json_line(fields));
 }
 
 std::string difference(const Origin& a, const Origin& b) {
