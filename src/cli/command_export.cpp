@@ -47,9 +47,9 @@ struct Fitted {
   ExportSource source;
 };
 
-Fitted fitted_now(const ExportOptions& options, bool bands) {
+Fitted fitted_now(FitInputs inputs, const ExportOptions& options, bool bands) {
   const AnalysisOptions resolved = options.analysis.resolved();
-  Analysis analysis = analyse_fit(load_inputs(options.fit_file), resolved);
+  Analysis analysis = analyse_fit(std::move(inputs), resolved);
   Fitted out;
   if (bands) {
     const UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
@@ -70,8 +70,7 @@ Fitted fitted_now(const ExportOptions& options, bool bands) {
   return out;
 }
 
-Fitted fitted_before(const ExportOptions& options) {
-  FitInputs inputs = load_inputs(options.fit_file);
+Fitted fitted_before(FitInputs inputs, const ExportOptions& options) {
   Fitted out;
   out.model = make_model(inputs.spec, inputs.datasets);
   const std::vector<FittedValue> values =
@@ -175,11 +174,13 @@ void run_export(const ExportOptions& options) {
   require_stock_model(options, target);
   require_writable_folder(options.out);
   const Claim claim(std::filesystem::path(options.out) / "export");
-  Fitted fitted = options.parameters.empty() ? fitted_now(options, target == ExportTarget::table)
-                                             : fitted_before(options);
-  const std::size_t d = choose_dataset(fitted.datasets, options.dataset);
+  FitInputs inputs = load_inputs(options.fit_file);
+  const std::size_t d = choose_dataset(inputs.datasets, options.dataset);
+  require_rebounds(inputs.datasets[d]);
+  Fitted fitted = options.parameters.empty()
+                      ? fitted_now(std::move(inputs), options, target == ExportTarget::table)
+                      : fitted_before(std::move(inputs), options);
   const Dataset& dataset = fitted.datasets[d];
-  require_rebounds(dataset);
   const ExportRequest request = request_of(options, dataset, d);
   fitted.source.fit = options.fit_file;
   fitted.source.dataset = dataset.id;

@@ -4,6 +4,7 @@ import copy
 import json
 import math
 import multiprocessing
+import os
 import pickle
 import stat
 import subprocess
@@ -104,3 +105,23 @@ def test_a_saved_file_keeps_its_permissions(here):
     path.chmod(0o600)
     fit.save(here / "out")
     assert stat.S_IMODE(path.stat().st_mode) == 0o600
+
+
+def test_the_locale_of_the_process_changes_no_byte(here, tmp_path):
+    made = subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", str(tmp_path / "de_DE.UTF-8")],
+                          capture_output=True)
+    if not (tmp_path / "de_DE.UTF-8").exists():
+        pytest.skip(f"no locale with a decimal comma can be made: {made.stderr.decode()}")
+    script = (
+        "import locale, recoil\n"
+        "def page(name):\n"
+        "    recoil.fit('mine.toml', replicates=19).save_page(name)\n"
+        "    return open(name, 'rb').read()\n"
+        "plain = page('plain.html')\n"
+        "locale.setlocale(locale.LC_ALL, 'de_DE.UTF-8')\n"
+        "assert locale.localeconv()['decimal_point'] == ','\n"
+        "assert page('german.html') == plain\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
+                          env={**os.environ, "LOCPATH": str(tmp_path)})
+    assert done.returncode == 0, done.stderr
