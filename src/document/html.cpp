@@ -146,7 +146,7 @@ std::string without_runs_of_commas(const std::string& csv) {
 std::string data_of_figure(const Figure& figure) {
   const std::string csv = figure.csv.empty() ? plot::csv_of(figure.picture) : figure.csv;
   std::string out;
-  if (!csv.empty()) out += data_html("csv", json_text(without_runs_of_commas(csv), -1));
+  if (!csv.empty()) out += data_html("csv", json_line(without_runs_of_commas(csv)));
   if (!figure.explored.empty()) out += data_html("explore", figure.explored);
   return out;
 }
