@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "core/quoting.hpp"
 #include "data/dataset.hpp"
 #include "report/dataset_page.hpp"
 
@@ -19,7 +20,7 @@ void add_check(Program& program) {
       "  recoil check datasets/dahneke1975-quartz");
   const auto folder = std::make_shared<std::string>();
   command.option("DIR", *folder, "the dataset's folder").required();
-  command.runs([folder] { fmt::print("{}", dataset_text(load_dataset(*folder))); });
+  command.runs([folder] { print_text("{}", dataset_text(load_dataset(*folder))); });
 }
 
 }  // namespace recoil

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/names.hpp"
+#include "core/quoting.hpp"
 #include "core/resumable.hpp"
 #include "export/filled.hpp"
 
@@ -93,6 +94,12 @@ if ls "$folder"/refused-* >/dev/null 2>&1; then
   echo "recoil refused its input: see log-*.txt, correct it, and remove refused-*" >&2
   exit 2
 fi
+# Slurm refuses numbers from MaxArraySize on (1001 unless the cluster says otherwise).
+limit=$(scontrol show config 2>/dev/null | sed -n 's/^MaxArraySize *= *//p')
+if [ "${limit:-1000000000}" -le @SHARDS@ ]; then
+  echo "this cluster takes at most $((limit - 1)) shards, not @SHARDS@: write the scripts again" >&2
+  exit 2
+fi
 missing=--array=1-@SHARDS@
 if ls "$folder"/part-*.jsonl >/dev/null 2>&1; then
   missing=$("$recoil" merge "$folder" --missing) || exit
@@ -121,7 +128,7 @@ const char* const parallel_run = R"(#!/bin/sh
 # parallel their names (--sshlogin, --sshloginfile); they share this folder.
 folder=@FOLDER@
 seq @SHARDS@ | parallel --jobs @JOBS@ --retries 5 --joblog "$folder/parallel.log" \
-  "sh '$folder/shard.sh' {} >>'$folder/log-{}.txt' 2>&1"
+  "sh {2}/shard.sh {1} >>{2}/log-{1}.txt 2>&1" :::: - ::: "$folder"
 exec sh "$folder/merge.sh"
 )";
 
@@ -149,21 +156,6 @@ std::optional<long> seconds_named(std::string_view text) {
   const auto seconds = number(text.substr(text.size() - 2));
   if (!hours || !minutes || !seconds || *minutes > 59 || *seconds > 59) return std::nullopt;
   return 3600 * *hours + 60 * *minutes + *seconds;
-}
-
-/// `word` as one word of a POSIX shell.
-std::string shell_word(std::string_view word) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./=,:+%@").find(c) != std::string_view::npos;
-  };
-  bool safe = !word.empty();
-  std::string quoted = "'";
-  for (const char c : word) {
-    safe = safe && plain(c);
-    quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  }
-  return safe ? std::string(word) : quoted + "'";
 }
 
 /// The scripts of a job, to be read and edited.
@@ -299,9 +291,14 @@ void write_scripts(const ClusterFlags& flags, const std::vector<std::string>& wo
                       fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                       fs::perm_options::add);
     }
-    fmt::print("{}: written\n", (fs::path(flags.out) / file.path.filename()).string());
+    print_text("{}: written\n", (fs::path(flags.out) / file.path.filename()).string());
   }
-  fmt::print("Read them, edit them, and start the job: sh {}\n",
+  constexpr std::size_t usual_limit = 1000;  // MaxArraySize - 1 of slurm.conf(5)
+  if (job.system == ClusterSystem::slurm && job.shards > usual_limit) {
+    print_text("note: Slurm takes at most {} shards where its MaxArraySize is the usual {}\n",
+               usual_limit, usual_limit + 1);
+  }
+  print_text("Read them, edit them, and start the job: sh {}\n",
              shell_word((fs::path(flags.out) / "run.sh").string()));
 }
 

@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "document/terminal.hpp"
 #include "report/comparison_page.hpp"
 #include "report/result_json.hpp"
@@ -27,7 +28,7 @@ void add_compare(Program& program) {
   command.runs([files, json] {
     std::vector<ComparedFit> fits;
     for (const std::string& file : *files) fits.push_back(compared_fit(file, read_text_file(file)));
-    fmt::print("{}", *json ? comparison_json(fits) : terminal_text(comparison_sections(fits)));
+    print_text("{}", *json ? comparison_json(fits) : terminal_text(comparison_sections(fits)));
   });
 }
 

@@ -10,6 +10,7 @@
 #include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "core/statistics.hpp"
 #include "coverage/coverage_truth.hpp"
 #include "report/result_json.hpp"
@@ -106,11 +107,13 @@ void run(const Options& options) {
     options.shards.require_share(options.out, static_cast<std::size_t>(options.datasets));
   } else if (!options.out.empty()) {
     require_writable_folder(std::filesystem::absolute(options.out).parent_path());
-    require_other_file(options.out, {options.fit_file});
   }
   const std::unique_ptr<Prepared> ready = prepare(options);
   std::optional<Claim> claim;
-  if (!shard && !options.out.empty()) claim.emplace(options.out);
+  if (!shard && !options.out.empty()) {
+    require_free({options.out});
+    claim.emplace(options.out);
+  }
   const std::shared_ptr<KeptRows> kept = options.shards.rows(ready->origin, options.out);
   if (!kept) return;
   const Pieces pieces = pieces_of(*ready);
@@ -133,7 +136,7 @@ void run(const Options& options) {
     write_or_print({{options.out, text}}, printed);
     kept->forget();
   }
-  fmt::print("{}", printed);
+  print_text("{}", printed);
 }
 
 }  // namespace

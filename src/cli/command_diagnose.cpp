@@ -11,10 +11,12 @@
 #include "cli/shard_flags.hpp"
 #include "core/claim.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "diagnosis/calibration.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "diagnosis/extended_toml.hpp"
+#include "plot/draw.hpp"
 #include "report/diagnosis_sections.hpp"
 #include "report/result_json.hpp"
 
@@ -74,13 +76,15 @@ std::shared_ptr<KeptRows> rows_for(const DiagnoseFlags& flags, const FitInputs& 
 }
 
 void run_diagnosis(const DiagnoseFlags& flags) {
-  if (!flags.out.empty()) {
-    require_writable_folder(flags.out);
-    require_other_file(std::filesystem::path(flags.out) / "extended.toml", {flags.fit});
-  }
+  const std::filesystem::path folder = flags.out;
+  if (!flags.out.empty()) require_writable_folder(folder);
   const FitInputs inputs = load_inputs(flags.fit);
   std::optional<Claim> claim;
-  if (!flags.out.empty()) claim.emplace(result_in(flags.out));
+  if (!flags.out.empty()) {
+    require_free({folder / "extended.toml"});
+    plot::require_gnuplot();
+    claim.emplace(result_in(folder));
+  }
   DiagnosisOptions options = flags.options(inputs.spec);
   options.kept = rows_for(flags, inputs);
   Diagnosis diagnosis =
@@ -90,14 +94,13 @@ void run_diagnosis(const DiagnoseFlags& flags) {
   const std::string printed =
       flags.json ? result : diagnosis_text(diagnosis, importance_of(flags.verbose));
   if (!flags.out.empty()) {
-    const std::filesystem::path folder = flags.out;
     write_or_print({{folder / "extended.toml", extended_toml(diagnosis, folder)},
                     {folder / "diagnosis.html", diagnosis_html(diagnosis)},
                     {result_in(folder), result}},
                    printed);
     options.kept->forget();
   }
-  fmt::print("{}", printed);
+  print_text("{}", printed);
 }
 
 }  // namespace

@@ -7,8 +7,10 @@
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
 #include "export/fluent.hpp"
@@ -45,9 +47,9 @@ struct Fitted {
   ExportSource source;
 };
 
-Fitted fitted_now(const ExportOptions& options, bool bands) {
+Fitted fitted_now(FitInputs inputs, const ExportOptions& options, bool bands) {
   const AnalysisOptions resolved = options.analysis.resolved();
-  Analysis analysis = analyse_fit(load_inputs(options.fit_file), resolved);
+  Analysis analysis = analyse_fit(std::move(inputs), resolved);
   Fitted out;
   if (bands) {
     const UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
@@ -68,8 +70,7 @@ Fitted fitted_now(const ExportOptions& options, bool bands) {
   return out;
 }
 
-Fitted fitted_before(const ExportOptions& options) {
-  FitInputs inputs = load_inputs(options.fit_file);
+Fitted fitted_before(FitInputs inputs, const ExportOptions& options) {
   Fitted out;
   out.model = make_model(inputs.spec, inputs.datasets);
   const std::vector<FittedValue> values =
@@ -83,6 +84,17 @@ Fitted fitted_before(const ExportOptions& options) {
   }
   out.datasets = std::move(inputs.datasets);
   return out;
+}
+
+/// @throws InputError where every impact was captured: the values are where the fit began
+void require_rebounds(const Dataset& dataset) {
+  if (std::any_of(dataset.points.begin(), dataset.points.end(),
+                  [](const ImpactPoint& point) { return !point.all_captured(); })) {
+    return;
+  }
+  throw InputError({dataset.folder.string()}, "nothing of this dataset can be exported",
+                   "all of its impacts were captured, which determines no parameter",
+                   "measure faster impacts");
 }
 
 /// The stated range, or that of the points.
@@ -155,15 +167,19 @@ void require_stock_model(const ExportOptions& options, ExportTarget target) {
                    "it gets e(V, d) as a table", "leave --stock out, or take lammps or yade");
 }
 
-void print_line(const std::string& words) { fmt::print("{}\n", wrap(words, terminal_columns, 2)); }
+void print_line(const std::string& words) { print_text("{}\n", wrap(words, terminal_columns, 2)); }
 
 void run_export(const ExportOptions& options) {
   const ExportTarget target = *value_named<ExportTarget>(options.to);
   require_stock_model(options, target);
   require_writable_folder(options.out);
-  Fitted fitted = options.parameters.empty() ? fitted_now(options, target == ExportTarget::table)
-                                             : fitted_before(options);
-  const std::size_t d = choose_dataset(fitted.datasets, options.dataset);
+  const Claim claim(std::filesystem::path(options.out) / "export");
+  FitInputs inputs = load_inputs(options.fit_file);
+  const std::size_t d = choose_dataset(inputs.datasets, options.dataset);
+  require_rebounds(inputs.datasets[d]);
+  Fitted fitted = options.parameters.empty()
+                      ? fitted_now(std::move(inputs), options, target == ExportTarget::table)
+                      : fitted_before(std::move(inputs), options);
   const Dataset& dataset = fitted.datasets[d];
   const ExportRequest request = request_of(options, dataset, d);
   fitted.source.fit = options.fit_file;
@@ -180,7 +196,9 @@ void run_export(const ExportOptions& options) {
     job.refitted = refitted_force(job.impact);
     job.force = job.refitted->force;
   }
-  if (job.form == ExportForm::approximation) job.stock = nearest(stock_model(target), job.impact);
+  if (job.form == ExportForm::approximation) {
+    job.stock = nearest(stock_model(target), job.impact, least_restitution(target));
+  }
   if (job.form == ExportForm::lookup && target != ExportTarget::table) {
     job.lookup =
         restitution_lookup(fitted.model, fitted.theta,
@@ -196,7 +214,7 @@ void run_export(const ExportOptions& options) {
   }
   write_whole_files(whole);
 
-  for (const std::string& line : job.heading) fmt::print("{}\n", line);
+  for (const std::string& line : job.heading) print_text("{}\n", line);
   if (!holds_all_sizes(target) && options.diameter <= 0.0 && sizes.size() > 1) {
     print_line(fmt::format("note: no --diameter was given; {:g} um is the middle one of {} sizes",
                            request.diameter / units::um, sizes.size()));
@@ -205,9 +223,9 @@ void run_export(const ExportOptions& options) {
     print_line("note: without bands, which need the bootstrap: leave --parameters out");
   }
   for (const ExportedFile& file : files) {
-    fmt::print("written: {}\n", (std::filesystem::path(options.out) / file.name).string());
+    print_text("written: {}\n", (std::filesystem::path(options.out) / file.name).string());
   }
-  fmt::print("use: {}\n", export_use(target));
+  print_text("use: {}\n", export_use(target));
 }
 
 }  // namespace

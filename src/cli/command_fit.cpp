@@ -9,6 +9,7 @@
 #include "cli/shard_flags.hpp"
 #include "core/claim.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "report/fit_sections.hpp"
 #include "report/posterior_report.hpp"
 #include "report/result_json.hpp"
@@ -68,7 +69,7 @@ void run_fit(const FitFlags& flags) {
     write_or_print(files, printed);
     kept->forget();
   }
-  fmt::print("{}", printed);
+  print_text("{}", printed);
 }
 
 }  // namespace

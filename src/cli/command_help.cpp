@@ -8,19 +8,20 @@
 #include "cli/manual.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "data/text.hpp"
 
 namespace recoil {
 namespace {
 
 void list_topics() {
-  fmt::print("Pages of the manual; recoil help TOPIC prints one.\n\n");
+  print_text("Pages of the manual; recoil help TOPIC prints one.\n\n");
   std::size_t width = 0;
   for (const ManualPage& page : manual_pages()) width = std::max(width, page.topic.size());
   for (const ManualPage& page : manual_pages()) {
-    fmt::print("  {:<{}}  {}\n", page.topic, width, page.title());
+    print_text("  {:<{}}  {}\n", page.topic, width, page.title());
   }
-  fmt::print("\nThe options of a command: recoil COMMAND --help\n");
+  print_text("\nThe options of a command: recoil COMMAND --help\n");
 }
 
 void print_topic(const Program& program, const std::string& topic) {
@@ -28,13 +29,13 @@ void print_topic(const Program& program, const std::string& topic) {
   for (const ManualPage& page : manual_pages()) {
     known.emplace_back(page.topic);
     if (page.topic != topic) continue;
-    fmt::print("{}", page.text);
+    print_text("{}", page.text);
     return;
   }
   for (const Command& command : program.commands()) {
     known.push_back(command.name());
     if (command.name() != topic) continue;
-    fmt::print("{}", command.help());
+    print_text("{}", command.help());
     return;
   }
   const std::string near = nearest_word(topic, known);
@@ -55,8 +56,8 @@ void write_pages(const Program& program, const std::filesystem::path& folder) {
     const std::string before = read_text_file(page);
     const std::string after = with_manual_tables(before, page.string(), program);
     if (after == before) continue;
-    write_whole_file(page, after);
-    fmt::print("wrote {}\n", page.string());
+    write_whole_file(page, after, Replacing::data);
+    print_text("wrote {}\n", page.string());
   }
 }
 

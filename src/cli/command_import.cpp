@@ -5,8 +5,10 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "data/limits.hpp"
 #include "data/text.hpp"
 #include "experiment/import.hpp"
@@ -73,11 +75,13 @@ void run_import(ImportFlags flags, const Command& command) {
   }
   flags.request.format = *format;
   require_used(command, *format);
+  require_writable_folder(flags.into);
+  const Claim claim(flags.request.into / "points.csv");
   flags.request.provenance = value_named<Provenance>(flags.provenance);
   const ImportResult result = import_points(flags.request);
-  fmt::print("{}", dataset_text(result.dataset));
-  for (const ImportNote& note : result.notes) fmt::print("note: {}\n", note_sentence(note));
-  fmt::print("{}: written\n", flags.into);
+  print_text("{}", dataset_text(result.dataset));
+  for (const ImportNote& note : result.notes) print_text("note: {}\n", note_sentence(note));
+  print_text("{}: written\n", flags.into);
   const std::filesystem::path fit_file = flags.request.into / "fit.toml";
   std::error_code failed;
   if (!std::filesystem::exists(fit_file, failed)) {
@@ -85,7 +89,7 @@ void run_import(ImportFlags flags, const Command& command) {
                      "# Made by recoil import. Every key with its default: recoil help fit-file\n"
                      "dataset = \".\"\n");
   }
-  fmt::print("next:\n  recoil fit {0}\n  recoil diagnose {0}\n", fit_file.string());
+  print_text("next:\n  recoil fit {0}\n  recoil diagnose {0}\n", fit_file.string());
 }
 
 }  // namespace

@@ -8,10 +8,13 @@
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "data/dataset.hpp"
+#include "data/text.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/predictor.hpp"
 #include "experiment/import.hpp"
@@ -46,7 +49,7 @@ replicates = 1999    # of the bootstrap
 
 /// The answer to a question on the terminal; `otherwise` to an empty one.
 std::string ask(const std::string& question, const std::string& otherwise = "") {
-  fmt::print("{}{}: ", question, otherwise.empty() ? "" : fmt::format(" [{}]", otherwise));
+  print_text("{}{}: ", question, otherwise.empty() ? "" : fmt::format(" [{}]", otherwise));
   std::fflush(stdout);
   std::string answer;
   if (!std::getline(std::cin, answer))
@@ -79,9 +82,8 @@ void complete(InitOptions& options) {
   }
   if (options.diameter <= 0.0) {
     const std::string answer = ask("diameter of the spheres [um]", "5");
-    char* end = nullptr;
-    options.diameter = std::strtod(answer.c_str(), &end);
-    if (*end != '\0' || !(options.diameter > 0.0) || !(options.diameter < 1e6)) {
+    options.diameter = parse_number(answer).value_or(0.0);
+    if (!(options.diameter > 0.0) || !(options.diameter < 1e6)) {
       throw InputError({}, fmt::format("'{}' is not a diameter", answer), "",
                        "give a number in um");
     }
@@ -122,22 +124,6 @@ std::string example_points(const Dataset& dataset, double diameter) {
   return csv;
 }
 
-/// A file that is gone at the end.
-class PassingFile {
- public:
-  explicit PassingFile(fs::path path) : path_(std::move(path)) {}
-  ~PassingFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  PassingFile(const PassingFile&) = delete;
-  PassingFile& operator=(const PassingFile&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// Files that are gone at the end unless they are told to stay: half of them
 /// would be in the way of the next try.
 class NewFiles {
@@ -156,19 +142,15 @@ class NewFiles {
 };
 
 Dataset make_example(ImportRequest request, double diameter) {
-  const PassingFile draft(fs::temp_directory_path() /
-                          fmt::format("recoil-example-{}.csv", static_cast<long>(getpid())));
-  request.file = draft.path();
+  request.file = "example.csv";
   request.provenance = Provenance::synthetic;
   request.title = "An example";
   request.sources = {"Computed by recoil init from the model: put your own points in their place"};
-  const std::string form = "incident_velocity,restitution\n1,0.5\n2,0.6\n";
-  write_whole_file(draft.path(), form);
-  request.map = map_of(form);
+  request.text = "incident_velocity,restitution\n1,0.5\n2,0.6\n";
+  request.map = map_of(request.text);
   const Dataset first = import_points(request).dataset;  // its materials are what is needed
-  const std::string points = example_points(first, diameter);
-  write_whole_file(draft.path(), points);
-  request.map = map_of(points);
+  request.text = example_points(first, diameter);
+  request.map = map_of(request.text);
   request.replace = true;
   return import_points(request).dataset;
 }
@@ -184,6 +166,7 @@ void run_init(InitOptions options) {
   }
   require_writable_folder(folder);
   complete(options);
+  const Claim claim(folder / "points.csv");
   ImportRequest request;
   request.format = ImportFormat::csv;
   request.into = folder;
@@ -208,12 +191,12 @@ void run_init(InitOptions options) {
   write_whole_file(fit_file, init_fit);
   load_inputs(fit_file);  // it runs
   made.stay();
-  fmt::print("{}: {} points{}\n", folder.string(), dataset.points.size(),
+  print_text("{}: {} points{}\n", folder.string(), dataset.points.size(),
              options.points.empty()
                  ? ", SYNTHETIC: computed from the model, to show the form. Put your own into "
                    "points.csv and their provenance into datapackage.json"
                  : "");
-  fmt::print("next:\n  recoil check {0}\n  recoil fit {0}/fit.toml --out {0}/result\n",
+  print_text("next:\n  recoil check {0}\n  recoil fit {0}/fit.toml --out {0}/result\n",
              folder.string());
 }
 

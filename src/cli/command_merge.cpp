@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "core/quoting.hpp"
 #include "core/resumable.hpp"
 
 namespace recoil {
@@ -37,7 +38,7 @@ void merge(const MergeFlags& flags) {
   const std::vector<Part> parts = parts_in(flags.folder);
   if (flags.missing) {
     const std::string missing = array_list(missing_shards(parts).numbers);
-    if (!missing.empty()) fmt::print("--array={}\n", missing);
+    if (!missing.empty()) print_text("--array={}\n", missing);
     return;
   }
   require_all_shards(flags.folder, parts);

@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "data/datapackage.hpp"
 #include "data/dataset.hpp"
@@ -41,6 +44,7 @@ struct PairCommand {
   std::string positive = "towards";
   double height_mm = 1.0;
   bool keep_height = false;
+  bool replace = false;
   bool json = false;
   double threshold = -1.0;
   double angle_degrees = -1.0;
@@ -121,12 +125,14 @@ std::string remark_of(const PairCommand& command, const PassageTable& table) {
              : fmt::format("{}: {}", file, to_string(*provenance));
 }
 
-/// Points of mixed sizes get the distribution of the sizes beside them; size
-/// classes need none.
-void write_dataset(const PairCommand& command, const PassageTable& table,
-                   const PairingResult& pairs, const std::string& points) {
-  const bool mixed =
-      command.averaging.size_edges.size() <= 2 && command.averaging.size_classes == 1;
+/// Do the points get the distribution of their sizes beside them? Size classes need none.
+bool has_mixed_sizes(const PairCommand& command) {
+  return command.averaging.size_edges.size() <= 2 && command.averaging.size_classes == 1;
+}
+
+void add_dataset(const PairCommand& command, const PassageTable& table, const PairingResult& pairs,
+                 const std::string& points, std::vector<WholeFile>& files) {
+  const bool mixed = has_mixed_sizes(command);
   Json system = stated_system(command.like);
   const std::vector<LeftOverride> left_out = leave_out_contradictions(system);
   const std::string package = package_json(
@@ -139,12 +145,11 @@ void write_dataset(const PairCommand& command, const PassageTable& table,
   parse_dataset(package, points,
                 command.into);  // refuses what `recoil check` would refuse
   const fs::path folder = command.into;
-  std::vector<WholeFile> files = {{folder / "points.csv", points}};
+  files.push_back({folder / "points.csv", points});
   if (mixed) files.push_back({folder / "sizes.csv", sizes_csv(distributions(table, pairs))});
   files.push_back({folder / package_file_name, package});
-  write_whole_files(files);
   if (!left_out.empty()) {
-    fmt::print(command.json ? stderr : stdout, "note: {}\n", left_out_sentence(left_out));
+    print_text(command.json ? stderr : stdout, "note: {}\n", left_out_sentence(left_out));
   }
 }
 
@@ -159,6 +164,17 @@ void add_histograms(const PairCommand& command, const PassageTable& table,
   }
 }
 
+/// The files whose names are known before the work.
+std::vector<fs::path> outputs_of(const PairCommand& command) {
+  std::vector<fs::path> files;
+  const fs::path folder = command.into;
+  if (!command.into.empty()) files = {folder / "points.csv", folder / package_file_name};
+  if (!command.into.empty() && has_mixed_sizes(command)) files.push_back(folder / "sizes.csv");
+  if (!command.out.empty()) files.push_back(command.out);
+  if (!command.impacts.empty()) files.push_back(command.impacts);
+  return files;
+}
+
 void run_pair(PairCommand command) {
   resolve(command);
   for (const std::string& folder : {command.into, command.histograms}) {
@@ -167,27 +183,32 @@ void run_pair(PairCommand command) {
   for (const std::string& file : {command.out, command.impacts}) {
     if (file.empty()) continue;
     require_writable_folder(fs::absolute(file).parent_path());
-    require_other_file(file, {command.events});
   }
   const PassageFormat format = {assignments(command.units, "--unit"),
                                 assignments(command.columns, "--column"),
                                 command.positive == "away"};
   const PassageTable table = read_passages(command.events, format);
   if (!command.into.empty()) provenance_of(command, table);  // complain before the work
+  const std::vector<fs::path> outputs = outputs_of(command);
+  const Replacing replacing = command.replace ? Replacing::data : Replacing::results;
+  require_free(outputs, replacing);
+  if (!command.histograms.empty()) plot::require_gnuplot();
+  std::optional<Claim> claim;
+  if (!outputs.empty()) claim.emplace(outputs.front());
   const PairRequest request = {command.events, command.pairing, command.averaging};
   const PairedPassages paired = pair_and_average(table, request);
   const PairingResult& pairs = paired.pairs;
   const Averages& averages = paired.averages;
-  if (!command.json) fmt::print("{}", pairing_text(table, pairs, averages));
+  if (!command.json) print_text("{}", pairing_text(table, pairs, averages));
   require_impacts(paired, request);
-  if (command.json) fmt::print("{}", pairing_json(table, pairs, averages));
+  if (command.json) print_text("{}", pairing_json(table, pairs, averages));
   const std::string points = points_csv(averages);
-  if (!command.into.empty()) write_dataset(command, table, pairs, points);
   std::vector<WholeFile> files;
+  if (!command.into.empty()) add_dataset(command, table, pairs, points, files);
   if (!command.out.empty()) files.push_back({command.out, points});
   if (!command.impacts.empty()) files.push_back({command.impacts, impacts_csv(table, pairs)});
   if (!command.histograms.empty()) add_histograms(command, table, paired, files);
-  write_whole_files(files);
+  write_whole_files(files, replacing);
 }
 
 void add_input_options(const Command& app, PairCommand& command) {
@@ -278,6 +299,7 @@ void add_output_options(const Command& app, PairCommand& command) {
            "as the paper's points) instead of that of its own impacts");
   app.option("--histograms", command.histograms,
              "write histograms and size distributions (CSV) and pictures (SVG) into this folder");
+  app.flag("--replace", command.replace, "replace a points.csv or dataset that is there already");
   add_json_flag(app, command.json);
 }
 

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "data/dataset.hpp"
 #include "json/fitted_values.hpp"
@@ -33,6 +36,7 @@ struct PlanFlags {
   std::vector<double> diameters;  // [um]
   PlanOptions plan;
   std::string out;
+  bool replace = false;
   bool json = false;
 };
 
@@ -82,6 +86,16 @@ void assume(const std::string& name, double value, const FitSpec& spec, ImpactMo
                    traits(spec.adhesion).by_force ? "give --f0" : "give --W");
 }
 
+/// The files of points to be filled in, one for each dataset.
+std::vector<fs::path> forms_of(const fs::path& folder, const std::vector<Dataset>& datasets) {
+  if (datasets.size() == 1) return {folder / "points.csv"};
+  std::vector<fs::path> forms;
+  for (const Dataset& dataset : datasets) {
+    forms.push_back(folder / (plot::plot_name("points-" + dataset.id) + ".csv"));
+  }
+  return forms;
+}
+
 void run_plan(PlanFlags flags) {
   if (!flags.out.empty()) require_writable_folder(flags.out);
   const FitSpec spec = load_fit(flags.fit_file);
@@ -90,6 +104,14 @@ void run_plan(PlanFlags flags) {
     datasets.push_back(load_dataset_to_be_measured(folder));
   }
   take_ranges(flags, datasets, flags.plan);
+  const std::vector<fs::path> forms = forms_of(flags.out, datasets);
+  const Replacing replacing = flags.replace ? Replacing::data : Replacing::results;
+  std::optional<Claim> claim;
+  if (!flags.out.empty()) {
+    require_free(forms, replacing);
+    plot::require_gnuplot();
+    claim.emplace(fs::path(flags.out) / "plan.json");
+  }
   const std::vector<Dataset> planned = datasets_to_plan(datasets, flags.plan.diameters);
   ImpactModel model = make_model(spec, planned);
   std::string origin = "the initial values of the fit file";
@@ -105,19 +127,18 @@ void run_plan(PlanFlags flags) {
   const std::string result = json_plan(plan);
   if (!flags.out.empty()) {
     const fs::path out = flags.out;
+    std::vector<WholeFile> files;
     for (const Figure& figure : plan_figures(plan)) {
-      write_whole_file(out / (figure.picture.name + ".svg"), plot::draw_svg(figure.picture));
+      files.push_back({out / (figure.picture.name + ".svg"), plot::draw_svg(figure.picture)});
     }
-    for (std::size_t d = 0; d < plan.datasets.size(); ++d) {
-      const std::string name = plan.datasets.size() == 1
-                                   ? "points.csv"
-                                   : plot::plot_name("points-" + plan.datasets[d].id) + ".csv";
-      write_whole_file(out / name, csv_points_to_make(plan, d));
+    for (std::size_t d = 0; d < forms.size(); ++d) {
+      files.push_back({forms[d], csv_points_to_make(plan, d)});
     }
-    write_whole_file(out / "plan.html", plan_html(plan, origin));
-    write_whole_file(out / "plan.json", result);
+    files.push_back({out / "plan.html", plan_html(plan, origin)});
+    files.push_back({out / "plan.json", result});
+    write_whole_files(files, replacing);
   }
-  fmt::print("{}", flags.json ? result : plan_text(plan, origin));
+  print_text("{}", flags.json ? result : plan_text(plan, origin));
 }
 
 void add_assumptions(const Command& command, const std::shared_ptr<PlanFlags>& flags) {
@@ -209,6 +230,7 @@ void add_plan(Program& program) {
   add_assumptions(command, flags);
   command.option("--out", flags->out, "folder for the files (default: nothing is written)")
       .takes("DIR");
+  command.flag("--replace", flags->replace, "replace a points.csv that is there already");
   add_json_flag(command, flags->json);
   command.runs([flags] { run_plan(*flags); });
 }

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "analysis/analysis.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "plot/draw.hpp"
 #include "report/prediction_files.hpp"
@@ -31,7 +34,15 @@ void predict_sizes(const PredictOptions& options) {
   if (!options.out.empty()) require_writable_folder(options.out);
   const MeasuredSizes sizes = load_sizes(options.sizes, options.unit);
   const AnalysisOptions resolved = options.analysis.resolved();
-  Analysis analysis = analyse_fit(load_inputs(options.fit_file), resolved);
+  FitInputs inputs = load_inputs(options.fit_file);
+  const std::filesystem::path out = options.out;
+  std::optional<Claim> claim;
+  if (!options.out.empty()) {
+    require_free({out / "predict.csv", out / "predict.json"});
+    plot::require_gnuplot();
+    claim.emplace(out / "predict.json");
+  }
+  Analysis analysis = analyse_fit(std::move(inputs), resolved);
   const std::size_t dataset = choose_dataset(analysis.datasets, options.dataset);
   const UncertaintyOptions assess = uncertainty_options(analysis.spec, resolved);
   analysis.uncertainty = bootstrap_only(analysis.fitted, analysis.datasets, assess);
@@ -47,7 +58,6 @@ void predict_sizes(const PredictOptions& options) {
   const std::string result = json_prediction(analysis, mixture);
   const std::string printed = options.json ? result : text_prediction(analysis, mixture);
   if (!options.out.empty()) {
-    const std::filesystem::path out = options.out;
     std::vector<WholeFile> files;
     for (const Figure& figure : mixture_figures(analysis, mixture)) {
       const std::string& name = figure.picture.name;  // "mixture-sizes-1"
@@ -59,9 +69,9 @@ void predict_sizes(const PredictOptions& options) {
     files.push_back({out / "predict.json", result});
     write_or_print(files, printed);
   }
-  fmt::print("{}", printed);
+  print_text("{}", printed);
   if (options.height < 0.0 && !sizes.probe_height) {
-    fmt::print(options.json ? stderr : stdout,
+    print_text(options.json ? stderr : stdout,
                "note: no --height was given; {:g} mm is that of Li, Dunn & Brach (1999)\n",
                mix.probe_height / units::mm);
   }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "analysis/analysis.hpp"
@@ -11,10 +12,12 @@
 #include "core/files.hpp"
 #include "core/parallel.hpp"
 #include "core/program.hpp"
+#include "core/quoting.hpp"
 #include "core/resumable.hpp"
 #include "data/dataset.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/extended_toml.hpp"
+#include "plot/draw.hpp"
 #include "report/comparison_page.hpp"
 #include "report/diagnosis_sections.hpp"
 #include "report/fit_sections.hpp"
@@ -49,6 +52,26 @@ std::vector<fs::path> fits_to_report(const ReportOptions& options) {
   return files;
 }
 
+/// @throws InputError where two fits would have one page, or a fit the page of the index. A fit
+/// NAME has the page NAME.html and the folder NAME.
+void require_pages_of_their_own(const std::vector<fs::path>& fits) {
+  std::map<std::string, fs::path> owners = {{"index.html", "the index"}};
+  for (const fs::path& fit : fits) {
+    const std::string id = fit.stem().string();
+    if (id == "." || id == "..") {
+      throw InputError({fit.string()}, "this name gives a page no folder of its own", "",
+                       "rename the fit file");
+    }
+    for (const std::string& name : {id + ".html", id}) {
+      const auto [owner, is_free] = owners.emplace(name, fit);
+      if (is_free) continue;
+      throw InputError({fit.string()},
+                       fmt::format("its page {} would be that of {}", name, owner->second.string()),
+                       "pages are named after the fit files", "rename one of them");
+    }
+  }
+}
+
 /// Changes whenever the page could: program, fit file, data, options.
 std::string fingerprint(const FitInputs& inputs, const AnalysisFlags& flags) {
   std::string text = inputs.spec.sha256;
@@ -68,7 +91,7 @@ bool is_current(const fs::path& stamp, const std::string& expected,
                 const std::vector<fs::path>& files) {
   const bool all_there =
       std::all_of(files.begin(), files.end(), [](const fs::path& f) { return fs::exists(f); });
-  return all_there && fs::exists(stamp) && read_text_file(stamp) == expected;
+  return all_there && sha256_of_file(stamp) == sha256_hex(expected);
 }
 
 /// Diagnoses a fit, and at the same time puts the fits under every law into
@@ -164,15 +187,19 @@ IndexEntry make_page(FitInputs inputs, const AnalysisFlags& flags, const std::st
 void report(const ReportOptions& options) {
   const fs::path out = options.out;
   require_writable_folder(out);
+  const std::vector<fs::path> fits = fits_to_report(options);
+  require_pages_of_their_own(fits);
+  plot::require_gnuplot();
   std::vector<IndexEntry> entries;
-  for (const fs::path& fit : fits_to_report(options)) {
+  for (const fs::path& fit : fits) {
     const std::string id = fit.stem().string();
     const PageFiles files(out, id);
     FitInputs inputs = load_inputs(fit);
+    require_free({files.page, files.folder / "extended.toml"});
     const std::string expected = fingerprint(inputs, options.analysis);
     IndexEntry entry;
-    entry.page = id + ".html";
-    entry.diagnosis_page = id + "/diagnosis.html";
+    entry.page = url_path(id + ".html");
+    entry.diagnosis_page = url_path(id + "/diagnosis.html");
     const bool current = files.are_current(expected) && !options.force;
     if (current) {
       entries.push_back(read_page(files, std::move(entry)));
@@ -181,11 +208,11 @@ void report(const ReportOptions& options) {
       entries.push_back(
           make_page(std::move(inputs), options.analysis, expected, files, std::move(entry)));
     }
-    fmt::print("{}: {}\n", files.page.string(), current ? "current" : "written");
+    print_text("{}: {}\n", files.page.string(), current ? "current" : "written");
     std::fflush(stdout);
   }
   write_whole_file(out / "index.html", html_index(entries));
-  fmt::print("{}: written\n", (out / "index.html").string());
+  print_text("{}: written\n", (out / "index.html").string());
 }
 
 }  // namespace

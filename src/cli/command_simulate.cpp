@@ -8,6 +8,7 @@
 #include "cli/common_options.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
 #include "estimate/predictor.hpp"
@@ -24,7 +25,7 @@ namespace {
 constexpr std::size_t indent = 2;  // of tables
 
 void print_line(const std::string& words) {
-  fmt::print("{}\n", wrap(words, terminal_columns, indent));
+  print_text("{}\n", wrap(words, terminal_columns, indent));
 }
 
 struct SimulateOptions {
@@ -66,9 +67,9 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
     return at.restitution_squared;
   };
   const double all = square(theta);
-  fmt::print("restitution: {:.8f}\n", std::sqrt(std::max(all, 0.0)));
-  fmt::print("outcome: {}\n", all > 0.0 ? "rebound" : "captured");
-  fmt::print("e^2 with mechanisms: {:+.8f}, base model alone: {:+.8f}\n", all,
+  print_text("restitution: {:.8f}\n", std::sqrt(std::max(all, 0.0)));
+  print_text("outcome: {}\n", all > 0.0 ? "rebound" : "captured");
+  print_text("e^2 with mechanisms: {:+.8f}, base model alone: {:+.8f}\n", all,
              square(without_mechanisms(model, theta)));
   Table table;
   table.caption = "change of e^2 when one mechanism is left out, the others kept:";
@@ -87,7 +88,7 @@ void print_mechanisms(const ImpactModel& model, std::size_t dataset, double diam
                           Number{square(without) - all, signed_fixed(6)},
                           Sentence(to_string(mechanism->info.kind)), join(values, ", ")});
   }
-  fmt::print("{}", terminal_text(table, indent));
+  print_text("{}", terminal_text(table, indent));
 }
 
 /// Where the energy of the whole impact went, mechanisms included.
@@ -151,31 +152,31 @@ void print_impact(const SimulatedImpact& simulated, const Dataset& dataset,
   const double e = std::sqrt(std::max(impact.restitution_squared, 0.0));
   const bool captured = impact.outcome == ImpactOutcome::captured;
   if (simulated.extended) {
-    fmt::print("\nthe impact of the base model at the contact, in at {:.6g} m/s{}:\n", c.velocity,
+    print_text("\nthe impact of the base model at the contact, in at {:.6g} m/s{}:\n", c.velocity,
                captured ? "; captured" : fmt::format(", out at {:.6g} m/s", e * c.velocity));
   } else {
-    fmt::print("restitution: {:.8f}\n", captured ? 0.0 : e);
-    fmt::print("outcome: {}\n", to_string(impact.outcome));
-    fmt::print("rebound velocity: {:.6g} m/s\n", captured ? 0.0 : e * c.velocity);
+    print_text("restitution: {:.8f}\n", captured ? 0.0 : e);
+    print_text("outcome: {}\n", to_string(impact.outcome));
+    print_text("rebound velocity: {:.6g} m/s\n", captured ? 0.0 : e * c.velocity);
   }
   if (simulated.yields) {
     print_line(
         "the contact yields: contact time, largest penetration and push of the impact are not "
         "computed; what follows is the elastic rebound of the flattened contact");
   } else {
-    fmt::print("contact time: {:.6g} ns{}\n", impact.contact_time * scales.time / units::ns,
+    print_text("contact time: {:.6g} ns{}\n", impact.contact_time * scales.time / units::ns,
                captured ? " (until the first outer turning point)" : "");
-    fmt::print("largest penetration: {:.6g} nm\n",
+    print_text("largest penetration: {:.6g} nm\n",
                impact.penetration_max * scales.length / units::nm);
-    fmt::print("largest push: {:.6g} uN\n", impact.force_compression * scales.force * 1e6);
+    print_text("largest push: {:.6g} uN\n", impact.force_compression * scales.force * 1e6);
   }
-  fmt::print("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
-  fmt::print("{}", terminal_text(energy_budget(groups, scales, impact, simulated.jumps), indent));
-  fmt::print("groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)\n",
+  print_text("largest pull: {:.6g} uN\n", impact.force_tension * scales.force * 1e6);
+  print_text("{}", terminal_text(energy_budget(groups, scales, impact, simulated.jumps), indent));
+  print_text("groups: C_H V = {:.6g}, C_A V = {:.6g}, V / V_a = {:.6g} (V_a = {:.6g} m/s)\n",
              groups.alpha, groups.gamma,
              groups.beta > 0.0 ? std::pow(groups.beta, -1.25) : INFINITY,
              c.velocity * std::pow(groups.beta, 1.25));
-  fmt::print("model: K = {:.6g} GPa, f0 = {:.6g} N/m at this diameter, adhesion damping: {}\n",
+  print_text("model: K = {:.6g} GPa, f0 = {:.6g} N/m at this diameter, adhesion damping: {}\n",
              c.stiffness / units::GPa, c.adhesion_force, to_string(phase));
   if (captured) {
     print_line(
@@ -220,40 +221,40 @@ Table sensitivities(const ImpactConditions& c, const ImpactResult& impact, const
 void simulate(const SimulateOptions& options) {
   if (!options.history.empty()) {
     require_writable_folder(std::filesystem::absolute(options.history).parent_path());
-    require_other_file(options.history, {options.fit_file, options.parameters});
   }
   const FitSpec spec = load_fit(options.fit_file);
   const std::vector<Dataset> datasets = load_datasets(spec);
   ImpactModel model = make_model(spec, datasets);
   if (!options.parameters.empty()) take_fitted_values(model, datasets, options.parameters);
+  if (!options.history.empty()) require_free({options.history});
   const std::size_t d = choose_dataset(datasets, options.dataset);
   const PointConditions at = {d, options.diameter * units::um, options.velocity};
   const SimulatedImpact simulated = simulate_at(model, datasets, at);
   if (!options.history.empty()) write_whole_file(options.history, history_csv(simulated));
   if (options.json) {
-    fmt::print("{}",
+    print_text("{}",
                simulation_json(model, datasets, simulated, spec.id,
                                options.parameters.empty() ? "the initial values of the fit file"
                                                           : options.parameters));
     return;
   }
   const ImpactConditions start = conditions_at(model, model.initial(), d, at.diameter, at.velocity);
-  fmt::print("parameters: {}\n  C_H = {:.6g} s/m, C_A = {:.6g} s/m\n",
+  print_text("parameters: {}\n  C_H = {:.6g} s/m, C_A = {:.6g} s/m\n",
              options.parameters.empty()
                  ? "initial values of the fit file (--parameters fit.json takes fitted ones)"
                  : "from " + options.parameters,
              start.hertz_damping, start.adhesion_damping);
   if (simulated.extended) {
     print_mechanisms(model, d, at.diameter, at.velocity);
-    fmt::print("{}", terminal_text(whole_energy_table(model, simulated.whole), indent));
+    print_text("{}", terminal_text(whole_energy_table(model, simulated.whole), indent));
   }
   print_impact(simulated, datasets[d], model.contacts[d], model.phase);
-  fmt::print("{}", terminal_text(validity_table(simulated.validity), indent));
+  print_text("{}", terminal_text(validity_table(simulated.validity), indent));
   for (const std::string& sentence : passed_limits(simulated.validity, {})) {
     print_line("note: " + sentence);
   }
   if (!simulated.extended) {
-    fmt::print(
+    print_text(
         "{}",
         terminal_text(sensitivities(simulated.conditions, simulated.impact, datasets[d]), indent));
   }

@@ -8,6 +8,7 @@
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
+#include "core/quoting.hpp"
 
 namespace recoil {
 namespace {
@@ -90,7 +91,7 @@ void write_or_print(const std::vector<WholeFile>& files, const std::string& resu
   try {
     write_whole_files(files);
   } catch (const InputError&) {
-    fmt::print("{}", result);
+    print_text("{}", result);
     throw;
   }
 }

@@ -1,14 +1,21 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <new>
+#include <system_error>
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/gsl_errors.hpp"
 #include "core/interrupt.hpp"
 #include "core/program.hpp"
+#include "core/quoting.hpp"
 
 namespace recoil {
 namespace {
@@ -38,6 +45,15 @@ void add_commands(Program& program) {
   add_help(program);
 }
 
+/// Puts /dev/null where a standard stream is closed: a result would take its number otherwise, and
+/// messages would end up in it. Writing to standard output fails all the same.
+void open_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    if (open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY) != stream) return;
+  }
+}
+
 int run(const std::vector<std::string>& words) {
   Program program(
       "recoil: how well does a model of microsphere impact fit measured restitution, and how sure\n"
@@ -53,27 +69,34 @@ int run(const std::vector<std::string>& words) {
     }
     return 0;
   } catch (const UsageError& error) {
-    fmt::print(stderr, "recoil: {}\n", error.what());
+    print_text(stderr, "recoil: {}\n", error.what());
     return wrong_input;
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    print_text(stderr, "{}\n", error.what());
     return wrong_input;
   } catch (const Interrupted& stopped) {
-    fmt::print(stderr, "{}\n", stopped.what());
+    print_text(stderr, "{}\n", stopped.what());
     const int signal = stop_signal();
     std::fflush(nullptr);
     std::signal(signal, SIG_DFL);
     std::raise(signal);  // so that the shell sees what stopped it
     return 128 + signal;
   } catch (const ComputationError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    print_text(stderr, "{}\n", error.what());
+    return no_answer;
+  } catch (const std::filesystem::filesystem_error& error) {  // a path that cannot be used
+    const InputError told({error.path1().string()}, error.code().message(), "",
+                          "check the path and its permissions");
+    print_text(stderr, "{}\n", told.what());
+    return wrong_input;
+  } catch (const std::bad_alloc&) {
+    print_text(stderr, "recoil: there is not enough memory for this\n");
+    return no_answer;
+  } catch (const std::system_error& error) {  // no more threads, for example
+    print_text(stderr, "recoil: the system refused: {}\n", error.what());
     return no_answer;
   } catch (const std::exception& error) {
-    if (std::ferror(stdout) != 0) {  // {fmt} throws if it cannot print
-      fmt::print(stderr, "{}\n", output_is_lost);
-      return no_answer;
-    }
-    fmt::print(stderr, "recoil: {} (this is a defect of recoil); please report it\n", error.what());
+    print_text(stderr, "recoil: {} (this is a defect of recoil); please report it\n", error.what());
     return no_answer;
   }
 }
@@ -82,6 +105,7 @@ int run(const std::vector<std::string>& words) {
 }  // namespace recoil
 
 int main(int argc, char** argv) {
+  recoil::open_standard_streams();
   recoil::gsl_errors_are_values();
   return recoil::run(std::vector<std::string>(argv + 1, argv + argc));
 }

@@ -4,14 +4,18 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 
 #include "core/error.hpp"
+#include "data/text.hpp"
 
 namespace recoil {
 namespace {
+
+constexpr const char* auto_or_number = "auto or INT";
 
 std::string see_help(const std::string& near, const std::string& command) {
   return near.empty() ? fmt::format("see recoil{} --help", command)
@@ -62,7 +66,7 @@ std::string accepted_by(const CLI::Option& option) {
   if (colon == std::string::npos) return type;
   const std::string base = type.substr(0, colon);
   const std::string rule = type.substr(colon + 1);
-  if (rule.rfind("({auto}) OR", 0) == 0) return "a whole number, or `auto`";
+  if (rule == auto_or_number) return "a whole number, or `auto`";
   if (rule.front() == '{') {
     std::string words;
     for (const std::string& word : CLI::detail::split(rule.substr(1, rule.size() - 2), ',')) {
@@ -106,15 +110,57 @@ Option& Option::one_of(const std::vector<std::string>& words) {
   return *this;
 }
 
+namespace {
+
+/// The number that a word consists of, whatever the locale; nullopt for any other word, and for
+/// numbers that the type cannot hold.
+template <class Number>
+std::optional<Number> number_in(std::string_view word) {
+  if constexpr (std::is_floating_point_v<Number>) {
+    return parse_number(word);
+  } else {
+    Number value{};
+    const char* const end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, value);
+    return read.ec == std::errc{} && read.ptr == end ? std::optional(value) : std::nullopt;
+  }
+}
+
+template <class Value>
+struct NumberOf {
+  using type = Value;
+};
+template <class Value>
+struct NumberOf<std::optional<Value>> : NumberOf<Value> {};
+template <class Value>
+struct NumberOf<std::vector<Value>> : NumberOf<Value> {};
+
+/// Refuses words that are no finite number, or no whole one, for every option that takes numbers.
+template <class Value>
+void check_numbers(CLI::Option& option) {
+  using Number = typename NumberOf<Value>::type;
+  if constexpr (std::is_arithmetic_v<Number>) {
+    option.check(CLI::Validator(
+        [](const std::string& word) -> std::string {
+          if (number_in<Number>(word)) return {};
+          return fmt::format(
+              "{} is not {}", word,
+              std::is_floating_point_v<Number> ? "a finite number" : "a whole number of this size");
+        },
+        ""));
+  }
+}
+
+}  // namespace
+
 template <class Number>
 Option& Option::within(Number lowest, Number highest) {
   const std::string range =
       fmt::format("{} in [{} - {}]", CLI::detail::type_name<Number>(), lowest, highest);
   option_->check(CLI::Validator(
       [=](const std::string& text) -> std::string {
-        Number value{};
-        const bool number = CLI::detail::lexical_cast(text, value);
-        if (number && value >= lowest && value <= highest) return {};
+        const std::optional<Number> value = number_in<Number>(text);
+        if (value && *value >= lowest && *value <= highest) return {};
         return fmt::format("{} is not a number from {} to {}", text, lowest, highest);
       },
       range));
@@ -126,16 +172,21 @@ template Option& Option::within(std::size_t, std::size_t);
 template Option& Option::within(double, double);
 
 Option& Option::auto_or(int lowest, int highest) {
-  option_->check(CLI::IsMember({"auto"}) | CLI::Range(lowest, highest));
+  option_->check(CLI::Validator(
+      [=](const std::string& text) -> std::string {
+        const std::optional<int> value = number_in<int>(text);
+        if (text == "auto" || (value && *value >= lowest && *value <= highest)) return {};
+        return fmt::format("{} is not auto, and not a number from {} to {}", text, lowest, highest);
+      },
+      auto_or_number));
   return *this;
 }
 
 Option& Option::number(const std::string& what, double lowest, double highest) {
   option_->check(CLI::Validator(
       [=](const std::string& text) -> std::string {
-        double value = 0.0;
-        const bool number = CLI::detail::lexical_cast(text, value);
-        if (number && value >= lowest && value <= highest) return {};
+        const std::optional<double> value = number_in<double>(text);
+        if (value && *value >= lowest && *value <= highest) return {};
         return fmt::format("{} is not a {} between {:g} and {:g}", text, what, lowest, highest);
       },
       what));
@@ -174,7 +225,9 @@ Option& Option::excludes(const Option& other) {
 
 template <class Value>
 Option Command::option(const std::string& name, Value& value, const std::string& meaning) const {
-  return Option(app_->add_option(name, value, meaning));
+  CLI::Option* const option = app_->add_option(name, value, meaning);
+  check_numbers<Value>(*option);
+  return Option(option);
 }
 template Option Command::option(const std::string&, std::string&, const std::string&) const;
 template Option Command::option(const std::string&, std::filesystem::path&,

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
+#include "core/quoting.hpp"
 
 namespace recoil {
 namespace fs = std::filesystem;
@@ -53,7 +54,7 @@ std::shared_ptr<KeptRows> ShardFlags::rows(const Origin& origin, const fs::path&
   }
   const Shard own = shard_named(shard).value();
   if (!has_part(result, origin, own)) return rows_of_shard(result, origin, own);
-  fmt::print("{}: there already\n", part_path(result, origin, own).string());
+  print_text("{}: there already\n", part_path(result, origin, own).string());
   return nullptr;
 }
 
@@ -62,7 +63,7 @@ void ShardFlags::run_share(const Pieces& work, KeptRows& kept, const Origin& ori
   const Shard own = shard_named(shard).value();
   resumable(work, kept, own);
   write_part(kept, folder, origin, own);
-  fmt::print("{}: {} of {} {}\n", part_path(folder, origin, own).string(), own.share(work.count),
+  print_text("{}: {} of {} {}\n", part_path(folder, origin, own).string(), own.share(work.count),
              work.count, pieces);
 }
 

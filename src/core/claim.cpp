@@ -16,11 +16,11 @@
 namespace recoil {
 namespace {
 
-/// Is the open `file` still what `path` names? Whoever had it may have removed it meanwhile.
+/// Is the open `file` still what `path` names? Its owner may have removed it meanwhile.
 bool is_still_there(int file, const std::filesystem::path& path) {
   struct stat opened {};
   struct stat named {};
-  return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+  return fstat(file, &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
          opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
@@ -28,6 +28,13 @@ std::string owner_in(int file) {
   std::array<char, 300> words{};
   const ssize_t size = pread(file, words.data(), words.size(), 0);
   return size > 0 ? std::string(words.data(), static_cast<std::size_t>(size)) : std::string();
+}
+
+/// Is it an ordinary file that is empty, or in which an owner stands?
+bool is_mark(int file) {
+  struct stat opened {};
+  if (fstat(file, &opened) != 0 || !S_ISREG(opened.st_mode)) return false;
+  return opened.st_size == 0 || owner_in(file).starts_with("process ");
 }
 
 void name_owner(int file) {
@@ -54,9 +61,15 @@ Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lo
     throw cannot_be_written(result, failed.value());
   }
   for (;;) {
-    file_ = open(mark_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) {
-      const int error = errno;
+    file_ = open(mark_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    const int error = file_ < 0 ? errno : 0;
+    if (error == ELOOP || (error == 0 && !is_mark(file_))) {
+      if (file_ >= 0) close(file_);
+      let_go();
+      throw InputError({mark_.string()}, "this is no lock of recoil",
+                       "it is a link, or something else is in it", "remove it");
+    }
+    if (error != 0) {
       let_go();
       throw cannot_be_written(result, error);
     }
@@ -64,6 +77,7 @@ Claim::Claim(const std::filesystem::path& result) : mark_(result.string() + ".lo
       if (errno != EWOULDBLOCK) return;
       const std::string owner = owner_in(file_);
       close(file_);
+      let_go();
       throw InputError({result.string()}, "another recoil is at work on this result", owner,
                        "wait until it has ended, or choose another place");
     }

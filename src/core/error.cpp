@@ -5,17 +5,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/quoting.hpp"
+
 namespace recoil {
 namespace {
-
-/// Everything on one line, whatever a file's text or a file's name contains.
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) c = ' ';
-  }
-  return text;
-}
 
 std::string compose(const Location& where, const std::string& problem, const std::string& why,
                     const std::string& suggestion) {
@@ -29,7 +22,7 @@ std::string compose(const Location& where, const std::string& problem, const std
   text += problem;
   if (!why.empty()) text += fmt::format(" ({})", why);
   if (!suggestion.empty()) text += fmt::format("; {}", suggestion);
-  return one_line(std::move(text));
+  return printable(text);
 }
 
 /// Levenshtein distance [number of single-character edits].
@@ -54,9 +47,9 @@ InputError::InputError(const Location& where, const std::string& problem, const 
                        const std::string& suggestion)
     : std::runtime_error(compose(where, problem, why, suggestion)),
       where_(where),
-      problem_(one_line(problem)),
-      why_(one_line(why)),
-      suggestion_(one_line(suggestion)) {}
+      problem_(printable(problem)),
+      why_(printable(why)),
+      suggestion_(printable(suggestion)) {}
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
   std::string best;

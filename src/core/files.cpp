@@ -3,34 +3,79 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sha256.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <system_error>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+#include "core/interrupt.hpp"
 
 namespace recoil {
 namespace {
 
-/// ".part-HOST-PROCESS-NUMBER": on a folder that machines share, two of them may have the same
-/// process, and a process may write from several threads.
-std::string unique_ending() {
-  static std::atomic<unsigned> number{0};
-  char host[256] = {};
-  gethostname(host, sizeof host - 1);
-  return fmt::format(".part-{}-{}-{}", host, static_cast<long>(getpid()), ++number);
+/// 16 hexadecimal digits that nobody can foresee.
+std::string unpredictable_name() {
+  std::uint64_t number = 0;
+  if (getentropy(&number, sizeof number) != 0) {
+    throw ComputationError("the system gives no random numbers for the names of files");
+  }
+  return fmt::format("{:016x}", number);
 }
 
+/// Which file it is, whatever its name. The time tells a new file from one that is gone and had the
+/// same number.
+using FileIdentity = std::tuple<dev_t, ino_t, std::int64_t, std::int64_t>;
+
+FileIdentity identity_of(const struct stat& file) {
+  return {file.st_dev, file.st_ino, file.st_mtim.tv_sec, file.st_mtim.tv_nsec};
+}
+
+/// The files that this process has read.
+struct ReadFiles {
+  std::mutex mutex;
+  std::set<FileIdentity> files;
+};
+ReadFiles& read_files() {
+  static ReadFiles files;
+  return files;
+}
+
+bool was_read(const struct stat& file) {
+  const std::lock_guard lock(read_files().mutex);
+  return read_files().files.contains(identity_of(file));
+}
+
+/// An open file that is closed at the end.
+class OpenFile {
+ public:
+  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  int get() const { return descriptor_; }
+  int close() { return ::close(std::exchange(descriptor_, -1)); }
+
+ private:
+  int descriptor_;
+};
+
 /// Writes `text` and waits until it is on the disk. @return 0, or the errno of the failure
-int write_to_disk(const std::filesystem::path& path, std::string_view text) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) return errno;
-  int failed = 0;
+int write_to_disk(OpenFile&& file, std::string_view text, std::optional<mode_t> mode) {
+  if (file.get() < 0) return errno;
+  int failed = mode && fchmod(file.get(), *mode) != 0 ? errno : 0;
   while (failed == 0 && !text.empty()) {
-    const ssize_t some = write(file, text.data(), text.size());
+    const ssize_t some = write(file.get(), text.data(), text.size());
     if (some < 0 && errno == EINTR) continue;
     if (some <= 0) {
       failed = some < 0 ? errno : EIO;
@@ -39,9 +84,21 @@ int write_to_disk(const std::filesystem::path& path, std::string_view text) {
     }
   }
   // A pipe, for example, is written but cannot be synchronised.
-  if (failed == 0 && fsync(file) != 0 && errno != EINVAL && errno != EROFS) failed = errno;
-  if (close(file) != 0 && failed == 0) failed = errno;
+  if (failed == 0 && fsync(file.get()) != 0 && errno != EINVAL && errno != EROFS) failed = errno;
+  if (file.close() != 0 && failed == 0) failed = errno;
   return failed;
+}
+
+/// Makes the file `path`, which must not exist, with the permissions of `target` where that exists.
+int write_new_file(const std::filesystem::path& path, std::string_view text,
+                   const std::filesystem::path& target) {
+  struct stat before {};
+  std::optional<mode_t> mode;
+  if (stat(target.c_str(), &before) == 0) mode = before.st_mode & 0777;
+  return write_to_disk(
+      OpenFile(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                    mode.value_or(0666))),
+      text, mode);
 }
 
 /// The file that a path leads to through symbolic links. The link stays, and its target is
@@ -78,9 +135,60 @@ std::string advice_on(int failed) {
   }
 }
 
+/// What is in a file, or comes out of a pipe or a device until it ends.
+/// @throws InputError as read_text_file
+std::string contents_of(const std::filesystem::path& path, std::uintmax_t max_bytes,
+                        std::chrono::milliseconds patience) {
+  using Clock = std::chrono::steady_clock;
+  const Location where{path.string()};
+  const auto fail = [&](const std::string& problem, const std::string& why,
+                        const std::string& suggestion) {
+    throw InputError(where, problem, why, suggestion);
+  };
+  // O_NONBLOCK: a pipe that nobody writes into is opened all the same.
+  const OpenFile file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  if (file.get() < 0 || fstat(file.get(), &status) != 0) {
+    fail("the file cannot be read", std::strerror(errno), "check its permissions and the disk");
+  }
+  std::string text;
+  std::array<char, 1 << 16> piece{};
+  Clock::time_point last = Clock::now();
+  for (;;) {
+    const ssize_t size = read(file.get(), piece.data(), piece.size());
+    if (size > 0) {
+      text.append(piece.data(), static_cast<std::size_t>(size));
+      if (text.size() > max_bytes) {
+        fail(fmt::format("the file has more than {} MB", max_bytes / 1000000), "no more is read",
+             "split it");
+      }
+      last = Clock::now();
+      continue;
+    }
+    // Nobody has opened the other end of a pipe yet, or nothing is in it yet.
+    const bool waits =
+        size == 0 ? S_ISFIFO(status.st_mode) && text.empty() : errno == EAGAIN || errno == EINTR;
+    if (!waits && size < 0) {
+      fail("the file cannot be read", std::strerror(errno), "check its permissions and the disk");
+    }
+    if (!waits) break;
+    end_if_called_off();
+    if (Clock::now() - last > patience) {
+      fail(fmt::format("nothing has come out of this for {:.3g} s",
+                       std::chrono::duration<double>(patience).count()),
+           "it is a pipe or a device", "name a file");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const std::lock_guard lock(read_files().mutex);
+  read_files().files.insert(identity_of(status));
+  return text;
+}
+
 }  // namespace
 
-std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max_bytes) {
+std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max_bytes,
+                           std::chrono::milliseconds patience) {
   const Location where{path.string()};
   std::error_code failed;
   const auto status = std::filesystem::status(path, failed);
@@ -96,20 +204,7 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t max
     throw InputError(where, fmt::format("the file has {} MB", size / 1000000),
                      fmt::format("at most {} MB are read", max_bytes / 1000000), "split it");
   }
-  std::ifstream in(path, std::ios::binary);
-  std::string text;
-  // Read piece by piece, so that a device that never ends is refused like a file that is too large.
-  std::array<char, 1 << 16> piece{};
-  while (in && text.size() <= max_bytes) {
-    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  if (text.size() > max_bytes) {
-    throw InputError(where, fmt::format("the file has more than {} MB", max_bytes / 1000000),
-                     "no more is read", "split it");
-  }
-  if (!in.eof())
-    throw InputError(where, "the file cannot be read", "", "check its permissions and the disk");
+  std::string text = contents_of(path, max_bytes, patience);
   if (const auto nul = text.find('\0'); nul != std::string::npos) {
     throw InputError(where, "this is not a text file", fmt::format("byte {} is NUL", nul + 1),
                      "save it as UTF-8 text");
@@ -123,12 +218,16 @@ InputError cannot_be_written(const std::filesystem::path& path, int failed) {
                     advice_on(failed));
 }
 
-void write_whole_file(const std::filesystem::path& path, std::string_view text) {
-  write_whole_files({{path, std::string(text)}});
+void write_whole_file(const std::filesystem::path& path, std::string_view text,
+                      Replacing replacing) {
+  write_whole_files({{path, std::string(text)}}, replacing);
 }
 
-void write_whole_files(const std::vector<WholeFile>& all) {
-  const std::string ending = unique_ending();
+void write_whole_files(const std::vector<WholeFile>& all, Replacing replacing) {
+  std::vector<std::filesystem::path> outputs;
+  for (const WholeFile& file : all) outputs.push_back(file.path);
+  require_free(outputs, replacing);
+  const std::string ending = ".part-" + unpredictable_name();
   std::vector<WholeFile> files, special;
   for (const WholeFile& file : all) {
     (is_special(file.path) ? special : files).push_back({behind_links(file.path), file.text});
@@ -137,44 +236,60 @@ void write_whole_files(const std::vector<WholeFile>& all) {
     return file.path.string() + ending;
   };
   std::error_code failed;
-  const auto remove_all_from = [&](std::size_t first) {
+  const auto remove_from = [&](std::size_t first, std::size_t end) {
     std::error_code ignored;
-    for (std::size_t i = first; i < files.size(); ++i) {
-      std::filesystem::remove(beside(files[i]), ignored);
-    }
+    for (std::size_t i = first; i < end; ++i) std::filesystem::remove(beside(files[i]), ignored);
   };
-  for (const WholeFile& file : files) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::filesystem::path& path = files[i].path;
     failed.clear();
-    if (file.path.has_parent_path()) {
-      std::filesystem::create_directories(file.path.parent_path(), failed);
-    }
-    if (const int error = failed ? failed.value() : write_to_disk(beside(file), file.text);
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failed);
+    if (const int error =
+            failed ? failed.value() : write_new_file(beside(files[i]), files[i].text, path);
         error != 0) {
-      remove_all_from(0);
-      throw cannot_be_written(file.path, error);
+      remove_from(0, error == EEXIST ? i : i + 1);
+      throw cannot_be_written(path, error);
     }
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::filesystem::rename(beside(files[i]), files[i].path, failed);
     if (!failed) continue;
-    remove_all_from(i);
+    remove_from(i, files.size());
     throw InputError({files[i].path.string()}, "the finished file cannot be put in its place",
                      failed.message(), "choose another place");
   }
   for (const WholeFile& file : special) {
-    if (const int error = write_to_disk(file.path, file.text)) {
+    const int descriptor = open(file.path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (const int error = write_to_disk(OpenFile(descriptor), file.text, std::nullopt)) {
       throw cannot_be_written(file.path, error);
     }
   }
 }
 
-void require_other_file(const std::filesystem::path& out,
-                        const std::vector<std::filesystem::path>& read) {
-  for (const std::filesystem::path& file : read) {
-    std::error_code absent;
-    if (!std::filesystem::equivalent(out, file, absent)) continue;
-    throw InputError({out.string()}, "this file is read, and would be overwritten", "",
-                     "choose another place for the result");
+void require_free(const std::vector<std::filesystem::path>& outputs, Replacing replacing) {
+  std::set<std::filesystem::path> places;
+  std::set<FileIdentity> files;
+  for (const std::filesystem::path& output : outputs) {
+    const auto refuse = [&](const std::string& problem, const std::string& suggestion) {
+      throw InputError({output.string()}, problem, "", suggestion);
+    };
+    std::error_code failed;
+    const std::filesystem::path place =
+        std::filesystem::absolute(output, failed).lexically_normal();
+    struct stat file {};
+    const bool exists = stat(output.c_str(), &file) == 0 && S_ISREG(file.st_mode);
+    if (!places.insert(place).second || (exists && !files.insert(identity_of(file)).second)) {
+      refuse("two results would have this one name", "give one of them another name");
+    }
+    if (!exists || replacing == Replacing::data) continue;
+    if (was_read(file)) {
+      refuse("this file is read, and would be overwritten", "choose another place for the result");
+    }
+    const std::string name = output.filename().string();
+    if (name == "points.csv" || name == "datapackage.json") {
+      refuse("there is data here already, which would be overwritten",
+             "choose another place for the result; import, pair and plan have --replace");
+    }
   }
 }
 
@@ -182,10 +297,12 @@ void require_writable_folder(const std::filesystem::path& folder) {
   const Location where{folder.string()};
   std::error_code failed;
   std::filesystem::path nearest = std::filesystem::absolute(folder, failed);
+  if (failed) throw cannot_be_written(folder, failed.value());
   while (!std::filesystem::exists(nearest, failed) && nearest.has_relative_path()) {
     nearest = nearest.parent_path();
   }
   if (!std::filesystem::is_directory(nearest, failed)) {
+    if (failed) throw cannot_be_written(folder, failed.value());
     throw InputError(where, fmt::format("{} is a file, not a folder", nearest.string()), "",
                      "choose another folder for the results");
   }

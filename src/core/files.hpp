@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -11,9 +12,11 @@
 namespace recoil {
 
 /// The whole text of a file. @throws InputError when the file is missing, unreadable, a folder,
-/// larger than `max_bytes`, or holds bytes that no text file has (NUL).
+/// larger than `max_bytes`, or holds bytes that no text file has (NUL); when it is a pipe or a
+/// device from which nothing comes for `patience`.
 std::string read_text_file(const std::filesystem::path& path,
-                           std::uintmax_t max_bytes = 256ULL * 1024 * 1024);
+                           std::uintmax_t max_bytes = 256ULL * 1024 * 1024,
+                           std::chrono::milliseconds patience = std::chrono::seconds(30));
 
 /// A file to be written.
 struct WholeFile {
@@ -21,19 +24,27 @@ struct WholeFile {
   std::string text;
 };
 
-/// Writes beside the target, waits for the disk and renames: a reader sees the old file or the new
-/// one, never a part, whoever else writes it. Makes the folder when it is missing. Where `path` is
-/// a link, the file behind it is replaced; a device or a pipe is written into.
-/// @throws InputError when the place cannot be written
-void write_whole_file(const std::filesystem::path& path, std::string_view text);
+/// May a file that the program has read, or that holds data, be replaced?
+enum class Replacing { results, data };
+
+/// Writes into a new file of an unpredictable name beside the target, waits for the disk and
+/// renames: a reader sees the old file or the new one, never a part, whoever else writes it. The
+/// new file has the permissions of the old one. Makes the folder when it is missing. Where `path`
+/// is a link, the file behind it is replaced; a device or a pipe is written into.
+/// @throws InputError when the place cannot be written; see also require_free
+void write_whole_file(const std::filesystem::path& path, std::string_view text,
+                      Replacing replacing = Replacing::results);
 
 /// The same for files that belong together: none is put in its place before all are on the disk, so
 /// that a disk that is full leaves those that were there.
-void write_whole_files(const std::vector<WholeFile>& files);
+void write_whole_files(const std::vector<WholeFile>& files,
+                       Replacing replacing = Replacing::results);
 
-/// @throws InputError where the result `out` would take the place of a file that is read for it
-void require_other_file(const std::filesystem::path& out,
-                        const std::vector<std::filesystem::path>& read);
+/// Commands ask before the work, and write_whole_files asks again.
+/// @throws InputError where two of the outputs are one file, and, unless data may be replaced,
+/// where one is a file that this process has read or an existing points.csv or datapackage.json
+void require_free(const std::vector<std::filesystem::path>& outputs,
+                  Replacing replacing = Replacing::results);
 
 /// The complaint about a file of which the system says `failed`, an errno.
 InputError cannot_be_written(const std::filesystem::path& path, int failed);

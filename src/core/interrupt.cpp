@@ -1,7 +1,9 @@
 #include "core/interrupt.hpp"
 
+#include <array>
 #include <atomic>
 #include <csignal>
+#include <cstddef>
 
 namespace recoil {
 namespace {
@@ -11,20 +13,20 @@ std::atomic<int> calling_off{0};
 std::atomic<int> guards{0};
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler writes it");
 
-struct sigaction previous_interrupt;
-struct sigaction previous_terminate;
-struct sigaction previous_user;
+// SIGUSR1 and SIGXCPU: clusters and limits of time send them before they kill.
+constexpr std::array<int, 5> watched = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
+std::array<struct sigaction, watched.size()> previous;
 
 void remember(int signal) { raised = signal; }
 
 /// A signal that is ignored (`nohup`, a job in the background) stays ignored.
-void watch(int signal, struct sigaction& previous) {
+void watch(int signal, struct sigaction& before) {
   struct sigaction action {};
   action.sa_handler = remember;
   sigemptyset(&action.sa_mask);
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);  // the second one acts as usual
-  sigaction(signal, nullptr, &previous);
-  if (previous.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  sigaction(signal, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
@@ -32,16 +34,12 @@ void watch(int signal, struct sigaction& previous) {
 InterruptGuard::InterruptGuard() {
   raised = 0;
   ++guards;
-  watch(SIGINT, previous_interrupt);
-  watch(SIGTERM, previous_terminate);
-  watch(SIGUSR1, previous_user);
+  for (std::size_t i = 0; i < watched.size(); ++i) watch(watched[i], previous[i]);
 }
 
 InterruptGuard::~InterruptGuard() {
   --guards;
-  sigaction(SIGINT, &previous_interrupt, nullptr);
-  sigaction(SIGTERM, &previous_terminate, nullptr);
-  sigaction(SIGUSR1, &previous_user, nullptr);
+  for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], &previous[i], nullptr);
 }
 
 bool stop_requested() { return raised.load(std::memory_order_relaxed) != 0; }

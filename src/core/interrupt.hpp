@@ -18,9 +18,9 @@ class CalledOff : public std::exception {
   const char* what() const noexcept override { return "called off"; }
 };
 
-/// During the lifetime of a guard the first Ctrl-C (SIGINT), SIGTERM or SIGUSR1 (which clusters
-/// send before a time limit) calls off all long work of this process; the next signal of that kind
-/// acts as usual. The destructor restores the earlier handlers.
+/// During the lifetime of a guard the first Ctrl-C (SIGINT), SIGTERM, SIGHUP, SIGXCPU or SIGUSR1
+/// (which clusters send before a time limit) calls off all long work of this process; the next
+/// signal of that kind acts as usual. The destructor restores the earlier handlers.
 class InterruptGuard {
  public:
   InterruptGuard();

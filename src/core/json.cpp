@@ -9,7 +9,7 @@ namespace recoil {
 
 JsonMismatch::JsonMismatch(const Json& found, const std::string& expected)
     : std::runtime_error(expected),
-      problem_(fmt::format("is {}, not {}", found.dump().substr(0, 40), expected)),
+      problem_(fmt::format("is {}, not {}", json_line(found).substr(0, 40), expected)),
       message_("the value " + problem_) {}
 
 void JsonMismatch::prepend(const std::string& step) {
@@ -19,6 +19,10 @@ void JsonMismatch::prepend(const std::string& step) {
 }
 
 Json number_or_null(double value) { return json_detail::number_to_json(value, NonFinite::null); }
+
+std::string json_line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 std::string json_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";

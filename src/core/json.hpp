@@ -111,6 +111,9 @@ Value value_from(const Json& json) {
   return value;
 }
 
+/// On one line, without an end of line; bytes that are not UTF-8 are replaced.
+std::string json_line(const Json& json);
+
 /// The text of a JSON file: ends with a newline; bytes that are not UTF-8 are replaced.
 /// @param indent spaces per level; -1: all in one line
 std::string json_text(const Json& json, int indent = 2);
@@ -269,6 +272,9 @@ void read_json(const Json& json, Value& value) {
     value = json.get<bool>();
   } else if constexpr (std::is_integral_v<Value>) {
     expect(json.is_number_integer(), "an integer");
+    expect(json.is_number_unsigned() ? std::in_range<Value>(json.get<std::uint64_t>())
+                                     : std::in_range<Value>(json.get<std::int64_t>()),
+           "an integer of this size");
     value = json.get<Value>();
   } else if constexpr (std::is_floating_point_v<Value>) {
     value = json_detail::number_from_json(json);

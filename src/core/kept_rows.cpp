@@ -14,14 +14,27 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/quoting.hpp"
 
 namespace recoil {
 namespace {
 
+/// A file of rows. A pipe or device of its name is not opened.
+std::ifstream open_rows(const std::filesystem::path& file) {
+  std::error_code failed;
+  return std::filesystem::is_regular_file(file, failed) ? std::ifstream(file, std::ios::binary)
+                                                        : std::ifstream();
+}
+
+/// The checksum of head and rows. @param head without its own "sha256"
+std::string checksum(const Json& head, std::string_view rows) {
+  return sha256_hex(json_line(head) + "\n" + std::string(rows));
+}
+
 /// The head in the first line of `in`.
 std::optional<Json> head_in(std::istream& in) {
   std::string line;
-  if (!in || !std::getline(in, line)) return std::nullopt;
+  if (!in.good() || !std::getline(in, line)) return std::nullopt;
   Json head = Json::parse(line, nullptr, false);
   if (!head.is_object() || !head.value("rows", Json()).is_number_unsigned() ||
       !head.value("bytes", Json()).is_number_unsigned() ||
@@ -49,12 +62,12 @@ void write_rows(const std::filesystem::path& file, Json head, const Rows& rows) 
   for (const auto& [piece, row] : rows) text += fmt::format("[{},{}]\n", piece, row);
   head["rows"] = rows.size();
   head["bytes"] = text.size();
-  head["sha256"] = sha256_hex(text);
-  write_whole_file(file, head.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n" + text);
+  head["sha256"] = checksum(head, text);
+  write_whole_file(file, json_line(head) + "\n" + text);
 }
 
 std::optional<Json> read_row_head(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
+  std::ifstream in = open_rows(file);
   std::optional<Json> head = head_in(in);
   if (!head) return std::nullopt;
   const std::uintmax_t line = static_cast<std::uintmax_t>(in.tellg());
@@ -65,11 +78,13 @@ std::optional<Json> read_row_head(const std::filesystem::path& file) {
 }
 
 std::optional<Rows> read_rows(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::optional<Json> head = head_in(in);
+  std::ifstream in = open_rows(file);
+  std::optional<Json> head = head_in(in);
   if (!head) return std::nullopt;
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (sha256_hex(text) != head->at("sha256").get<std::string>()) return std::nullopt;
+  const std::string stated = head->at("sha256").get<std::string>();
+  head->erase("sha256");
+  if (checksum(*head, text) != stated) return std::nullopt;
   Rows rows;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -86,7 +101,7 @@ void KeepingPace::keep(const std::function<void()>& write) {
     write();
     reported_ = false;
   } catch (const InputError& error) {
-    if (!std::exchange(reported_, true)) fmt::print(stderr, "{}\n", error.what());
+    if (!std::exchange(reported_, true)) print_text(stderr, "{}\n", error.what());
   }
   const Clock::time_point end = Clock::now();
   next_ = end + std::max<Clock::duration>(most_lost_, longer_than_writing * (end - begin));
@@ -119,7 +134,7 @@ bool KeptRows::has(std::size_t piece) const {
 
 void KeptRows::put(std::size_t piece, const Json& row) {
   end_if_called_off();
-  std::string text = row.dump();
+  std::string text = json_line(row);
   const std::lock_guard lock(mutex_);
   rows_[piece] = std::move(text);
   if (!file_.empty() && pace_.is_due()) pace_.keep([this] { write(); });

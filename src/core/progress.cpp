@@ -18,7 +18,7 @@ Progress::Progress(std::string label, std::size_t total)
       start_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
-  if (visible_) fmt::print(stderr, "\r\033[K");
+  if (visible_) std::fputs("\r\033[K", stderr);
 }
 
 void Progress::advance(std::size_t steps) {
@@ -40,8 +40,9 @@ void Progress::draw(std::size_t done) {
       elapsed *
       (static_cast<double>(total_) / static_cast<double>(std::max<std::size_t>(done, 1)) - 1.0);
   const std::size_t filled = total_ == 0 ? width : width * std::min(done, total_) / total_;
-  fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}/{}, {:.0f} s left", label_, "", filled, "",
-             width - filled, done, total_, left);
+  const std::string bar = fmt::format("\r\033[K{} [{:#<{}}{:.<{}}] {}/{}, {:.0f} s left", label_,
+                                      "", filled, "", width - filled, done, total_, left);
+  std::fwrite(bar.data(), 1, bar.size(), stderr);
   std::fflush(stderr);
 }
 

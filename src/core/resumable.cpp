@@ -57,7 +57,10 @@ std::optional<Part> part_in(const fs::path& file) {
   try {
     const PartHead part = value_from<PartHead>(*head);
     const auto shard = shard_named(fmt::format("{}/{}", part.part, part.of));
-    if (!shard) return std::nullopt;
+    const Origin& origin = part.origin;
+    if (!shard || origin.command.empty() || origin.pieces < 1 || origin.pieces > most_pieces) {
+      return std::nullopt;
+    }
     return Part{file, part.origin, *shard};
   } catch (const JsonMismatch&) {
     return std::nullopt;
@@ -106,7 +109,7 @@ Origin origin_here(std::vector<std::string> command, const std::string& inputs, 
 std::string key_of(const Origin& origin) {
   Json fields = as_json(origin);
   fields.erase("folder");
-  return sha256_hex(fields.dump());
+  return sha256_hex(json_line(fields));
 }
 
 std::string difference(const Origin& a, const Origin& b) {

@@ -41,6 +41,7 @@ struct Shard {
 };
 
 inline constexpr std::size_t most_shards = 1000000;
+inline constexpr std::size_t most_pieces = 10000000;
 
 /// The shard that "3/40" means; nullopt for any other text.
 std::optional<Shard> shard_named(std::string_view text);

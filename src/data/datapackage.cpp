@@ -301,7 +301,7 @@ std::vector<std::string> read_sources(const JsonNode& root) {
 /// nullopt when a key is unknown or a value is impossible.
 std::optional<ImpactSystem> readable_system(const Json& system) {
   try {
-    const JsonDocument document(system.dump(-1, ' ', false, Json::error_handler_t::replace), "");
+    const JsonDocument document(json_line(system), "");
     return read_system(document.root());
   } catch (const InputError&) {
     return std::nullopt;
@@ -387,9 +387,7 @@ Json csv_resource(const std::string& name, const std::string& path, const Json& 
           {"encoding", "utf-8"}, {"schema", {{"fields", fields}}}};
 }
 
-std::string package_text(const Json& package) {
-  return package.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string package_text(const Json& package) { return json_text(package); }
 
 Json stated_system(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / package_file_name;

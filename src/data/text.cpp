@@ -18,24 +18,6 @@ unsigned byte_at(std::string_view text, std::size_t i) {
 
 bool is_continuation(unsigned byte) { return (byte & 0xC0U) == 0x80U; }
 
-/// Length of the UTF-8 sequence that starts at `i` [bytes]; 0 when it is not a valid one.
-/// The narrower limits of the second byte exclude overlong forms, surrogates and > U+10FFFF.
-std::size_t sequence_length(std::string_view text, std::size_t i) {
-  const unsigned first = byte_at(text, i);
-  if (first < 0x80) return 1;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  const std::size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  if (i + length > text.size()) return 0;
-  const unsigned lowest = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-  const unsigned highest = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-  const unsigned second = byte_at(text, i + 1);
-  if (second < lowest || second > highest) return 0;
-  for (std::size_t k = 2; k < length; ++k) {
-    if (!is_continuation(byte_at(text, i + k))) return 0;
-  }
-  return length;
-}
-
 }  // namespace
 
 Location locate(std::string_view text, std::size_t offset, const std::string& file) {
@@ -60,7 +42,7 @@ void require_text(std::string_view text, const std::string& file) {
       throw InputError(locate(text, i, file), "this is not a text file",
                        fmt::format("byte {} is NUL", i + 1), "save it as UTF-8 text");
     }
-    const std::size_t length = sequence_length(text, i);
+    const std::size_t length = utf8_length(text, i);
     if (length == 0) {
       throw InputError(locate(text, i, file),
                        fmt::format("byte 0x{:02X} is not UTF-8", byte_at(text, i)), "",
@@ -88,17 +70,6 @@ std::string shortened(std::string_view text, std::size_t longest) {
 
 std::string quote(std::string_view word) {
   return fmt::format("'{}'", printable(shortened(word, longest_word)));
-}
-
-std::string printable(std::string_view word) {
-  std::string text;
-  for (std::size_t i = 0; i < word.size(); ++i) {
-    const unsigned byte = byte_at(word, i);
-    const bool c1 = byte == 0xC2 && i + 1 < word.size() && byte_at(word, i + 1) < 0xA0;
-    if (c1) ++i;  // U+0080 to U+009F, which terminals obey as well
-    text += c1 || byte < 0x20 || byte == 0x7f ? ' ' : word[i];
-  }
-  return text;
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/quoting.hpp"
 #include "core/units.hpp"
 
 namespace recoil {
@@ -27,9 +28,6 @@ std::string shortened(std::string_view text, std::size_t longest);
 
 /// `word` between single quotes, cut to 40 characters: for messages.
 std::string quote(std::string_view word);
-
-/// `word` with every control character replaced by a space: for anything that is printed.
-std::string printable(std::string_view word);
 
 /// "did you mean 'x'?" when a known word is near, else "known: a, b, c".
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "plot/plot.hpp"
 #include "plot/xml.hpp"
 
@@ -146,7 +146,7 @@ std::string without_runs_of_commas(const std::string& csv) {
 std::string data_of_figure(const Figure& figure) {
   const std::string csv = figure.csv.empty() ? plot::csv_of(figure.picture) : figure.csv;
   std::string out;
-  if (!csv.empty()) out += data_html("csv", nlohmann::json(without_runs_of_commas(csv)).dump());
+  if (!csv.empty()) out += data_html("csv", json_line(without_runs_of_commas(csv)));
   if (!figure.explored.empty()) out += data_html("explore", figure.explored);
   return out;
 }
@@ -308,6 +308,10 @@ std::string html_page(Document document) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      // nothing on a page may reach the network, whatever stands in the data that it shows
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+      "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
+      "base-uri 'none'; form-action 'none'\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n"
       "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body{}>\n{}</header>\n"

@@ -191,7 +191,7 @@ void add_scatter(const ImportRequest& request, std::vector<ImportedPoint>& point
   throw InputError(place, error.problem(), error.why(), error.suggestion());
 }
 
-void require_free(const ImportRequest& request) {
+void refuse_existing(const ImportRequest& request) {
   std::error_code failed;
   if (fs::exists(request.into, failed) && !fs::is_directory(request.into, failed)) {
     throw InputError({request.into.string()}, "this is a file, not a folder",
@@ -240,9 +240,9 @@ void set_recipe_aside(const fs::path& folder, std::vector<ImportNote>& notes) {
 }  // namespace
 
 ImportResult import_points(const ImportRequest& request) {
-  require_free(request);
+  refuse_existing(request);
   std::vector<ImportNote> unused;
-  table_text(request.file, unused);  // a missing file is reported before missing options
+  table_text(request, unused);  // a missing file is reported before missing options
   const auto existing =
       request.replace ? existing_package(request.into) : std::optional<ExistingPackage>();
   ImportResult result;
@@ -268,7 +268,8 @@ ImportResult import_points(const ImportRequest& request) {
   // The points are written first: if the program ends in between, the old label claims no more than
   // the new points are, and without a package the folder is not yet a dataset.
   require_writable_folder(request.into);
-  write_whole_files({{points_file, points.csv}, {request.into / package_file_name, package}});
+  write_whole_files({{points_file, points.csv}, {request.into / package_file_name, package}},
+                    request.replace ? Replacing::data : Replacing::results);
   set_recipe_aside(request.into, result.notes);
   return result;
 }

@@ -33,6 +33,7 @@ struct NamesOf<ImportFormat> {
 /// words such as "4.9um", errors are "2%" (of the value) or "0.5mm".
 struct ImportRequest {
   std::filesystem::path file;
+  std::string text;  ///< what is in the file, where it is not to be read
   ImportFormat format = ImportFormat::csv;
   std::filesystem::path into;  ///< the dataset's folder
   bool replace = false;        ///< replace the points of the dataset in the folder

@@ -1,21 +1,15 @@
 #include "experiment/import_table.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <iconv.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <regex>
 #include <set>
 
+#include "core/child.hpp"
 #include "core/files.hpp"
 #include "data/text.hpp"
 
@@ -89,42 +83,11 @@ std::string error_name(const std::string& quantity) {
   return quantity == "incident_velocity" ? "velocity_sd" : quantity + "_sd";
 }
 
-/// What a program writes to standard output; nullopt where it is not installed or fails.
-std::optional<std::string> output_of(std::vector<std::string> words) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), &std::fclose);
-  if (!out) return std::nullopt;
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, fileno(out.get()), STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int failed =
-      posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return std::nullopt;
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return std::nullopt;
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
-  std::rewind(out.get());
-  std::string text;
-  char part[65536];
-  for (std::size_t got = 0; (got = std::fread(part, 1, sizeof part, out.get())) > 0;) {
-    text.append(part, got);
-  }
-  return text;
-}
-
 /// The whole file in UTF-8.
-std::string utf8_text(const std::filesystem::path& file, std::vector<ImportNote>& notes) {
-  std::string text = table_text(file, notes);
+std::string utf8_text(const ImportRequest& request, std::vector<ImportNote>& notes) {
+  std::string text = table_text(request, notes);
   try {
-    require_text(text, file.string());
+    require_text(text, request.file.string());
     return text;
   } catch (const InputError&) {
     const iconv_t converter = iconv_open("UTF-8", "WINDOWS-1252");
@@ -402,8 +365,12 @@ NumberFormat number_format(const ImportRequest& request) {
   return {request.decimal_comma ? "," : "."};
 }
 
-std::string table_text(const std::filesystem::path& file, std::vector<ImportNote>& notes) {
-  std::ifstream stream(file, std::ios::binary);
+std::string table_text(const ImportRequest& request, std::vector<ImportNote>& notes) {
+  if (!request.text.empty()) return request.text;
+  const std::filesystem::path& file = request.file;
+  std::error_code failed;
+  std::ifstream stream;  // of a pipe the first bytes cannot be read twice
+  if (std::filesystem::is_regular_file(file, failed)) stream.open(file, std::ios::binary);
   char start[4] = {};
   stream.read(start, sizeof start);
   const std::string_view bytes(start, static_cast<std::size_t>(stream.gcount()));
@@ -419,10 +386,10 @@ std::string table_text(const std::filesystem::path& file, std::vector<ImportNote
        {std::vector<std::string>{"xlsx2csv", name},
         std::vector<std::string>{"ssconvert", "--export-type=Gnumeric_stf:stf_csv", name,
                                  "fd://1"}}) {
-    if (auto text = output_of(words)) {
-      notes.push_back({ImportRemark::workbook_converted, {words.front()}});
-      return *text;
-    }
+    ChildOutcome converted = run_child(words, "", std::chrono::minutes(2));
+    if (converted.status != 0) continue;
+    notes.push_back({ImportRemark::workbook_converted, {words.front()}});
+    return std::move(converted.out);
   }
   throw InputError({file.string()}, "this is a workbook, and no program that reads it is installed",
                    "recoil reads CSV",
@@ -431,7 +398,7 @@ std::string table_text(const std::filesystem::path& file, std::vector<ImportNote
 
 std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<ImportNote>& notes) {
   const std::string file = request.file.string();
-  std::string text = utf8_text(request.file, notes);
+  std::string text = utf8_text(request, notes);
   std::vector<Line> lines = lines_of(text);
   const std::optional<char> stated = take_separator(text, lines);
   const char delimiter = stated ? *stated : likely_delimiter(text, lines, number_format(request));

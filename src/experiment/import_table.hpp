@@ -88,7 +88,7 @@ std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<Import
 
 /// The text of a table as it is in the file; of a workbook the first sheet, by xlsx2csv or
 /// ssconvert. @throws InputError for a workbook where neither is installed, and for UTF-16
-std::string table_text(const std::filesystem::path& file, std::vector<ImportNote>& notes);
+std::string table_text(const ImportRequest& request, std::vector<ImportNote>& notes);
 
 /// A quantity that a format knows.
 struct ImportQuantity {

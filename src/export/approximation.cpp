@@ -1,10 +1,13 @@
 #include "export/approximation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 
+#include "core/error.hpp"
 #include "core/roots.hpp"
 #include "estimate/least_squares.hpp"
 
@@ -50,12 +53,21 @@ ContactForce force_of(const Approximation& approximation, const ExportedImpact& 
   return force;
 }
 
-Approximation nearest(StockModel model, const ExportedImpact& impact) {
+Approximation nearest(StockModel model, const ExportedImpact& impact, double least_restitution) {
+  if (std::all_of(impact.restitution.begin(), impact.restitution.end(),
+                  [](double e) { return e == 0.0; })) {
+    throw InputError({},
+                     fmt::format("every sphere from {:.4g} to {:.4g} m/s is captured",
+                                 impact.request.slowest, impact.request.fastest),
+                     "the contact models of the program itself capture none",
+                     "state a faster range: --velocity MIN,MAX");
+  }
   Approximation out;
   out.model = model;
   const std::vector<double>& e = impact.restitution;
   if (model == StockModel::constant_restitution) {
-    out.value = std::accumulate(e.begin(), e.end(), 0.0) / static_cast<double>(e.size());
+    const double mean = std::accumulate(e.begin(), e.end(), 0.0) / static_cast<double>(e.size());
+    out.value = std::max(mean, least_restitution);
   } else {
     const double velocity = std::sqrt(impact.request.slowest * impact.request.fastest);
     // kappa = D n_c^(3/2) / (m V) = 1, with n_c^(5/2) = m V^2 / (K r^(1/2))
@@ -152,6 +164,10 @@ ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stoc
 StockModel stock_model(ExportTarget target) {
   if (target == ExportTarget::lammps) return StockModel::hertz_dashpot;
   return StockModel::constant_restitution;
+}
+
+double least_restitution(ExportTarget target) {
+  return target == ExportTarget::liggghts ? std::nextafter(0.05, 1.0) : 0.0;
 }
 
 }  // namespace recoil

@@ -36,8 +36,10 @@ struct Approximation {
 };
 
 /// The value that makes `model` nearest: the smallest rms of delta e over velocities evenly spaced
-/// in log V.
-Approximation nearest(StockModel model, const ExportedImpact& impact);
+/// in log V. A constant e is at least `least_restitution`.
+/// @throws InputError where every sphere is captured: no stock model captures
+Approximation nearest(StockModel model, const ExportedImpact& impact,
+                      double least_restitution = 0.0);
 
 /// The force of an approximation that has one.
 ContactForce force_of(const Approximation& approximation, const ExportedImpact& impact);
@@ -69,5 +71,8 @@ ExportForm form_for(ExportTarget target, const ExportedImpact& impact, bool stoc
 
 /// The stock model of `target`.
 StockModel stock_model(ExportTarget target);
+
+/// The smallest constant e that `target` takes: LIGGGHTS 3.8 refuses 0.05 and less.
+double least_restitution(ExportTarget target);
 
 }  // namespace recoil

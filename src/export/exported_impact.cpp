@@ -188,7 +188,8 @@ ExportedImpact exported_impact(const ImpactModel& model, std::span<const double>
   for (const double square : squares) out.restitution.push_back(std::sqrt(std::max(square, 0.0)));
   const CaptureVelocity capture =
       capture_velocity(model, values, request.dataset, request.diameter);
-  out.captures = capture.found && capture.value > no_adhesion * request.slowest;
+  out.captures = capture.found && capture.value > no_adhesion * request.slowest &&
+                 !without_adhesion(model, request.dataset);
   out.capture_velocity = out.captures ? capture.value : 0.0;
   out.force = force_at(model, values, request);
   const std::vector<double> alone = restitution_under(out.force, out.velocity);

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "core/quoting.hpp"
+
 namespace recoil {
 
 std::string filled(std::string_view text,
@@ -30,7 +32,7 @@ std::string commented(const std::vector<std::string>& lines, std::string_view ma
   std::string out;
   for (const std::string& line : lines) {
     out += mark;
-    out += line;
+    out += comment_text(line);
     while (!out.empty() && out.back() == ' ') out.pop_back();
     out += '\n';
   }

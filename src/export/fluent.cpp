@@ -36,10 +36,7 @@ DEFINE_DPM_BC(recoil_rebound, p, t, f, f_normal, dim)
 }  // namespace
 
 std::vector<ExportedFile> fluent_files(const ExportJob& job) {
-  std::string heading = commented(job.heading, "   ");
-  for (std::size_t at = heading.find("*/"); at != std::string::npos; at = heading.find("*/")) {
-    heading.replace(at, 2, "* /");
-  }
+  const std::string heading = commented(job.heading, "   ");
   return {{"recoil_rebound.c",
            filled(udf_text, {{"HEADING", heading}, {"TABLE", lookup_in_c(*job.lookup)}})}};
 }

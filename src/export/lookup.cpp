@@ -33,6 +33,7 @@ struct Question {
 
 /// V* of every size; empty where one is not captured.
 std::vector<double> captures(const Question& q, const std::vector<double>& sizes) {
+  if (without_adhesion(q.model, q.request.dataset)) return {};
   std::vector<CaptureQuery> queries;
   for (const double d : sizes) queries.push_back({q.request.dataset, d});
   std::vector<double> found;

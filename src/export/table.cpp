@@ -93,7 +93,8 @@ std::vector<TabulatedSize> restitution_table(const ImpactModel& model,
     TabulatedSize size;
     size.diameter = diameter;
     const CaptureVelocity capture = capture_velocity(model, values, request.dataset, diameter);
-    size.captures = capture.found && capture.value > 0.0;
+    size.captures =
+        capture.found && capture.value > 0.0 && !without_adhesion(model, request.dataset);
     if (size.captures) size.capture_velocity.value = capture.value;
     size.velocity = tabulated(request.slowest, request.fastest, size.capture_velocity.value);
     const std::vector<double> square =

@@ -7,7 +7,8 @@
 namespace recoil {
 namespace {
 
-constexpr const char* yade_head = R"py(@HEADING@#
+constexpr const char* yade_head = R"py(# -*- coding: utf-8 -*-
+@HEADING@#
 # Run:  yade -n -x impact.py V [DT]       V: incident velocity [m/s]; DT: time step [s]
 # It prints "restitution E"; 0 means that the sphere stayed.
 import math

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "data/text.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "plan/design.hpp"
 #include "plan/possible_points.hpp"
@@ -30,7 +31,7 @@ constexpr double share_of_everywhere = 1e-9;
 /// Rounded to three digits, as a velocity is set.
 double as_set(double velocity) {
   const double unit = std::pow(10.0, std::floor(std::log10(velocity)) - 2.0);
-  return std::stod(fmt::format("{:.3g}", std::round(velocity / unit) * unit));
+  return *parse_number(fmt::format("{:.3g}", std::round(velocity / unit) * unit));
 }
 
 /// Spheres of one diameter in one dataset.

@@ -1,84 +1,19 @@
 #include "plot/draw.hpp"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cctype>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 #include <string_view>
 #include <vector>
 
+#include "core/child.hpp"
 #include "core/error.hpp"
 #include "plot/gnuplot_script.hpp"
 #include "plot/inline_svg.hpp"
 
-extern char** environ;
-
 namespace recoil::plot {
 namespace {
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-/// An open file in memory: it is gone with the process, however that ends, and no disk that is full
-/// cuts a picture short.
-using NamelessFile = std::unique_ptr<std::FILE, CloseFile>;
-
-NamelessFile nameless_file() {
-  const int descriptor = memfd_create("gnuplot", MFD_CLOEXEC);
-  NamelessFile file(descriptor < 0 ? nullptr : fdopen(descriptor, "w+"));
-  if (!file) {
-    throw ComputationError(fmt::format("no temporary file for gnuplot: {}", std::strerror(errno)));
-  }
-  return file;
-}
-
-std::string contents(std::FILE* file) {
-  std::rewind(file);
-  std::string text;
-  char buffer[65536];
-  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, file)) > 0;) {
-    text.append(buffer, n);
-  }
-  return text;
-}
-
-/// The environment with numbers in the C locale and names in UTF-8, whatever the user's is.
-std::vector<std::string> plain_environment() {
-  std::vector<std::string> variables;
-  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
-    const std::string_view variable(*entry);
-    if (variable.starts_with("LC_") || variable.starts_with("LANG") ||
-        variable.starts_with("GNU")) {
-      continue;
-    }
-    variables.emplace_back(variable);
-  }
-  variables.emplace_back("LC_ALL=C.UTF-8");
-  return variables;
-}
-
-class FileActions {
- public:
-  FileActions() { posix_spawn_file_actions_init(&actions_); }
-  ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-
-  void connect(std::FILE* file, int descriptor) {
-    posix_spawn_file_actions_adddup2(&actions_, fileno(file), descriptor);
-  }
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_;
-};
 
 /// gnuplot's complaint on one line, without its prompt and pointer lines.
 std::string complaint(const std::string& errors) {
@@ -95,45 +30,28 @@ std::string complaint(const std::string& errors) {
 
 }  // namespace
 
-std::string run_gnuplot(const std::string& script, const std::string& program) {
-  const NamelessFile in = nameless_file();
-  const NamelessFile out = nameless_file();
-  const NamelessFile err = nameless_file();
-  if (std::fwrite(script.data(), 1, script.size(), in.get()) != script.size() ||
-      std::fflush(in.get()) != 0) {
-    throw ComputationError("the script for gnuplot cannot be kept in memory");
-  }
-  std::rewind(in.get());
-
-  FileActions actions;
-  actions.connect(in.get(), STDIN_FILENO);
-  actions.connect(out.get(), STDOUT_FILENO);
-  actions.connect(err.get(), STDERR_FILENO);
-  std::string name = program;
-  std::string no_user_settings = "-d";
-  char* const arguments[] = {name.data(), no_user_settings.data(), nullptr};
-  std::vector<std::string> variables = plain_environment();
-  std::vector<char*> environment;
-  for (std::string& variable : variables) environment.push_back(variable.data());
-  environment.push_back(nullptr);
-
-  pid_t child = 0;
-  const int failed =
-      posix_spawnp(&child, program.c_str(), actions.get(), nullptr, arguments, environment.data());
-  if (failed != 0) {
+std::string run_gnuplot(const std::string& script, const std::string& program,
+                        std::chrono::milliseconds limit) {
+  const ChildOutcome child = run_child({program, "-d"}, script, limit);  // -d: no user's settings
+  if (child.failed != 0) {
     throw ComputationError(
         fmt::format("gnuplot cannot be started: {} ({}); install the package gnuplot-nox",
-                    std::strerror(failed), program));
+                    std::strerror(child.failed), program));
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw ComputationError("gnuplot was lost before it ended");
+  if (child.timed_out) {
+    throw ComputationError(fmt::format("gnuplot did not end within {} s and was stopped",
+                                       std::chrono::duration<double>(limit).count()));
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    throw ComputationError(
-        fmt::format("gnuplot failed on a plot: {}", complaint(contents(err.get()))));
+  if (child.status != 0) {
+    throw ComputationError(fmt::format("gnuplot failed on a plot: {}", complaint(child.err)));
   }
-  return contents(out.get());
+  return child.out;
+}
+
+void require_gnuplot() {
+  if (is_installed("gnuplot")) return;
+  throw InputError({}, "gnuplot is not installed", "it draws the pictures",
+                   "install the package gnuplot-nox");
 }
 
 std::vector<std::string> draw_svg(const std::vector<const Picture*>& pictures,

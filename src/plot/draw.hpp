@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,13 @@ std::string draw_svg(const Picture& picture, const std::string& program = "gnupl
 /// What gnuplot prints when it is given `script`. No shell and no named file takes part, neither
 /// the user's locale nor his settings.
 /// @param program the gnuplot to run, searched in PATH.
-/// @throws ComputationError with gnuplot's own message when it is missing or fails.
-std::string run_gnuplot(const std::string& script, const std::string& program = "gnuplot");
+/// @throws ComputationError with gnuplot's own message when it is missing or fails, or when it has
+/// not ended after `limit`.
+std::string run_gnuplot(const std::string& script, const std::string& program = "gnuplot",
+                        std::chrono::milliseconds limit = std::chrono::minutes(2));
+
+/// Commands that draw at their end ask at their beginning.
+/// @throws InputError when gnuplot is not installed
+void require_gnuplot();
 
 }  // namespace recoil::plot

@@ -50,7 +50,7 @@ std::string line_of_text(std::string_view text) {
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
       out += ' ';
     } else if (c == '\'') {
-      out += "''";
+      out += "’";  // gnuplot takes '' for a quote, but not at the start and not two of them
     } else {
       if (std::strchr("\\{}^_@&~", c) != nullptr) out += '\\';
       out += c;

@@ -6,11 +6,14 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <future>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <numbers>
 
 #include "analysis/analysis.hpp"
@@ -47,11 +50,62 @@ namespace py = pybind11;
 namespace recoil {
 namespace {
 
+/// Work in C++ that runs without the interpreter's lock. Its thread takes the lock again at the
+/// end, which it cannot once the interpreter is being taken down: the exit waits for all work.
+class Busy {
+ public:
+  Busy() {
+    const std::lock_guard lock(mutex());
+    ++count();
+  }
+  ~Busy() {
+    const std::lock_guard lock(mutex());
+    --count();
+    ended().notify_all();
+  }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+  /// Calls off all work of other threads, and waits for its end.
+  static void at_exit() {
+    exiting() = true;
+    const py::gil_scoped_release release;
+    const CallingOff calling_off;
+    std::unique_lock lock(mutex());
+    ended().wait(lock, [] { return count() == 0; });
+  }
+  static std::atomic<bool>& exiting() {
+    static std::atomic<bool> flag{false};
+    return flag;
+  }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  static int& count() {
+    static int number = 0;
+    return number;
+  }
+  static std::condition_variable& ended() {
+    static std::condition_variable one;
+    return one;
+  }
+};
+
+/// During the lifetime of one of these other threads of Python run.
+struct Released {
+  Busy busy;
+  py::gil_scoped_release release;
+};
+
 /// The result of `work`, during which other threads of Python run. Ctrl-C ends it, and all other
 /// work of the process, as KeyboardInterrupt. @pre the caller holds the interpreter's lock
 template <class Work>
 auto interruptible(const Work& work) {
   constexpr auto poll_interval = std::chrono::milliseconds(50);
+  const Busy busy;
   auto running = std::async(std::launch::async, [&work] { return work(); });
   for (;;) {
     {
@@ -340,8 +394,12 @@ void translate(std::exception_ptr thrown) {
                                           error.suggestion()));
   } catch (const ComputationError& error) {
     raise_as("ComputationError", py::make_tuple(error.what()));
-  } catch (const CalledOff&) {  // by a Ctrl-C in another thread
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
+  } catch (const CalledOff&) {  // by a Ctrl-C in another thread, or by the end of the program
+    PyErr_SetNone(Busy::exiting() ? PyExc_SystemExit : PyExc_KeyboardInterrupt);
+  } catch (const std::filesystem::filesystem_error& error) {  // a path that cannot be used
+    const std::string problem = error.code().message();
+    raise_as("InputError", py::make_tuple(error.path1().string() + ": " + problem,
+                                          error.path1().string(), 0, 0, problem));
   }
 }
 
@@ -393,7 +451,7 @@ void bind_models(py::module_& module) {
       .def("simulate", &simulate_columns, py::arg("velocity"), py::arg("diameter_um"),
            py::arg("dataset"), py::arg("slopes"))
       .def("impact", &one_impact, py::arg("velocity"), py::arg("diameter_um"), py::arg("dataset"),
-           py::call_guard<py::gil_scoped_release>());
+           py::call_guard<Released>());
   module.def(
       "model_of_fit",
       [](const FitInputs& inputs, const std::string& parameters) {
@@ -403,24 +461,24 @@ void bind_models(py::module_& module) {
 }
 
 void bind_results(py::module_& module) {
-  using Released = py::call_guard<py::gil_scoped_release>;
   py::class_<Pictures>(module, "Pictures")
       .def("titles", &Pictures::titles)
-      .def("svg", &Pictures::svg, py::arg("name"), Released());
+      .def("svg", &Pictures::svg, py::arg("name"), py::call_guard<Released>());
 
   py::class_<Analysis, std::shared_ptr<Analysis>>(module, "Analysis")
-      .def("json", &fit_json, Released())
+      .def("json", &fit_json, py::call_guard<Released>())
       .def(
           "text",
           [](const Analysis& a, bool verbose) {
             return fit_text(a, verbose ? Importance::detail : Importance::answer);
           },
-          py::arg("verbose"), Released())
+          py::arg("verbose"), py::call_guard<Released>())
       .def(
-          "page", [](const Analysis& a) { return fit_html(a); }, Released())
-      .def("summary", &summary_html, Released())
+          "page", [](const Analysis& a) { return fit_html(a); }, py::call_guard<Released>())
+      .def("summary", &summary_html, py::call_guard<Released>())
       .def(
-          "pictures", [](const Analysis& a) { return pictures_of(fit_document(a)); }, Released())
+          "pictures", [](const Analysis& a) { return pictures_of(fit_document(a)); },
+          py::call_guard<Released>())
       .def("profiles", &profiles_of)
       .def("model", [](const Analysis& a) { return model_of(a); })
       .def(
@@ -455,20 +513,20 @@ void bind_results(py::module_& module) {
       .def_readonly("pictures", &Predicted::pictures);
 
   py::class_<Diagnosis>(module, "Diagnosis")
-      .def("json", &diagnosis_json, Released())
+      .def("json", &diagnosis_json, py::call_guard<Released>())
       .def(
           "text",
           [](const Diagnosis& d, bool verbose) {
             return diagnosis_text(d, verbose ? Importance::detail : Importance::answer);
           },
-          py::arg("verbose"), Released())
-      .def("page", &diagnosis_html, Released())
+          py::arg("verbose"), py::call_guard<Released>())
+      .def("page", &diagnosis_html, py::call_guard<Released>())
       .def(
           "summary", [](const Diagnosis& d) { return html_of(diagnosis_summary(d).blocks); },
-          Released())
+          py::call_guard<Released>())
       .def(
           "pictures", [](const Diagnosis& d) { return pictures_of(diagnosis_document(d)); },
-          Released())
+          py::call_guard<Released>())
       .def("extended_toml",
            [](const Diagnosis& d, const std::string& folder) { return extended_toml(d, folder); });
 
@@ -478,7 +536,7 @@ void bind_results(py::module_& module) {
         return interruptible([&] { return coverage_of(inputs, datasets, options); });
       },
       py::arg("inputs"), py::arg("datasets"), py::arg("options"));
-  module.def("compare", &compared, py::arg("named_texts"), Released());
+  module.def("compare", &compared, py::arg("named_texts"), py::call_guard<Released>());
 }
 
 void bind_pairs(py::module_& module) {
@@ -521,6 +579,7 @@ PYBIND11_MODULE(_recoil, module) {
   recoil::gsl_errors_are_values();
   py::register_exception_translator(&recoil::translate);
   module.attr("__version__") = recoil::version();
+  py::module_::import("atexit").attr("register")(py::cpp_function(&recoil::Busy::at_exit));
   recoil::bind_inputs(module);
   recoil::bind_models(module);
   recoil::bind_results(module);

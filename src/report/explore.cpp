@@ -95,7 +95,7 @@ std::string explored_panel(const Analysis& analysis, const Panel& panel,
     out["student"] = {{"nu", student->dof}, {"unit", std::sqrt(student->calibration())}};
   }
   add_points(analysis, panel.points, out);
-  return out.dump();
+  return json_line(out);
 }
 
 }  // namespace recoil

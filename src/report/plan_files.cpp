@@ -99,7 +99,7 @@ std::string json_plan(const ExperimentPlan& plan) {
   for (const PlannedQuantity& quantity : plan.quantities) {
     out["quantities"].push_back(quantity_json(plan, quantity));
   }
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(out);
 }
 
 std::string csv_points_to_make(const ExperimentPlan& plan, std::size_t dataset) {

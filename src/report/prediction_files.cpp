@@ -113,7 +113,7 @@ std::string json_prediction(const Analysis& analysis, const PolydispersePredicti
     rows.push_back(row);
   }
   out["curve"] = rows;
-  return out.dump(2) + "\n";
+  return json_text(out);
 }
 
 }  // namespace recoil

@@ -60,7 +60,7 @@ std::string comparison_json(const std::vector<ComparedFit>& fits) {
                                      : Json(nullptr);
     out["quantities"].push_back(std::move(entry));
   }
-  return out.dump(2) + "\n";
+  return json_text(out);
 }
 
 }  // namespace recoil

@@ -59,7 +59,7 @@ std::string coverage_json(const CoverageResult& result, const FitSpec& spec,
   out["refits_failed"] = result.refits_failed;
   out["rows"] = Json::array();
   for (const CoverageRow& row : result.rows) out["rows"].push_back(row_json(row));
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(out);
 }
 
 }  // namespace recoil

@@ -70,7 +70,7 @@ std::string pairing_json(const PassageTable& table, const PairingResult& pairs,
                             {"lost_share", number_or_null(averages.lost_share)}};
   out["points"] = Json::array();
   for (const PointMean& point : averages.points) out["points"].push_back(mean_json(point));
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(out);
 }
 
 }  // namespace recoil

@@ -58,9 +58,10 @@ std::size_t parts_in(const Workplace& place, const std::string& folder) {
 void put_rows(const Workplace& place, const std::string& part, const std::string& rows) {
   const std::string text = place.read(part);
   auto head = nlohmann::ordered_json::parse(text.substr(0, text.find('\n')));
-  place.write("rows", rows);
-  const Outcome sum = support::run_command({"sha256sum", (place / "rows").string()}, place.path());
+  head.erase("sha256");
   head["bytes"] = rows.size();
+  place.write("rows", head.dump() + "\n" + rows);
+  const Outcome sum = support::run_command({"sha256sum", (place / "rows").string()}, place.path());
   head["sha256"] = sum.out.substr(0, sum.out.find(' '));
   place.write(part, head.dump() + "\n" + rows);
 }

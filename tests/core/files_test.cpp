@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
+#include <thread>
 
 #include "support/mistake.hpp"
 #include "support/small_disk.hpp"
@@ -91,15 +93,73 @@ TEST_F(Files, LinksStayAndDevicesAreWrittenInto) {
 TEST_F(Files, AResultNeverTakesThePlaceOfItsInput) {
   folder_.write("my.toml", "x");
   fs::create_symlink("my.toml", folder_ / "link");
-  EXPECT_NO_THROW(require_other_file(folder_ / "result", {folder_ / "my.toml"}));
-  EXPECT_NO_THROW(require_other_file(folder_ / "result", {folder_ / "none", ""}));
+  read_text_file(folder_ / "my.toml");
+  EXPECT_NO_THROW(require_free({folder_ / "result", folder_ / "none"}));
   for (const char* out : {"my.toml", "link"}) {
     const fs::path place = folder_ / out;
-    EXPECT_EQ(support::message_of([&] { require_other_file(place, {folder_ / "my.toml"}); }),
-              place.string() +
-                  ": this file is read, and would be overwritten; choose another place for the "
-                  "result");
+    const std::string told = place.string() +
+                             ": this file is read, and would be overwritten; choose another place "
+                             "for the result";
+    EXPECT_EQ(support::message_of([&] { require_free({place}); }), told);
+    EXPECT_EQ(support::message_of([&] { write_whole_file(place, "y"); }), told);
+    EXPECT_EQ(folder_.read("my.toml"), "x");
   }
+  write_whole_file(folder_ / "my.toml", "y", Replacing::data);
+  EXPECT_EQ(folder_.read("my.toml"), "y");
+}
+
+TEST_F(Files, DataStayUnlessTheyAreToBeReplaced) {
+  for (const char* name : {"points.csv", "datapackage.json"}) {
+    const fs::path place = folder_ / name;
+    write_whole_file(place, "new");
+    EXPECT_NE(support::message_of([&] {
+                write_whole_file(place, "other");
+              }).find("there is data here already"),
+              std::string::npos);
+    EXPECT_EQ(folder_.read(name), "new");
+    write_whole_file(place, "replaced", Replacing::data);
+    EXPECT_EQ(folder_.read(name), "replaced");
+  }
+}
+
+TEST_F(Files, TwoResultsOfOneNameAreRefused) {
+  folder_.write("a", "x");
+  fs::create_hard_link(folder_ / "a", folder_ / "same");
+  for (const std::vector<fs::path>& outputs :
+       {std::vector<fs::path>{folder_ / "b", folder_ / "c" / ".." / "b"},
+        std::vector<fs::path>{folder_ / "a", folder_ / "same"}}) {
+    EXPECT_THROW(require_free(outputs, Replacing::data), InputError);
+  }
+}
+
+TEST_F(Files, AReplacedFileKeepsItsPermissions) {
+  folder_.write("private", "x");
+  for (const mode_t mode : {0600U, 0640U, 0755U}) {
+    ASSERT_EQ(chmod((folder_ / "private").c_str(), mode), 0);
+    write_whole_file(folder_ / "private", "y");
+    struct stat after {};
+    ASSERT_EQ(stat((folder_ / "private").c_str(), &after), 0);
+    EXPECT_EQ(after.st_mode & 07777U, mode);
+  }
+}
+
+TEST_F(Files, APipeIsReadAndOneWithoutAWriterIsNotWaitedForLong) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const auto none =
+      support::message_of([&] { read_text_file(pipe, 1000, std::chrono::milliseconds(50)); });
+  EXPECT_NE(none.find("nothing has come out of this for 0.05 s"), std::string::npos) << none;
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    const int end = open(pipe.c_str(), O_WRONLY);
+    EXPECT_EQ(write(end, "one ", 4), 4);
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    EXPECT_EQ(write(end, "two", 3), 3);
+    close(end);
+  });
+  EXPECT_EQ(read_text_file(pipe), "one two");
+  writer.join();
+  EXPECT_NE(read_failure("/dev/zero", 1000).find("has more than"), std::string::npos);
 }
 
 TEST_F(Files, AskingWhetherAFolderCanBeWrittenMakesNothing) {

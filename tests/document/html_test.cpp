@@ -5,6 +5,11 @@
 
 #include <limits>
 
+#include "core/quoting.hpp"
+#include "support/command.hpp"
+#include "support/hostile_names.hpp"
+#include "support/temporary_folder.hpp"
+
 namespace recoil {
 namespace {
 
@@ -89,6 +94,39 @@ TEST(Html, CarriesTheDataOfPicturesAsJsonWithoutMarkup) {
   EXPECT_THAT(page, HasSubstr("class=\"explore\">{\"name\":\"\\u003c/script>\"}</script>"));
   EXPECT_THAT(page, HasSubstr("<body data-name=\"my &quot;fit&quot;\">"));
   EXPECT_THAT(page, HasSubstr("const mine = 1;\n</script>\n</body>"));
+}
+
+TEST(Html, HostileNamesAreTextAndNothingReachesTheNetwork) {
+  Document document;
+  std::vector<Block> blocks;
+  for (const std::string& name : support::hostile_names()) {
+    Table table;
+    table.caption = name;
+    table.columns = {{name}, {name, name}};
+    table.rows = {{Sentence(name), Sentence(name)}};
+    blocks.emplace_back(Paragraph{Sentence(name) + link(name, url_path(name))});
+    blocks.emplace_back(table);
+    document.title = document.name = document.foot = name;
+    document.heading = document.subtitle = name;
+    document.sections = {{"s", name, name, blocks}};
+  }
+  const support::TemporaryFolder folder;
+  folder.write("page.html", html_page(document));
+  folder.write("read.py",
+               "import html.parser\n"
+               "class Reader(html.parser.HTMLParser):\n"
+               "    def handle_starttag(self, tag, attributes):\n"
+               "        assert tag not in ('script', 'img', 'iframe', 'object'), tag\n"
+               "        for name, value in attributes:\n"
+               "            assert not name.startswith('on'), name\n"
+               "            assert name != 'href' or ':' not in value or value == 'data:,', value\n"
+               "text = open('page.html', errors='surrogateescape').read()\n"
+               "Reader().feed(text)\n"
+               "policy = text.index('Content-Security-Policy')\n"
+               "assert \"default-src 'none'\" in text[policy:policy + 300]\n"
+               "assert policy < text.index('<style') and policy < text.index('<body')\n");
+  const support::Outcome read = support::run_command({"python3", "read.py"}, folder.path());
+  EXPECT_EQ(read.status, 0) << read.err;
 }
 
 TEST(Html, PageWithoutPicturesHasNoScript) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "support/workplace.hpp"
@@ -160,6 +161,74 @@ TEST(Export, SaysWhichSizeItTookWhereItHoldsOneOnly) {
     const bool said =
         run.out.find("no --diameter was given; 4 um is the middle one") != std::string::npos;
     EXPECT_EQ(said, one) << target << "\n" << run.out;
+  }
+}
+
+TEST(Export, NothingIsExportedThatNoPointDetermines) {
+  const Workplace place;
+  place.write("data/points.csv",
+              "series,diameter,incident_velocity,restitution,restitution_sd,events,captured\n"
+              "a,2,0.5,0,0.015,20,20\na,2,1,0,0.015,20,20\na,2,1.2,0,0.015,20,20\n");
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--replicates", "0", "--out", "fitted"}).status, 0);
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{}, {"--parameters", "fitted/fit.json"}}) {
+    const Outcome run = export_to(place, "table", more);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find("all of its impacts were captured, which determines no parameter"),
+              std::string::npos)
+        << run.err;
+    EXPECT_FALSE(place.has("out"));
+  }
+}
+
+TEST(Export, WithoutAdhesionNothingIsCaptured) {
+  const Workplace place;
+  place.change("data/datapackage.json", "\"provenance\": \"synthetic\",",
+               "\"provenance\": \"synthetic\", \"adhesion_energy\": 0,");
+  place.write("data/points.csv",
+              "series,diameter,incident_velocity,restitution,restitution_sd,events,captured\n"
+              "a,4,1,0.99,0.01,20,0\na,4,3,0.97,0.01,20,0\na,4,9,0.93,0.01,20,0\n");
+  for (const char* target : {"table", "fluent", "openfoam", "lammps", "yade"}) {
+    const Outcome run = export_to(place, target, {"--replicates", "0"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out.find("aptures are kept"), std::string::npos) << run.out;
+    EXPECT_EQ(run.out.find("apture velocity is kept"), std::string::npos) << run.out;
+  }
+  EXPECT_EQ(place.read("out/capture.csv"),
+            "diameter_um,capture_velocity_m_s,lower_m_s,upper_m_s\n");
+  EXPECT_NE(place.read("out/recoil_rebound.c").find("if (0 && velocity"), std::string::npos);
+}
+
+// LIGGGHTS 3.8.0 ends with "0.05 < coefficientRestitution <= 1 required".
+TEST(Export, AStockModelIsGivenWhatTheProgramTakesOrNothing) {
+  const Workplace place;
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--replicates", "0", "--out", "fitted"}).status, 0);
+  const auto fit = nlohmann::json::parse(place.read("fitted/fit.json"));
+  double capture = 0.0;
+  for (const auto& one : fit["derived"]["capture_velocity"]) {
+    if (one["diameter_um"] == 2.0) capture = one["value"];
+  }
+  ASSERT_GT(capture, 0.5);
+  const auto range = [&](double least, double most) {
+    return std::vector<std::string>{
+        "--parameters", "fitted/fit.json",
+        "--diameter",   "2",
+        "--velocity",   std::to_string(least * capture) + "," + std::to_string(most * capture)};
+  };
+  ASSERT_EQ(export_to(place, "liggghts", range(0.01, 1.1)).status, 0);
+  const std::string text = place.read("out/impact.liggghts");
+  const std::string before = "coefficientRestitution peratomtypepair 1 ";
+  const double e = std::stod(text.substr(text.find(before) + before.size()));
+  EXPECT_GT(e, 0.05);
+  EXPECT_LT(e, 0.0501);
+  for (const char* target : {"liggghts", "lammps", "yade"}) {
+    std::vector<std::string> words = range(0.2, 0.9);
+    if (std::string(target) != "liggghts") words.push_back("--stock");
+    const Outcome run = export_to(place, target, words);
+    EXPECT_EQ(run.status, 2) << run.out;
+    EXPECT_NE(run.err.find("is captured (the contact models of the program itself capture none)"),
+              std::string::npos)
+        << run.err;
   }
 }
 

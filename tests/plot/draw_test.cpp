@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "core/error.hpp"
 #include "plot/gnuplot_script.hpp"
 #include "plot/xml.hpp"
+#include "support/hostile_names.hpp"
 
 namespace recoil::plot {
 namespace {
@@ -144,6 +146,27 @@ TEST(Draw, WhatGnuplotComplainsOfIsSaidInOneLine) {
 TEST(Draw, AProgramThatDrawsNothingIsAnError) {
   EXPECT_THROW(draw_svg(picture_with(three_points()), "true"), ComputationError);
   EXPECT_THROW(draw_svg(picture_with(three_points()), "false"), ComputationError);
+}
+
+TEST(Draw, HostileNamesAreText) {
+  for (const std::string& name : support::hostile_names()) {
+    if (name.find_first_of("\xff\xc3") != std::string::npos)
+      continue;  // refused where text is read
+    Picture picture = picture_with(three_points());
+    picture.title = picture.plots.front().heading = name;
+    picture.plots.front().x = {name, name};
+    picture.plots.front().x.set_range({0.0, 4.0});
+    const std::string svg = draw_svg(picture);
+    for_each(parse_xml(svg), [](const XmlNode& node) {
+      EXPECT_TRUE(node.name != "script" && node.name != "img" && node.name != "a") << node.name;
+    });
+  }
+  EXPECT_FALSE(std::filesystem::exists("PWNED"));
+}
+
+TEST(Draw, OneThatHangsIsStopped) {
+  EXPECT_THROW(run_gnuplot("pause 1000\n", "gnuplot", std::chrono::milliseconds(200)),
+               ComputationError);
 }
 
 TEST(Draw, TextIsNeverMarkupNorACommand) {

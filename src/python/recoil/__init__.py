@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 from . import _recoil
 from ._datasets import Dataset, Material
-from ._errors import ComputationError, InputError, refuse
+from ._errors import ComputationError, InputError, one_of, refuse, within
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
 from ._results import Comparison, Diagnosis, FitResult, Pairing, Parameter, Prediction
@@ -78,8 +78,10 @@ def _inputs(source: Source, tables: Mapping[str, Optional[Table]], name: str) ->
     given = {key: table for key, table in tables.items() if table is not None}
     if isinstance(source, (str, os.PathLike)) and not os.path.isdir(source):
         if given:
-            refuse(f"{', '.join(given)} cannot be given together with a fit file",
-                   "state it in the file, or give the dataset instead of the file")
+            refuse(
+                f"{', '.join(given)} cannot be given together with a fit file",
+                "state it in the file, or give the dataset instead of the file",
+            )
         return _recoil.load_fit(os.fspath(source))
     listed = [source] if isinstance(source, (str, os.PathLike, Dataset)) else list(source)
     datasets = [one if isinstance(one, Dataset) else Dataset(one) for one in listed]
@@ -97,15 +99,16 @@ def _options(
     threads: int,
     solver: str,
 ) -> _recoil.Options:
-    schemes = ("", "auto", "parametric", "residual", "wild", "case", "cluster")
-    for what, word, known in (("scheme", scheme, schemes), ("solver", solver, ("fast", "reference"))):
-        if word not in known:
-            refuse(f"{what} is {word!r}", f"choose one of {', '.join(k for k in known if k)}")
+    one_of("scheme", scheme, ("auto", "parametric", "residual", "wild", "case", "cluster"))
+    one_of("solver", solver, ("fast", "reference"))
     automatic = replicates == "auto"
-    if replicates is not None and not automatic:
-        if isinstance(replicates, str) or not 0 <= int(replicates) <= 1000000:
-            refuse(f"replicates is {replicates!r}", "give a number from 0 to 1000000, or 'auto'")
+    if not automatic:
+        within("replicates", replicates, 0, 1000000, whole=True)
+    within("seed", seed, 0, 2**63 - 1, whole=True)
+    within("threads", threads, 0, 4096, whole=True)
     number = None if replicates is None or automatic else int(replicates)
+    seed = None if seed is None else int(seed)
+    threads = int(threads)
     return _recoil.Options(number, automatic, scheme, seed, threads, solver)
 
 
@@ -251,9 +254,10 @@ def coverage(
     """How often the intervals contain a known truth, in ``datasets`` simulated data sets: the JSON
     of ``recoil coverage --json``."""
     tables = {"parameters": parameters, "model": model, "uncertainty": uncertainty}
+    within("datasets", datasets, 1, 1000000, whole=True)
     inputs = _inputs(source, tables, "fit")
     options = _options(replicates, scheme, seed, threads, "fast")
-    return facts_of(_recoil.coverage(inputs, datasets, options))
+    return facts_of(_recoil.coverage(inputs, int(datasets), options))
 
 
 def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
@@ -275,11 +279,6 @@ def compare(*fits: Union[FitResult, PathLike]) -> Comparison:
     if len(named) < 2:
         refuse(f"a comparison needs two or more fits, not {len(named)}", "give another one")
     return Comparison(*_recoil.compare(named))
-
-
-def _within(name: str, value: Optional[float], least: float, most: float) -> None:
-    if value is not None and not least <= value <= most:
-        refuse(f"{name} is {value!r}", f"give a number from {least:g} to {most:g}")
 
 
 def pair(
@@ -315,17 +314,16 @@ def pair(
     Raises ``InputError`` for a mistake in the file or an option, ``ComputationError`` when no
     impact is found.
     """
-    if positive not in ("towards", "away"):
-        refuse(f"positive is {positive!r}", "choose one of towards, away")
-    _within("height", height, 1e-3, 1e3)
-    _within("height_range", height_range, 1.01, 10)
-    _within("diameter_tolerance", diameter_tolerance, 1e-3, 2)
-    _within("velocity_tolerance", velocity_tolerance, 1e-3, 0.5)
-    _within("threshold", threshold, 0, 1e4)
-    _within("angle", angle, 0, 90)
-    _within("lost_share", lost_share, 0, 0.9)
-    _within("per_bin", per_bin, 2, 1000000)
-    _within("size_classes", size_classes, 1, 100)
+    one_of("positive", positive, ("towards", "away"))
+    within("height", height, 1e-3, 1e3)
+    within("height_range", height_range, 1.01, 10)
+    within("diameter_tolerance", diameter_tolerance, 1e-3, 2)
+    within("velocity_tolerance", velocity_tolerance, 1e-3, 0.5)
+    within("threshold", threshold, 0, 1e4)
+    within("angle", angle, 0, 90)
+    within("lost_share", lost_share, 0, 0.9)
+    within("per_bin", per_bin, 2, 1000000, whole=True)
+    within("size_classes", size_classes, 1, 100, whole=True)
     edges = [float(edge) for edge in size_edges]
     if len(edges) == 1 or any(not low < high for low, high in zip([0.0, *edges], edges)):
         refuse(f"size_edges is {edges!r}", "give two limits or more that ascend: [20, 40, 60]")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import html
 import io
 import json
 import math
@@ -304,10 +305,24 @@ class Dataset:
     def __len__(self) -> int:
         return self._data.points
 
+    def __reduce__(self) -> Any:
+        return (_dataset_of, (self._package, self._csv, self._data.folder))
+
+    def __copy__(self) -> "Dataset":
+        return self
+
+    def __deepcopy__(self, memo: Any) -> "Dataset":
+        return self
+
     def __repr__(self) -> str:
         return f"<recoil.Dataset {self.id}: {len(self)} points, {self.provenance}>"
 
     def _repr_html_(self) -> str:
-        return f"<p>{self.id}: {len(self)} points, {self.provenance}</p>" + str(
+        return f"<p>{html.escape(self.id)}: {len(self)} points, {self.provenance}</p>" + str(
             self.to_pandas()._repr_html_()
         )
+
+
+def _dataset_of(package: dict[str, Any], csv: str, folder: str) -> Dataset:
+    """The dataset of these texts, as a pickle keeps it."""
+    return Dataset._of(_recoil.parse_dataset(json.dumps(package), csv, folder), package, csv)

@@ -1,8 +1,8 @@
-"""What recoil raises."""
+"""What recoil raises, and what checks arguments."""
 
 from __future__ import annotations
 
-from typing import NoReturn
+from typing import Any, NoReturn
 
 
 class InputError(ValueError):
@@ -48,11 +48,30 @@ class InputError(ValueError):
         return (type(self), (str(self), *parts))
 
 
+class ComputationError(RuntimeError):
+    """A computation that ended without a usable answer; says which parameter or point stood in
+    the way."""
+
+
 def refuse(problem: str, suggestion: str) -> NoReturn:
     """Raises ``InputError`` for an argument."""
     raise InputError(f"{problem}; {suggestion}", problem=problem, suggestion=suggestion)
 
 
-class ComputationError(RuntimeError):
-    """A computation that ended without a usable answer; says which parameter or point stood in
-    the way."""
+def within(name: str, value: Any, least: float, most: float, *, whole: bool = False) -> None:
+    """Refuses what is no number from ``least`` to ``most``, or no whole one; None is none given."""
+    if value is None:
+        return
+    try:
+        good = bool(least <= value <= most) and (not whole or value == int(value))
+    except (TypeError, ValueError, OverflowError):
+        good = False
+    if not good:
+        kind = "a whole number" if whole else "a number"
+        refuse(f"{name} is {value!r}", f"give {kind} from {least} to {most}")
+
+
+def one_of(name: str, word: Any, known: tuple[str, ...]) -> None:
+    """Refuses a word that is not known; the empty one stands for none given."""
+    if word not in ("", *known):
+        refuse(f"{name} is {word!r}", f"choose one of {', '.join(known)}")

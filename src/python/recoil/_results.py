@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Optional, Union
 
 from . import _recoil
-from ._errors import refuse
+from ._errors import refuse, within
 from ._facts import Facts, facts_of
 from ._impacts import Impacts, Model
 
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from ._impacts import Array
 
 PathLike = Union[str, "os.PathLike[str]"]
+
+
+_COMPILED = ("_analysis", "_diagnosis", "_fitted", "_pictures")
 
 
 class _Result:
@@ -46,6 +49,9 @@ class _Result:
         return self._json
 
     def __getattr__(self, name: str) -> Any:
+        if name in _COMPILED and "_json" in self.__dict__:
+            raise AttributeError("a result from a pickle has its numbers and its text; "
+                                 "fit again for what takes the model")
         if name.startswith("_"):
             raise AttributeError(name)
         return getattr(self.facts, name)
@@ -55,6 +61,16 @@ class _Result:
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.facts]
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The texts: what is compiled stays in its process.
+        return {name: value for name, value in self.__dict__.items() if isinstance(value, str)}
+
+    def __copy__(self) -> "_Result":
+        return self
+
+    def __deepcopy__(self, memo: Any) -> "_Result":
+        return self
 
     def __str__(self) -> str:
         return self._text
@@ -78,13 +94,18 @@ class _WithPictures(_Result):
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Writes beside ``path`` and renames: a reader sees the old file or the new one."""
+    """Writes beside ``path`` and renames: a reader sees the old file or the new one, with the
+    permissions of the old one."""
     path.parent.mkdir(parents=True, exist_ok=True)
+    path = path.resolve()
+    mask = os.umask(0)
+    os.umask(mask)
+    mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~mask
     handle, beside = tempfile.mkstemp(dir=path.parent, prefix=path.name)
     try:
         with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
             file.write(text)
-        os.chmod(beside, 0o644)
+        os.chmod(beside, mode)
         os.replace(beside, path)
     except BaseException:
         os.unlink(beside)
@@ -178,6 +199,8 @@ class FitResult(_WithPictures):
 
         ``seed``: of the simulated data sets (the fit file's); ``threads``: 0, all cores.
         """
+        within("seed", seed, 0, 2**63 - 1, whole=True)
+        within("threads", threads, 0, 4096, whole=True)
         return Diagnosis(self._analysis.diagnose(seed, threads))
 
     def predict(
@@ -194,12 +217,13 @@ class FitResult(_WithPictures):
         ``sizes``: a CSV file with the columns diameter and count; ``unit`` of its diameters (what
         the datapackage.json beside it says, else um); ``height_mm``: of the measuring plane [mm].
         """
+        within("height_mm", height_mm, 0, 1000)
         predicted = self._analysis.predict(os.fspath(sizes), unit, height_mm, midpoints, dataset)
         return Prediction(predicted)
 
     def report(self, verbose: bool = False) -> str:
         """What ``recoil fit`` prints; ``verbose``: with ``--verbose``."""
-        return self._analysis.text(verbose)
+        return self._analysis.text(True) if verbose else self._text
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The parameters as a frame: value, standard error, the ends of the recommended interval,
@@ -393,6 +417,8 @@ class FitResult(_WithPictures):
         return f"<recoil.FitResult {self.fit.id}: {values}>"
 
     def _repr_html_(self) -> str:
+        if "_analysis" not in self.__dict__:
+            return f"<pre>{html.escape(self._text)}</pre>"
         return self._analysis.summary()
 
 
@@ -420,7 +446,7 @@ class Diagnosis(_WithPictures):
 
     def report(self, verbose: bool = False) -> str:
         """What ``recoil diagnose`` prints; ``verbose``: with ``--verbose``."""
-        return self._diagnosis.text(verbose)
+        return self._diagnosis.text(True) if verbose else self._text
 
     def save(self, folder: PathLike) -> Path:
         """Writes diagnosis.json and extended.toml (a fit file of the extended model) into
@@ -435,6 +461,8 @@ class Diagnosis(_WithPictures):
         return f"<recoil.Diagnosis: {self.verdict} {', '.join(self.named)}>"
 
     def _repr_html_(self) -> str:
+        if "_diagnosis" not in self.__dict__:
+            return f"<pre>{html.escape(self._text)}</pre>"
         return self._diagnosis.summary()
 
 
@@ -467,7 +495,7 @@ class Pairing(_WithPictures):
     """Impacts found in passages: the names of the JSON of ``recoil pair`` are attributes."""
 
     def __init__(self, texts: _recoil.PairTexts) -> None:
-        self._texts = texts
+        self._points, self._impacts = texts.points, texts.impacts
         self._json = texts.json
         self._text = texts.text
         self._pictures = texts.pictures
@@ -475,11 +503,11 @@ class Pairing(_WithPictures):
     def to_pandas(self) -> "pandas.DataFrame":
         """The points as a frame, one row each, columns as in points.csv (diameters in um,
         velocities in m/s): ``Dataset.from_pandas`` takes it."""
-        return self._frame(self._texts.points)
+        return self._frame(self._points)
 
     def impacts_to_pandas(self) -> "pandas.DataFrame":
         """Every impact and every passage without one, as ``recoil pair --impacts`` writes them."""
-        return self._frame(self._texts.impacts)
+        return self._frame(self._impacts)
 
     @staticmethod
     def _frame(csv: str) -> "pandas.DataFrame":
@@ -490,11 +518,11 @@ class Pairing(_WithPictures):
     def save(self, file: PathLike) -> Path:
         """Writes the points into ``file`` (CSV), as ``recoil pair --out``, and returns its path."""
         path = Path(file)
-        write_whole(path, self._texts.points)
+        write_whole(path, self._points)
         return path
 
     def __repr__(self) -> str:
-        return f"<recoil.Pairing: {self._texts.points.count(chr(10)) - 1} points>"
+        return f"<recoil.Pairing: {self._points.count(chr(10)) - 1} points>"
 
     def _repr_html_(self) -> str:
         return f"<pre>{html.escape(self._text)}</pre>"

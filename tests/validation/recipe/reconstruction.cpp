@@ -131,7 +131,7 @@ ReconstructionResult reconstruct(const std::filesystem::path& folder, bool check
     result.identical = there == made;
     if (!result.identical) result.difference = first_difference(there, made);
   } else {
-    write_whole_file(file, made);
+    write_whole_file(file, made, Replacing::data);
     result.written = true;
     result.identical = true;
   }

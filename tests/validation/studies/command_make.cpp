@@ -71,7 +71,7 @@ void publish(const StudyRun& run, const std::string& json, const Document& page)
     fmt::print("{}", markdown_page(page));
     return;
   }
-  write_whole_file(run.out, json);
+  write_whole_file(run.out, json, Replacing::data);
   render_study(run.out);
 }
 

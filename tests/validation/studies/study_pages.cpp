@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 void write_page(const fs::path& json, const Document& page,
                 const std::optional<plot::Picture>& picture = {}) {
   fs::path file = json;
-  write_whole_file(file.replace_extension(".md"), markdown_page(page));
+  write_whole_file(file.replace_extension(".md"), markdown_page(page), Replacing::data);
   if (picture) write_whole_file(file.replace_extension(".svg"), plot::draw_svg(*picture) + "\n");
 }
 

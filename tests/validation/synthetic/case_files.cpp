@@ -151,8 +151,10 @@ std::string fit_text(const Case& made, const std::string& dataset) {
 
 std::filesystem::path write_case(const Case& made, const std::filesystem::path& folder) {
   const std::string name = neutral_name(made.order);
-  recoil::write_whole_file(folder / name / "datapackage.json", package_text(made, name));
-  recoil::write_whole_file(folder / name / "points.csv", points_text(made));
+  recoil::write_whole_file(folder / name / "datapackage.json", package_text(made, name),
+                           recoil::Replacing::data);
+  recoil::write_whole_file(folder / name / "points.csv", points_text(made),
+                           recoil::Replacing::data);
   const std::filesystem::path fit = folder / (name + ".toml");
   recoil::write_whole_file(fit, fit_text(made, name));
   return fit;

@@ -1,0 +1,103 @@
+// Hostile names in every language, by running what was written.
+#include "core/quoting.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/command.hpp"
+#include "support/hostile_names.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace recoil {
+namespace {
+
+using support::hostile_names;
+using support::Outcome;
+using support::run_command;
+
+class Quoting : public ::testing::Test {
+ protected:
+  ~Quoting() override { EXPECT_FALSE(folder_.has("PWNED")); }
+
+  /// What Python makes of the words after its script, with bytes as os.fsencode gives them.
+  Outcome python(const std::string& script, std::vector<std::string> words) const {
+    folder_.write("script.py", script);
+    words.insert(words.begin(), {"python3", "script.py"});
+    return run_command(words, folder_.path());
+  }
+
+  support::TemporaryFolder folder_;
+};
+
+TEST_F(Quoting, AShellReadsOneWord) {
+  for (const std::string& name : hostile_names()) {
+    folder_.write("script.sh", "printf %s " + shell_word(name) + "\n");
+    const Outcome ran = run_command({"sh", "script.sh"}, folder_.path());
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.out, name);
+  }
+}
+
+TEST_F(Quoting, AnAddressLeadsToTheFileBesideThePage) {
+  const std::string script =
+      "import os, sys, urllib.parse as u\n"
+      "to = u.urlsplit(u.urljoin('file:///base/index.html', sys.argv[1]))\n"
+      "assert to.scheme == 'file' and not to.query and not to.fragment, to\n"
+      "assert u.unquote_to_bytes(to.path) == b'/base/' + os.fsencode(sys.argv[2]), to\n";
+  for (const std::string& name : hostile_names()) {
+    const Outcome ran = python(script, {url_path(name), name});
+    EXPECT_EQ(ran.status, 0) << name << ran.err;
+  }
+}
+
+TEST_F(Quoting, ATerminalIsToldNothing) {
+  const std::string script =
+      "import sys, unicodedata\n"
+      "assert not [c for c in sys.argv[1] if unicodedata.category(c) in ('Cc', 'Cs')]\n";
+  for (const std::string& name : hostile_names()) {
+    const Outcome ran = python(script, {printable(name)});
+    EXPECT_EQ(ran.status, 0) << name << ran.err;
+  }
+  EXPECT_EQ(printable("a\tb\nc\r", true), "a\tb\nc ");
+  EXPECT_EQ(printable("ünï – ☃"), "ünï – ☃");
+}
+
+/// All names, each in a comment of its own.
+std::string comments(const std::string& mark, const std::string& end = "\n") {
+  std::string text;
+  for (const std::string& name : hostile_names()) text += mark + comment_text(name) + end;
+  return text;
+}
+
+TEST_F(Quoting, PythonReadsComments) {
+  const Outcome all = python(comments("# ") + "print('ran')\n", {});
+  EXPECT_EQ(all.out, "ran\n") << all.err;
+  for (const std::string& name : hostile_names()) {  // as the first line, which may state a coding
+    const Outcome one = python("# " + comment_text(name) + "\nprint('ran')\n", {});
+    EXPECT_EQ(one.out, "ran\n") << name << one.err;
+  }
+}
+
+TEST_F(Quoting, CAndItsDescendantsReadComments) {
+  const std::string body = "#include <stdio.h>\nint main(void) { return puts(\"ran\") < 0; }\n";
+  folder_.write("lines.cpp", comments("// ") + body);
+  folder_.write("block.c", comments("/* ", " */\n") + body);
+  for (const std::vector<std::string>& compiler : std::vector<std::vector<std::string>>{
+           {"g++", "-std=c++11", "-trigraphs", "-Werror", "-Wall", "lines.cpp"},
+           {"gcc", "-std=c99", "-trigraphs", "-Werror", "-Wall", "block.c"}}) {
+    const Outcome built = run_command(compiler, folder_.path());
+    EXPECT_EQ(built.status, 0) << built.err;
+    EXPECT_EQ(run_command({"./a.out"}, folder_.path()).out, "ran\n");
+  }
+}
+
+// LAMMPS joins a line that ends in & to the next one, and reads on to the next """ whatever a #
+// says (Input::file in its input.cpp). ./run engines runs it.
+TEST_F(Quoting, NothingInACommentSpansLinesInLammps) {
+  for (const std::string& name : hostile_names()) {
+    const std::string comment = comment_text(name);
+    EXPECT_EQ(comment.find_first_of("&\"\n\r"), std::string::npos) << comment;
+  }
+}
+
+}  // namespace
+}  // namespace recoil
