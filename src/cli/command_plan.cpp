@@ -84,7 +84,7 @@ void assume(const std::string& name, double value, const FitSpec& spec, ImpactMo
 
 void run_plan(PlanFlags flags) {
   if (!flags.out.empty()) require_writable_folder(flags.out);
-  const FitSpec spec = load_fit(flags.fit_file);
+  const FitSpec spec = with_fitted_loss(load_fit(flags.fit_file), flags.parameters);
   std::vector<Dataset> datasets;
   for (const fs::path& folder : spec.datasets) {
     datasets.push_back(load_dataset_to_be_measured(folder));
