@@ -280,6 +280,13 @@ std::vector<FitFile::CaptureVelocity> captures_of(const Analysis& a) {
   return list;
 }
 
+/// f.rmse, where any e is known: captures alone miss nothing.
+OrReason<double> rmse_of(const FitResult& f) {
+  const bool known = std::any_of(f.data.points.begin(), f.data.points.end(),
+                                 [](const Observation& point) { return !point.censored; });
+  return {only_if(known, f.rmse), "no e is known"};
+}
+
 FitFile::Goodness goodness_of(const FitResult& f) {
   const bool stated = f.data.sd_stated;
   return {.chi2 = {f.chi2, "the sum of squares is not finite"},
@@ -288,7 +295,7 @@ FitFile::Goodness goodness_of(const FitResult& f) {
                       stated ? "no degrees of freedom are left"
                              : "no standard deviations are stated: the noise is estimated from the "
                                "fit"},
-          .rmse = {f.rmse, "no point rebounded"},
+          .rmse = rmse_of(f),
           .noise_scale = {f.noise_scale, "the noise could not be estimated"},
           .noise_text = noise_words(f)};
 }
@@ -506,7 +513,7 @@ void set_two_point(FitFile& out, const Analysis& a) {
   }
   if (out.two_point_by_dataset.empty()) {
     out.two_point.why = "the comparison was not made";
-    out.full.rmse = {a.fitted.rmse, "no point rebounded"};
+    out.full.rmse = rmse_of(a.fitted);
     out.full.held_out_rmse.why = out.two_point.why;
   } else {
     out.two_point.value = out.two_point_by_dataset.front().second;
