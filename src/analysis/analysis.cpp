@@ -82,7 +82,8 @@ void add_predictions(Analysis& analysis) {
 FitInputs load_inputs(const std::filesystem::path& fit_file) {
   FitSpec spec = load_fit(fit_file);
   std::vector<Dataset> datasets = load_datasets(spec);
-  return {std::move(spec), std::move(datasets)};
+  LossChoice choice = choose_loss(spec, datasets);
+  return {std::move(choice.spec), std::move(datasets), std::move(choice.laws)};
 }
 
 Analysis analyse(FitInputs inputs, const AnalysisOptions& options) {
@@ -120,10 +121,13 @@ UncertaintyResult assess_uncertainty(const FitResult& fitted, const std::vector<
                                      {result.bootstrap.theta, level, threads});
   const auto& points = fitted.data.points;
   if (std::all_of(points.begin(), points.end(), [](const Observation& p) { return p.censored; })) {
+    result.two_point.clear();  // which takes two e
+  }
+  if (std::all_of(points.begin(), points.end(),
+                  [](const Observation& p) { return p.censored && !p.mixed(); })) {
     // The parameters are those of the start, and so is what follows from them.
     limit_by_captures(fitted.data, result.capture);
     result.curves.clear();
-    result.two_point.clear();
     result.capture_budgets.clear();
   }
   return result;
@@ -142,6 +146,7 @@ Analysis analyse_fit(FitInputs inputs, const AnalysisOptions& options) {
   Analysis analysis;
   analysis.spec = std::move(inputs.spec);
   analysis.datasets = std::move(inputs.datasets);
+  analysis.losses = std::move(inputs.losses);
   Observations gathered = gather(analysis.datasets, analysis.spec);
   const Scheme scheme = options.scheme.value_or(analysis.spec.uncertainty.scheme);
   require_scheme(analysis.spec, scheme, gathered);

@@ -9,6 +9,7 @@
 #include "data/dataset.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/fit_spec.hpp"
+#include "estimate/loss_choice.hpp"
 #include "predict/capture_comparison.hpp"
 #include "predict/law_choice.hpp"
 #include "predict/polydisperse.hpp"
@@ -28,13 +29,15 @@ struct Analysis {
   UncertaintyResult uncertainty;
   std::vector<PolydispersePrediction> mixtures;  ///< of datasets that come with a size distribution
   std::vector<CaptureComparison> captures;       ///< beside the older models; may be empty
-  std::vector<LawFit> laws;  ///< the fit under its own law and others; may be empty
+  std::vector<LawFit> laws;     ///< the fit under its own law and others; may be empty
+  std::vector<LossFit> losses;  ///< see FitInputs
 };
 
 /// A fit file and its datasets.
 struct FitInputs {
-  FitSpec spec;
+  FitSpec spec;  ///< its loss of the dry contact is decided
   std::vector<Dataset> datasets;
+  std::vector<LossFit> losses = {};  ///< where the points chose it: every law, the best first
 };
 
 /// What a caller may override in a fit file.
@@ -48,7 +51,7 @@ struct AnalysisOptions {
   std::shared_ptr<KeptRows> kept;  ///< see UncertaintyOptions
 };
 
-/// Reads a fit file and every dataset that it names.
+/// Reads a fit file and every dataset that it names, and chooses the loss (`choose_loss`).
 /// @throws InputError
 FitInputs load_inputs(const std::filesystem::path& fit_file);
 std::vector<Dataset> load_datasets(const FitSpec& spec);

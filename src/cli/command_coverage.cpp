@@ -41,8 +41,9 @@ struct Prepared {
 /// Not copied: the truth may refer to its specification.
 std::unique_ptr<Prepared> prepare(const Options& options) {
   auto ready = std::make_unique<Prepared>();
-  ready->spec = load_fit(options.fit_file);
-  ready->datasets = load_datasets(ready->spec);
+  FitInputs inputs = load_inputs(options.fit_file);
+  ready->spec = std::move(inputs.spec);
+  ready->datasets = std::move(inputs.datasets);
   CoverageOptions& coverage = ready->coverage;
   coverage.datasets = options.datasets;
   coverage.uncertainty = uncertainty_options(ready->spec, options.analysis.resolved());

@@ -66,6 +66,12 @@ Fitted fitted_now(FitInputs inputs, const ExportOptions& options, bool bands) {
     if (analysis.fitted.std_error[s] > 0.0) value.std_error = analysis.fitted.std_error[s];
     out.source.values.push_back(std::move(value));
   }
+  out.source.rmse = analysis.fitted.rmse;
+  if (analysis.fitted.noise_verdict == NoiseVerdict::exceeded) {
+    out.source.p_value = analysis.fitted.p_value;
+    out.source.mean_restitution = plain_text(join(
+        restitution_sentences(summarise_restitution(analysis.datasets), analysis.datasets), " "));
+  }
   out.datasets = std::move(analysis.datasets);
   return out;
 }
@@ -82,6 +88,7 @@ Fitted fitted_before(FitInputs inputs, const ExportOptions& options) {
     out.source.values.push_back({slot.label(), std::string(slot.parameter->unit), out.theta[s],
                                  slot.free, values[s].std_error});
   }
+  out.source.rmse = root_mean_square(out.model, out.theta, gather(inputs.datasets, inputs.spec));
   out.datasets = std::move(inputs.datasets);
   return out;
 }

@@ -98,7 +98,7 @@ std::vector<fs::path> forms_of(const fs::path& folder, const std::vector<Dataset
 
 void run_plan(PlanFlags flags) {
   if (!flags.out.empty()) require_writable_folder(flags.out);
-  const FitSpec spec = load_fit(flags.fit_file);
+  const FitSpec spec = with_fitted_loss(load_fit(flags.fit_file), flags.parameters);
   std::vector<Dataset> datasets;
   for (const fs::path& folder : spec.datasets) {
     datasets.push_back(load_dataset_to_be_measured(folder));

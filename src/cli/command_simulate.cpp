@@ -222,7 +222,7 @@ void simulate(const SimulateOptions& options) {
   if (!options.history.empty()) {
     require_writable_folder(std::filesystem::absolute(options.history).parent_path());
   }
-  const FitSpec spec = load_fit(options.fit_file);
+  const FitSpec spec = with_fitted_loss(load_fit(options.fit_file), options.parameters);
   const std::vector<Dataset> datasets = load_datasets(spec);
   ImpactModel model = make_model(spec, datasets);
   if (!options.parameters.empty()) take_fitted_values(model, datasets, options.parameters);

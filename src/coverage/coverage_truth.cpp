@@ -104,7 +104,7 @@ void simulate_point(const DesignPoint& design, double spread, bool other_truth, 
     return;
   }
   if (!differing) {
-    if (!point.all_captured()) {
+    if (!point.all_captured() && !point.counts_only) {
       point.restitution = std::max(0.0, design.restitution + design.sd * noise);
     }
     return;
@@ -118,7 +118,7 @@ void simulate_point(const DesignPoint& design, double spread, bool other_truth, 
   point.captured = found.captured;
   point.restitution = 0.0;
   point.restitution_sd.reset();
-  if (point.all_captured()) return;
+  if (point.all_captured() || point.counts_only) return;
   point.restitution = std::max(0.0, found.restitution + design.own_sd * noise);
   if (stated) {
     point.restitution_sd = std::sqrt(design.own_sd * design.own_sd + found.variance_of_mean);
@@ -199,7 +199,9 @@ CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& da
         simulate_point(*next++, fit.data.noise.event_spread, other_truth, fit.data.sd_stated, noise,
                        point);
         const double error = *off++;
-        if (!point.all_captured()) point.restitution = std::max(0.0, point.restitution + error);
+        if (!point.all_captured() && !point.counts_only) {
+          point.restitution = std::max(0.0, point.restitution + error);
+        }
       }
     }
     return made;

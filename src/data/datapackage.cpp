@@ -149,10 +149,12 @@ void check_completeness(const JsonNode& fields, const std::vector<Column>& colum
     fields.fail(fmt::format("the field '{}' is missing", name_of(needed)), "every point needs it",
                 "add it to the schema and the CSV file");
   }
-  if (find_column(columns, Quantity::restitution) == nullptr &&
-      find_column(columns, Quantity::rebound_velocity) == nullptr) {
+  const auto there = [&](Quantity quantity) { return find_column(columns, quantity) != nullptr; };
+  if (!there(Quantity::restitution) && !there(Quantity::rebound_velocity) &&
+      !(there(Quantity::events) && there(Quantity::captured))) {
     fields.fail("neither 'restitution' nor 'rebound_velocity' is there",
-                "the rebound is what is fitted", "add one of them");
+                "the rebound is what is fitted",
+                "add one of them, or 'events' and 'captured' for bounced fractions");
   }
 }
 

@@ -233,9 +233,9 @@ class PointReader {
     }
   }
 
-  /// e of a point whose `restitution` or `rebound_velocity` may be empty only where all spheres
-  /// were captured.
-  double restitution(const ImpactPoint& point) const {
+  /// e of a point; 0 where all spheres were captured, and where `restitution` or
+  /// `rebound_velocity` is empty beside counts, which then are all that is known.
+  double restitution(ImpactPoint& point) const {
     const bool rebound = field_of_.contains(Quantity::rebound_velocity);
     const Quantity quantity = rebound ? Quantity::rebound_velocity : Quantity::restitution;
     constexpr double largest = limits::restitution.upper;
@@ -246,7 +246,7 @@ class PointReader {
                            "it is at most 1.2 times the incident velocity: correct one of them, "
                            "or its unit"});
       if (known) known = std::min(*known / point.incident_velocity, largest);
-    } else {
+    } else if (field_of_.contains(quantity)) {
       Range range = limits::restitution;
       range.hint = "a rebound is not faster than the impact: correct it; in per cent its unit is %";
       known = value(quantity, range);
@@ -258,8 +258,13 @@ class PointReader {
            "the mean is that of the spheres that rebounded",
            "write 0 or leave the cell empty, or correct 'captured'");
     }
-    if (!known) fail_empty(quantity, "not all spheres of this point were captured");
-    return *known;
+    point.counts_only = !known && point.counted && cell(Quantity::events) != nullptr;
+    if (known || point.counts_only) return known.value_or(0.0);
+    if (field_of_.contains(quantity)) {
+      fail_empty(quantity, "not all spheres of this point were captured");
+    }
+    fail_empty(point.counted ? Quantity::events : Quantity::captured,
+               "without a rebound every point needs it");
   }
 
   void read_point() {
@@ -295,7 +300,8 @@ class PointReader {
       if (warning.count++ == 0) warning = {remark, 1, point.line};
     };
     if (point.restitution > 1.0) add(PointRemark::restitution_above_one);
-    if (point.restitution == 0.0 && !point.all_captured()) add(PointRemark::unmarked_zero);
+    if (point.restitution == 0.0 && !point.all_captured() && !point.counts_only)
+      add(PointRemark::unmarked_zero);
     const Method method = package_.system.method;
     const bool balls = method == Method::drop_heights || method == Method::bounce_intervals;
     if (point.diameter > limits::unusual_diameter && !balls) add(PointRemark::unusual_diameter);

@@ -32,6 +32,7 @@ struct ImpactPoint {
   int events = 1;                     ///< impacts averaged in this point, captured ones included
   int captured = 0;                   ///< how many of them did not rebound
   bool counted = false;               ///< `captured` is stated: 0 is a count, not unknown
+  bool counts_only = false;           ///< of its rebounds nothing but their number is known
   /// Points of one setting of the apparatus share its error. Empty without such a column: then
   /// points of one series, diameter and incident velocity have one setting.
   std::string setting;

@@ -76,6 +76,7 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
   std::vector<std::string> keys = {"material",       "density",  "youngs_modulus", "poisson_ratio",
                                    "surface_energy", "hardness", "yield_strength"};
   if (body == Body::surface) keys.insert(keys.end(), {"relative_permittivity", "diameter"});
+  if (body == Body::particle) keys.emplace_back("temperature");  // kept in the file for its reader
   node.allow_only(keys);
   const auto within = [&](const JsonNode& stated, Constant which, const Range& range) {
     return uncertain_constant(stated, body, which, system,
@@ -113,6 +114,7 @@ Material read_material(const JsonNode& recoil, Body body, ImpactSystem& system) 
     const auto stated = node.find(key);
     return stated ? std::optional(bounded(*stated, range)) : std::nullopt;
   };
+  optional("temperature", limits::temperature);
   material.hardness = optional("hardness", limits::strength);
   material.yield_strength = optional("yield_strength", limits::strength);
   material.relative_permittivity = optional("relative_permittivity", limits::permittivity);

@@ -132,6 +132,10 @@ struct Material {
     if (yield_strength) return 2.8 * *yield_strength;
     return std::nullopt;
   }
+  /// Is it an elastomer or a foam, which does not flow? Their Young's moduli lie below 0.1 GPa,
+  /// those of other polymers above (Ashby, M. F. 2011, Materials Selection in Mechanical Design,
+  /// 4th ed., figure 4.3). What states a strength flows.
+  bool is_elastomer() const { return !yield_pressure() && youngs_modulus < 1e8; }
 };
 
 /// The two bodies of an impact, what the dataset states instead of deriving it, and the conditions

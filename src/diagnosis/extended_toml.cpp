@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
@@ -66,13 +67,19 @@ std::string extended_toml(const Diagnosis& diagnosis, const std::filesystem::pat
   } else {
     root.insert_or_assign("dataset", paths);
   }
+  const Mechanism* const loss = dry_loss_mechanism(diagnosis.spec.loss);
+  if (!diagnosis.spec.loss.empty()) {
+    subtable(root, "model").insert_or_assign("loss", diagnosis.spec.loss);
+  }
   std::string head = fmt::format("# {}, ", diagnosis.spec.id);
   if (diagnosis.extended && diagnosis.extended_fit) {
     const FitSpec& spec = diagnosis.extended->candidate.spec;
     head += fmt::format("extended by {}: {}\n", diagnosis.extended->candidate.name(),
                         to_string(diagnosis.verdict));
     toml::array mechanisms;
-    for (const std::string& id : spec.mechanisms) mechanisms.push_back(id);
+    for (const std::string& id : spec.mechanisms) {
+      if (loss == nullptr || id != loss->info.id) mechanisms.push_back(id);
+    }
     subtable(root, "model").insert_or_assign("mechanisms", mechanisms);
     toml::table& parameters = subtable(root, "parameters");
     for (const ParameterSpec& parameter : spec.parameters) {

@@ -163,6 +163,7 @@ std::vector<FoldPrediction> predict_folds(const Candidate& candidate, const Obse
     for (std::size_t k = 0; k < residuals.size(); ++k) {
       const Observation& point = unseen.points[k];
       out.deviance += std::min(residuals[k] * residuals[k], worst_miss * worst_miss);
+      if (point.counts_only()) continue;
       out.error.push_back((point.censored ? 0.0 : point.restitution) -
                           expected_restitution(point, at[k].restitution_squared));
     }

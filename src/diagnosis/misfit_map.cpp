@@ -40,8 +40,10 @@ std::vector<MisfitCell> misfit_map(const FitResult& fitted) {
     double weights = 0.0, weighted = 0.0;
     for (const std::size_t i : members) {
       const Observation& point = points[i];
-      const double measured = point.censored ? 0.0 : point.restitution;
       const double expected = expected_restitution(point, fitted.prediction_squared[i]);
+      const double measured = point.counts_only() ? expected
+                              : point.censored    ? 0.0
+                                                  : point.restitution;
       const double miss = measured - expected;
       cell.slowest = std::min(cell.slowest, point.velocity);
       cell.fastest = std::max(cell.fastest, point.velocity);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -32,6 +33,16 @@ struct PossibleImpacts {
   std::vector<double> sd;
 };
 
+/// The nearest diameter in which balls and microspheres are sold [m]: 1, 1.2, 1.5, ... of a decade.
+double sold_size(double diameter) {
+  constexpr std::array sold = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
+  const int decade = static_cast<int>(std::floor(std::log10(diameter)));
+  const double unit = decade < 0 ? 1.0 / std::pow(10.0, -decade) : std::pow(10.0, decade);
+  const auto away = [&](double size) { return std::abs(std::log(size * unit / diameter)); };
+  return unit * *std::min_element(sold.begin(), sold.end(),
+                                  [&](double a, double b) { return away(a) < away(b); });
+}
+
 PossibleImpacts possible_impacts(const FitResult& base) {
   double low = INFINITY, high = 0.0;
   std::set<std::pair<std::size_t, double>> sizes;
@@ -45,8 +56,8 @@ PossibleImpacts possible_impacts(const FitResult& base) {
     const auto of_dataset = [d = dataset](const auto& size) { return size.first == d; };
     const auto first = std::find_if(sizes.begin(), sizes.end(), of_dataset);
     const auto last = std::find_if(sizes.rbegin(), sizes.rend(), of_dataset);
-    wider.insert({dataset, 0.6 * first->second});
-    wider.insert({dataset, 1.6 * last->second});
+    wider.insert({dataset, sold_size(0.6 * first->second)});
+    wider.insert({dataset, sold_size(1.6 * last->second)});
   }
   PossibleImpacts possible;
   for (const auto& [dataset, diameter] : wider) {

@@ -45,7 +45,8 @@ struct NextExperiment {
 /// plus 100 for a changed condition. Experiments of more than a million impacts are left out.
 ///
 /// The impacts to choose from are 24 velocities from 0.7 times the slowest to 1.5 times the fastest
-/// measured, for every diameter of the data, 0.6 times the smallest and 1.6 times the largest.
+/// measured, for every diameter of the data, and for those in which spheres are sold nearest to 0.6
+/// times the smallest and 1.6 times the largest.
 ///
 /// Each rival predicts the mean e of n impacts as a normal variable. Its variance has three parts:
 /// the scatter of one impact over n, the errors of the fitted parameters, and the errors of the

@@ -127,7 +127,7 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
   Indices kept, out;
   // A captured point that the model captures has no residual to speak of.
   for (std::size_t i = 0; i < n; ++i) {
-    if (!(data.points[i].censored && base.fitted.prediction_squared[i] <= 0.0)) kept.push_back(i);
+    if (data.points[i].informs(base.fitted.prediction_squared[i])) kept.push_back(i);
   }
   const std::size_t most = kept.size() / 5;
   double scale = 1.0;

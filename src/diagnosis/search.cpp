@@ -104,8 +104,10 @@ Observations simulate_base(const SearchBase& base, std::uint64_t index) {
     const double bent = square + loss * wrong_by(static_cast<Eigen::Index>(i));
     point = simulate_observation(point, shifted_square(bent, shared[i]), base.noise_scale,
                                  sample.noise.student, random);
-    if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
-    if (point.censored && !(point.weights.scatter > 0.0)) draw_capture(point, square, random);
+    if (point.peaks()) locate_peak(point);
+    if (point.censored && !point.counts_only() && !(point.weights.scatter > 0.0)) {
+      draw_capture(point, square, random);
+    }
   }
   return sample;
 }

@@ -70,7 +70,7 @@ StructureStatistics::StructureStatistics(const Observations& data, const Refit& 
   const std::size_t n = data.points.size();
   const std::size_t p = fitted.theta.size();
   for (std::size_t i = 0; i < n; ++i) {
-    used_[i] = !(data.points[i].censored && predicted[i] <= 0.0);
+    used_[i] = data.points[i].informs(predicted[i]);
     slopes_[i] = weighted_residual(data.points[i], predicted[i], data.noise.student).slope;
   }
   std::map<std::tuple<std::size_t, std::size_t, double, double>, std::size_t> impacts;

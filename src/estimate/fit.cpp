@@ -103,12 +103,16 @@ double squared_miss(const Observation& point, double predicted_squared) {
   return std::pow(measured - expected_restitution(point, predicted_squared), 2);
 }
 
+/// Of points whose rebounds have a known e; NaN without any.
 double root_mean_square(const FitResult& result) {
   double sum = 0.0;
+  int count = 0;
   for (std::size_t i = 0; i < result.data.points.size(); ++i) {
+    if (result.data.points[i].counts_only()) continue;
     sum += squared_miss(result.data.points[i], result.prediction_squared[i]);
+    ++count;
   }
-  return std::sqrt(sum / std::max(1.0, static_cast<double>(result.data.points.size())));
+  return count > 0 ? std::sqrt(sum / count) : NAN;
 }
 
 /// Everything at the end of a descent.
@@ -322,6 +326,7 @@ double root_mean_square(const ImpactModel& model, std::span<const double> theta,
     points.resize(data.points.size());
     std::iota(points.begin(), points.end(), std::size_t{0});
   }
+  std::erase_if(points, [&](std::size_t i) { return data.points[i].counts_only(); });
   if (points.empty()) return 0.0;
   std::vector<PointConditions> conditions;
   for (const std::size_t i : points) {

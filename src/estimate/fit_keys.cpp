@@ -33,6 +33,11 @@ std::vector<FitKey> all_keys() {
        "when the damping of the adhesion acts: while the sphere moves outward (rebound), or in "
        "both "
        "phases"},
+      {"model", "loss", "",
+       "the loss of the dry contact: hunt_crossley (C_H), viscoelastic (bulk_relaxation), constant "
+       "(hysteretic_share), yield (yield_pressure), the last three in place of C_H, or auto: all "
+       "are fitted and the points choose; by default auto where there is no adhesion, else "
+       "hunt_crossley"},
       {"model", "mechanisms", "[]", "ids of the mechanisms that are added to the base model"},
       {"model", "mixed_sizes", truth_value(fit.mixed_sizes),
        "where a dataset says that its points average over a distribution of sizes, average over "

@@ -218,10 +218,27 @@ class FitReader : private TomlReader {
     if (const toml::node* node = model.get("mixed_sizes")) {
       fit_.spec.mixed_sizes = boolean(*node, "mixed_sizes");
     }
-    const toml::node* const mechanisms = model.get("mechanisms");
-    if (mechanisms == nullptr) return;
-    if (!mechanisms->is_array()) wrong_type(*mechanisms, "mechanisms", "a list", "mechanisms = []");
-    for (const toml::node& item : *mechanisms->as_array()) add_mechanism(item);
+    if (const toml::node* mechanisms = model.get("mechanisms")) {
+      if (!mechanisms->is_array()) {
+        wrong_type(*mechanisms, "mechanisms", "a list", "mechanisms = []");
+      }
+      for (const toml::node& item : *mechanisms->as_array()) add_mechanism(item);
+    }
+    if (const toml::node* node = model.get("loss")) read_loss(*node);
+  }
+
+  void read_loss(const toml::node& node) {
+    std::string& loss = fit_.spec.loss;
+    loss = string(node, "loss", "loss = \"auto\"");
+    std::vector<std::string> known = dry_losses();
+    known.emplace_back("auto");
+    if (std::find(known.begin(), known.end(), loss) == known.end()) {
+      fail(node, fmt::format("unknown loss of the dry contact {}", quote(loss)), "",
+           did_you_mean(loss, known));
+    }
+    if (const Mechanism* mechanism = dry_loss_mechanism(loss)) {
+      add_mechanism(node, std::string(mechanism->info.id));
+    }
   }
 
   void read_separation(const toml::node& node) {
@@ -250,6 +267,10 @@ class FitReader : private TomlReader {
     if (find_mechanism(id) == nullptr) {
       fail(item, fmt::format("unknown mechanism {}", quote(id)), "", did_you_mean(id, known));
     }
+    add_mechanism(item, id);
+  }
+
+  void add_mechanism(const toml::node& item, const std::string& id) {
     if (const std::string_view why = find_mechanism(id)->refusal(fit_.spec.adhesion);
         !why.empty()) {
       fail(item,
@@ -276,7 +297,11 @@ class FitReader : private TomlReader {
         fail(*node,
              fmt::format("'{}' belongs to the mechanism '{}', which [model] does not name",
                          parameter.name, id),
-             "", fmt::format("add \"{}\" to its mechanisms", id));
+             "",
+             mechanism.info.dry_loss.empty()
+                 ? fmt::format("add \"{}\" to its mechanisms", id)
+                 : fmt::format("write loss = \"{}\", or add \"{}\" to its mechanisms",
+                               mechanism.info.dry_loss, id));
       }
     }
   }
@@ -312,6 +337,15 @@ class FitReader : private TomlReader {
       if (node != nullptr) read_parameter(*node, spec);
       fit_.spec.parameters.push_back(spec);
     }
+    if (dry_loss_mechanism(fit_.spec.loss) == nullptr) return;
+    const ParameterSpec& damping = fit_.spec.parameters.front();
+    if (damping.mentioned && (damping.free || damping.initial != 0.0)) {
+      fail(*parameters->get(damping.parameter->name),
+           fmt::format("C_H beside loss = \"{}\"", fit_.spec.loss), "that law takes its place",
+           "remove one of the two; mechanisms add a loss to C_H");
+    }
+    const std::string loss = fit_.spec.loss;
+    fit_.spec = with_loss(std::move(fit_.spec), loss);
   }
 
   void read_parameter(const toml::node& node, ParameterSpec& spec) {
@@ -474,6 +508,43 @@ class FitReader : private TomlReader {
 
 ParameterSpec default_of(const Parameter& parameter) {
   return {&parameter, parameter.initial, parameter.lower, parameter.upper, parameter.free};
+}
+
+std::vector<std::string> dry_losses() {
+  std::vector<std::string> names = {std::string(hunt_crossley)};
+  for (const Mechanism& mechanism : mechanism_catalogue()) {
+    if (!mechanism.info.dry_loss.empty()) names.emplace_back(mechanism.info.dry_loss);
+  }
+  return names;
+}
+
+const Mechanism* dry_loss_mechanism(std::string_view loss) {
+  if (loss.empty()) return nullptr;
+  const auto& all = mechanism_catalogue();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Mechanism& mechanism) {
+    return mechanism.info.dry_loss == loss;
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
+FitSpec with_loss(FitSpec spec, const std::string& loss) {
+  spec.loss = loss;
+  const Mechanism* const mechanism = dry_loss_mechanism(loss);
+  if (mechanism == nullptr) return spec;
+  const std::string id(mechanism->info.id);
+  if (std::find(spec.mechanisms.begin(), spec.mechanisms.end(), id) == spec.mechanisms.end()) {
+    spec.mechanisms.push_back(id);
+  }
+  std::vector<ParameterSpec> parameters;
+  for (const Parameter* parameter : parameters_with(spec.mechanisms, spec.adhesion)) {
+    ParameterSpec& next = parameters.emplace_back(spec.statement_of(*parameter));
+    if (parameter->role != ParameterRole::hertz_damping) continue;
+    next.free = false;
+    next.initial = 0.0;
+    next.lower = 0.0;
+  }
+  spec.parameters = std::move(parameters);
+  return spec;
 }
 
 ParameterSpec FitSpec::statement_of(const Parameter& parameter) const {

@@ -120,6 +120,10 @@ struct FitSpec {
   AdhesionLaw adhesion = AdhesionLaw::ring;
   double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]
   AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;
+  /// The loss of the dry contact: `hunt_crossley` (C_H), or the `dry_loss` of a mechanism that is
+  /// among `mechanisms` and takes the place of C_H; `auto`: the points choose, see `choose_loss`.
+  /// Empty: auto where there is no adhesion, else hunt_crossley.
+  std::string loss;
   std::vector<std::string> mechanisms;  ///< ids from the catalogue of mechanisms
   bool mixed_sizes = true;  ///< points average over the sizes that their dataset states; false: all
                             ///< spheres of a point have its diameter
@@ -134,6 +138,19 @@ struct FitSpec {
   /// The entry of `parameters`, or the default where there is none.
   ParameterSpec statement_of(const Parameter& parameter) const;
 };
+
+/// C_H of equation 5, as `[model] loss` names it.
+inline constexpr std::string_view hunt_crossley = "hunt_crossley";
+
+/// The names that `[model] loss` can have, without `auto`: `hunt_crossley` and every
+/// `MechanismInfo::dry_loss`.
+std::vector<std::string> dry_losses();
+
+/// The mechanism whose loss has this name; null for `hunt_crossley`.
+const Mechanism* dry_loss_mechanism(std::string_view loss);
+
+/// `spec` with this loss of the dry contact: its mechanism is added and C_H is 0 and fixed.
+FitSpec with_loss(FitSpec spec, const std::string& loss);
 
 /// Reads and validates a fit file. Unknown keys are errors that name the nearest known one.
 ///

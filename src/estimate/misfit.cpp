@@ -42,7 +42,7 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
     if (!data.sd_stated && point.censored) continue;
     // A captured point that the model captures has no residual to speak of, whatever the
     // parameters: it fixes a side, not a value, and is no degree of freedom of the noise.
-    if (!point.censored || predicted[i] > 0.0) ++informative;
+    if (point.informs(predicted[i])) ++informative;
     double r = student ? student->original(residuals[i]) : residuals[i];
     if (!data.sd_stated && point.weights.scatter > 0.0) {
       r = (point.restitution - expected_restitution(point, predicted[i])) / point.weights.mean_sd;

@@ -27,9 +27,10 @@ double reference_diameter_of(const Dataset& dataset) {
 
 std::size_t add_slot(ImpactModel& model, const ParameterSpec& spec, const std::string& dataset,
                      const std::string& series, double initial) {
-  model.slots.push_back({spec.parameter, dataset, series, initial, spec.lower, spec.upper,
-                         spec.free, spec.parameter->log_scale && spec.lower > 0.0,
-                         spec.is_derived()});
+  // A fixed value stays as it is: no adhesion is f0 = 0, below the bounds of a fitted one.
+  const double lower = spec.free ? spec.lower : std::min(spec.lower, initial);
+  model.slots.push_back({spec.parameter, dataset, series, initial, lower, spec.upper, spec.free,
+                         spec.parameter->log_scale && lower > 0.0, spec.is_derived()});
   return model.slots.size() - 1;
 }
 
@@ -361,7 +362,10 @@ double adhesion_force_under(const ImpactModel& model, std::span<const double> th
 }
 
 bool without_adhesion(const ImpactModel& model, std::size_t dataset) {
-  if (dataset >= model.contacts.size() || !model.chain.empty()) return false;
+  if (dataset >= model.contacts.size()) return false;
+  for (const Mechanism* mechanism : model.chain) {
+    if (mechanism->info.dry_loss.empty()) return false;
+  }
   return model.contacts[dataset].adhesion_force == 0.0 &&
          !model.slots[model.slot_adhesion[dataset]].free;
 }

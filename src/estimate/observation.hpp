@@ -24,7 +24,7 @@ struct MeasuredPoint {
   double diameter = 0.0;     ///< [m]
   double velocity = 0.0;     ///< [m/s]
   double restitution = 0.0;  ///< mean e of the impacts that rebounded [1]
-  bool censored = false;     ///< all spheres of this point were captured
+  bool censored = false;     ///< no e is known: all spheres were captured, or only counted
 
   int events = 1;                 ///< impacts, captured ones included
   int captured = 0;               ///< how many of them were captured
@@ -36,7 +36,9 @@ struct MeasuredPoint {
 
   int rebounds() const { return events - captured; }
   /// Are there both rebounds and captures among the impacts of this point?
-  bool mixed() const { return captured > 0 && !censored; }
+  bool mixed() const { return captured > 0 && captured < events; }
+  /// Did spheres rebound whose e is not known?
+  bool counts_only() const { return censored && captured < events; }
   PointConditions conditions() const { return {dataset, diameter, velocity, series}; }
 };
 
@@ -68,6 +70,12 @@ struct PointWeights {
 struct Observation : MeasuredPoint {
   PointWeights weights;
 
+  /// Has its deviance a `peak`? Counts of which all or none are captured have none.
+  bool peaks() const { return weights.scatter > 0.0 && (!censored || mixed()); }
+  /// Does it say more than that `predicted` e^2 has the right sign?
+  bool informs(double predicted) const {
+    return !censored || mixed() || (captured > 0) == (predicted > 0.0);
+  }
   /// Standard deviation of a single impact's e [1]: n independent impacts make a mean of sd.
   double event_sd() const;
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "estimate/residual.hpp"
 
 namespace recoil {
 namespace {
@@ -32,7 +33,7 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
   point.velocity = p.incident_velocity;
   point.restitution = p.restitution;
   point.weights.sd = p.restitution_sd.value_or(0.0);
-  point.censored = p.all_captured();
+  point.censored = p.all_captured() || p.counts_only;
   point.events = p.events;
   point.captured = p.captured;
   point.counted = p.counted || p.captured > 0;
@@ -81,6 +82,19 @@ bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
     data.points[i].setting = first == i ? count++ : data.points[first].setting;
   }
   return several;
+}
+
+/// Sd of e^2 from impact to impact until it is estimated, where only counts are known: e^2 rises by
+/// about 2 in ln V at capture, and capture velocities that differ by a tenth are usual.
+constexpr double first_scatter = 0.2;
+
+void begin_counts(std::vector<Observation>& points) {
+  for (Observation& point : points) {
+    if (!point.counts_only()) continue;
+    point.weights.scatter = first_scatter;
+    point.weights.mean_sd = point.weights.sd;
+    if (point.peaks()) locate_peak(point);
+  }
 }
 
 /// A captured point says nothing of the scatter of e: where it states none, its impacts are taken
@@ -148,7 +162,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
       data.points.push_back(observe(datasets[d], d, p, spec));
       if (p.restitution_sd) {
         ++stated;
-      } else if (!p.all_captured()) {
+      } else if (!p.all_captured() && !p.counts_only) {
         ++missing;
       }
     }
@@ -173,9 +187,11 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
   data.sd_stated = spec.variance ? spec.variance == VarianceFunction::stated : missing == 0;
   if (data.sd_stated) {
     complete_captured(data.points);
+    begin_counts(data.points);
     return data;
   }
   weigh_equally(data.points);
+  begin_counts(data.points);
   data.noise.variance = spec.variance.value_or(VarianceFunction::constant);
   data.noise.scale = nominal_sd;
   data.sd_set_aside = stated;

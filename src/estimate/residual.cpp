@@ -37,9 +37,11 @@ CaptureSpread capture_spread(const Observation& point) {
   return {std::sqrt(square), (1.0 + (n - 1.0) * own * own / square) / n};
 }
 
+/// All impacts were captured, or none.
 WeightedResidual tobit_residual(const Observation& point, double m) {
   gsl_errors_are_values();
-  const CaptureSpread spread = capture_spread(point);
+  CaptureSpread spread = capture_spread(point);
+  if (point.captured == 0) spread.scale = -spread.scale;
   const double n = spread.weight * point.events;
   const double z = (m + point.weights.shift) / spread.scale;
   const double deviance = -2.0 * n * log_captured(z);
@@ -107,8 +109,8 @@ WeightedResidual mean_residual(const Observation& point, double m) {
 }
 
 WeightedResidual normal_residual(const Observation& point, double m) {
-  if (point.censored) return tobit_residual(point, m);
-  return point.weights.scatter > 0.0 ? event_residual(point, m) : mean_residual(point, m);
+  if (point.peaks()) return event_residual(point, m);
+  return point.censored ? tobit_residual(point, m) : mean_residual(point, m);
 }
 
 }  // namespace

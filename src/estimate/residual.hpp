@@ -26,12 +26,14 @@ namespace recoil {
 /// which sigma sqrt(n) may consist, let no sphere stick, and taken for impacts that differ they
 /// would hold a captured point far below the capture velocity.
 ///
+/// None captured, and no e known: the same with Phi(m / s).
+///
 /// Impacts that differ (`scatter` > 0): every impact has its own x = m + shift + scatter z, z
 /// normal; x < 0 is captured, else e = sqrt(x). With u = (m + shift) / scatter,
 ///   D = -2 (k ln Phi(-u) + (n - k) ln Phi(u)) + (e - sqrt(scatter) G(u))^2 / mean_sd^2,
 /// G of `root_of_positive_normal`: the mean of the survivors is compared with the expected mean of
 /// survivors, which lies above the curve close to capture. The counts are left out where nobody
-/// counted.
+/// counted, the mean where only counts are known.
 ///
 /// Student's t (`student`): r becomes sign(r) c sqrt((nu + 1) ln(1 + r^2 / nu)), see StudentNoise.
 WeightedResidual weighted_residual(const Observation& point, double restitution_squared,

@@ -33,7 +33,7 @@ Observation redraw_captures(const Observation& point, double restitution_squared
   // Where nobody counted captures there is a mean of rebounds and nothing else to draw.
   drawn.captured =
       point.counted ? binomial_quantile(uniform, gsl_cdf_ugaussian_Q(u), point.events) : 0;
-  drawn.censored = drawn.rebounds() == 0;
+  drawn.censored = point.counts_only() || drawn.rebounds() == 0;
   drawn.weights.sd =
       point.event_sd() /
       std::sqrt(static_cast<double>(drawn.censored ? drawn.events : drawn.rebounds()));

@@ -125,7 +125,7 @@ class Renewal {
       set_scatter(point,
                   {middle, (more - less) / (2.0 * h), (more - 2.0 * middle + less) / (h * h)},
                   changed.noise.event_spread);
-      if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
+      if (point.peaks()) locate_peak(point);
     }
     return changed;
   }
@@ -194,7 +194,7 @@ class Renewal {
       if (point.weights.scatter > 0.0) {
         sum += event_deviance(point, locals[i].value);
         if (!point.censored) sum += 2.0 * std::log(point.weights.mean_sd / point.weights.sd);
-      } else {
+      } else if (!point.censored) {
         sum += std::pow(
             (point.restitution - expected_restitution(point, locals[i].value)) / point.weights.sd,
             2);
@@ -210,7 +210,7 @@ class Renewal {
     for (std::size_t i = 0; i < locals.size(); ++i) {
       Observation& point = data_.points[i];
       set_scatter(point, locals[i], spread);
-      if (point.weights.scatter > 0.0 && !point.censored) locate_peak(point);
+      if (point.peaks()) locate_peak(point);
     }
   }
 

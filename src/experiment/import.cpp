@@ -109,7 +109,9 @@ ImportedPoints read_columns(const ImportRequest& request,
         {to_string(quantity), dimension_of(quantity), quantity == Quantity::incident_velocity});
   }
   ImportTable table(request, completed_map(request, package_map), known);
-  if (table.has("restitution") == table.has("rebound_velocity")) {
+  const bool counts = table.has("events") && table.has("captured");
+  const bool both = table.has("restitution") && table.has("rebound_velocity");
+  if (both || !(table.has("restitution") || table.has("rebound_velocity") || counts)) {
     throw InputError({request.file.string(), 1, 1},
                      table.has("restitution") ? "both restitution and rebound_velocity are there"
                                               : "which column is the rebound?",
@@ -127,8 +129,9 @@ ImportedPoints read_columns(const ImportRequest& request,
       if (quantity.dimension == Dimension::text) continue;
       point.value[*value_named<Quantity>(quantity.name)] = table.value(r, quantity.name);
     }
-    const bool rebound = table.has("restitution") ? !table.lacks(r, "restitution")
-                                                  : !table.lacks(r, "rebound_velocity");
+    const std::string e = table.has("restitution") ? "restitution" : "rebound_velocity";
+    const bool rebound = (table.has(e) && !table.lacks(r, e)) ||
+                         (counts && !table.lacks(r, "events") && !table.lacks(r, "captured"));
     const bool sized = !table.lacks(r, "diameter") || known_diameter(request, point.series, {});
     if (table.lacks(r, "incident_velocity") || !sized ||
         (!rebound && !(point.value[Quantity::captured].value_or(0.0) > 0.0))) {

@@ -79,6 +79,13 @@ struct SeriesDifferEntry {
   RECOIL_FIELDS(p_value, most_different, difference, interval)
 };
 
+/// A law of loss of the dry contact, compared with the others.
+struct LossLawEntry {
+  std::string id;
+  double delta_aicc = 0.0;
+  RECOIL_FIELDS(id, delta_aicc)
+};
+
 struct FitFile {
   struct Source {
     std::string id, sha256;
@@ -96,6 +103,7 @@ struct FitFile {
   struct Options {
     AdhesionLaw adhesion = AdhesionLaw::ring;
     AdhesionDampingPhase adhesion_damping_phase = AdhesionDampingPhase::rebound;
+    std::string loss;  ///< of the dry contact, as chosen
     std::vector<std::string> mechanisms;
     bool mixed_sizes = false;  ///< points average over stated sizes
     Json replicates;           ///< a number, or "auto"
@@ -104,8 +112,8 @@ struct FitFile {
     std::uint64_t seed = 0;
     bool materials = false, materials_adjusted = false;
     Named<ParameterOptions> parameters;
-    RECOIL_FIELDS(adhesion, adhesion_damping_phase, mechanisms, mixed_sizes, replicates, scheme,
-                  level, seed, materials, materials_adjusted, parameters)
+    RECOIL_FIELDS(adhesion, adhesion_damping_phase, loss, mechanisms, mixed_sizes, replicates,
+                  scheme, level, seed, materials, materials_adjusted, parameters)
   };
 
   /// What the materials of one dataset give.
@@ -210,7 +218,8 @@ struct FitFile {
     std::optional<double> diameter_um;
     std::string unit;
     OrReason<double> value;
-    std::optional<double> lower_limit;  ///< where all impacts were captured
+    std::optional<double> lower_limit;  ///< where impacts were captured, and none in part
+    std::optional<double> upper_limit;  ///< where impacts rebounded, and none in part
     std::optional<Ends> interval, interval_mc_error;
     CaptureIntervals intervals;
     Recommended recommended;
@@ -218,8 +227,8 @@ struct FitFile {
     OrAbsent<std::vector<BudgetRow>> budget;
     OrAbsent<bool> budget_linear;
     OrAbsent<std::optional<double>> budget_sd_without_first_constant;
-    RECOIL_FIELDS(dataset, diameter_um, unit, value, lower_limit, interval, interval_mc_error,
-                  intervals, recommended, why, budget, budget_linear,
+    RECOIL_FIELDS(dataset, diameter_um, unit, value, lower_limit, upper_limit, interval,
+                  interval_mc_error, intervals, recommended, why, budget, budget_linear,
                   budget_sd_without_first_constant)
   };
 
@@ -426,6 +435,7 @@ struct FitFile {
   std::vector<RestitutionMeanEntry> restitution_summary;
   VelocityDependenceEntry velocity_dependence;
   SeriesDifferEntry series_differ;
+  std::vector<LossLawEntry> loss_laws;  ///< the best first; empty where the fit file names one
   Options options;
   Model model;
   Named<Parameter> parameters;
@@ -449,8 +459,8 @@ struct FitFile {
   std::vector<CurvePoint> curve;
   std::vector<Residual> residuals;
   RECOIL_FIELDS(format_version, recoil_version, fit, provenance_sentence, dataset, datasets,
-                restitution_summary, velocity_dependence, series_differ, options, model, parameters,
-                constants, covariance, correlation, derived, solver, goodness, noise,
+                restitution_summary, velocity_dependence, series_differ, loss_laws, options, model,
+                parameters, constants, covariance, correlation, derived, solver, goodness, noise,
                 identifiability, validity, bootstrap, posterior, comparison, two_point, full,
                 two_point_by_dataset, full_by_dataset, starts, warnings, curve, residuals)
 };

@@ -47,6 +47,12 @@ std::map<std::string, FittedValue> values_by_name(const FitFile& fit) {
 
 }  // namespace
 
+FitSpec with_fitted_loss(FitSpec spec, const std::string& path) {
+  if (path.empty() || (!spec.loss.empty() && spec.loss != "auto")) return spec;
+  const FitFile fit = read_fit_file(path, read_text_file(path), "--parameters");
+  return with_loss(std::move(spec), fit.options.loss);
+}
+
 std::vector<FittedValue> take_fitted_values(ImpactModel& model,
                                             const std::vector<Dataset>& datasets,
                                             const std::string& path) {

@@ -17,6 +17,7 @@ Mechanism bulk_viscoelastic() {
   return make_mechanism<BulkViscoelastic>({
       .id = "bulk_viscoelastic",
       .title = "viscous loss in the deformed bulk",
+      .dry_loss = "viscoelastic",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
       .formula = "force -(3/2) A K (r n)^(1/2) n' in both phases, in the equation of motion",
@@ -30,8 +31,8 @@ Mechanism bulk_viscoelastic() {
                       .null_value = 0.0,
                       .initial = 1e-10,
                       .lower = 0.0,
-                      .upper = 1e-3,
-                      .plausible = {0.0, 1e-3, "the domain of the formula"},
+                      .upper = 0.1,
+                      .plausible = {0.0, 0.1, "the domain of the formula"},
                       .starts = {1e-12, 1e-11, 1e-9},
                       // Ferry 1980, Viscoelastic Properties of Polymers: glasses have 0.01 to 0.1,
                       // rubbers about 1 where they turn to glass.

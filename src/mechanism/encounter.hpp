@@ -28,6 +28,7 @@ struct Surroundings {
   double plate_impedance =
       0.0;                    ///< Z / H^2 of `plate_flexure`; 0: its density is unknown [kg/(s m2)]
   double shear_speed = 0.0;   ///< c_T of the surface [m/s]
+  bool elastomer = false;     ///< one of the bodies does not flow, see `Material::is_elastomer`
   double image_factor = 1.0;  ///< (eps - 1) / (eps + 1) of the surface [1]; 1: a conductor
   Conditions conditions;      ///< of series that `of_series` does not have
   std::vector<Conditions> of_series;

@@ -75,6 +75,7 @@ Surroundings surroundings_of(const ImpactSystem& system, const ContactProperties
     s.surface_mass = sphere_mass(contact.surface_diameter, contact.surface_density);
   }
   s.adhesion_energy = contact.adhesion_energy;
+  s.elastomer = system.particle.is_elastomer() || system.surface.is_elastomer();
   s.method = system.method;
   // Waves run in the surface: its own density, the sphere's only where none is stated.
   const Material& surface = system.surface;

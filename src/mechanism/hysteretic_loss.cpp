@@ -17,6 +17,7 @@ Mechanism hysteretic_loss() {
   return make_mechanism<HystereticLoss>({
       .id = "hysteretic_loss",
       .title = "a constant share of the elastic energy is lost",
+      .dry_loss = "constant",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
       .formula = "loss eta (2/5) K R^(1/2) n_max^(5/2), the share eta of the elastic energy at the "

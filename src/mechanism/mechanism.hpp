@@ -54,6 +54,9 @@ struct TakenAway {
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;
+  /// By which `[model] loss` of a fit file knows it: the loss of a dry contact, which captures
+  /// nothing by itself. Empty: it is no such law.
+  std::string_view dry_loss = {};
   std::string_view cause = {};  ///< shared with other laws of the same; empty where it stands alone
   MechanismKind kind = MechanismKind::physics;
   MechanismPlace place = MechanismPlace::contact;
@@ -68,6 +71,7 @@ struct MechanismInfo {
   /// Is its strength a multiple of the dataset's own work of adhesion? Where that is 0 it does
   /// nothing.
   bool needs_adhesion = false;
+  bool needs_flow = false;  ///< a body has to flow: nothing happens to an elastomer
   /// The ways of measuring that can have it; empty: all.
   std::vector<Method> methods = {};
   std::optional<TakenAway> taken_away = {};  ///< by what, where a condition does it
@@ -111,6 +115,7 @@ struct Mechanism {
   bool acts_at(const Surroundings& at) const {
     if (info.needs_adhesion && !(at.adhesion_energy > 0.0)) return false;
     if (info.needs_flat && at.surface_diameter > 0.0) return false;
+    if (info.needs_flow && at.elastomer) return false;
     return at.method == Method::unknown || can_be_of(at.method);
   }
   /// Can velocities that were measured so have it?

@@ -78,6 +78,7 @@ Mechanism plastic_yield() {
   return make_mechanism<PlasticYield>({
       .id = "plastic_yield",
       .title = "plastic yielding of the contact",
+      .dry_loss = "yield",
       .kind = MechanismKind::physics,
       .place = MechanismPlace::contact,
       .formula =
@@ -160,6 +161,7 @@ Mechanism plastic_yield() {
             .plausible = {0.0, 1.0, "between none of it and what the finite elements show"},
             .free = false,
             .searched = false}},
+      .needs_flow = true,
   });
 }
 

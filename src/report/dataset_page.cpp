@@ -53,7 +53,7 @@ std::vector<SeriesSummary> summarise(const Dataset& dataset) {
     series.captured += point.captured;
     series.diameter.add(point.diameter / unit.metres);
     series.velocity.add(point.incident_velocity);
-    if (!point.all_captured()) series.restitution.add(point.restitution);
+    if (!point.all_captured() && !point.counts_only) series.restitution.add(point.restitution);
   }
   return summaries;
 }

@@ -42,7 +42,7 @@ Misses misses_of(const Diagnosis& d, std::size_t dataset) {
   const double unit = size_unit(d.datasets).metres;
   for (std::size_t i = 0; i < d.base.data.points.size(); ++i) {
     const Observation& point = d.base.data.points[i];
-    if (point.dataset != dataset) continue;
+    if (point.dataset != dataset || point.counts_only()) continue;
     const double miss = (point.censored ? 0.0 : point.restitution) -
                         expected_restitution(point, d.base.prediction_squared[i]);
     all.velocities.push_back(point.velocity);
@@ -192,7 +192,7 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
   };
   std::map<double, Measured> sizes;
   for (const Observation& point : d.base.data.points) {
-    if (point.dataset != dataset) continue;
+    if (point.dataset != dataset || point.counts_only()) continue;
     Measured& size = sizes[point.diameter];
     size.velocity.push_back(point.velocity);
     size.restitution.push_back(point.censored ? 0.0 : point.restitution);

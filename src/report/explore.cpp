@@ -70,6 +70,10 @@ std::string explored_panel(const Analysis& analysis, const Panel& panel,
   const plot::Plot& shown = picture.plots.front();
   if (!model.chain.empty() || averages_over_sizes(model) || !shown.frame) return "";
   if (model.contacts[panel.dataset].surface_diameter > 0.0) return "";  // it knows flats alone
+  const auto& points = fit.data.points;                                 // and every point by its e
+  if (std::any_of(points.begin(), points.end(),
+                  [](const Observation& p) { return p.counts_only(); }))
+    return "";
   const ImpactConditions at = conditions_at(model, fit.theta, panel.dataset, panel.diameter, 1.0);
   const ParameterSlot& adhesion = model.slots[model.slot_adhesion[panel.dataset]];
   Json out;

@@ -66,9 +66,22 @@ Sentence capture_words(const Analysis& a) {
         say("{} below {}{}", diameter_sentence(capture->diameter), velocity.words(), where));
   }
   for (const CaptureEstimate& capture : a.uncertainty.capture) {
-    if (!capture.above) continue;
-    return say("All impacts were captured: the capture velocity of {} lies above {:.3g} m/s.",
-               diameter_sentence(capture.diameter), *capture.above);
+    const Sentence who = diameter_sentence(capture.diameter);
+    if (capture.above && capture.below) {
+      return say(
+          "All impacts up to {:.3g} m/s were captured, none from {:.3g} m/s on: the capture "
+          "velocity "
+          "of {} lies between them.",
+          *capture.above, *capture.below, who);
+    }
+    if (capture.above) {
+      return say("All impacts were captured: the capture velocity of {} lies above {:.3g} m/s.",
+                 who, *capture.above);
+    }
+    if (capture.below) {
+      return say("No impact was captured: the capture velocity of {} lies below {:.3g} m/s.", who,
+                 *capture.below);
+    }
   }
   if (parts.empty()) return {};
   return say("Spheres stick: ") + join(parts, "; ") + ".";
@@ -245,7 +258,7 @@ std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
     return {answer, warnings_section(a), inputs_section(a)};
   }
   std::vector<Figure> panels = restitution_figures(a);
-  std::vector<Sentence> leads = {capture_words(a), bound_words(a.fitted),
+  std::vector<Sentence> leads = {capture_words(a), bound_words(a.fitted), loss_words(a),
                                  verdict_words(a, diagnosis), odd_point_words(a)};
   std::erase(leads, Sentence());
   const Sentence lead = join(leads, " ");

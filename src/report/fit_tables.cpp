@@ -43,7 +43,11 @@ std::size_t free_parameters(const FitResult& fitted) {
 
 Cell capture_cell(const Analysis& a, const CaptureEstimate& capture) {
   if (without_adhesion(a, capture.dataset)) return no_capture_words;
+  if (capture.above && capture.below && *capture.above < *capture.below) {
+    return say("{:.3g} to {:.3g}", *capture.above, *capture.below);
+  }
   if (capture.above) return say("above {:.3g}", *capture.above);
+  if (capture.below) return say("below {:.3g}", *capture.below);
   if (!capture.found) return "none found";
   Number value{capture.value, padded(3)};
   if (capture.interval.available()) {
@@ -161,6 +165,10 @@ Table parameters_table(const Analysis& a) {
     if (!adheres && (slot.parameter->is_adhesion() ||
                      slot.parameter->role == ParameterRole::adhesion_damping)) {
       continue;
+    }
+    if (dry_loss_mechanism(a.spec.loss) != nullptr &&
+        slot.parameter->role == ParameterRole::hertz_damping) {
+      continue;  // that law takes its place
     }
     const Interval interval = recommended_interval(intervals_of(a, s));
     const bool follows = followed_in(f.model, s).has_value();

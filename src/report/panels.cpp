@@ -127,6 +127,7 @@ PointColumns point_columns(const Analysis& analysis, const std::vector<std::size
   const std::size_t stride = points.size() / most_panel_points + 1;
   for (std::size_t k = 0; k < points.size(); k += stride) {
     const Observation& point = analysis.fitted.data.points[points[k]];
+    if (point.counts_only()) continue;  // there is no e to draw
     if (point.censored) {
       columns.captured.push_back(point.velocity);
     } else {

@@ -70,6 +70,7 @@ FitFile::Options options_of(const Analysis& a) {
   FitFile::Options out = {
       .adhesion = a.fitted.model.adhesion,
       .adhesion_damping_phase = a.fitted.model.phase,
+      .loss = a.spec.loss.empty() ? std::string(hunt_crossley) : a.spec.loss,
       .mechanisms = a.spec.mechanisms,
       .mixed_sizes = averages_over_sizes(a.fitted.model),
       .replicates = options.replicates_auto ? Json("auto") : Json(options.replicates),
@@ -248,12 +249,14 @@ std::vector<FitFile::CaptureVelocity> captures_of(const Analysis& a) {
     out.diameter_um = in_um(capture.diameter);
     out.unit = "m/s";
     const bool adheres = !without_adhesion(a, capture.dataset);
-    out.value = {only_if(capture.found && adheres, capture.value),
-                 !adheres ? "without adhesion nothing is captured"
-                 : capture.above
-                     ? fmt::format("all impacts up to {:.4g} m/s were captured", *capture.above)
-                     : "no velocity at which capture turns into rebound was found"};
+    out.value = {
+        only_if(capture.found && adheres, capture.value),
+        !adheres        ? "without adhesion nothing is captured"
+        : capture.above ? fmt::format("all impacts up to {:.4g} m/s were captured", *capture.above)
+        : capture.below ? fmt::format("no impact from {:.4g} m/s on was captured", *capture.below)
+                        : "no velocity at which capture turns into rebound was found"};
     out.lower_limit = capture.above;
+    out.upper_limit = capture.below;
     if (!adheres) {
       out.recommended.why = out.value.why;
       out.why = out.value.why;
@@ -277,6 +280,13 @@ std::vector<FitFile::CaptureVelocity> captures_of(const Analysis& a) {
   return list;
 }
 
+/// f.rmse, where any e is known: captures alone miss nothing.
+OrReason<double> rmse_of(const FitResult& f) {
+  const bool known = std::any_of(f.data.points.begin(), f.data.points.end(),
+                                 [](const Observation& point) { return !point.censored; });
+  return {only_if(known, f.rmse), "no e is known"};
+}
+
 FitFile::Goodness goodness_of(const FitResult& f) {
   const bool stated = f.data.sd_stated;
   return {.chi2 = {f.chi2, "the sum of squares is not finite"},
@@ -285,7 +295,7 @@ FitFile::Goodness goodness_of(const FitResult& f) {
                       stated ? "no degrees of freedom are left"
                              : "no standard deviations are stated: the noise is estimated from the "
                                "fit"},
-          .rmse = {f.rmse, "no point rebounded"},
+          .rmse = rmse_of(f),
           .noise_scale = {f.noise_scale, "the noise could not be estimated"},
           .noise_text = noise_words(f)};
 }
@@ -503,7 +513,7 @@ void set_two_point(FitFile& out, const Analysis& a) {
   }
   if (out.two_point_by_dataset.empty()) {
     out.two_point.why = "the comparison was not made";
-    out.full.rmse = {a.fitted.rmse, "no point rebounded"};
+    out.full.rmse = rmse_of(a.fitted);
     out.full.held_out_rmse.why = out.two_point.why;
   } else {
     out.two_point.value = out.two_point_by_dataset.front().second;
@@ -536,20 +546,21 @@ std::vector<FitFile::Residual> residuals_of(const Analysis& a) {
     const Observation& point = f.data.points[i];
     const Dataset& dataset = a.datasets[point.dataset];
     const bool in_series = point.series < dataset.series.size();
-    rows.push_back({.dataset = dataset.id,
-                    .series = in_series ? dataset.series[point.series] : "",
-                    .diameter_um = in_um(point.diameter),
-                    .incident_velocity = point.velocity,
-                    .restitution = point.restitution,
-                    .restitution_sd = only_if(f.data.sd_stated, point.weights.sd),
-                    .sd_used = point.weights.sd,
-                    .sd_of_e2_from_inputs = point.weights.input_sd,
-                    .captured = point.censored,
-                    .captured_count = point.captured,
-                    .events = point.events,
-                    .predicted = at(f.prediction, i),
-                    .weighted_residual = at(f.residuals, i),
-                    .leverage = at(f.leverage, i)});
+    rows.push_back(
+        {.dataset = dataset.id,
+         .series = in_series ? dataset.series[point.series] : "",
+         .diameter_um = in_um(point.diameter),
+         .incident_velocity = point.velocity,
+         .restitution = only_if(!point.counts_only(), point.restitution),
+         .restitution_sd = only_if(f.data.sd_stated && !point.counts_only(), point.weights.sd),
+         .sd_used = point.weights.sd,
+         .sd_of_e2_from_inputs = point.weights.input_sd,
+         .captured = point.rebounds() == 0,
+         .captured_count = point.captured,
+         .events = point.events,
+         .predicted = at(f.prediction, i),
+         .weighted_residual = at(f.residuals, i),
+         .leverage = at(f.leverage, i)});
   }
   return rows;
 }
@@ -624,6 +635,7 @@ FitFile fit_file(const Analysis& a) {
   out.restitution_summary = std::move(restitution.means);
   out.velocity_dependence = std::move(restitution.velocity);
   out.series_differ = std::move(restitution.series);
+  for (const LossFit& law : a.losses) out.loss_laws.push_back({law.id, law.delta_aicc});
   out.options = options_of(a);
   out.model = model_of(a);
   for (std::size_t s = 0; s < f.model.slots.size(); ++s) {

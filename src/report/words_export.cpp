@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "analysis/analysis.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
@@ -142,6 +144,14 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
                         provenance_sentence(source.provenance)));
   wrap_into(lines, fmt::format("Parameters, {}:", source.parameters));
   for (const ExportedParameter& value : source.values) lines.push_back(parameter_words(value));
+  if (std::isfinite(source.rmse)) {
+    wrap_into(lines,
+              fmt::format("Against these points its e is off by {:.2g} (rms).", source.rmse));
+  }
+  if (source.p_value) {
+    wrap_into(lines, fmt::format("The points reject this model (p = {:.2g}). {}", *source.p_value,
+                                 source.mean_restitution));
+  }
   if (job.form != ExportForm::lookup) {
     wrap_into(lines,
               fmt::format("A sphere of {:.6g} um, {:.6g} kg/m3; K = {:.6g} GPa. Adhesion: {}, "

@@ -26,6 +26,9 @@ struct ExportSource {
   std::string dataset;     ///< id
   Provenance provenance = Provenance::measured;
   std::vector<ExportedParameter> values;
+  double rmse = 0.0;              ///< of e against the points of the fit [1]
+  std::optional<double> p_value;  ///< of a misfit that rejects the model
+  std::string mean_restitution;   ///< of the points, as a sentence
 };
 
 /// What stands at the top of an exported file: which fit, which parameters, what they were fitted

@@ -253,6 +253,27 @@ Sentence quality_words(const FitResult& f) {
              number(f.chi2, 4), f.dof, p);
 }
 
+Sentence loss_words(const Analysis& a) {
+  if (a.losses.empty()) return {};
+  constexpr double as_good = 2.0;  // Burnham & Anderson 2002, section 2.6
+  std::vector<std::string> equals;
+  std::vector<std::string> others;
+  for (const LossFit& law : a.losses) {
+    if (&law == &a.losses.front()) continue;
+    others.push_back(fmt::format("{} +{:.1f}", law.id, law.delta_aicc));
+    if (law.delta_aicc < as_good) equals.push_back(law.id);
+  }
+  std::string text = fmt::format("Law of loss: {}", a.spec.loss);
+  if (!others.empty()) text += fmt::format(" (AICc of the others: {})", fmt::join(others, ", "));
+  if (!equals.empty()) {
+    text += fmt::format("; the points do not tell it from {}", fmt::join(equals, ", "));
+  }
+  if (a.fitted.noise_verdict == NoiseVerdict::exceeded) {
+    text += "; no law fits the points, so quote the mean e";
+  }
+  return Sentence(text + ".");
+}
+
 std::string noise_words(const FitResult& fitted) {
   if (!fitted.usable) return "";
   const Observations& data = fitted.data;

@@ -15,6 +15,9 @@ Sentence equation_words(AdhesionLaw law);
 /// Does the model fit? With the p-value, or the reason why it cannot be tested.
 Sentence quality_words(const FitResult& fitted);
 
+/// Which law of loss the points chose, and how near the others are; empty where they chose none.
+Sentence loss_words(const Analysis& analysis);
+
 /// The noise that the fit used and the evidence for it, in clauses with semicolons.
 std::string noise_words(const FitResult& fitted);
 

@@ -274,7 +274,7 @@ std::string missing_words(const Interval& interval) {
     case NoInterval::no_covariance:
       return "the fit has no standard errors";
     case NoInterval::all_captured:
-      return "all impacts were captured";
+      return "every point says only that all or none of its impacts were captured";
     case NoInterval::noise_unknown:
       return "the noise is not known";
   }

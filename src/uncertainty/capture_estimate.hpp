@@ -41,6 +41,7 @@ struct CaptureEstimate {
   double value = 0.0;     ///< [m/s]
   bool found = false;
   std::optional<double> above;  ///< all impacts were captured, up to this velocity [m/s]
+  std::optional<double> below;  ///< no impact was captured, from this velocity on [m/s]
   PerValue<CaptureIntervalKind, Interval> of_kind;
   Interval interval;                                             ///< the one to quote
   CaptureIntervalKind recommended = CaptureIntervalKind::delta;  ///< its kind

@@ -181,15 +181,21 @@ void add_resampled_captures(const FitResult& fitted, const BootstrapResult& repl
 
 void limit_by_captures(const Observations& data, std::vector<CaptureEstimate>& captures) {
   for (CaptureEstimate& capture : captures) {
-    double fastest = 0.0;
+    std::optional<double> fastest;  // that was captured
+    std::optional<double> slowest;  // that rebounded
     for (const Observation& point : data.points) {
       if (point.dataset != capture.dataset || point.diameter != capture.diameter) continue;
-      fastest = std::max(fastest, point.velocity);
+      if (point.captured > 0) {
+        fastest = std::max(fastest.value_or(0.0), point.velocity);
+      } else {
+        slowest = std::min(slowest.value_or(INFINITY), point.velocity);
+      }
     }
     CaptureEstimate limit;
     limit.dataset = capture.dataset;
     limit.diameter = capture.diameter;
     limit.above = fastest;
+    limit.below = slowest;
     limit.interval = no_interval(NoInterval::all_captured);
     for (const CaptureIntervalKind kind : values_of<CaptureIntervalKind>()) {
       limit[kind] = limit.interval;

@@ -36,7 +36,8 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
 void add_resampled_captures(const FitResult& fitted, const BootstrapResult& replicates,
                             double level, std::vector<CaptureEstimate>& captures);
 
-/// Where no sphere rebounded, the points give no V*, but a lower limit: the fastest captures.
+/// Where every point says only that all or none of its spheres were captured, the points give no
+/// V*, but limits: the fastest captures from below, the slowest rebounds from above.
 void limit_by_captures(const Observations& data, std::vector<CaptureEstimate>& captures);
 
 }  // namespace recoil

@@ -58,6 +58,7 @@ RC_GTEST_PROP(Residual, FallsSmoothlyWithTheModelAndHasItsOwnSlope, ()) {
   point.restitution = *rc::gen::inRange(0, 1100) / 1000.0;
   point.weights.sd = *rc::gen::inRange(1, 200) / 1000.0;
   point.censored = *rc::gen::inRange(0, 4) == 0;
+  point.captured = point.censored ? 1 : 0;
   const double m = *rc::gen::inRange(-3000, 1200) / 1000.0;
   const double h = 1e-6 * std::max(std::abs(m), point.weights.sd * point.weights.sd);
   const WeightedResidual at = weighted_residual(point, m);

@@ -217,6 +217,7 @@ TEST(Noise, SimulatedPointsHaveTheNoiseThatWeightsThem) {
   EXPECT_NEAR(mean, 0.0, 4.0 * sd / std::sqrt(draws) + 0.03 * 0.03 / (8.0 * 0.512));
   EXPECT_NEAR(std::sqrt(square) / sd, 1.0, 0.05);
   point.censored = true;
+  point.captured = 1;
   RandomStream random(27, RandomPurpose::bootstrap, 0);
   EXPECT_TRUE(simulate_observation(point, -0.1, 1.0, std::nullopt, random).censored);
 }

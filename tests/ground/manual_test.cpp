@@ -242,17 +242,23 @@ TEST(Manual, EveryKeyOfFitJsonIsDescribed) {
   sandbox.write("counted/points.csv", impacts_that_differ);
   sandbox.write("counted/datapackage.json", its_package);
   sandbox.write("counted.toml", "dataset = \"counted\"\n");
+  sandbox.write("dry/points.csv", impacts_that_differ);
+  sandbox.write("dry/datapackage.json",
+                std::regex_replace(its_package, std::regex("\"provenance\""),
+                                   "\"adhesion_energy\": 0, \"provenance\""));
+  sandbox.write("dry.toml", "dataset = \"dry\"\n");
   const page::Sandbox::Outcome outcome = sandbox.run(
       "build/release/recoil fit counted.toml --replicates 39 --out one\n"
+      "build/release/recoil fit dry.toml --replicates 0 --out dry\n"
       "build/release/recoil fit fits/wall1990-mica.toml --replicates 19 --out two\n");
   ASSERT_EQ(outcome.status, 0) << outcome.output;
   const std::set<std::string> listed = listed_keys("fit-json.md");
   std::set<std::string> found;
-  for (const char* name : {"one", "two"}) {
+  for (const char* name : {"one", "two", "dry"}) {
     collect(nlohmann::json::parse(tree::text_of(sandbox.folder() / name / "fit.json")), "", found);
   }
   for (std::string path : found) {
-    path = std::regex_replace(path, std::regex("^(two_point|full)_by_dataset\\.NAME"), "$1");
+    path = std::regex_replace(path, std::regex("^(two_point|full)_by_dataset(\\.NAME)?"), "$1");
     EXPECT_TRUE(describes(listed, path)) << "docs/fit-json.md does not describe " << path;
   }
   for (const std::string& key : listed) {

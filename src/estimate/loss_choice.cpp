@@ -1,0 +1,82 @@
+#include "estimate/loss_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimate/observations.hpp"
+#include "estimate/residual.hpp"
+#include "estimate/shared_settings.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace recoil {
+namespace {
+
+bool is_dry(const FitSpec& spec, const std::vector<Dataset>& datasets) {
+  const ImpactModel model = make_model(spec, datasets);
+  for (std::size_t d = 0; d < datasets.size(); ++d) {
+    if (!without_adhesion(model, d)) return false;
+  }
+  return true;
+}
+
+/// What the file itself says of C_H: a value that is held is no candidate among others.
+bool holds_damping(const FitSpec& spec) {
+  const ParameterSpec damping = spec.statement_of(base_parameters(spec.adhesion).front());
+  return damping.mentioned && !damping.free;
+}
+
+// Laws whose criteria differ by less pass through the same points, those of one velocity say.
+constexpr double same_criterion = 0.01;
+
+}  // namespace
+
+double minus_two_log_likelihood(const FitResult& fitted) {
+  double sum = fitted.objective + SharedSettings(fitted.data.points).log_determinant();
+  for (std::size_t i = 0; i < fitted.data.points.size(); ++i) {
+    const double square = fitted.prediction_squared[i];
+    const double slope =
+        slope_in_restitution(weighted_residual(fitted.data.points[i], square), square);
+    if (!fitted.data.points[i].censored && slope > 0.0) sum -= 2.0 * std::log(slope);
+  }
+  return sum;
+}
+
+LossChoice choose_loss(const FitSpec& spec, const std::vector<Dataset>& datasets) {
+  const std::string first(hunt_crossley);
+  if (!spec.loss.empty() && spec.loss != "auto") return {spec, {}};
+  const LossChoice as_stated = {with_loss(spec, first), {}};
+  if (spec.loss.empty() && (holds_damping(spec) || !is_dry(spec, datasets))) return as_stated;
+  const Observations data = gather(datasets, spec);
+  const auto n = static_cast<double>(data.points.size());
+  LossChoice choice;
+  for (const std::string& loss : dry_losses()) {
+    const Mechanism* const mechanism = dry_loss_mechanism(loss);
+    if (mechanism != nullptr && !mechanism->works_with(spec.adhesion)) continue;
+    const ImpactModel model = make_model(with_loss(spec, loss), datasets);
+    if (mechanism != nullptr &&
+        !std::all_of(model.surroundings.begin(), model.surroundings.end(),
+                     [&](const Surroundings& at) { return mechanism->acts_at(at); })) {
+      continue;
+    }
+    const FitResult fitted = fit(model, data);
+    if (!fitted.usable || !fitted.flat.empty()) continue;
+    if (!fitted.data.noise.known) return as_stated;  // it passes through all points
+    const double k = model.free_count() + (data.sd_stated ? 0 : 1);
+    // Of laws with equally many parameters the correction tells nothing.
+    const double correction = n > k + 1.0 ? 2.0 * k * (k + 1.0) / (n - k - 1.0) : 0.0;
+    choice.laws.push_back({loss, minus_two_log_likelihood(fitted) + 2.0 * k + correction});
+  }
+  if (choice.laws.empty()) return as_stated;
+  double best = choice.laws.front().delta_aicc;
+  for (const LossFit& law : choice.laws) best = std::min(best, law.delta_aicc);
+  for (LossFit& law : choice.laws) {
+    law.delta_aicc -= best;
+    if (law.delta_aicc < same_criterion) law.delta_aicc = 0.0;
+  }
+  std::stable_sort(choice.laws.begin(), choice.laws.end(),
+                   [](const LossFit& a, const LossFit& b) { return a.delta_aicc < b.delta_aicc; });
+  choice.spec = with_loss(spec, choice.laws.front().id);
+  return choice;
+}
+
+}  // namespace recoil
