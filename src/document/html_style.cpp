@@ -78,6 +78,7 @@ thead th { border-top: 0; color: var(--quiet); font-weight: 600; }
 tbody th { font-weight: 600; }
 th:first-child { text-align: left; }
 td.words, th.words { text-align: left; }
+td.words, tbody th { white-space: normal; min-width: 5rem; }
 td.prose { white-space: normal; min-width: 16rem; }
 table.compact { font-size: .8rem; }
 table.compact th, table.compact td { padding: .18rem .7rem; font-weight: 400; }
@@ -158,7 +159,6 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   th, td { padding: .15rem .4rem; white-space: normal; }
   td.prose { min-width: 0; }
   table.compact th, table.compact td { padding: .08rem .4rem; }
-  table.compact td { white-space: nowrap; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
   a { color: inherit; text-decoration: none; }

@@ -68,10 +68,11 @@ document.addEventListener("DOMContentLoaded", () => {
     links.append("Save: ", link("SVG", name + ".svg", "image/svg+xml", () => alone(svg)));
     const png = document.createElement("a");
     png.textContent = "PNG";
-    png.href = "#" + (figure ? figure.id : "main");
+    png.title = png.download = name + ".png";
+    png.href = "data:,";
     png.addEventListener("click", event => {
       event.preventDefault();
-      savePng(svg, name + ".png");
+      savePng(svg, png.download);
     });
     links.append(" ", png);
     const data = (figure || picture.parentNode).querySelector("script.csv");

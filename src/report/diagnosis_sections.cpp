@@ -35,13 +35,9 @@ UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& 
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     if (fitted.model.slots[j].label() != label) continue;
     if (!fitted.model.slots[j].free) {
-      const bool moves = fitted.model.slots[j].is_constant();
-      const bool follows = followed_in(fitted.model, j).has_value();
       return {Number{acting_value(fitted.model, fitted.theta, j)},
               {},
-              moves     ? "moves within its stated error"
-              : follows ? "follows the materials"
-                        : "fixed"};
+              followed_in(fitted.model, j) ? "follows the materials" : "fixed"};
     }
     const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
     UnderModel found{Number{fitted.theta[j], significant(4), error}, {}, ""};
@@ -181,10 +177,11 @@ Table both_models_table(const Diagnosis& d) {
     table.caption += fmt::format(", without the law error of {} that the diagnosis allows",
                                  percent(d.spec.law_error));
   }
-  table.columns = {{"parameter"}, {"base"}, {level}, {"extended"}, {level}, {"", "", true}};
+  table.columns = {{"parameter"}, {"base"}, {level}, {"extended"}, {level}, {"remark", "", true}};
   const ImpactModel& model = d.extended_fit->model;
   for (std::size_t s = 0; s < model.slots.size(); ++s) {
     const ParameterSlot& slot = model.slots[s];
+    if (slot.is_constant()) continue;
     const UnderModel base = under_model(d.base, d.base_intervals, slot.label());
     const UnderModel extended = under_model(*d.extended_fit, d.extended_intervals, slot.label());
     Sentence name = parameter_words(model, s, d.datasets);

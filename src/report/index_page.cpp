@@ -75,7 +75,7 @@ const char* sign_of(Verdict verdict) {
 /// Capture velocities of the first sizes, and all free parameters.
 Table summary_table(const Json& fit) {
   Table table;
-  table.columns = {{}, {"estimate"}, {"interval"}};
+  table.columns = {{"quantity"}, {"estimate"}, {"interval"}};
   std::map<std::string, std::vector<Json>> captures;  // by dataset
   for (const Json& capture : at(fit, "/derived/capture_velocity")) {
     if (!std::isfinite(number_at(capture, "/value"))) continue;
