@@ -92,7 +92,8 @@ void run_diagnosis(const DiagnoseFlags& flags) {
   diagnosis.remarks = reconstruction_remarks(diagnosis.datasets);
   const std::string result = diagnosis_json(diagnosis);
   const std::string printed =
-      flags.json ? result : diagnosis_text(diagnosis, importance_of(flags.verbose));
+      flags.json ? result
+                 : diagnosis_text(diagnosis, importance_of(flags.verbose), output_columns());
   if (!flags.out.empty()) {
     write_or_print({{folder / "extended.toml", extended_toml(diagnosis, folder)},
                     {folder / "diagnosis.html", diagnosis_html(diagnosis)},

@@ -61,7 +61,7 @@ void run_fit(const FitFlags& flags) {
       *kept, [&] { return assess_uncertainty(analysis.fitted, analysis.datasets, assess); });
   const std::string result = fit_json(analysis);
   const std::string printed =
-      flags.json ? result : fit_text(analysis, importance_of(flags.verbose));
+      flags.json ? result : fit_text(analysis, importance_of(flags.verbose), output_columns());
   if (!flags.out.empty()) {
     std::vector<WholeFile> files = {{folder / "fit.json", result}};
     std::string draws = posterior_csv(analysis);

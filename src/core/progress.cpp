@@ -11,38 +11,39 @@ namespace {
 constexpr auto redraw_interval = std::chrono::milliseconds(100);
 }
 
-Progress::Progress(std::string label, std::size_t total)
+Progress::Progress(std::string label, std::size_t total, Pace pace)
     : label_(std::move(label)),
       total_(total),
-      visible_(isatty(STDERR_FILENO) == 1),
-      start_(std::chrono::steady_clock::now()) {}
+      terminal_(isatty(STDERR_FILENO) == 1),
+      pace_(pace),
+      start_(std::chrono::steady_clock::now()),
+      due_(terminal_ ? start_ : start_ + pace_.first) {}
 
 Progress::~Progress() {
-  if (visible_) std::fputs("\r\033[K", stderr);
+  if (terminal_) std::fputs("\r\033[K", stderr);
 }
 
 void Progress::advance(std::size_t steps) {
   const std::size_t done = done_ += steps;
-  if (!visible_) return;
   const std::unique_lock lock(drawing_, std::try_to_lock);
   if (!lock) return;  // another thread is drawing; the next step will catch up
   const auto now = std::chrono::steady_clock::now();
-  if (now - drawn_ < redraw_interval) return;
-  drawn_ = now;
-  draw(done);
+  if (now < due_) return;
+  due_ = now + (terminal_ ? redraw_interval : pace_.next);
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double steps_left = static_cast<double>(total_) - static_cast<double>(done);
+  draw(done,
+       elapsed * std::max(0.0, steps_left) / static_cast<double>(std::max<std::size_t>(done, 1)));
 }
 
-void Progress::draw(std::size_t done) {
+void Progress::draw(std::size_t done, double left) const {
   constexpr std::size_t width = 30;
-  const double elapsed =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const double left =
-      elapsed *
-      (static_cast<double>(total_) / static_cast<double>(std::max<std::size_t>(done, 1)) - 1.0);
   const std::size_t filled = total_ == 0 ? width : width * std::min(done, total_) / total_;
-  const std::string bar = fmt::format("\r\033[K{} [{:#<{}}{:.<{}}] {}/{}, {:.0f} s left", label_,
-                                      "", filled, "", width - filled, done, total_, left);
-  std::fwrite(bar.data(), 1, bar.size(), stderr);
+  const std::string state = fmt::format("{}/{}, {:.0f} s left", done, total_, left);
+  const std::string line = terminal_ ? fmt::format("\r\033[K{} [{:#<{}}{:.<{}}] {}", label_, "",
+                                                   filled, "", width - filled, state)
+                                     : fmt::format("{}: {}\n", label_, state);
+  std::fwrite(line.data(), 1, line.size(), stderr);
   std::fflush(stderr);
 }
 

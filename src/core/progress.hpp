@@ -5,14 +5,21 @@
 #include <cstddef>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace recoil {
 
-/// A progress bar on standard error: drawn on a terminal, silent in a pipe. `advance` may be called
-/// from any thread.
+/// Progress on standard error: a bar on a terminal; in a pipe a line after `Pace::first` and then
+/// one per `Pace::next`. `advance` may be called from any thread.
 class Progress {
  public:
-  Progress(std::string label, std::size_t total);
+  struct Pace {
+    std::chrono::milliseconds first = std::chrono::seconds(10);
+    std::chrono::milliseconds next = std::chrono::minutes(1);
+  };
+
+  Progress(std::string label, std::size_t total) : Progress(std::move(label), total, Pace()) {}
+  Progress(std::string label, std::size_t total, Pace pace);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -20,15 +27,16 @@ class Progress {
   void advance(std::size_t steps = 1);
 
  private:
-  void draw(std::size_t done);
+  void draw(std::size_t done, double left) const;
 
   std::string label_;
   std::size_t total_;
-  bool visible_;
+  bool terminal_;
+  Pace pace_;
   std::atomic<std::size_t> done_{0};
   std::mutex drawing_;
   std::chrono::steady_clock::time_point start_;
-  std::chrono::steady_clock::time_point drawn_;
+  std::chrono::steady_clock::time_point due_;  ///< of the next drawing
 };
 
 }  // namespace recoil

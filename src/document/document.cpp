@@ -29,9 +29,7 @@ template <class Blocks, class Visit>
 void each_block(Blocks& blocks, const Visit& visit) {
   for (auto& block : blocks) {
     visit(block);
-    if (auto* details = std::get_if<Details>(&block.content())) {
-      each_block(details->blocks, visit);
-    } else if (auto* section = std::get_if<Section>(&block.content())) {
+    if (auto* section = std::get_if<Section>(&block.content())) {
       each_block(section->blocks, visit);
     }
   }
@@ -127,7 +125,6 @@ bool empty(const Block& block) {
                                [](const Figures& figures) { return figures.figures.empty(); },
                                [](const Banner& banner) { return banner.text.empty(); },
                                [](const Remark& remark) { return remark.text.empty(); },
-                               [](const Details& details) { return all_empty(details.blocks); },
                                [](const Section& section) { return empty(section); }},
                     block.content());
 }

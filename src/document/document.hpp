@@ -100,12 +100,6 @@ struct Remark {
 
 struct Block;
 
-/// Folded on a page until it is asked for.
-struct Details {
-  Sentence summary;
-  std::vector<Block> blocks;
-};
-
 /// A vector of blocks that a section can begin without: what makes and destroys it stands where a
 /// block is complete.
 struct Blocks : std::vector<Block> {
@@ -132,8 +126,7 @@ struct Section {
   Importance importance = Importance::answer;
 };
 
-struct Block
-    : std::variant<Paragraph, List, Glossary, Table, Figures, Banner, Remark, Details, Section> {
+struct Block : std::variant<Paragraph, List, Glossary, Table, Figures, Banner, Remark, Section> {
   using variant::variant;
   const variant& content() const { return *this; }
   variant& content() { return *this; }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstdlib>
 
 #include "core/json.hpp"
 #include "plot/plot.hpp"
@@ -49,10 +51,74 @@ std::string unit_html(const std::string& name) {
   return out;
 }
 
+bool belongs_to_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '-';
+}
+
+/// The number with an exponent that `text` begins with: mantissa, exponent, length; no length
+/// without one.
+struct PowerOfTen {
+  std::string_view mantissa;
+  int exponent = 0;
+  std::size_t length = 0;
+};
+
+PowerOfTen power_of_ten(std::string_view text) {
+  const std::size_t e = text.find_first_not_of("0123456789.");
+  if (e == 0 || e == std::string_view::npos || text[e] != 'e') return {};
+  const bool sign = e + 1 < text.size() && (text[e + 1] == '-' || text[e + 1] == '+');
+  const std::size_t from = e + (sign ? 2 : 1);
+  const std::size_t end = std::min(text.find_first_not_of("0123456789", from), text.size());
+  constexpr std::size_t most_digits = 3;
+  if (end == from || end > from + most_digits) return {};
+  if (end < text.size() && text[end] != '.' && belongs_to_word(text[end])) return {};
+  const int power = std::stoi(std::string(text.substr(from, end - from)));
+  return {text.substr(0, e), text[e + 1] == '-' ? -power : power, end};
+}
+
+/// Plain text as it is printed: 5e-15 as a power of ten, and behind a number um as µm, J/m2 as J/m²
+/// and +/- as ±.
+std::string text_html(std::string_view text) {
+  using Replacement = std::pair<std::string_view, std::string_view>;
+  static constexpr std::array<Replacement, 5> behind_numbers = {
+      {{"um", "µm"}, {"J/m2", "J/m²"}, {"kg/m3", "kg/m³"}, {"m/s2", "m/s²"}, {"+/-", "±"}}};
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::string_view rest = text.substr(i);
+    const bool minus = i > 0 && text[i - 1] == '-' && (i == 1 || !belongs_to_word(text[i - 2]));
+    const bool word_begins = i == 0 || minus || !belongs_to_word(text[i - 1]);
+    if (word_begins) {
+      if (const PowerOfTen found = power_of_ten(rest); found.length > 0) {
+        out += fmt::format("{}10<sup>{}{}</sup>",
+                           found.mantissa == "1" ? "" : fmt::format("{} × ", found.mantissa),
+                           found.exponent < 0 ? "−" : "", std::abs(found.exponent));
+        i += found.length;
+        continue;
+      }
+    }
+    const bool behind_number =
+        i > 1 && text[i - 1] == ' ' && std::isdigit(static_cast<unsigned char>(text[i - 2])) != 0;
+    const auto* const sign =
+        std::find_if(behind_numbers.begin(), behind_numbers.end(), [&](const Replacement& one) {
+          const std::size_t end = one.first.size();
+          return rest.starts_with(one.first) &&
+                 (end == rest.size() || rest[end] == '.' || !belongs_to_word(rest[end]));
+        });
+    if (behind_number && sign != behind_numbers.end()) {
+      out += sign->second;
+      i += sign->first.size();
+    } else {
+      out += escape_html(rest.substr(0, 1));
+      ++i;
+    }
+  }
+  return out;
+}
+
 std::string run_html(const Run& run) {
   switch (run.kind) {
     case RunKind::text:
-      return escape_html(run.text);
+      return text_html(run.text);
     case RunKind::symbol:
       return symbol_html(run.text);
     case RunKind::unit:
@@ -64,7 +130,7 @@ std::string run_html(const Run& run) {
     case RunKind::qualifier:
       return fmt::format(" <small>({})</small>", escape_html(run.text));
     case RunKind::strong:
-      return fmt::format("<strong>{}</strong>", escape_html(run.text));
+      return fmt::format("<strong>{}</strong>", text_html(run.text));
     case RunKind::code:
       return fmt::format("<code>{}</code>", escape_html(run.text));
     case RunKind::link:
@@ -87,16 +153,24 @@ bool has_long_cells(const Table& table, std::size_t column) {
   });
 }
 
+/// A wide table becomes one list per row on a phone, in which every cell has its heading.
 std::string table_html(const Table& full) {
+  constexpr std::size_t widest = 3;  // columns that a phone shows side by side
   const Table table = without_empty_columns(full);
-  std::string out = fmt::format("<div class=\"wide\" tabindex=\"0\"><table{}>\n",
-                                table.compact ? " class=\"compact\"" : "");
+  const bool stacks = table.has_headings() && table.columns.size() > widest;
+  std::string out = fmt::format("<div class=\"wide\"><table class=\"{}{}\">\n",
+                                table.compact ? "compact" : "full", stacks ? " stack" : "");
   if (!table.caption.empty()) {
     out += fmt::format("<caption>{}</caption>\n", html_of(table.caption));
   }
   const auto look = [&](std::size_t c) {
     if (!table.columns[c].words) return "";
     return has_long_cells(table, c) ? " class=\"words prose\"" : " class=\"words\"";
+  };
+  const auto label = [&](std::size_t c) {
+    const TableColumn& column = table.columns[c];
+    return fmt::format(" data-label=\"{}{}\"", escape_html(plain_text(column.heading)),
+                       column.unit.empty() ? "" : fmt::format(" [{}]", unit_html(column.unit)));
   };
   if (table.has_headings()) {
     out += "<thead><tr>";
@@ -111,7 +185,7 @@ std::string table_html(const Table& full) {
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string cell = html_of(words_of_cell(row[c]));
       out += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", cell)
-                    : fmt::format("<td{}>{}</td>", look(c), cell);
+                    : fmt::format("<td{}{}>{}</td>", look(c), stacks ? label(c) : "", cell);
     }
     out += "</tr>\n";
   }
@@ -212,10 +286,6 @@ struct HtmlBlock {
         "<p class=\"verdict {}\"><span class=\"mark\" aria-hidden=\"true\">{}</span> {}</p>\n",
         escape_html(remark.look), escape_html(remark.sign), html_of(remark.text));
   }
-  std::string operator()(const Details& details) const {
-    return fmt::format("<details><summary>{}</summary>\n{}</details>\n", html_of(details.summary),
-                       html_of(details.blocks));
-  }
   std::string operator()(const Section& section) const {
     return section.title.empty()
                ? html_of(section.blocks)
@@ -314,8 +384,9 @@ std::string html_page(Document document) {
       "base-uri 'none'; form-action 'none'\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n"
-      "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body{}>\n{}</header>\n"
-      "<main{}>\n{}</main>\n<footer>{}</footer>\n{}</body>\n</html>\n",
+      "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body{}>\n<a class=\"skip\" "
+      "href=\"#main\">Skip to the result</a>\n{}</header>\n"
+      "<main id=\"main\"{}>\n{}</main>\n<footer>{}</footer>\n{}</body>\n</html>\n",
       escape_html(document.title), style_sheet(),
       document.name.empty() ? "" : fmt::format(" data-name=\"{}\"", escape_html(document.name)),
       head, document.cards ? " class=\"cards\"" : "", body, escape_html(document.foot), scripts);

@@ -24,6 +24,8 @@ body {
   font: 1rem/1.55 system-ui, -apple-system, "Segoe UI", "DejaVu Sans", Helvetica, Arial, sans-serif;
 }
 a { color: var(--accent); }
+.skip { position: absolute; left: -100rem; }
+.skip:focus { position: static; }
 h1 { font-size: 1.75rem; line-height: 1.25; margin: 0 0 .25rem; letter-spacing: -.01em; }
 h2 { font-size: 1.25rem; line-height: 1.3; margin: 2.5rem 0 .75rem; padding-top: .75rem;
   border-top: 1px solid var(--line); }
@@ -76,10 +78,12 @@ thead th { border-top: 0; color: var(--quiet); font-weight: 600; }
 tbody th { font-weight: 600; }
 th:first-child { text-align: left; }
 td.words, th.words { text-align: left; }
+td.words, tbody th { white-space: normal; min-width: 5rem; }
 td.prose { white-space: normal; min-width: 16rem; }
 table.compact { font-size: .8rem; }
 table.compact th, table.compact td { padding: .18rem .7rem; font-weight: 400; }
-.answer table.compact td { padding: .18rem .4rem; }
+.answer table.compact th, .answer table.compact td { padding: .18rem .35rem; }
+.answer table.compact th { white-space: normal; }
 .answer table.compact td.words { white-space: normal; min-width: 4rem; }
 dt { font-weight: 600; margin-top: .7rem; }
 dd { margin: .1rem 0 0 1.2rem; }
@@ -90,8 +94,9 @@ details.section > summary h2 { display: inline; border: 0; margin: 0; padding: 0
   grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); }
 .answer > section { grid-column: 1 / -1; min-width: 0; }
 .answer > section > h2 { border: 0; margin: .5rem 0; padding: 0; font-size: 1.05rem; }
-.answer > #picture { grid-column: auto; grid-row: span 2; }
-.answer > #capture, .answer > #parameters { grid-column: auto; }
+.answer > #picture:has(.single) { grid-column: auto; grid-row: span 3; }
+.answer > #capture, .answer > #parameters, .answer > #calibrations { grid-column: auto; }
+.answer .wide { margin: .25rem 0 .75rem; }
 footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line);
   color: var(--quiet); font-size: .85rem; }
 .cards { display: grid; gap: 1.25rem; margin-top: 1.5rem;
@@ -112,14 +117,21 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
 .card table { font-size: .86rem; }
 .card tbody th, .card td:last-child { white-space: normal; }
 .card th, .card td { padding: .35rem .6rem; }
-.card > p:last-child { margin: auto 0 0; padding: .7rem 1rem;
-  border-top: 1px solid var(--line); }
+.card > p:not(.subtitle):not(.verdict) { margin: 0; padding: 0 1rem .5rem; font-size: .86rem;
+  color: var(--quiet); }
 @media (max-width: 34rem) {
   body { padding: 1rem .75rem 2rem; }
   h1 { font-size: 1.4rem; }
   th, td { padding: .38rem .6rem; }
-  tbody th { white-space: normal; min-width: 6.5rem; }
-  td.prose { min-width: 11rem; }
+  th, td, tbody th, table.compact td { white-space: normal; overflow-wrap: anywhere; }
+  td.prose { min-width: 0; }
+  .stack thead { display: none; }
+  .stack tr { display: block; padding: .3rem 0; border-top: 1px solid var(--line); }
+  .stack th, .stack td { display: block; border: 0; padding: .12rem .6rem; }
+  .stack td { text-align: right; overflow: hidden; }
+  .stack td::before { content: attr(data-label); float: left; margin-right: 1rem;
+    color: var(--quiet); }
+  .stack td:empty, .stack td[data-label=""]::before { display: none; }
   .explore .control { grid-template-columns: 1fr 7.5rem; }
   .explore .control span { grid-column: 1 / -1; }
 }
@@ -129,7 +141,7 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
     --doubt: #000; }
   @page { margin: 15mm; }
   body { max-width: none; padding: 0; font-size: 9.5pt; }
-  nav, .card > p:last-child, .save, .explore, .explored { display: none; }
+  nav, .skip, .save, .explore, .explored { display: none; }
   h1 { font-size: 17pt; }
   h2 { font-size: 12.5pt; margin-top: 1.4rem; break-after: avoid; }
   h3 { break-after: avoid; }
@@ -147,7 +159,6 @@ footer { margin-top: 3rem; padding-top: .75rem; border-top: 1px solid var(--line
   th, td { padding: .15rem .4rem; white-space: normal; }
   td.prose { min-width: 0; }
   table.compact th, table.compact td { padding: .08rem .4rem; }
-  table.compact td { white-space: nowrap; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
   a { color: inherit; text-decoration: none; }

@@ -96,9 +96,6 @@ struct MarkdownBlock {
   std::string operator()(const Remark& remark) const {
     return fmt::format("{} {}\n\n", remark.sign, markdown_of(remark.text));
   }
-  std::string operator()(const Details& details) const {
-    return markdown_of(details.summary) + ":\n\n" + markdown_of(details.blocks);
-  }
   std::string operator()(const Section& section) const {
     const std::string title =
         section.title.empty() ? "" : fmt::format("### {}\n\n", markdown_of(section.title));

@@ -1,5 +1,5 @@
-// Saves the pictures of a page: beside each a link to it as SVG and one to its data as CSV, made of
-// what is in the page. The data of a picture are a JSON string in the script of class csv after it,
+// Saves the pictures of a page: beside each links to it as SVG and PNG and one to its data as CSV,
+// made of what is in the page. The data of a picture are a JSON string in the script of class csv after it,
 // with runs of commas counted (html.cpp).
 "use strict";
 
@@ -13,6 +13,34 @@ document.addEventListener("DOMContentLoaded", () => {
   const fileName = text => text.toLowerCase().replace(/µ/g, "u").replace(/[^a-z0-9.]+/g, "-")
                                .replace(/^[-.]+|[-.]+$/g, "");
   const page = document.body.dataset.name;
+
+  // The picture by itself, at the size of its view box.
+  function alone(svg) {
+    const copy = svg.cloneNode(true);
+    const [, , width, height] = svg.getAttribute("viewBox").split(" ");
+    copy.setAttribute("width", width);
+    copy.setAttribute("height", height);
+    return new XMLSerializer().serializeToString(copy);
+  }
+
+  // A PNG of three pixels per unit, on white, is saved as soon as it is drawn.
+  function savePng(svg, file) {
+    const image = new Image();
+    image.onload = () => {
+      const canvas = document.createElement("canvas");
+      canvas.width = 3 * image.width;
+      canvas.height = 3 * image.height;
+      const context = canvas.getContext("2d");
+      context.fillStyle = "#fff";
+      context.fillRect(0, 0, canvas.width, canvas.height);
+      context.drawImage(image, 0, 0, canvas.width, canvas.height);
+      const made = document.createElement("a");
+      made.download = file;
+      made.href = canvas.toDataURL("image/png");
+      made.click();
+    };
+    image.src = "data:image/svg+xml," + encodeURIComponent(alone(svg));
+  }
 
   // The file is made when it is asked for: a picture may have changed since the page was read.
   function link(label, file, type, content) {
@@ -37,13 +65,16 @@ document.addEventListener("DOMContentLoaded", () => {
     const name = page ? page + "-" + title : title;
     const links = document.createElement("p");
     links.className = "save";
-    links.append("Save: ", link("SVG", name + ".svg", "image/svg+xml", () => {
-      const alone = svg.cloneNode(true);
-      const [, , width, height] = svg.getAttribute("viewBox").split(" ");
-      alone.setAttribute("width", width);
-      alone.setAttribute("height", height);
-      return new XMLSerializer().serializeToString(alone);
-    }));
+    links.append("Save: ", link("SVG", name + ".svg", "image/svg+xml", () => alone(svg)));
+    const png = document.createElement("a");
+    png.textContent = "PNG";
+    png.title = png.download = name + ".png";
+    png.href = "data:,";
+    png.addEventListener("click", event => {
+      event.preventDefault();
+      savePng(svg, png.download);
+    });
+    links.append(" ", png);
     const data = (figure || picture.parentNode).querySelector("script.csv");
     if (data) {
       links.append(" ", link("CSV", name + ".csv", "text/csv", () =>

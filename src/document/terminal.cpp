@@ -1,8 +1,11 @@
 #include "document/terminal.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 
 namespace recoil {
@@ -158,7 +161,7 @@ std::string row_text(const Layout& layout, const std::vector<std::string>& cells
   return out;
 }
 
-std::string items_text(const Table& table, std::size_t indent) {
+std::string items_text(const Table& table, std::size_t indent, std::size_t columns) {
   std::size_t width = narrowest_name;
   for (const auto& row : table.rows) {
     const std::size_t own = code_points(plain_text(words_of_cell(row[0])));
@@ -173,68 +176,80 @@ std::string items_text(const Table& table, std::size_t indent) {
     out += std::string(indent, ' ');
     out += code_points(name) < width
                ? padded_to(name, width, false)
-               : wrap(name, terminal_columns, indent) + '\n' + std::string(indent + width, ' ');
-    out += "= " + wrap(value, terminal_columns, column) + '\n';
+               : wrap(name, columns, indent) + '\n' + std::string(indent + width, ' ');
+    out += "= " + wrap(value, columns, column) + '\n';
   }
   return out;
 }
 
-std::string paragraph_text(const Sentence& words, std::size_t indent) {
-  return std::string(indent, ' ') + wrap(plain_text(words), terminal_columns, indent) + '\n';
+std::string paragraph_text(const Sentence& words, std::size_t indent, std::size_t columns) {
+  return std::string(indent, ' ') + wrap(plain_text(words), columns, indent) + '\n';
 }
 
-std::string blocks_text(const std::vector<Block>& blocks);
+std::string blocks_text(const std::vector<Block>& blocks, std::size_t columns);
 
 struct TerminalBlock {
+  std::size_t columns;
+
   std::string operator()(const Paragraph& paragraph) const {
-    return paragraph_text(paragraph.text, margin);
+    return paragraph_text(paragraph.text, margin, columns);
   }
   std::string operator()(const List& list) const {
     std::string out;
     for (const Sentence& entry : list.entries) {
-      out += fmt::format("    - {}\n", wrap(plain_text(entry), terminal_columns, margin + 2));
+      out += fmt::format("    - {}\n", wrap(plain_text(entry), columns, margin + 2));
     }
     return out;
   }
   std::string operator()(const Glossary& glossary) const {
     std::string out;
     for (const auto& [term, meaning] : glossary.entries) {
-      out += std::string(margin, ' ') +
-             wrap(fmt::format("{}: {}", plain_text(term), plain_text(meaning)), terminal_columns,
-                  2 * margin) +
-             '\n';
+      out +=
+          std::string(margin, ' ') +
+          wrap(fmt::format("{}: {}", plain_text(term), plain_text(meaning)), columns, 2 * margin) +
+          '\n';
     }
     return out;
   }
-  std::string operator()(const Table& table) const { return terminal_text(table, margin); }
+  std::string operator()(const Table& table) const { return terminal_text(table, margin, columns); }
   std::string operator()(const Figures&) const { return ""; }
   std::string operator()(const Banner& banner) const {
     const std::string text = plain_text(banner.text);
     const bool named = text.find(banner.label) != std::string::npos;
-    return paragraph_text(named ? text : fmt::format("{}: {}", banner.label, text), margin);
+    return paragraph_text(named ? text : fmt::format("{}: {}", banner.label, text), margin,
+                          columns);
   }
   std::string operator()(const Remark& remark) const {
-    return paragraph_text(Sentence(remark.sign + " ") + remark.text, margin);
-  }
-  std::string operator()(const Details& details) const {
-    return paragraph_text(details.summary + Sentence(":"), margin) + blocks_text(details.blocks);
+    return paragraph_text(Sentence(remark.sign + " ") + remark.text, margin, columns);
   }
   std::string operator()(const Section& section) const {
-    return section.title.empty()
-               ? blocks_text(section.blocks)
-               : paragraph_text(section.title, margin) + blocks_text(section.blocks);
+    return section.title.empty() ? blocks_text(section.blocks, columns)
+                                 : paragraph_text(section.title, margin, columns) +
+                                       blocks_text(section.blocks, columns);
   }
 };
 
-std::string blocks_text(const std::vector<Block>& blocks) {
+std::string blocks_text(const std::vector<Block>& blocks, std::size_t columns) {
   std::string out;
   for (const Block& block : blocks) {
-    if (!empty(block)) out += std::visit(TerminalBlock{}, block.content());
+    if (!empty(block)) out += std::visit(TerminalBlock{columns}, block.content());
   }
   return out;
 }
 
 }  // namespace
+
+std::size_t output_columns() {
+  constexpr std::size_t fewest = 60;
+  winsize window{};
+  std::size_t columns = 0;
+  if (const char* const stated = std::getenv("COLUMNS")) {
+    columns = std::strtoul(stated, nullptr, 10);
+  } else if (isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0) {
+    columns = window.ws_col;
+  }
+  return columns == 0 ? terminal_columns : std::clamp(columns, fewest, terminal_columns);
+}
 
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
   std::string out;
@@ -273,38 +288,39 @@ std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
   return out;
 }
 
-std::string terminal_text(const Table& table, std::size_t indent) {
+std::string terminal_text(const Table& table, std::size_t indent, std::size_t columns) {
   const Table shown = without_empty_columns(table);
   if (shown.empty()) return "";
-  std::string out = shown.caption.empty() ? "" : paragraph_text(shown.caption, indent);
-  if (!shown.has_headings() && shown.columns.size() == 2) return out + items_text(shown, indent);
-  const std::size_t room = terminal_columns - indent;
+  std::string out = shown.caption.empty() ? "" : paragraph_text(shown.caption, indent, columns);
+  if (!shown.has_headings() && shown.columns.size() == 2)
+    return out + items_text(shown, indent, columns);
+  const std::size_t room = columns - indent;
   Layout layout = layout_of(shown);
   narrow(layout, room);
   if (layout.total() > room) layout.width[0] = std::min(layout.width[0], widest_heading);
   for (std::size_t c = 1; c < layout.width.size(); ++c) {
     layout.width[c] = std::min(layout.width[c], room - layout.width[0] - gap);
   }
-  for (const std::vector<std::size_t>& columns : groups_of(layout, room)) {
-    if (shown.has_headings()) out += row_text(layout, layout.headings, columns, indent, true);
-    for (const auto& row : layout.rows) out += row_text(layout, row, columns, indent, false);
+  for (const std::vector<std::size_t>& group : groups_of(layout, room)) {
+    if (shown.has_headings()) out += row_text(layout, layout.headings, group, indent, true);
+    for (const auto& row : layout.rows) out += row_text(layout, row, group, indent, false);
   }
   return out;
 }
 
-std::string terminal_text(const Section& section) {
-  const std::string body = blocks_text(section.blocks);
+std::string terminal_text(const Section& section, std::size_t columns) {
+  const std::string body = blocks_text(section.blocks, columns);
   if (body.empty()) return "";
   if (section.title.empty()) return body;
   const std::string remark = section.remark.empty() ? "" : " " + plain_text(section.remark);
-  return wrap(fmt::format("[[{}]]{}", plain_text(section.title), remark), terminal_columns, 0) +
-         '\n' + body;
+  return wrap(fmt::format("[[{}]]{}", plain_text(section.title), remark), columns, 0) + '\n' + body;
 }
 
-std::string terminal_text(const std::vector<Section>& sections, Importance least) {
+std::string terminal_text(const std::vector<Section>& sections, Importance least,
+                          std::size_t columns) {
   std::string out;
   for (const Section& section : sections) {
-    if (section.importance <= least) out += terminal_text(section);
+    if (section.importance <= least) out += terminal_text(section, columns);
   }
   return out;
 }

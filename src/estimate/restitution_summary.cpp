@@ -109,15 +109,15 @@ void add_means(const Group& group, std::vector<RestitutionMean>& means) {
   }
 }
 
-/// e = a_series + b log10 V by weighted least squares.
+/// e = a_series + b log10 V, and c (log10 V)^2 in degree 2, by weighted least squares.
 class Line {
  public:
-  Line(const std::vector<Reading>& readings, std::size_t series)
+  Line(const std::vector<Reading>& readings, std::size_t series, Eigen::Index degree = 1)
       : stated_(std::all_of(readings.begin(), readings.end(),
                             [](const Reading& r) { return r.sd > 0.0; })) {
     const auto n = static_cast<Eigen::Index>(readings.size());
     const auto s = static_cast<Eigen::Index>(series);
-    Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n, s + 1);
+    Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n, s + degree);
     Eigen::VectorXd y(n);
     std::vector<double> middle(series, 0.0), count(series, 0.0);
     for (const Reading& r : readings) {
@@ -131,7 +131,9 @@ class Line {
       const double log_v = std::log10(r.velocity);
       spread = std::max(spread, std::abs(log_v - middle[r.series] / count[r.series]));
       X(i, static_cast<Eigen::Index>(r.series)) = weight;
-      X(i, s) = weight * log_v;
+      for (Eigen::Index k = 1; k <= degree; ++k) {
+        X(i, s + k - 1) = weight * std::pow(log_v, static_cast<double>(k));
+      }
       y(i) = weight * r.e;
     }
     sloped_ = spread > 1e-9;
@@ -258,8 +260,17 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets) {
     summary.velocity.why = summary.series.why = "no sphere rebounded";
     return summary;
   }
-  Line line(readings, series);
-  if (places_scatter(readings, line)) line = Line(means_of_places(readings), series);
+  const auto [slow, fast] = std::minmax_element(
+      readings.begin(), readings.end(),
+      [](const Reading& one, const Reading& other) { return one.velocity < other.velocity; });
+  summary.velocities = {slow->velocity, fast->velocity};
+  const auto [low, high] =
+      std::minmax_element(readings.begin(), readings.end(),
+                          [](const Reading& one, const Reading& other) { return one.e < other.e; });
+  summary.values = {low->e, high->e};
+  const bool scattered = places_scatter(readings, Line(readings, series));
+  const std::vector<Reading> used = scattered ? means_of_places(readings) : readings;
+  const Line line(used, series);
   const auto s = static_cast<Eigen::Index>(series);
   const auto assess = [&](const Eigen::VectorXd& contrast, const Eigen::MatrixXd& all,
                           TestedEffect& effect) {
@@ -274,6 +285,10 @@ RestitutionSummary summarise_restitution(const std::vector<Dataset>& datasets) {
   if (line.sloped()) {
     const Eigen::VectorXd slope = Eigen::VectorXd::Unit(s + 1, s);
     assess(slope, slope, summary.velocity);
+    const Line bent(used, series, 2);
+    if (bent.has_errors() && bent.dof() > 0) {
+      summary.bend = bent.p_value(Eigen::MatrixXd::Identity(s + 2, s + 2).rightCols(2));
+    }
   } else {
     summary.velocity.why = series > 1 ? "one velocity in each series" : "one velocity";
   }

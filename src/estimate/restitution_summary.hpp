@@ -42,12 +42,17 @@ struct TestedEffect {
 ///   [1/decade]; a p-value is the larger one of those from stated errors and from the scatter.
 ///   Where the means of the settings scatter more about the line than their points explain (F-test
 ///   at 5 %), each of them counts as one reading.
+/// - `bend` is the p-value that neither b nor c of e = a_series + b log10 V + c (log10 V)^2 differs
+///   from 0, by the same tests: e near capture rises and then falls, which no slope shows.
 /// - `series` is the largest difference between two series at equal velocity, and the p-value that
 ///   of all differences (analysis of covariance).
 struct RestitutionSummary {
   std::vector<RestitutionMean> means;  ///< of every series, then of its settings
   TestedEffect velocity;
   TestedEffect series;
+  std::optional<double> bend;             ///< none: too few readings, or no errors
+  std::array<double, 2> velocities = {};  ///< smallest and largest V of a rebound [m/s]
+  std::array<double, 2> values = {};      ///< smallest and largest e of a rebound
   std::array<std::size_t, 2> most_different = {0, 0};  ///< places in `means`
   bool several_series = false;
 };

@@ -37,6 +37,12 @@ std::string titles_of(const std::vector<std::string>& ids, const char* between) 
   return fmt::format("{}", fmt::join(titles, between));
 }
 
+std::string short_titles(const std::vector<std::string>& ids) {
+  std::vector<std::string> titles;
+  for (const std::string& id : ids) titles.push_back(words_of(id));
+  return fmt::format("{}", fmt::join(titles, ", "));
+}
+
 std::string gain_words(const Diagnosis& d) {
   if (!d.gain || d.gain->folds.empty()) return "";
   if (!d.gain->any_chosen()) {
@@ -211,37 +217,24 @@ std::string wrong_words(const Diagnosis& d) {
                      found.empty() ? "" : ": ", found);
 }
 
+/// What the headline does not say of several possible causes.
 std::string several_words(const Diagnosis& d) {
-  const std::string all = titles_of(d.rivals, "; ");
   if (has_one_size(d.base.data)) {
-    return fmt::format(
-        "One diameter does not show how an effect depends on size, which is what tells one cause "
-        "from another; {} would do: {}.",
-        d.rivals.size() == 1 ? "this" : "any of these", all);
+    return "One diameter does not show how an effect depends on size, which is what tells one "
+           "cause from another.";
   }
-  if (!d.shared_cause.empty()) {
-    return fmt::format("The cause is {}; which of its laws holds, these data cannot tell: {}.",
-                       d.shared_cause, all);
-  }
+  if (!d.shared_cause.empty()) return "These data cannot tell which of its laws holds.";
   if (!d.alone.empty()) {
     return fmt::format(
         "Two causes at once leave nothing behind ({}), but one alone comes so close ({}) that it "
-        "is as likely, if its law is wrong by more than laws are taken to be. Candidates: {}.",
-        words_of(d.extended->candidate.name()), titles_of(d.alone, "; "), all);
+        "is as likely, if its law is wrong by more than laws are taken to be.",
+        words_of(d.extended->candidate.name()), short_titles(d.alone));
   }
   if (d.extended->candidate.added.size() > 1) {
-    std::vector<std::string> others = d.rivals;
-    std::erase_if(others, [&](const std::string& id) {
-      return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
-    });
-    return d.common.empty()
-               ? fmt::format("It takes two causes at once, and these data cannot tell which: {}.",
-                             all)
-               : fmt::format("It takes two causes at once: {}, and one of {}.",
-                             titles_of(d.common, " and "), titles_of(others, "; "));
+    return d.common.empty() ? "It takes two causes at once, and these data cannot tell which."
+                            : "It takes two causes at once.";
   }
-  return fmt::format(
-      "These data cannot tell which of these causes it is, or whether it is another one: {}.", all);
+  return "It may be another cause, too.";
 }
 
 /// What has the shape of the misfit, and why it is not believed all the same.

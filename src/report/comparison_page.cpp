@@ -13,8 +13,7 @@
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_on_page = 12;  // quantities in the table of a fit's page
-constexpr double errors_to_end = 1.96;    // standard errors of a 95 % interval of a normal estimate
+constexpr double errors_to_end = 1.96;  // standard errors of a 95 % interval of a normal estimate
 
 const ComparedQuantity* quantity_of(const ComparedFit& fit, const std::string& name) {
   const auto found =
@@ -212,7 +211,9 @@ ComparedFit compared_fit(const std::string& file, const std::string& fit_json) {
 }
 
 std::string capture_name(double diameter_um, const std::string& dataset, std::size_t datasets) {
-  const std::string name = fmt::format("V* at {:.4g} um", diameter_um);
+  const std::string name = diameter_um < 1000.0
+                               ? fmt::format("V* at {:.4g} um", diameter_um)
+                               : fmt::format("V* at {:.4g} mm", diameter_um / 1000.0);
   return datasets > 1 ? name + ", " + dataset : name;
 }
 
@@ -263,10 +264,7 @@ std::vector<Section> comparison_sections(const std::vector<ComparedFit>& fits) {
 
 std::vector<Block> law_blocks(const std::vector<ComparedFit>& laws) {
   if (laws.size() < 2) return {};
-  std::vector<Block> blocks = {quality_table(laws),
-                               Paragraph{dependence_words(choice_dependence(laws))}};
-  if (compared_names(laws).size() <= most_on_page) blocks.emplace_back(quantity_table(laws));
-  return blocks;
+  return {quality_table(laws), Paragraph{dependence_words(choice_dependence(laws))}};
 }
 
 }  // namespace recoil

@@ -76,7 +76,7 @@ ChoiceDependence choice_dependence(const std::vector<ComparedFit>& fits);
 /// @throws InputError when they are not of the same data. @pre two or more
 std::vector<Section> comparison_sections(const std::vector<ComparedFit>& fits);
 
-/// The same as blocks of the page of a fit; none without another law.
+/// Their quality, and whether the choice matters, for the page of a fit; none without another law.
 std::vector<Block> law_blocks(const std::vector<ComparedFit>& laws);
 
 }  // namespace recoil

@@ -81,7 +81,7 @@ Sentence override_words(const ImpactSystem& system) {
     stated.push_back(say("{f0} {:g} N/m", *system.adhesion_force_f0));
   }
   if (system.reference_diameter) {
-    stated.push_back(say("reference diameter {:g} {um}", *system.reference_diameter / units::um));
+    stated.push_back(say("reference diameter {}", diameter_sentence(*system.reference_diameter)));
   }
   return join(stated, ", ");
 }

@@ -127,10 +127,8 @@ Figure misfit_figure(const Diagnosis& d, std::size_t dataset) {
   picture.plots = {std::move(shown)};
   return figure_of(
       std::move(picture),
-      std::string("Every disc is a point. Orange: the measured e is higher than the fitted base "
-                  "model; blue: lower. The larger, the more standard deviations. Patches of one "
-                  "colour are structure; a mixture is noise.") +
-          (one_size ? " There is one diameter: the height of a disc is its residual." : ""));
+      "Every disc is a point, larger for more standard deviations. Orange: e lies above the model; "
+      "blue: below. Patches of one colour are structure, a mixture is noise.");
 }
 
 /// Is it the extended model, or one that cannot be told from it?
@@ -223,15 +221,13 @@ Figure before_after_figure(const Diagnosis& d, std::size_t dataset) {
   picture.name = fmt::format("before-after-{}", dataset);
   picture.title =
       "Restitution against velocity under the base and the extended model" + in_dataset(d, dataset);
-  picture.width = 720;
-  picture.height = 420;
+  picture.width = 560;
+  picture.height = 380;
   picture.plots = {std::move(shown)};
-  return figure_of(
-      std::move(picture),
-      fmt::format("Dashed: the base model fitted to all points. Solid: extended by {}. Error "
-                  "bars are one standard deviation.",
-                  d.extended->candidate.name()),
-      true);
+  return figure_of(std::move(picture),
+                   fmt::format("Dashed: the model. Solid: extended by {}. Error bars are one "
+                               "standard deviation.",
+                               words_of(d.extended->candidate.name())));
 }
 
 }  // namespace
@@ -286,7 +282,7 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
     const CandidateResult& c = *shown[k];
     const double row = static_cast<double>(k);
     (is_answer(d, c) ? taken : aside).add(0.0, -c.delta_aicc, row - 0.32, row + 0.32);
-    ranking.y.ticks.push_back({row, c.candidate.name()});
+    ranking.y.ticks.push_back({row, words_of(c.candidate.name())});
     plot::Words reason{short_set_aside_words(c), plot::on_axis(-c.delta_aicc), plot::on_axis(row)};
     reason.size = 9.0;
     reason.colour = plot::grey;
@@ -307,10 +303,10 @@ std::vector<Figure> ranking_figures(const Diagnosis& d) {
   picture.plots = {std::move(ranking)};
   return {
       figure_of(std::move(picture),
-                fmt::format("The longer the bar, the better the whole model fits with this added, "
-                            "after the penalty for its parameters. Blue: the answer. Grey: further "
-                            "behind, or set aside for the reason beside it. Bars within {:.0f} of "
-                            "each other ({:.0f} where two act at once) cannot be told apart.",
+                fmt::format("What each cause gains after the penalty for its parameters. Blue: the "
+                            "answer. Grey: further behind, or set aside for the reason beside it. "
+                            "Bars within {:.0f} of each other ({:.0f} where two act at once) "
+                            "cannot be told apart.",
                             d.options.margin, d.options.margin_in_pairs),
                 true)};
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "diagnosis/diagnosis_result.hpp"
+#include "document/number.hpp"
 #include "report/format.hpp"
 
 namespace recoil {
@@ -48,8 +49,11 @@ std::string headline_of_several(const Diagnosis& d) {
 std::string headline(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::adequate:
-      return tests_the_curve(d) ? "The model describes these points"
-                                : "These points cannot test the model";
+      if (!tests_the_curve(d)) return "These points cannot test the model";
+      return d.base.noise_verdict == NoiseVerdict::exceeded && d.spec.law_error > 0.0
+                 ? fmt::format("The model describes these points, if its laws may be wrong by {}",
+                               percent(d.spec.law_error))
+                 : "The model describes these points";
     case Verdict::cause_named:
       return "What the model misses: " + causes(d.named);
     case Verdict::not_separable:

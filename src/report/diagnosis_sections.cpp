@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
+#include "mechanism/catalogue.hpp"
 #include "report/answer_words.hpp"
 #include "report/diagnosis_figures.hpp"
 #include "report/diagnosis_headline.hpp"
@@ -20,8 +21,8 @@ namespace recoil {
 namespace {
 
 constexpr std::size_t most_pairs = 8;
-constexpr std::size_t most_values = 8;         // of the parameters of one mechanism
-constexpr std::size_t sentences_in_short = 3;  // of the answer, on the page of the fit
+constexpr std::size_t most_misfits_on_top = 2;  // figures in the answer
+constexpr std::size_t sentences_in_short = 3;   // of the answer, on the page of the fit
 
 /// One parameter under one of the models.
 struct UnderModel {
@@ -34,13 +35,9 @@ UnderModel under_model(const FitResult& fitted, const std::vector<IntervalSet>& 
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     if (fitted.model.slots[j].label() != label) continue;
     if (!fitted.model.slots[j].free) {
-      const bool moves = fitted.model.slots[j].is_constant();
-      const bool follows = followed_in(fitted.model, j).has_value();
       return {Number{acting_value(fitted.model, fitted.theta, j)},
               {},
-              moves     ? "moves within its stated error"
-              : follows ? "follows the materials"
-                        : "fixed"};
+              followed_in(fitted.model, j) ? "follows the materials" : "fixed"};
     }
     const double error = j < fitted.std_error.size() ? fitted.std_error[j] : 0.0;
     UnderModel found{Number{fitted.theta[j], significant(4), error}, {}, ""};
@@ -59,13 +56,6 @@ Cell said_of_both(const std::string& base, const std::string& extended) {
   return Sentence(fmt::format("{}, then {}", base, extended));
 }
 
-Paragraph gain_summary(const Diagnosis& d) {
-  if (!d.gain || !d.gain->lower || !d.gain->upper || !d.gain->any_chosen()) return {};
-  return {say("Together: {} instead of {}, {:.0f} % less (95 % interval {:.0f} to {:.0f} %).",
-              number(d.gain->rmse_extended, 3), number(d.gain->rmse_base, 3),
-              100.0 * d.gain->relative, 100.0 * *d.gain->lower, 100.0 * *d.gain->upper)};
-}
-
 Table structure_table(const Diagnosis& d) {
   Table table;
   table.caption =
@@ -82,11 +72,12 @@ Table misfit_table(const Diagnosis& d) {
   const SizeUnit sizes = size_unit(d.datasets);
   Table table;
   table.caption = say("Mean misfit, {e} - {e}_model: positive where the model is too low");
-  table.columns = {{"dataset"},     {say("{d}"), sizes.name}, {say("{V}"), "m/s"}, {"points"},
-                   {say("in {e}")}, {"energy", "J"},          {"standard errors"}};
+  table.columns = {{say("{d}"), sizes.name}, {"dataset", "", true}, {say("{V}"), "m/s"}, {"points"},
+                   {say("in {e}")},          {"energy", "J"},       {"standard errors"}};
   for (const MisfitCell& cell : d.where) {
     table.rows.push_back(
-        {Sentence(d.datasets[cell.dataset].id), Sentence(size_text(cell.diameter, sizes)),
+        {Sentence(size_text(cell.diameter, sizes)),
+         d.datasets.size() > 1 ? Cell(Sentence(short_name(d.datasets, cell.dataset))) : Cell(),
          say("{:.3g} to {:.3g}", cell.slowest, cell.fastest),
          Number{static_cast<double>(cell.points), fixed(0)},
          Number{cell.restitution, signed_fixed(3)}, Number{cell.energy, scientific(2)},
@@ -95,44 +86,58 @@ Table misfit_table(const Diagnosis& d) {
   return table;
 }
 
-Sentence value_of(const FoundParameter& p) {
-  return say("{} = {:.3g}", symbol(p.label), p.value) + unit_after_number(p.unit);
+/// Single mechanisms and the best pairs, the best first.
+std::vector<CandidateResult> tried(const Diagnosis& d) {
+  std::vector<CandidateResult> all = d.candidates;
+  const std::size_t pairs = std::min(d.pairs.size(), most_pairs);
+  all.insert(all.end(), d.pairs.begin(), d.pairs.begin() + static_cast<std::ptrdiff_t>(pairs));
+  std::stable_sort(all.begin(), all.end(), [](const auto& one, const auto& other) {
+    return one.delta_aicc < other.delta_aicc;
+  });
+  return all;
 }
 
-/// All of them; of many, the least and the largest.
-Sentence values_of(const std::vector<FoundParameter>& parameters) {
-  if (parameters.size() > most_values) {
-    const auto [least, largest] =
-        std::minmax_element(parameters.begin(), parameters.end(),
-                            [](const auto& a, const auto& b) { return a.value < b.value; });
-    return say("{} values from ", parameters.size()) + value_of(*least) + Sentence(" to ") +
-           value_of(*largest);
-  }
-  std::vector<Sentence> values;
-  for (const FoundParameter& p : parameters) values.push_back(value_of(p));
-  return join(values, ", ");
-}
-
-/// Every mechanism added to the model and refitted, with the values that it needs.
-Table candidates_table(const std::vector<CandidateResult>& candidates) {
+/// The mechanisms that gain more than their parameters cost or answer the question, each added to
+/// the model and refitted.
+Table candidates_table(const Diagnosis& d) {
   Table table;
   table.compact = true;
   table.caption = say(
-      "Mechanisms added to the model, one or two at a time. {p}: share of simulated data sets in "
-      "which the best of all candidates gains as much by chance; left: p-value of the remaining "
-      "structure");
-  table.columns = {{"mechanism"},        {"dAICc"}, {say("{p}")},
-                   {"held out"},         {"left"},  {"values", "", true},
-                   {"verdict", "", true}};
-  for (const CandidateResult& c : candidates) {
+      "Mechanisms added to the model, one or two at a time. Gain: of the corrected criterion "
+      "(AICc). {p}: share of simulated data sets in which the best of all candidates gains as much "
+      "by chance. Left: p-value of the remaining structure");
+  table.columns = {{"mechanism"}, {"gain"}, {say("{p}")},
+                   {"held out"},  {"left"}, {"verdict", "", true}};
+  std::size_t others = 0;
+  for (const CandidateResult& c : tried(d)) {
+    if (c.delta_aicc >= 0.0 && !c.explains()) {
+      ++others;
+      continue;
+    }
     table.rows.push_back(
-        {Sentence(c.candidate.name()), Number{c.delta_aicc, fixed(1)},
+        {Sentence(words_of(c.candidate.name())), Number{-c.delta_aicc, fixed(1)},
          cell_if(number_if(c.p_value, probability())),
          c.gain ? Cell(Number{c.gain->relative, in_percent(signed_fixed(0))}) : Cell(),
-         Number{c.remaining_p, probability()}, values_of(c.parameters),
-         Sentence(c.explains() ? "explains it" : set_aside_words(c))});
+         Number{c.remaining_p, probability()},
+         Sentence(c.explains() ? "explains it" : short_set_aside_words(c))});
+  }
+  if (others > 0) {
+    table.rows.push_back({say("{} others", others), {}, {}, {}, {}, "gain too little"});
   }
   return table;
+}
+
+/// What the causes in the answer mean.
+Glossary causes_glossary(const Diagnosis& d) {
+  Glossary glossary;
+  for (const auto* ids : {&d.named, &d.rivals, &d.resembles}) {
+    for (const std::string& id : *ids) {
+      const Mechanism* const mechanism = find_mechanism(id);
+      if (mechanism == nullptr) continue;
+      glossary.entries.emplace_back(words_of(id), std::string(mechanism->info.title));
+    }
+  }
+  return glossary;
 }
 
 std::string remark_of(const HeldOutGain::PerFold& fold) {
@@ -166,19 +171,23 @@ Table both_models_table(const Diagnosis& d) {
   Table table;
   if (!d.extended_fit) return table;
   const std::string level = percent(d.spec.uncertainty.level) + " interval";
+  table.compact = true;
   table.caption = "Parameters under both models";
   if (d.spec.law_error > 0.0) {
     table.caption += fmt::format(", without the law error of {} that the diagnosis allows",
                                  percent(d.spec.law_error));
   }
-  table.columns = {{"parameter"}, {"unit", "", true},  {"base"}, {level}, {"extended"},
-                   {level},       {"remark", "", true}};
-  for (const ParameterSlot& slot : d.extended_fit->model.slots) {
+  table.columns = {{"parameter"}, {"base"}, {level}, {"extended"}, {level}, {"remark", "", true}};
+  const ImpactModel& model = d.extended_fit->model;
+  for (std::size_t s = 0; s < model.slots.size(); ++s) {
+    const ParameterSlot& slot = model.slots[s];
+    if (slot.is_constant()) continue;
     const UnderModel base = under_model(d.base, d.base_intervals, slot.label());
     const UnderModel extended = under_model(*d.extended_fit, d.extended_intervals, slot.label());
-    table.rows.push_back({symbol(slot.label()), unit(slot.parameter->unit), base.estimate,
-                          base.interval, extended.estimate, extended.interval,
-                          said_of_both(base.remark, extended.remark)});
+    Sentence name = parameter_words(model, s, d.datasets);
+    if (slot.parameter->unit != "1") name += " [" + unit(slot.parameter->unit) + "]";
+    table.rows.push_back({std::move(name), base.estimate, base.interval, extended.estimate,
+                          extended.interval, said_of_both(base.remark, extended.remark)});
   }
   return table;
 }
@@ -187,14 +196,16 @@ Table capture_change_table(const Diagnosis& d) {
   const SizeUnit sizes = size_unit(d.datasets);
   Table table;
   table.caption = "Predicted capture velocity";
-  table.columns = {{"dataset"}, {say("{d}"), sizes.name}, {"base", "m/s"}, {"extended", "m/s"}};
+  table.columns = {
+      {say("{d}"), sizes.name}, {"dataset", "", true}, {"base", "m/s"}, {"extended", "m/s"}};
   const auto cell = [](const std::optional<double>& value) {
     return value ? Cell(Number{*value, significant(4)}) : Cell("none");
   };
   for (const CaptureChange& change : d.capture) {
-    table.rows.push_back({Sentence(d.datasets[change.dataset].id),
-                          Sentence(size_text(change.diameter, sizes)), cell(change.base),
-                          cell(change.extended)});
+    table.rows.push_back(
+        {Sentence(size_text(change.diameter, sizes)),
+         d.datasets.size() > 1 ? Cell(Sentence(short_name(d.datasets, change.dataset))) : Cell(),
+         cell(change.base), cell(change.extended)});
   }
   return table;
 }
@@ -206,8 +217,7 @@ Table next_experiment_table(const Diagnosis& d) {
   table.compact = true;
   table.caption =
       "Experiments with the least effort: impacts until the expected odds between two causes are "
-      "99 "
-      "to 1";
+      "99 to 1";
   table.columns = {{"do", "", true},          {"impacts"},         {say("{d}"), sizes.name},
                    {say("{V}"), "m/s"},       {"tells", "", true}, {"from", "", true},
                    {say("difference in {e}")}};
@@ -215,29 +225,8 @@ Table next_experiment_table(const Diagnosis& d) {
     table.rows.push_back(
         {Sentence(doing_words(next)), Number{static_cast<double>(next.events), fixed(0)},
          Sentence(size_text(next.diameter, sizes)), Number{next.velocity, significant(3)},
-         Sentence(next.one), Sentence(next.other), Number{next.difference, signed_fixed(3)}});
-  }
-  return table;
-}
-
-Table expected_table(const Diagnosis& d) {
-  const SizeUnit sizes = size_unit(d.datasets);
-  Table table;
-  if (d.expected.empty()) return table;
-  table.caption = "Effects that follow from the stated conditions, at the point they change most";
-  table.columns = {{"mechanism"},
-                   {"dataset", "", true},
-                   {"condition", "", true},
-                   {"value"},
-                   {say("{d}"), sizes.name},
-                   {say("{V}"), "m/s"},
-                   {say("change of {e}")}};
-  for (const ExpectedEffect& effect : d.expected) {
-    table.rows.push_back(
-        {Sentence(effect.id), Sentence(d.datasets[effect.dataset].id),
-         Sentence(condition_words(effect.condition)), Number{effect.stated, significant(4)},
-         Sentence(size_text(effect.diameter, sizes)), Number{effect.velocity, significant(3)},
-         Number{effect.change, significant(2)}});
+         Sentence(words_of(next.one)), Sentence(words_of(next.other)),
+         Number{next.difference, signed_fixed(3)}});
   }
   return table;
 }
@@ -245,44 +234,39 @@ Table expected_table(const Diagnosis& d) {
 Section answer_section(const Diagnosis& d) {
   Section answer{"answer", d.spec.id, "diagnosis"};
   const RestitutionSummary summary = summarise_restitution(d.datasets);
-  answer.blocks = {Paragraph{join(restitution_sentences(summary, d.datasets), " ")},
-                   Paragraph{strong(headline(d) + "."), true},
-                   Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " "))}};
-  for (const std::string& remark : d.remarks) answer.blocks.emplace_back(Paragraph{remark});
+  answer.blocks = {Paragraph{strong(headline(d) + "."), true},
+                   Paragraph{fmt::format("{}", fmt::join(answer_sentences(d), " "))},
+                   Paragraph{join(restitution_sentences(summary, d.datasets), " ")}};
   append(answer.blocks, provenance_banners(d.datasets));
   return answer;
-}
-
-/// Single mechanisms and the best pairs, the best first.
-std::vector<CandidateResult> tried(const Diagnosis& d) {
-  std::vector<CandidateResult> all = d.candidates;
-  const std::size_t pairs = std::min(d.pairs.size(), most_pairs);
-  all.insert(all.end(), d.pairs.begin(), d.pairs.begin() + static_cast<std::ptrdiff_t>(pairs));
-  std::stable_sort(all.begin(), all.end(), [](const auto& one, const auto& other) {
-    return one.delta_aicc < other.delta_aicc;
-  });
-  return all;
 }
 
 }  // namespace
 
 std::vector<Section> diagnosis_sections(const Diagnosis& d) {
-  const Figures before_after{before_after_figures(d)};
+  const std::vector<Figure> before_after = before_after_figures(d);
+  const std::vector<Figure> misfit = misfit_figures(d);
   const bool one = d.datasets.size() == 1;
+  std::vector<Figure> answer = one ? before_after : std::vector<Figure>();
+  std::vector<Figure> where = misfit;
+  if (one || misfit.size() <= most_misfits_on_top) {
+    answer.insert(answer.end(), misfit.begin(), misfit.end());
+    where.clear();
+  }
   std::vector<std::string> notes = answer_notes(d);
   for (std::string& warning : diagnosis_warnings(d)) notes.push_back(std::move(warning));
   return {answer_section(d),
-          {"picture", "", {}, {one ? before_after : Figures{}}},
+          {"picture", "", {}, {Figures{std::move(answer)}}},
           detail_section("misfit", "Where the model misses",
-                         {Figures{misfit_figures(d)}, structure_table(d), misfit_table(d)}),
+                         {Figures{std::move(where)}, structure_table(d), misfit_table(d)}),
           detail_section("causes", "Every cause tried",
-                         {Figures{ranking_figures(d)}, candidates_table(tried(d))}),
+                         {Figures{ranking_figures(d)}, candidates_table(d), causes_glossary(d)}),
           detail_section("gain", "The extended model",
-                         {one ? Figures{} : before_after, both_models_table(d),
-                          capture_change_table(d), held_out_table(d), gain_summary(d)}),
+                         {one ? Figures{} : Figures{before_after}, both_models_table(d),
+                          capture_change_table(d), held_out_table(d)}),
           detail_section("next", "What to measure next", {next_experiment_table(d)}),
           detail_section("notes", "Notes and warnings",
-                         {list_of_sentences({notes.begin(), notes.end()}), expected_table(d)})};
+                         {list_of_sentences({notes.begin(), notes.end()})})};
 }
 
 Section diagnosis_summary(const Diagnosis& d, const std::string& address) {
@@ -308,8 +292,25 @@ Document diagnosis_document(const Diagnosis& d) {
   return page;
 }
 
-std::string diagnosis_text(const Diagnosis& d, Importance least) {
-  return terminal_text(diagnosis_sections(d), least);
+std::string diagnosis_text(const Diagnosis& d, Importance least, std::size_t columns) {
+  std::string answer, details;
+  for (const Section& section : diagnosis_sections(d)) {
+    (section.importance == Importance::answer ? answer : details) +=
+        terminal_text(section, columns);
+  }
+  if (!d.spec.file.empty()) {
+    answer += terminal_text(
+        Section{"next",
+                "",
+                {},
+                {Paragraph{say(
+                    "Next: {} (a page, and the extended model as a fit file), {} (every "
+                    "cause tried).",
+                    code(fmt::format("recoil diagnose {} --out DIR", d.spec.file.generic_string())),
+                    code("--verbose"))}}},
+        columns);
+  }
+  return least == Importance::answer ? answer : answer + details;
 }
 
 std::string diagnosis_html(const Diagnosis& d) { return html_page(diagnosis_document(d)); }

@@ -5,6 +5,7 @@
 
 #include "diagnosis/diagnosis_result.hpp"
 #include "document/document.hpp"
+#include "document/terminal.hpp"
 
 namespace recoil {
 
@@ -19,8 +20,9 @@ Section diagnosis_summary(const Diagnosis& diagnosis, const std::string& address
 /// The page of a diagnosis.
 Document diagnosis_document(const Diagnosis& diagnosis);
 
-/// The output of `recoil diagnose`, at most 100 columns.
-std::string diagnosis_text(const Diagnosis& diagnosis, Importance least);
+/// The output of `recoil diagnose`: the answer in at most 25 lines, or with the details.
+std::string diagnosis_text(const Diagnosis& diagnosis, Importance least,
+                           std::size_t columns = terminal_columns);
 
 /// One self-contained page.
 /// @throws ComputationError when gnuplot cannot be run.

@@ -119,7 +119,7 @@ Sentence restitution_caption(const Analysis& analysis, const Panel& panel) {
   const std::size_t drawn_every = panel.points.size() / most_panel_points + 1;
   if (drawn_every > 1) text += fmt::format(" One point in {} is drawn.", drawn_every);
   if (averages_over_sizes(analysis.fitted.model, panel.dataset)) {
-    text += " The curve is a mean over the sizes that rebound.";
+    text += fmt::format(" {}", mean_curve_words);
   }
   return text;
 }

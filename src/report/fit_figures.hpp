@@ -8,6 +8,10 @@
 /// The pictures of a fit.
 namespace recoil {
 
+/// Where points average over sizes.
+inline constexpr const char* mean_curve_words =
+    "The curve is the mean of the spheres that rebound: it rises again where only the largest do.";
+
 /// e against V of the whole fit: points and curves in one plot, told apart by diameter or, in a fit
 /// of several datasets, by dataset.
 plot::Picture restitution_overview(const Analysis& analysis, int width, int height);

@@ -25,8 +25,11 @@
 namespace recoil {
 namespace {
 
-constexpr int picture_width = 560;   // [px]
-constexpr int picture_height = 380;  // [px]
+constexpr int picture_width = 560;               // [px]
+constexpr int picture_height = 380;              // [px]
+constexpr std::ptrdiff_t most_lines = 25;        // on the terminal, without --verbose
+constexpr std::size_t most_rows_of_answer = 12;  // of a table there
+constexpr std::size_t fewest_rows_of_answer = 3;
 
 /// "ammonium fluorescein on molybdenum, 60 points"
 Sentence subtitle_of(const Analysis& a) {
@@ -52,19 +55,6 @@ const CaptureEstimate* reference_capture(const Analysis& a, std::size_t dataset)
 
 /// "Spheres of 4.9 um stick below 0.958 m/s [0.912, 0.984]."
 Sentence capture_words(const Analysis& a) {
-  std::vector<Sentence> parts;
-  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
-    const CaptureEstimate* const capture = reference_capture(a, k);
-    if (capture == nullptr) continue;
-    Number velocity{capture->value, padded(3), 0.0, "m/s"};
-    if (capture->interval.available()) {
-      velocity.band = {*capture->interval.lower, *capture->interval.upper};
-    }
-    const std::string where =
-        a.datasets.size() > 1 ? " on " + short_name(a.datasets, k) : std::string();
-    parts.push_back(
-        say("{} below {}{}", diameter_sentence(capture->diameter), velocity.words(), where));
-  }
   for (const CaptureEstimate& capture : a.uncertainty.capture) {
     const Sentence who = diameter_sentence(capture.diameter);
     if (capture.above && capture.below) {
@@ -83,13 +73,41 @@ Sentence capture_words(const Analysis& a) {
                  *capture.below);
     }
   }
+  std::vector<Sentence> parts;
+  double last = 0.0;  // the diameter that was named last [m]
+  for (std::size_t k = 0; k < a.datasets.size(); ++k) {
+    const CaptureEstimate* const capture = reference_capture(a, k);
+    if (capture == nullptr) continue;
+    Number velocity{capture->value, padded(3)};
+    if (capture->interval.available()) {
+      velocity.band = {*capture->interval.lower, *capture->interval.upper};
+    }
+    Sentence part = velocity.words() + " m/s";
+    if (a.datasets.size() > 1) part += " on " + short_name(a.datasets, k);
+    parts.push_back(capture->diameter == last
+                        ? part
+                        : say("of {} {}below {}", diameter_sentence(capture->diameter),
+                              parts.empty() ? "stick " : "", part));
+    last = capture->diameter;
+  }
   if (parts.empty()) return {};
-  return say("Spheres stick: ") + join(parts, "; ") + ".";
+  return say("Spheres {}.", join(parts, ", "));
 }
 
+/// Does the model fit? A diagnosis allows for errors of its laws, a fit alone does not.
 Sentence verdict_words(const Analysis& a, const Diagnosis* diagnosis) {
-  if (diagnosis == nullptr) return quality_words(a.fitted);
-  return diagnosis->verdict == Verdict::adequate ? "The model fits." : "The model does not fit.";
+  if (diagnosis == nullptr || !a.fitted.data.sd_stated) return quality_words(a.fitted);
+  if (diagnosis->verdict != Verdict::adequate) {
+    return a.fitted.noise_verdict == NoiseVerdict::exceeded ? quality_words(a.fitted)
+                                                            : "The model does not fit.";
+  }
+  if (a.fitted.noise_verdict == NoiseVerdict::exceeded && diagnosis->spec.law_error > 0.0) {
+    return say(
+        "The model fits if its laws may be wrong by {}; as exact laws they do not fit: the "
+        "residuals are {} times the stated noise, and all intervals are widened by this factor.",
+        percent(diagnosis->spec.law_error), number(a.fitted.noise_scale, 3));
+  }
+  return tests_the_curve(*diagnosis) ? "The model fits." : "These points cannot test the model.";
 }
 
 /// A parameter of the model that its upper bound holds back.
@@ -126,18 +144,26 @@ Sentence odd_point_words(const Analysis& a) {
       point.restitution, point.velocity, std::abs(odd.residual), verdict, join(values, ", "));
 }
 
-/// What one of the panels of e(V) shows, or all of them in one picture.
+/// e(V) with all sizes: the only panel, or all of them in one picture.
 Figures answer_figures(const Analysis& a, const std::vector<Figure>& panels) {
   if (panels.size() == 1) return {panels};
-  return {
-      {figure_of(restitution_overview(a, picture_width, picture_height),
-                 say("Points and fit with its {} band.", percent(a.uncertainty.options.level)))}};
+  Sentence caption = say("Points and fit with its {} band.", percent(a.uncertainty.options.level));
+  if (averages_over_sizes(a.fitted.model)) caption += say(" {}", mean_curve_words);
+  return {{figure_of(restitution_overview(a, picture_width, picture_height), caption)}};
+}
+
+/// All warnings, the gravest first, without the one that the verdict says.
+std::vector<Sentence> warnings_of(const Analysis& a) {
+  std::vector<Sentence> warnings = all_warnings(a);
+  if (a.fitted.usable && a.fitted.noise_verdict == NoiseVerdict::exceeded) {
+    std::erase(warnings, noise_warning(a.fitted));
+  }
+  for (Sentence& words : all_contradictions(a)) warnings.push_back(std::move(words));
+  return warnings;
 }
 
 /// The gravest warning, and how many more there are.
-Blocks gravest_warning(const Analysis& a) {
-  std::vector<Sentence> warnings = all_warnings(a);
-  for (Sentence& sentence : all_contradictions(a)) warnings.push_back(std::move(sentence));
+Blocks gravest_warning(const std::vector<Sentence>& warnings) {
   if (warnings.empty()) return {};
   Sentence text = as_sentence(warnings.front());
   if (warnings.size() > 1) {
@@ -147,58 +173,53 @@ Blocks gravest_warning(const Analysis& a) {
 }
 
 /// Every diameter by itself, and the residuals of every dataset.
-Section sizes_section(const Analysis& a, std::vector<Figure> panels) {
+Section sizes_section(const Analysis& a, std::vector<Figure> panels,
+                      const RestitutionSummary& summary) {
   if (panels.size() == 1) panels.clear();  // the answer shows it
   for (Figure& figure : residual_figures(a)) panels.push_back(std::move(figure));
-  return detail_section("sizes", "Every size, and the residuals", {Figures{std::move(panels)}});
+  return detail_section("sizes", "Every size, and the residuals",
+                        {Figures{std::move(panels)}, restitution_table(summary, a.datasets)});
 }
 
-/// Reasons why intervals are missing or differ.
+/// Why intervals are missing.
 std::vector<Sentence> interval_sentences(const Analysis& a) {
   std::vector<Sentence> sentences;
   for (std::size_t s = 0; s < a.uncertainty.intervals.size(); ++s) {
     const ParameterSlot& slot = a.fitted.model.slots[s];
-    const IntervalSet& set = a.uncertainty.intervals[s];
     if (!slot.free || slot.is_constant()) continue;
-    const Interval& interval = recommended_interval(set);
-    if (!interval.available()) {
-      sentences.push_back(
-          say("{} has no interval: {}", symbol(slot.label()), missing_words(interval)));
-    }
-    sentences.push_back(disagreement_words(a.fitted, s, set));
+    const Interval& interval = recommended_interval(a.uncertainty.intervals[s]);
+    if (interval.available()) continue;
+    sentences.push_back(say("{} has no interval: {}",
+                            parameter_words(a.fitted.model, s, a.datasets),
+                            missing_words(interval)));
   }
   return sentences;
 }
 
 Section certainty_section(const Analysis& a) {
-  const Identifiability& found = a.uncertainty.identifiability;
-  Blocks blocks;
-  if (found.assessed()) {
-    blocks.emplace_back(Paragraph{as_sentence(identifiability_words(a.fitted, a.uncertainty))});
-  }
-  std::vector<Sentence> sentences = interval_sentences(a);
-  if (a.uncertainty.bootstrap.replicates > 0) {
-    sentences.push_back("bootstrap: " + scheme_words(a.uncertainty.bootstrap));
-  }
+  std::vector<Sentence> sentences = {identifiability_words(a.fitted, a.uncertainty)};
+  for (Sentence& words : interval_sentences(a)) sentences.push_back(std::move(words));
   if (a.uncertainty.posterior) {
     sentences.emplace_back(no_posterior_words(*a.uncertainty.posterior));
   }
-  append(blocks, {intervals_table(a), list_of_sentences(sentences), correlations_table(a),
-                  posterior_table(a), constants_table(a), list_of_sentences({moved_words(a)}),
-                  conditional_table(a), budget_table(a), list_of_sentences(budget_sentences(a))});
-  return detail_section("certainty", "How certain the numbers are", std::move(blocks));
+  for (Sentence& words : budget_sentences(a)) sentences.push_back(std::move(words));
+  sentences.push_back(moved_words(a));
+  return detail_section("certainty", "How certain the numbers are",
+                        {list_of_sentences(sentences), constants_table(a), posterior_table(a)});
 }
 
 Section comparison_section(const Analysis& a) {
   Blocks blocks;
   std::vector<Sentence> sentences;
   for (const TwoPointComparison& comparison : a.uncertainty.two_point) {
-    if (a.datasets.size() > 1) {
+    const std::string where =
+        a.datasets.size() > 1 ? " on " + short_name(a.datasets, comparison.dataset) : "";
+    if (!where.empty()) {
       blocks.emplace_back(two_point_table(a, comparison));
       std::get<Table>(blocks.back()).caption = short_name(a.datasets, comparison.dataset);
     }
-    blocks.emplace_back(two_point_spread_table(a, comparison));
-    sentences.push_back(say("two points, {}: {}", words_of(to_string(comparison.result.status)),
+    sentences.push_back(say("two points{}, {}: {}", where,
+                            words_of(to_string(comparison.result.status)),
                             two_point_words(a.fitted, comparison.dataset, comparison.result)));
     sentences.emplace_back(held_out_words(comparison));
   }
@@ -209,11 +230,11 @@ Section comparison_section(const Analysis& a) {
   return detail_section("comparison", "Two points, other laws, other models", std::move(blocks));
 }
 
-Section warnings_section(const Analysis& a) {
-  std::vector<Sentence> sentences = all_warnings(a);
-  for (const Sentence& words : all_contradictions(a)) {
-    sentences.push_back("contradiction: " + words);
-  }
+/// @param said how many of `warnings` the answer shows
+Section warnings_section(const Analysis& a, const std::vector<Sentence>& warnings,
+                         std::size_t said) {
+  std::vector<Sentence> sentences(warnings.begin() + static_cast<std::ptrdiff_t>(said),
+                                  warnings.end());
   for (const std::string& words : passed_limits(a.validity, a.datasets)) {
     sentences.push_back("limit of the model: " + words);
   }
@@ -221,31 +242,44 @@ Section warnings_section(const Analysis& a) {
 }
 
 Section inputs_section(const Analysis& a) {
-  Blocks blocks = {statistics_table(a)};
+  Blocks blocks = {statistics_table(a), materials_table(a), contact_table(a)};
+  List sources;
   for (std::size_t k = 0; k < a.datasets.size(); ++k) {
     const Dataset& dataset = a.datasets[k];
-    Section part{"", dataset.id};
-    List sources;
-    if (!dataset.title.empty()) sources.entries.emplace_back(dataset.title);
-    for (const std::string& source : dataset.sources) sources.entries.emplace_back(source);
+    for (const std::string& source : dataset.sources) {
+      const auto same = std::find(sources.entries.begin(), sources.entries.end(), Sentence(source));
+      if (same == sources.entries.end()) sources.entries.emplace_back(source);
+    }
     if (averages_over_sizes(a.fitted.model, k)) {
       sources.entries.push_back(as_sentence(Sentence(mixed_sizes_words(*dataset.mixed_sizes))));
     }
-    part.blocks = {std::move(sources), materials_table(a, k), contact_table(a, k)};
-    blocks.emplace_back(std::move(part));
   }
+  blocks.emplace_back(std::move(sources));
   return detail_section("inputs", "Data, model and method", std::move(blocks));
 }
 
 /// The commands that answer the next questions.
 Section next_section(const Analysis& a) {
-  Section next{"next", "Next"};
-  if (a.spec.file.empty()) return next;
+  if (a.spec.file.empty()) return {};
   const std::string file = a.spec.file.generic_string();
-  next.blocks = {List{{say("what the model misses: {}", code("recoil diagnose " + file)),
-                       say("a page with pictures: {}; all details here: {}",
-                           code("recoil report " + file), code("--verbose"))}}};
-  return next;
+  return {"next",
+          "",
+          {},
+          {Paragraph{say("Next: {}; with pictures: {}; all details: {}.",
+                         code("recoil diagnose " + file), code("recoil report " + file),
+                         code("--verbose"))}}};
+}
+
+/// `section` with at most `rows` rows in its tables, and how many more there are.
+Section shortened(Section section, std::size_t rows) {
+  for (Block& block : section.blocks) {
+    auto* const table = std::get_if<Table>(&block.content());
+    if (table == nullptr || table->rows.size() <= rows) continue;
+    const std::size_t more = table->rows.size() - rows + 1;
+    table->rows.resize(rows - 1);
+    table->rows.push_back({say("{} more: --verbose", more)});
+  }
+  return section;
 }
 
 }  // namespace
@@ -253,35 +287,35 @@ Section next_section(const Analysis& a) {
 std::vector<Section> fit_sections(const Analysis& a, const Diagnosis* diagnosis,
                                   const std::string& diagnosis_page) {
   Section answer{"answer", a.spec.id, subtitle_of(a)};
+  const std::vector<Sentence> warnings = warnings_of(a);
   if (!a.fitted.usable) {
     answer.blocks = {Paragraph{"The fit failed: " + a.fitted.failure}};
-    return {answer, warnings_section(a), inputs_section(a)};
+    return {answer, warnings_section(a, warnings, 0), inputs_section(a)};
   }
   std::vector<Figure> panels = restitution_figures(a);
-  std::vector<Sentence> leads = {capture_words(a), bound_words(a.fitted), loss_words(a),
-                                 verdict_words(a, diagnosis), odd_point_words(a)};
+  std::vector<Sentence> leads = {bound_words(a.fitted), verdict_words(a, diagnosis),
+                                 capture_words(a), loss_words(a), odd_point_words(a)};
   std::erase(leads, Sentence());
-  const Sentence lead = join(leads, " ");
   const RestitutionSummary summary = summarise_restitution(a.datasets);
-  answer.blocks = {Paragraph{join(restitution_sentences(summary, a.datasets), " ")},
-                   Paragraph{lead, true}};
+  answer.blocks = {Paragraph{join(leads, " "), true},
+                   Paragraph{join(restitution_sentences(summary, a.datasets), " ")}};
   append(answer.blocks, provenance_banners(a.datasets));
   std::vector<Section> sections = {std::move(answer)};
   sections.push_back({"picture", "", {}, {answer_figures(a, panels)}});
   sections.push_back({"capture", "Capture velocity", {}, {capture_table(a)}});
   sections.push_back({"parameters", "Parameters", {}, {parameters_table(a)}});
   if (a.datasets.size() == 1 && !a.uncertainty.two_point.empty()) {
-    sections.push_back(
-        {"calibrations", "", {}, {two_point_table(a, a.uncertainty.two_point.front())}});
+    sections.push_back({"calibrations",
+                        "Two points and all points",
+                        {},
+                        {two_point_table(a, a.uncertainty.two_point.front())}});
   }
   if (diagnosis != nullptr) sections.push_back(diagnosis_summary(*diagnosis, diagnosis_page));
-  sections.push_back({"warning", "", {}, gravest_warning(a)});
-  sections.push_back(detail_section("restitution", "Mean e of every series and setting",
-                                    {restitution_table(summary, a.datasets)}));
-  sections.push_back(sizes_section(a, std::move(panels)));
+  sections.push_back({"warning", "", {}, gravest_warning(warnings)});
+  sections.push_back(sizes_section(a, std::move(panels), summary));
   sections.push_back(certainty_section(a));
   sections.push_back(comparison_section(a));
-  sections.push_back(warnings_section(a));
+  sections.push_back(warnings_section(a, warnings, std::min<std::size_t>(1, warnings.size())));
   sections.push_back(inputs_section(a));
   return sections;
 }
@@ -306,13 +340,25 @@ Document fit_document(const Analysis& a, const Diagnosis* diagnosis,
   return page;
 }
 
-std::string fit_text(const Analysis& a, Importance least) {
-  std::vector<Section> sections = fit_sections(a);
-  const auto details = std::find_if(sections.begin(), sections.end(), [](const Section& section) {
-    return section.importance == Importance::detail;
-  });
-  sections.insert(details, next_section(a));
-  return terminal_text(sections, least);
+std::string fit_text(const Analysis& a, Importance least, std::size_t columns) {
+  std::vector<Section> answer, details;
+  for (Section& section : fit_sections(a)) {
+    const bool detail = section.importance == Importance::detail;
+    if (!detail && !answer.empty()) section.title = {};  // the tables say it
+    (detail ? details : answer).push_back(std::move(section));
+  }
+  answer.push_back(next_section(a));
+  if (least == Importance::detail) {
+    return terminal_text(answer, least, columns) + terminal_text(details, least, columns);
+  }
+  std::string text;
+  for (std::size_t rows = most_rows_of_answer; rows >= fewest_rows_of_answer; --rows) {
+    std::vector<Section> shorter;
+    for (const Section& section : answer) shorter.push_back(shortened(section, rows));
+    text = terminal_text(shorter, least, columns);
+    if (std::count(text.begin(), text.end(), '\n') <= most_lines) break;
+  }
+  return text;
 }
 
 std::string fit_html(const Analysis& a, const Diagnosis* diagnosis,

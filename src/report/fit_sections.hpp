@@ -6,6 +6,7 @@
 #include "analysis/analysis.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "document/document.hpp"
+#include "document/terminal.hpp"
 
 namespace recoil {
 
@@ -20,9 +21,9 @@ std::vector<Section> fit_sections(const Analysis& analysis, const Diagnosis* dia
 Document fit_document(const Analysis& analysis, const Diagnosis* diagnosis = nullptr,
                       const std::string& diagnosis_page = "");
 
-/// The answer as `recoil fit` prints it, at most 25 lines for a fit of a few parameters and sizes;
-/// with the details it is longer. At most 100 columns.
-std::string fit_text(const Analysis& analysis, Importance least);
+/// The answer as `recoil fit` prints it, at most 25 lines, or with the details.
+std::string fit_text(const Analysis& analysis, Importance least,
+                     std::size_t columns = terminal_columns);
 
 /// One self-contained page of less than 1 MB. Its scripts save the pictures and explore e(V).
 /// @throws ComputationError when the fit is not usable or gnuplot cannot be run.

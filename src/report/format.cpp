@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/units.hpp"
 #include "report/words_dataset.hpp"
@@ -105,6 +106,40 @@ std::vector<std::pair<std::string, std::string>> provenances(const std::vector<D
     if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
   }
   return list;
+}
+
+std::string short_name(const std::vector<Dataset>& datasets, std::size_t dataset) {
+  std::set<std::string> surfaces;
+  for (const Dataset& one : datasets) surfaces.insert(one.system.surface.name);
+  const bool tell = surfaces.size() == datasets.size() && !surfaces.contains("");
+  return tell ? datasets[dataset].system.surface.name : datasets[dataset].id;
+}
+
+std::string constant_words(const ImpactModel& model, std::size_t constant,
+                           const std::vector<Dataset>& datasets) {
+  const UncertainConstant& of = model.constants[constant];
+  const ImpactSystem& system = datasets[of.datasets.front()].system;
+  const std::string& name = of.body == Body::particle ? system.particle.name : system.surface.name;
+  return fmt::format("{} of {}", words_of_constant(of.constant),
+                     name.empty() ? "the " + std::string(name_of(of.body)) : name);
+}
+
+Sentence parameter_words(const ImpactModel& model, std::size_t slot,
+                         const std::vector<Dataset>& datasets) {
+  const ParameterSlot& of = model.slots[slot];
+  if (of.is_constant()) return constant_words(model, slot - model.first_constant(), datasets);
+  const std::string name(of.parameter->name);
+  const std::string label = of.label();
+  std::string owner = label.size() > name.size()
+                          ? label.substr(name.size() + 1, label.size() - name.size() - 2)
+                          : std::string();
+  for (std::size_t k = 0; k < datasets.size(); ++k) {
+    if (owner == datasets[k].id) owner = short_name(datasets, k);
+  }
+  if (of.mechanism() == nullptr) {
+    return symbol(owner.empty() ? name : fmt::format("{}[{}]", name, owner));
+  }
+  return words_of(name) + (owner.empty() ? "" : fmt::format(" ({})", owner));
 }
 
 bool without_adhesion(const Analysis& analysis, std::size_t dataset) {

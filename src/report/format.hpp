@@ -62,6 +62,19 @@ std::vector<std::pair<std::string, std::string>> provenances(const std::vector<D
 ImpactConditions reference_conditions(const Analysis& analysis, std::size_t dataset,
                                       double velocity);
 
+/// Name of a dataset among the others of its fit: its surface where all surfaces differ, else its
+/// id.
+std::string short_name(const std::vector<Dataset>& datasets, std::size_t dataset);
+
+/// An uncertain constant of a model: "Young's modulus of mica".
+std::string constant_words(const ImpactModel& model, std::size_t constant,
+                           const std::vector<Dataset>& datasets);
+
+/// A parameter as people write it: the symbol of one of the base model, the words of another. What
+/// belongs to one dataset has its short name.
+Sentence parameter_words(const ImpactModel& model, std::size_t slot,
+                         const std::vector<Dataset>& datasets);
+
 /// Is there no adhesion on `dataset`?
 bool without_adhesion(const Analysis& analysis, std::size_t dataset);
 

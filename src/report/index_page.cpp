@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/program.hpp"
+#include "core/units.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "document/html.hpp"
 #include "plot/draw.hpp"
@@ -43,7 +45,7 @@ Cell interval_cell(const Json& ends) {
   if (!ends.is_array() || ends.size() != 2 || !ends[0].is_number() || !ends[1].is_number()) {
     return {};
   }
-  return NumberRange{ends[0].get<double>(), ends[1].get<double>(), significant(3)};
+  return NumberRange{ends[0].get<double>(), ends[1].get<double>(), padded(3)};
 }
 
 Json parsed(const std::string& page, const std::string& content, const std::string& file) {
@@ -73,17 +75,23 @@ const char* sign_of(Verdict verdict) {
 /// Capture velocities of the first sizes, and all free parameters.
 Table summary_table(const Json& fit) {
   Table table;
-  table.columns = {{}, {"estimate"}, {"interval"}};
-  const Json captures = at(fit, "/derived/capture_velocity");
-  const bool several = at(fit, "/datasets").size() > 1;
-  for (const Json& capture : captures) {
-    if (table.rows.size() == most_sizes_listed) break;
-    const double value = number_at(capture, "/value");
-    if (!std::isfinite(value)) continue;
-    Sentence name = say("{V*} at {:.3g} {um} [m/s]", number_at(capture, "/diameter_um"));
-    if (several) name += ", " + text_at(capture, "/dataset");
-    table.rows.push_back(
-        {std::move(name), Number{value, significant(3)}, interval_cell(at(capture, "/interval"))});
+  table.columns = {{"quantity"}, {"estimate"}, {"interval"}};
+  std::map<std::string, std::vector<Json>> captures;  // by dataset
+  for (const Json& capture : at(fit, "/derived/capture_velocity")) {
+    if (!std::isfinite(number_at(capture, "/value"))) continue;
+    captures[text_at(capture, "/dataset")].push_back(capture);
+  }
+  for (auto& [dataset, all] : captures) {
+    const bool several = captures.size() > 1;
+    if (several) all = {all[all.size() / 2]};  // the middle size of each
+    if (all.size() > most_sizes_listed) all.resize(most_sizes_listed);
+    for (const Json& capture : all) {
+      Sentence name = say("{V*} at {} [m/s]",
+                          diameter_sentence(number_at(capture, "/diameter_um") * units::um));
+      if (several) name += ", " + dataset;
+      table.rows.push_back({std::move(name), Number{number_at(capture, "/value"), padded(3)},
+                            interval_cell(at(capture, "/interval"))});
+    }
   }
   const Json parameters = at(fit, "/parameters");
   for (const auto& [label, parameter] : parameters.items()) {
@@ -93,24 +101,33 @@ Table summary_table(const Json& fit) {
                           Number{number_at(parameter, "/value"), significant(3)},
                           interval_cell(at(parameter, ("/intervals/" + kind).c_str()))});
   }
-  table.rows.push_back(
-      {say("rms of {e}"), Number{number_at(fit, "/goodness/rmse"), significant(3)}, {}});
   return table;
 }
 
-std::vector<Block> banners_of(const Json& datasets) {
-  std::vector<std::pair<std::string, std::string>> known;
-  std::vector<Block> banners;
+/// "reconstruction": the origin of the points.
+std::string origin_of(const Json& datasets) {
+  std::vector<std::string> known;
   for (const Json& dataset : datasets) {
-    const std::pair entry{text_at(dataset, "/provenance"),
-                          text_at(dataset, "/provenance_sentence")};
-    if (entry.first.empty() || std::find(known.begin(), known.end(), entry) != known.end()) {
-      continue;
+    std::string origin = text_at(dataset, "/provenance");
+    if (std::find(known.begin(), known.end(), origin) == known.end()) {
+      known.push_back(std::move(origin));
     }
-    known.push_back(entry);
-    banners.emplace_back(Banner{entry.first, entry.second});
   }
-  return banners;
+  return fmt::format("{}", fmt::join(known, ", "));
+}
+
+/// What the origins of all points mean, once.
+void add_banners(const IndexEntry& entry, std::vector<Block>& blocks) {
+  const Json fit = parsed(entry.page, entry.fit_json, "fit.json");
+  for (const Json& dataset : at(fit, "/datasets")) {
+    const std::string label = text_at(dataset, "/provenance");
+    const bool known = std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+      const auto* const banner = std::get_if<Banner>(&block.content());
+      return banner != nullptr && banner->label == label;
+    });
+    if (label.empty() || known) continue;
+    blocks.emplace_back(Banner{label, text_at(dataset, "/provenance_sentence")});
+  }
 }
 
 /// The verdict of the diagnosis with a link to its page; nothing without a diagnosis.
@@ -131,17 +148,21 @@ Section card_of(const IndexEntry& entry) {
   if (!datasets.is_array()) datasets = Json::array({at(fit, "/dataset")});
   const std::string id = text_at(fit, "/fit/id");
   const std::string title = datasets.size() == 1 ? text_at(fit, "/dataset/title") : "";
-  Section card{id, title.empty() ? id : title,
-               say("{}, {:.0f} points", id, number_at(fit, "/dataset/points")),
-               banners_of(datasets), entry.page};
+  Section card{
+      id,
+      title.empty() ? id : title,
+      say("{}: {:.0f} points, {}", id, number_at(fit, "/dataset/points"), origin_of(datasets)),
+      {},
+      entry.page};
   append(card.blocks, verdict_of(entry));
   if (!entry.picture.empty()) {
     Figure picture{"picture", "", {}, entry.picture};
     picture.csv = entry.picture_csv;
     card.blocks.emplace_back(Figures{{std::move(picture)}});
+    if (at(fit, "/options/mixed_sizes") == true)
+      card.blocks.emplace_back(Paragraph{mean_curve_words});
   }
   card.blocks.emplace_back(summary_table(fit));
-  card.blocks.emplace_back(Paragraph{link("All pictures and numbers", entry.page)});
   return card;
 }
 
@@ -167,7 +188,10 @@ Document index_document(const std::vector<IndexEntry>& entries) {
                                  ? Sentence("There is no fit yet.")
                                  : say("One card per fit: does the model hold, below which {V*} "
                                        "do spheres stick, and the fitted parameters.")}};
-  for (const IndexEntry& entry : entries) page.sections.push_back(card_of(entry));
+  for (const IndexEntry& entry : entries) {
+    add_banners(entry, page.foreword);
+    page.sections.push_back(card_of(entry));
+  }
   return page;
 }
 

@@ -173,23 +173,15 @@ Table learnt_table(const ExperimentPlan& plan) {
 }
 
 List limits_of_plan(const ExperimentPlan& plan) {
-  std::vector<Validity> worst;
+  std::vector<Validity> all;
   for (const PlannedSetting& setting : plan.settings) {
-    for (const Validity& found :
-         impact_validity(plan.model, plan.datasets[setting.dataset].system, plan.theta,
-                         {setting.dataset, setting.diameter, setting.velocity})) {
-      const auto same = std::find_if(worst.begin(), worst.end(), [&](const Validity& other) {
-        return other.quantity == found.quantity && other.dataset == found.dataset;
-      });
-      if (same == worst.end()) {
-        worst.push_back(found);
-      } else if (found.limit_is_least() ? found.value < same->value : found.value > same->value) {
-        *same = found;
-      }
-    }
+    const std::vector<Validity> found =
+        impact_validity(plan.model, plan.datasets[setting.dataset].system, plan.theta,
+                        {setting.dataset, setting.diameter, setting.velocity});
+    all.insert(all.end(), found.begin(), found.end());
   }
   List list;
-  for (const std::string& sentence : passed_limits(worst, plan.datasets)) {
+  for (const std::string& sentence : passed_limits(all, plan.datasets)) {
     list.entries.push_back(as_sentence(Sentence(sentence)));
   }
   return list;

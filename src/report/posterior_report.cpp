@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "report/words_uncertainty.hpp"
+#include "core/units.hpp"
 
 namespace recoil {
 
@@ -19,7 +19,8 @@ std::string posterior_csv(const Analysis& a) {
     moving.push_back(j);
   }
   for (const CaptureEstimate& at : a.uncertainty.capture) {
-    text += fmt::format(",\"{}\"", plain_text(capture_name(a, at)));
+    text += fmt::format(",\"V*({:.4g} um{})\"", at.diameter / units::um,
+                        a.datasets.size() > 1 ? ", " + a.datasets[at.dataset].id : "");
   }
   text += "\n";
   for (std::size_t k = 0; k < found->draws.size(); ++k) {

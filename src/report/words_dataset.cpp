@@ -14,30 +14,7 @@
 #include "report/format.hpp"
 
 namespace recoil {
-
 namespace {
-
-std::string_view words_of_constant(Constant constant) {
-  switch (constant) {
-    case Constant::density:
-      return "density";
-    case Constant::youngs_modulus:
-      return "Young's modulus";
-    case Constant::poisson_ratio:
-      return "Poisson's ratio";
-    case Constant::surface_energy:
-      return "surface energy";
-    case Constant::gilman_factor:
-      return "surface energy by Gilman's estimate";
-    case Constant::stiffness_K:
-      return "K";
-    case Constant::adhesion_energy:
-      return "adhesion energy";
-    case Constant::adhesion_force_f0:
-      return "f0";
-  }
-  return "";
-}
 
 // ---- limits of the model ------------------------------------------------------------------------
 
@@ -93,6 +70,28 @@ std::string air_sentence(const AirShare& air) {
 
 }  // namespace
 
+std::string_view words_of_constant(Constant constant) {
+  switch (constant) {
+    case Constant::density:
+      return "density";
+    case Constant::youngs_modulus:
+      return "Young's modulus";
+    case Constant::poisson_ratio:
+      return "Poisson's ratio";
+    case Constant::surface_energy:
+      return "surface energy";
+    case Constant::gilman_factor:
+      return "surface energy by Gilman's estimate";
+    case Constant::stiffness_K:
+      return "K";
+    case Constant::adhesion_energy:
+      return "adhesion energy";
+    case Constant::adhesion_force_f0:
+      return "f0";
+  }
+  return "";
+}
+
 std::string provenance_sentence(Provenance provenance) {
   switch (provenance) {
     case Provenance::measured:
@@ -100,7 +99,7 @@ std::string provenance_sentence(Provenance provenance) {
     case Provenance::digitised:
       return "These points were read off a published figure, which adds an error of reading.";
     case Provenance::reconstruction:
-      return "Made by a recipe from published facts, not measured: it tests the method alone.";
+      return "Made by a recipe, not measured: it tests the method alone.";
     case Provenance::synthetic:
       return "These points were simulated with known parameters to test the method.";
   }
@@ -217,13 +216,24 @@ std::string validity_sentence(const Validity& v) {
 
 std::vector<std::string> passed_limits(const std::vector<Validity>& validity,
                                        const std::vector<Dataset>& datasets) {
-  std::vector<std::string> sentences;
+  std::vector<const Validity*> worst;  // of each quantity
   for (const Validity& one : validity) {
     if (!one.passed()) continue;
-    const std::string sentence = validity_sentence(one);
-    sentences.push_back(datasets.size() > 1 && one.dataset < datasets.size()
-                            ? fmt::format("on {} {}", datasets[one.dataset].id, sentence)
-                            : sentence);
+    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Validity* other) {
+      return other->quantity == one.quantity;
+    });
+    if (same == worst.end()) {
+      worst.push_back(&one);
+    } else if (one.limit_is_least() ? one.value < (*same)->value : one.value > (*same)->value) {
+      *same = &one;
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const Validity* const one : worst) {
+    sentences.push_back(validity_sentence(*one));
+    if (datasets.size() < 2 || one->dataset >= datasets.size()) continue;
+    sentences.back() =
+        fmt::format("on {}, {}", short_name(datasets, one->dataset), sentences.back());
   }
   return sentences;
 }
@@ -357,6 +367,10 @@ std::string series_words(const RestitutionMean& mean, const RestitutionSummary& 
   return datasets.size() > 1 ? fmt::format("{} of {}", name, dataset.id) : name;
 }
 
+bool spans_a_decade(const RestitutionSummary& summary) {
+  return summary.velocities[1] >= 10.0 * summary.velocities[0];
+}
+
 Sentence mean_words(const RestitutionMean& mean) {
   Number value{mean.value, padded(3)};
   if (mean.interval) value.band = {(*mean.interval)[0], (*mean.interval)[1]};
@@ -369,20 +383,34 @@ Sentence ends_words(const TestedEffect& effect, double sign) {
   return say("[{:.2g}, {:.2g}]", std::min(a, b), std::max(a, b));
 }
 
-Sentence dependence_words(const TestedEffect& effect) {
+/// How e varies with V: with its range where V spans a decade, as the mean says little then.
+Sentence dependence_words(const RestitutionSummary& summary) {
+  const TestedEffect& effect = summary.velocity;
   if (!effect.p_value) {
     std::string why = effect.why;
     why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
     return say("{}: nothing about how {e} varies with {V} can be seen.", why);
   }
   const std::string p = p_of_summary(*effect.p_value);
-  if (*effect.p_value >= shown_level) {
+  const bool steady = *effect.p_value < shown_level;
+  const bool bent = summary.bend.value_or(1.0) < shown_level;
+  if (!steady && !bent) {
     return say("No change of {e} with {V} is seen: {:.2g} {} per decade of {V} ({}).",
                *effect.value, ends_words(effect, 1.0), p);
   }
   const double sign = *effect.value < 0.0 ? -1.0 : 1.0;
-  return say("{e} {} by {:.2g} {} per decade of {V} ({}).", sign < 0.0 ? "falls" : "rises",
-             sign * *effect.value, ends_words(effect, sign), p);
+  const char* const goes = sign < 0.0 ? "falls" : "rises";
+  const Sentence slope =
+      say("by {:.2g} {} per decade of {V} ({})", sign * *effect.value, ends_words(effect, sign), p);
+  const Sentence no_slope =
+      say("without a steady rise or fall ({})", p_of_summary(summary.bend.value_or(1.0)));
+  if (!spans_a_decade(summary)) {
+    return steady ? say("{e} {} {}.", goes, slope) : say("{e} varies with {V}, {}.", no_slope);
+  }
+  const Sentence range =
+      say("{e} depends on {V}: {:.3f} to {:.3f} for {V} = {:.3g} to {:.3g} m/s", summary.values[0],
+          summary.values[1], summary.velocities[0], summary.velocities[1]);
+  return steady ? range + say("; it {} {}.", goes, slope) : range + say(", {}.", no_slope);
 }
 
 }  // namespace
@@ -402,11 +430,15 @@ std::vector<Sentence> restitution_sentences(const RestitutionSummary& summary,
                                            : mean_words(mean) + count);
   }
   if (means.empty()) return {};
-  std::vector<Sentence> sentences = {
-      means.size() > most_series
-          ? say("Mean {e} of {} series: {:.3f} to {:.3f}.", means.size(), least, most)
-          : say("Mean {e}: {}.", join(means, "; "))};
-  sentences.push_back(dependence_words(summary.velocity));
+  std::vector<Sentence> sentences;
+  const bool depends = summary.velocity.p_value.value_or(1.0) < shown_level ||
+                       summary.bend.value_or(1.0) < shown_level;
+  if (!depends || !spans_a_decade(summary)) {
+    sentences.push_back(means.size() > most_series ? say("Mean {e} of {} series: {:.3f} to {:.3f}.",
+                                                         means.size(), least, most)
+                                                   : say("Mean {e}: {}.", join(means, "; ")));
+  }
+  sentences.push_back(dependence_words(summary));
   const TestedEffect& differ = summary.series;
   if (differ.p_value) {
     const std::string p = p_of_summary(*differ.p_value);

@@ -26,6 +26,9 @@ std::string warning_sentence(const DatasetWarning& warning);
 /// "every point averages over 20 to 110 um (mean 49 um, ...)".
 std::string mixed_sizes_words(const MeasuredSizes& sizes);
 
+/// "Young's modulus".
+std::string_view words_of_constant(Constant constant);
+
 /// "particle: Young's modulus 20 %; surface: Poisson's ratio 0.02"; empty where all are exact.
 std::string stated_errors_words(const ImpactSystem& system);
 
@@ -36,7 +39,7 @@ std::string left_out_sentence(const std::vector<LeftOverride>& left_out);
 /// about 0.3".
 std::string validity_sentence(const Validity& validity);
 
-/// The sentences of those beyond their limits, with the dataset where there are several.
+/// The worst of those beyond each limit, with the dataset where there are several.
 std::vector<std::string> passed_limits(const std::vector<Validity>& validity,
                                        const std::vector<Dataset>& datasets);
 

@@ -221,11 +221,12 @@ std::string where_words(const Diagnosis& d) {
   const MisfitCell* const worst = worst_cell(d);
   if (worst == nullptr) return "";
   return fmt::format(
-      "The model is furthest off for {} at {:.3g} to {:.3g} m/s, where it is too {} by {:.2g} in e "
-      "({:.2g} standard errors) and by {:.2g} J in the energy of the rebound",
+      "The model is furthest off for {} at {:.3g} to {:.3g} m/s, where e is too {} by {:.2g}, "
+      "{:.2g} "
+      "standard errors",
       diameter_words(worst->diameter), worst->slowest, worst->fastest,
       worst->restitution > 0.0 ? "low" : "high", std::abs(worst->restitution),
-      std::abs(worst->standardised), std::abs(worst->energy));
+      std::abs(worst->standardised));
 }
 
 }  // namespace recoil

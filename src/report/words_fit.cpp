@@ -27,13 +27,6 @@ std::string p_words(double p_value) {
 
 // ---- noise -------------------------------------------------------------------------------------
 
-std::string widened_words(const FitResult& fitted) {
-  return fmt::format(
-      "the residuals are {:.3g} times larger than the stated noise ({}): errors and intervals are "
-      "widened by this factor, but no widening can correct for a wrong model",
-      fitted.noise_scale, p_words(fitted.p_value));
-}
-
 std::string variance_words(const Observations& data) {
   const NoiseModel& noise = data.noise;
   const std::string text =
@@ -68,7 +61,8 @@ std::string verdict_words(const FitResult& fitted) {
       return fmt::format("the stated standard deviations barely explain the scatter ({})",
                          p_words(fitted.p_value));
     case NoiseVerdict::exceeded:
-      return widened_words(fitted);
+      return fmt::format("the stated standard deviations do not explain the scatter ({})",
+                         p_words(fitted.p_value));
   }
   return "";
 }
@@ -249,6 +243,12 @@ Sentence quality_words(const FitResult& f) {
   }
   if (f.p_value >= 0.05) return say("The model fits ({}).", p);
   if (f.p_value >= 0.01) return say("The model barely fits ({}).", p);
+  if (f.noise_verdict == NoiseVerdict::exceeded) {
+    return say(
+        "The model does not fit: the residuals are {} times the stated noise ({}), and all "
+        "intervals are widened by this factor.",
+        number(f.noise_scale, 3), p);
+  }
   return say("The model does not fit: chi-square is {} on {} degrees of freedom ({}).",
              number(f.chi2, 4), f.dof, p);
 }
@@ -336,13 +336,20 @@ Sentence two_point_words(const FitResult& fitted, std::size_t dataset,
   return {};
 }
 
+Sentence noise_warning(const FitResult& fitted) {
+  return fmt::format(
+      "the residuals are {:.3g} times larger than the stated noise ({}): errors and intervals are "
+      "widened by this factor, but no widening can correct for a wrong model",
+      fitted.noise_scale, p_words(fitted.p_value));
+}
+
 std::vector<Sentence> fit_warnings(const FitResult& fitted) {
   Sentences warnings = data_warnings(fitted.data);
   if (fitted.usable) {
     add_new(warnings, undetermined_warnings(fitted));
     add_new(warnings, bound_warnings(fitted));
     if (fitted.noise_verdict == NoiseVerdict::exceeded) {
-      warnings.emplace_back(widened_words(fitted));
+      warnings.push_back(noise_warning(fitted));
     }
     add_new(warnings, start_warnings(fitted));
   }

@@ -28,6 +28,9 @@ std::string scale_words(VarianceFunction function, double scale);
 Sentence two_point_words(const FitResult& fitted, std::size_t dataset,
                          const TwoPointResult& result);
 
+/// The warning about residuals that are larger than stated.
+Sentence noise_warning(const FitResult& fitted);
+
 /// Warnings about the fit itself, the gravest first.
 std::vector<Sentence> fit_warnings(const FitResult& fitted);
 

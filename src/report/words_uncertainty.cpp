@@ -507,8 +507,9 @@ std::string no_posterior_words(const PosteriorResult& posterior) {
 }
 
 Sentence capture_name(const Analysis& a, const CaptureEstimate& capture) {
-  const std::string where = a.datasets.size() > 1 ? ", " + a.datasets[capture.dataset].id : "";
-  return say("{V*}({:.4g} {um}{})", capture.diameter / units::um, where);
+  const std::string where =
+      a.datasets.size() > 1 ? ", " + short_name(a.datasets, capture.dataset) : "";
+  return say("{V*}({}{})", diameter_sentence(capture.diameter), where);
 }
 
 std::string source_words(const BudgetEntry& entry, const ImpactModel& model) {
@@ -535,7 +536,8 @@ std::vector<BudgetOf> reference_budgets(const Analysis& a) {
   for (std::size_t j = 0; j < a.uncertainty.budgets.size(); ++j) {
     const ErrorBudget& budget = a.uncertainty.budgets[j];
     if (!budget.available()) continue;
-    all.push_back({symbol(slots[j].label()), std::string(slots[j].parameter->unit), &budget});
+    all.push_back({parameter_words(a.fitted.model, j, a.datasets),
+                   std::string(slots[j].parameter->unit), &budget});
   }
   for (std::size_t k = 0; k < a.uncertainty.capture_budgets.size(); ++k) {
     const ErrorBudget& budget = a.uncertainty.capture_budgets[k];
@@ -552,7 +554,9 @@ std::vector<Sentence> budget_sentences(const Analysis& a) {
   if (model.constants.empty()) return {};
   for (const BudgetOf& of : reference_budgets(a)) {
     const BudgetEntry& first = of.budget->entries.front();
-    const std::string source = source_words(first, model);
+    const std::string source = first.source == BudgetSource::constant
+                                   ? "the " + constant_words(model, first.constant, a.datasets)
+                                   : source_words(first, model);
     auto found = std::find_if(by_source.begin(), by_source.end(),
                               [&](const auto& one) { return one.first == source; });
     if (found == by_source.end()) found = by_source.insert(found, {source, {}});
@@ -560,8 +564,8 @@ std::vector<Sentence> budget_sentences(const Analysis& a) {
   }
   Sentences sentences;
   for (const auto& [source, quantities] : by_source) {
-    sentences.push_back(say("{} contribute{} most to the variance of {}", source,
-                            source.ends_with('s') ? "" : "s", join(quantities, ", ")));
+    sentences.push_back(say("largest source of error (share of the variance): {}, for {}", source,
+                            join(quantities, ", ")));
   }
   return sentences;
 }
@@ -572,7 +576,7 @@ Sentence moved_words(const Analysis& a) {
   for (std::size_t k = 0; k < a.fitted.constants_moved.size(); ++k) {
     const double by = a.fitted.constants_moved[k];
     if (std::abs(by) < 1.0) continue;
-    moved.push_back(say("{} by {:+.1f}", model.slots[model.first_constant() + k].label(), by));
+    moved.push_back(say("{} by {:+.1f}", constant_words(model, k, a.datasets), by));
   }
   if (moved.empty()) return {};
   return say(

@@ -1,10 +1,12 @@
 // What ./run makes of the shipped fits, with few replicates: pages that open and say what they are.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,43 @@ const char* const shipped[] = {
     "wall1990-mica",      "wall1990-molybdenum",   "wall1990-silicon",
 };
 
+/// Words that a page shows before and after everything is unfolded: all text outside of scripts,
+/// styles and pictures.
+struct Words {
+  std::size_t folded = 0, all = 0;
+};
+
+Words words_of(const std::string& html) {
+  Words words;
+  int hidden = 0;   // scripts, styles, pictures, the head
+  int details = 0;  // folded sections
+  int summary = 0;
+  bool in_word = false;
+  for (std::size_t i = 0; i < html.size(); ++i) {
+    if (html[i] == '<') {
+      const bool closes = html[i + 1] == '/';
+      const std::size_t from = i + (closes ? 2 : 1);
+      const std::string name = html.substr(from, html.find_first_of(" >\n", from) - from);
+      const int step = closes ? -1 : 1;
+      if (name == "script" || name == "style" || name == "svg" || name == "head") hidden += step;
+      if (name == "details") details += step;
+      if (name == "summary") summary += step;
+      const bool within_words = name == "i" || name == "sub" || name == "sup" || name == "a";
+      if (!within_words) in_word = false;
+      const bool program = !closes && (name == "script" || name == "style");
+      i = program ? html.find("</" + name, i) - 1 : html.find('>', i);
+      continue;
+    }
+    const bool blank = html[i] == ' ' || html[i] == '\n';
+    if (!blank && !in_word && hidden == 0) {
+      ++words.all;
+      if (details == 0 || summary > 0) ++words.folded;
+    }
+    in_word = !blank;
+  }
+  return words;
+}
+
 TEST(ShippedFits, ReportsOpenInABrowserAndSayReconstruction) {
   const support::TemporaryFolder out;
   const auto report = [&] {
@@ -34,7 +73,13 @@ TEST(ShippedFits, ReportsOpenInABrowserAndSayReconstruction) {
     const fs::path page = out / (id + ".html");
     ASSERT_TRUE(fs::exists(page)) << id;
     EXPECT_LT(fs::file_size(page), 1000000U) << id;
-    browser.push_back(page);
+    for (const fs::path& one : {page, out / id / "diagnosis.html"}) {
+      const Words words = words_of(support::text_of(one));
+      EXPECT_GT(words.folded, 50U) << one;
+      EXPECT_LE(words.folded, 900U) << one;
+      EXPECT_LE(words.all, 2500U) << one;
+      browser.push_back(one);
+    }
     for (const fs::path& file : {page, out / id / "fit.json", out / id / "fit.txt"}) {
       const std::string one_line =
           std::regex_replace(support::text_of(file), std::regex("\\s+"), " ");
@@ -70,6 +115,19 @@ nlohmann::json diagnosed(const std::string& fit) {
       support::run_recoil({"diagnose", fit, "--out", out.path()}, RECOIL_SOURCE_DIR);
   EXPECT_EQ(run.status, 0) << run.err;
   return nlohmann::json::parse(out.read("diagnosis.json"));
+}
+
+TEST(ShippedFits, AnswerWithin25LinesOf80Columns) {
+  for (const std::string id : shipped) {
+    for (const std::string command : {"fit", "diagnose"}) {
+      const support::Outcome run = support::run_command(
+          {"env", "COLUMNS=80", RECOIL_BINARY, command, "fits/" + id + ".toml"}, RECOIL_SOURCE_DIR);
+      ASSERT_EQ(run.status, 0) << run.err;
+      EXPECT_LE(std::count(run.out.begin(), run.out.end(), '\n'), 25) << run.out;
+      std::istringstream lines(run.out);
+      for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+    }
+  }
 }
 
 // Its recipe lets C_A grow with the size, which no mechanism does: the misfit is seen, and nothing

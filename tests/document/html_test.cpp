@@ -25,6 +25,10 @@ TEST(Html, SetsSymbolsAndUnits) {
   EXPECT_EQ(html_of(symbol("C_A[a<b]")), "<i>C</i><sub>A</sub> <small>(a&lt;b)</small>");
   EXPECT_EQ(html_of(say("{d}{}", exponent("-0.83"))), "<i>d</i><sup>-0.83</sup>");
   EXPECT_EQ(html_of(Sentence("C_H um +/-")), "C_H um +/-") << "plain text is left alone";
+  EXPECT_EQ(html_of(Sentence("6.89 um, 3 +/- 1 J/m2 (p < 1e-6), -1.5e+08.")),
+            "6.89 µm, 3 ± 1 J/m² (p &lt; 10<sup>−6</sup>), -1.5 × 10<sup>8</sup>.");
+  EXPECT_EQ(html_of(Sentence("2.5e8 Pa, 4 umbrellas, 149d13e4, v1e5")),
+            "2.5 × 10<sup>8</sup> Pa, 4 umbrellas, 149d13e4, v1e5");
 }
 
 TEST(Html, EscapesWhateverItIsGiven) {
@@ -46,7 +50,7 @@ TEST(Html, EscapesWhateverItIsGiven) {
        hostile,
        {table, Paragraph{strong(hostile)}, Paragraph{code(hostile)},
         Paragraph{link(hostile, hostile)}, List{{hostile}}, Glossary{{{hostile, hostile}}},
-        Details{hostile, {Paragraph{hostile}}}, Figures{{{hostile, hostile, hostile, "<svg/>"}}}},
+        Figures{{{hostile, hostile, hostile, "<svg/>"}}}},
        hostile}};
   const std::string page = html_page(document);
   EXPECT_THAT(page, Not(HasSubstr("<script>")));

@@ -97,13 +97,12 @@ TEST(Terminal, StaysNarrowWhateverTheWordsAre) {
 
 TEST(Terminal, ASectionIsABlockWithItsNameInBrackets) {
   Section section{"fit", "Fit", "of two"};
-  section.blocks = {
-      Paragraph{say("{C_H} is known.")},          List{{"one", "two"}},
-      Banner{"digitised", "From a figure."},      Details{"Why", {Paragraph{"Because."}}},
-      Figures{{{"x", "x", "caption", "<svg/>"}}}, Paragraph{}};
+  section.blocks = {Paragraph{say("{C_H} is known.")}, List{{"one", "two"}},
+                    Banner{"digitised", "From a figure."},
+                    Figures{{{"x", "x", "caption", "<svg/>"}}}, Paragraph{}};
   EXPECT_EQ(terminal_text(section),
             "[[Fit]] of two\n    C_H is known.\n    - one\n    - two\n"
-            "    digitised: From a figure.\n    Why:\n    Because.\n");
+            "    digitised: From a figure.\n");
   EXPECT_EQ(terminal_text(Section{"empty", "Empty", "", {Table{}, List{}}}), "");
 }
 

@@ -62,6 +62,27 @@ TEST(RestitutionSummary, MeansSlopeAndDifferenceFromTheScatter) {
   EXPECT_EQ(found.most_different, (std::array<std::size_t, 2>{0, 1}));
 }
 
+// e rises near capture and falls again: no slope, but a parabola in x = log10 V. By numpy and
+// scipy: lstsq of [1, x] and [1, x, x^2] / sd, and the larger one of chi2.sf(q, k) and f.sf(q / k /
+// s^2, k, dof) with q = b' C^-1 b of the k coefficients behind the intercept.
+TEST(RestitutionSummary, AParabolaShowsWhatASlopeDoesNot) {
+  const std::vector<double> velocities = {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
+  const auto summary = [&](const std::vector<double>& restitutions) {
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < velocities.size(); ++i) {
+      rows.push_back({0, velocities[i], restitutions[i]});
+    }
+    return summarise_restitution({dataset_of(rows, 0.02)});
+  };
+  const RestitutionSummary arch = summary({0.52, 0.68, 0.80, 0.86, 0.87, 0.82, 0.71, 0.55});
+  EXPECT_NEAR(*arch.velocity.p_value, 0.8276531835456677, 1e-9);
+  EXPECT_NEAR(*arch.bend, 1.1626862036466014e-08, 1e-13);
+  EXPECT_EQ(arch.velocities, (std::array<double, 2>{0.5, 64.0}));
+  EXPECT_EQ(arch.values, (std::array<double, 2>{0.52, 0.87}));
+  const RestitutionSummary flat = summary({0.80, 0.82, 0.79, 0.83, 0.78, 0.81, 0.80, 0.82});
+  EXPECT_NEAR(*flat.bend, 0.8970614147968622, 1e-9);
+}
+
 TEST(RestitutionSummary, StatedErrorsThatAreLargerThanTheScatterDecide) {
   const RestitutionSummary found = summarise_restitution({dataset_of(two_series, 0.03)});
   // The scatter alone would give 0.0468 to either side of the mean, the stated error 0.0294.

@@ -142,7 +142,7 @@ TEST(RankingFigures, HaveABarForEveryCandidateThatGains) {
   const plot::Plot ranking = plot_of(ranking_figures(d).at(0));
   std::vector<std::string> names;
   for (const auto& tick : ranking.y.ticks) names.push_back(tick.label);
-  EXPECT_THAT(names, ElementsAre("plastic_yield", "probe_plane", "gas_film"));
+  EXPECT_THAT(names, ElementsAre("plastic yield", "probe plane", "gas film"));
   EXPECT_THAT(ranking_figures(Diagnosis{}), IsEmpty());
 }
 

@@ -8,7 +8,7 @@ the margins):
   - no console error or warning, no exception, no failed load
   - no request to anything but the page itself
   - every figure holds an SVG with a visible box in which plots are drawn, at least N of them
-  - no horizontal scrolling of the page, no duplicate id, no link to a missing anchor
+  - no horizontal scrolling of the page or of a table, no duplicate id, no link to a missing anchor
   - in print no navigation, no links that save, no sliders; the addresses of other pages are readable,
     and no page ends within a picture or a row of a table
 
@@ -79,6 +79,10 @@ INSPECT = r"""
   // A phone zooms out of a page that is too wide, so its own innerWidth proves nothing.
   if (page.scrollWidth > screen + 1)
     complaints.push('the page scrolls sideways: ' + page.scrollWidth + ' px in ' + screen + ' px');
+  for (const box of document.querySelectorAll('.wide')) {
+    if (box.scrollWidth > box.clientWidth + 1)
+      complaints.push('a table scrolls sideways: ' + box.innerText.slice(0, 60));
+  }
   if (matchMedia('print').matches) {
     for (const element of document.querySelectorAll('nav, .save, details.explore, .explored')) {
       if (element.getBoundingClientRect().height > 0)

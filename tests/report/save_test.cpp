@@ -102,7 +102,7 @@ class SavedPictures : public testing::Test {
 TEST_F(SavedPictures, AreAllThereUnderNamesOfTheirOwn) {
   for (const auto& [page, names] : names_) {
     EXPECT_GE(pictures_[page], page == "dahneke1975-quartz" ? 3U : 1U) << page;
-    EXPECT_EQ(names.size(), 2 * pictures_[page]) << page << ": an SVG and a CSV of each picture";
+    EXPECT_EQ(names.size(), 3 * pictures_[page]) << page << ": SVG, PNG and CSV of each picture";
     const std::set<std::string> different(names.begin(), names.end());
     EXPECT_EQ(different.size(), names.size()) << page;
     for (const std::string& name : names) {
@@ -113,6 +113,8 @@ TEST_F(SavedPictures, AreAllThereUnderNamesOfTheirOwn) {
         EXPECT_TRUE(text.ends_with("</svg>")) << name;
         EXPECT_NE(text.find("xmlns=\"http://www.w3.org/2000/svg\""), std::string::npos) << name;
         EXPECT_NE(text.find(" width=\""), std::string::npos) << name << " has a size of its own";
+      } else if (name.ends_with(".png")) {
+        EXPECT_TRUE(text.starts_with("\x89PNG")) << name;
       } else {
         EXPECT_TRUE(name.ends_with(".csv")) << name;
         EXPECT_GE(columns_of(text).size(), 2U) << name;
