@@ -17,11 +17,11 @@ namespace recoil {
 namespace {
 
 /// How candidates are fitted: hundreds of descents, of which only the criterion has to be known, to
-/// a hundredth. (A tolerance of the parameters would compare steps of very different units.)
+/// a tenth. (A tolerance of the parameters would compare steps of very different units.)
 LeastSquaresOptions descent() {
   LeastSquaresOptions options;
   options.max_iterations = 100;
-  options.function_tolerance = 1e-6;
+  options.function_tolerance = 1e-4;
   options.gradient_tolerance = 1e-10;
   options.parameter_tolerance = 1e-10;
   options.finish = false;
@@ -82,6 +82,30 @@ std::vector<std::vector<double>> best_starts(const LeastSquaresProblem& problem,
   std::vector<std::vector<double>> best;
   for (const auto& [deviance, k] : order) {
     if (best.size() < most) best.push_back(std::move(starts[k]));
+  }
+  return best;
+}
+
+/// Where a few steps lead from those of `starts` that are lowest then.
+std::vector<std::vector<double>> most_promising(const LeastSquaresProblem& problem,
+                                                std::vector<std::vector<double>> starts) {
+  constexpr int few_steps = 3;
+  constexpr std::size_t followed = 2;
+  if (starts.size() <= followed) return starts;
+  LeastSquaresOptions options = descent();
+  options.max_iterations = few_steps;
+  std::vector<LeastSquaresResult> runs;
+  for (const std::vector<double>& start : starts) {
+    runs.push_back(minimise(problem, start, options));
+    if (runs.back().end == DescentEnd::no_answer) runs.pop_back();
+  }
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const LeastSquaresResult& a, const LeastSquaresResult& b) {
+                     return a.sum_of_squares < b.sum_of_squares;
+                   });
+  std::vector<std::vector<double>> best;
+  for (std::size_t k = 0; k < std::min(followed, runs.size()); ++k) {
+    best.push_back(std::move(runs[k].theta));
   }
   return best;
 }
@@ -282,8 +306,8 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
       impact_problem(candidate.model, data.constants_weight != 1.0 ? stated : data), *discrepancy);
   const std::vector<double> first(near.begin(), near.end());
   const auto most = static_cast<std::size_t>(tries);
-  std::vector<std::vector<double>> starts =
-      best_starts(problem, advised_starts(candidate, first), most);
+  std::vector<std::vector<double>> starts = {first};
+  if (tries > 0) starts = best_starts(problem, advised_starts(candidate, first), most);
   if (tries > 1) {
     for (std::vector<double>& start :
          best_starts(problem, advised_starts(candidate, hardly_damped(candidate, first)), most)) {
@@ -293,7 +317,7 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
   const LeastSquaresOptions options = descent();
   Refit best;
   best.discrepancy = std::move(discrepancy);
-  for (const std::vector<double>& start : starts) {
+  for (const std::vector<double>& start : most_promising(problem, std::move(starts))) {
     LeastSquaresResult run = minimise(problem, start, options);
     if (!run.ended() && std::isfinite(run.sum_of_squares)) {
       run = minimise(problem, run.theta, careful_descent());

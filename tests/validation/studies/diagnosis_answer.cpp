@@ -76,6 +76,10 @@ FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.resembles = answer.at("resembles").get<std::vector<std::string>>();
   a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
   a.shared_cause = answer.at("shared_cause").is_string() ? answer["shared_cause"] : "";
+  const Json& exact = answer.at("if_exact");
+  a.hint = !exact.is_null() && exact.at("p_value") <= answer.at("settings").at("level");
+  a.hinted =
+      a.hint ? exact.at("listed").get<std::vector<std::string>>() : std::vector<std::string>();
   a.errors_told = false;
   for (const auto& errors : answer.at("unstated_errors")) {
     a.errors_told = a.errors_told || errors.at("rival").get<bool>();

@@ -38,6 +38,8 @@ struct Answered {
   std::vector<std::string> resembles;  ///< what fits best and cannot be true
   std::vector<std::string> certain;    ///< of the rivals, those in every explanation
   std::string shared_cause;            ///< of which all rivals are laws
+  bool hint = false;                   ///< adequate, but exact laws would leave structure
+  std::vector<std::string> hinted;     ///< what that is most like
   int odd = 0;               ///< points that are misread by more than 5 standard deviations,
   int odd_found = 0;         ///< of these, set aside by the answer,
   int right = 0;             ///< the others,
@@ -46,8 +48,8 @@ struct Answered {
   NearestRival
       nearest_rival;  ///< for one visible effect of the catalogue in a design of several diameters
   RECOIL_FIELDS(order, reached, signal_to_noise, status, complaint, seconds, rounds, events, taken,
-                verdict, p_value, named, rivals, resembles, certain, shared_cause, odd, odd_found,
-                right, accused, errors_told, nearest_rival)
+                verdict, p_value, named, rivals, resembles, certain, shared_cause, hint, hinted,
+                odd, odd_found, right, accused, errors_told, nearest_rival)
 };
 
 /// How an answer stands to the truth.

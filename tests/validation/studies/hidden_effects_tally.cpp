@@ -69,6 +69,13 @@ bool hides_nothing(const Answered& a) { return a.order.effects.empty(); }
 bool sees_structure(const Answered& a) { return a.verdict != "adequate"; }
 bool follows_other_law(const Answered& a) { return a.order.other_law; }
 bool names_a_cause(const Answered& a) { return a.verdict == "cause_named"; }
+bool hints(const Answered& a) { return a.hint; }
+/// Named, listed, its shape recognised, or listed as what exact laws would leave.
+bool is_hinted(const Answered& a) {
+  const Mark mark = mark_of(a);
+  return mark == Mark::named || mark == Mark::inside || mark == Mark::resembled ||
+         std::find(a.hinted.begin(), a.hinted.end(), a.order.effects.front()) != a.hinted.end();
+}
 bool tells_of_errors(const Answered& a) { return a.errors_told; }
 bool alarms(const Answered& a) { return mark_of(a) != Mark::nothing; }
 bool is_wrong(const Answered& a) {
@@ -231,6 +238,13 @@ const std::vector<Bar>& study_bars() {
       {"unseen", "visible effect called adequate", 0.05, false, effects, adequate},
       {"bent_listed", "law bent by 10 %: among named and rivals, or its shape recognised", 0.90,
        true, bent, recognised},
+      {"hinted",
+       "visible effect among named and rivals, its shape recognised, or told as what exact laws "
+       "would leave",
+       0.95, true, effects, is_hinted},
+      {"bent_hinted", "the same, law bent by 10 %", 0.90, true, bent, is_hinted},
+      {"false_hint", "nothing hidden: told that exact laws would leave structure", 0.05, false,
+       in(Arm::correct), hints},
       {"bent_wrong", "law bent by 10 %: wrong cause named", 0.03, false, bent, is_wrong},
       {"bent_unexplained", "law bent by 10 %: unexplained", 0.10, false, bent, unexplained},
       {"other_listed",
