@@ -86,30 +86,6 @@ std::vector<std::vector<double>> best_starts(const LeastSquaresProblem& problem,
   return best;
 }
 
-/// Where a few steps lead from those of `starts` that are lowest then.
-std::vector<std::vector<double>> most_promising(const LeastSquaresProblem& problem,
-                                                std::vector<std::vector<double>> starts) {
-  constexpr int few_steps = 3;
-  constexpr std::size_t followed = 2;
-  if (starts.size() <= followed) return starts;
-  LeastSquaresOptions options = descent();
-  options.max_iterations = few_steps;
-  std::vector<LeastSquaresResult> runs;
-  for (const std::vector<double>& start : starts) {
-    runs.push_back(minimise(problem, start, options));
-    if (runs.back().end == DescentEnd::no_answer) runs.pop_back();
-  }
-  std::stable_sort(runs.begin(), runs.end(),
-                   [](const LeastSquaresResult& a, const LeastSquaresResult& b) {
-                     return a.sum_of_squares < b.sum_of_squares;
-                   });
-  std::vector<std::vector<double>> best;
-  for (std::size_t k = 0; k < std::min(followed, runs.size()); ++k) {
-    best.push_back(std::move(runs[k].theta));
-  }
-  return best;
-}
-
 /// Narrows the bounds of a mechanism's parameter to what it can be and a fifth of that width beyond
 /// (of its logarithm where it has one): an estimate scatters about a truth at the edge.
 void keep_possible(ParameterSpec& spec, const AllowedValues& allowed) {
@@ -317,7 +293,7 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
   const LeastSquaresOptions options = descent();
   Refit best;
   best.discrepancy = std::move(discrepancy);
-  for (const std::vector<double>& start : most_promising(problem, std::move(starts))) {
+  for (const std::vector<double>& start : starts) {
     LeastSquaresResult run = minimise(problem, start, options);
     if (!run.ended() && std::isfinite(run.sum_of_squares)) {
       run = minimise(problem, run.theta, careful_descent());

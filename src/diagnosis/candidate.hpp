@@ -77,9 +77,9 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
                                  const ImpactModel& to);
 
 /// Minimises from `near`, with the parameters of the added mechanisms also at every start that the
-/// catalogue advises: the `tries` with the smallest deviance, and as many with the damping of the
-/// base model taken down to a tenth, if `tries` exceeds one. A few steps are made from each, and
-/// the two that are lowest then are followed to the end. With no tries only `near` is followed.
+/// catalogue advises; of these starts the `tries` with the smallest deviance are followed, and as
+/// many with the damping of the base model taken down to a tenth, if `tries` exceeds one. With no
+/// tries only `near` is followed.
 /// @param near theta of the candidate: the base parameters of a fit without the mechanisms, say
 /// @param discrepancy what the residuals share beside their own noise
 Refit refit_candidate(const Candidate& candidate, const Observations& data,

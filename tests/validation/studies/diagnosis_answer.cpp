@@ -185,7 +185,7 @@ std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep
   return recoil::value_from<Answered>(kept);
 }
 
-Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep) {
+Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep, bool baseline) {
   if (const std::optional<Answered> kept = kept_answer(order, keep)) return *kept;
   Answered a;
   a.order = order;
@@ -196,6 +196,7 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   if (made.reached && arm_of(order) == Arm::effect && order.signal_to_noise >= visible) {
     a.nearest_rival = nearest_rival(made, binary);
   }
+  if (made.reached && baseline) a.baseline = baseline_answers(made, binary);
   // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
   const bool answered = a.status >= 0 && a.status < 128;
   if (!keep.empty() && answered) {

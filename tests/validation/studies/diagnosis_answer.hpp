@@ -9,6 +9,7 @@
 
 #include "core/json.hpp"
 #include "core/names.hpp"
+#include "validation/studies/baseline.hpp"
 #include "validation/synthetic/further_impacts.hpp"
 
 namespace hidden {
@@ -47,9 +48,10 @@ struct Answered {
   bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
   NearestRival
       nearest_rival;  ///< for one visible effect of the catalogue in a design of several diameters
+  recoil::OrAbsent<BaselineAnswers> baseline;  ///< where it was asked for
   RECOIL_FIELDS(order, reached, signal_to_noise, status, complaint, seconds, rounds, events, taken,
                 verdict, p_value, named, rivals, resembles, certain, shared_cause, hint, hinted,
-                odd, odd_found, right, accused, errors_told, nearest_rival)
+                odd, odd_found, right, accused, errors_told, nearest_rival, baseline)
 };
 
 /// How an answer stands to the truth.
@@ -85,8 +87,9 @@ std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesyste
 
 /// Makes the case in a scratch folder, lets `binary` diagnose it on one thread, and keeps the
 /// answer in `keep` (when not empty), where the next run finds it.
+/// @param baseline ask the plain methods, too
 Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
-             const std::filesystem::path& keep);
+             const std::filesystem::path& keep, bool baseline = false);
 
 }  // namespace hidden
 

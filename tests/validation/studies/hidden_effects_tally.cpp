@@ -204,6 +204,45 @@ recoil::OrAbsent<LoopEffort> loop_of(const std::vector<Answered>& all) {
   return effort;
 }
 
+bool contains(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+/// A method that answers with the mechanisms it takes for true; none: it sees nothing.
+MethodRow method_row(const char* method, const Answers& effects, const Answers& nothing,
+                     const std::function<std::vector<std::string>(const Answered&)>& ids) {
+  const auto truth = [](const Answered& a) { return a.order.effects.front(); };
+  return {method, count(effects, [&](const Answered& a) { return ids(a) == a.order.effects; }),
+          count(effects, [&](const Answered& a) { return contains(ids(a), truth(a)); }),
+          count(effects,
+                [&](const Answered& a) {
+                  std::vector<std::string> others = ids(a);
+                  std::erase(others, truth(a));
+                  return !others.empty();
+                }),
+          count(nothing, [&](const Answered& a) { return !ids(a).empty(); })};
+}
+
+recoil::OrAbsent<std::vector<MethodRow>> methods_of(const std::vector<Answered>& all) {
+  const Test asked = [](const Answered& a) { return a.baseline.has_value(); };
+  const Answers effects = those(all, both(seen(Arm::effect), asked));
+  const Answers nothing = those(all, both(in(Arm::correct), asked));
+  if (effects.empty() && nothing.empty()) return {};
+  std::vector<MethodRow> rows = {
+      {"recoil", count(effects, marked({Mark::named})),
+       count(effects, marked({Mark::named, Mark::inside})), count(effects, is_wrong),
+       count(nothing, alarms)},
+      method_row("stepwise AICc", effects, nothing,
+                 [](const Answered& a) { return a.baseline->stepwise; }),
+      method_row("correlation with a Gaussian process", effects, nothing, [](const Answered& a) {
+        const std::string& id = a.baseline->correlated;
+        return id.empty() ? std::vector<std::string>() : std::vector<std::string>{id};
+      })};
+  recoil::OrAbsent<std::vector<MethodRow>> found;
+  found.emplace(std::move(rows));
+  return found;
+}
+
 }  // namespace
 
 const std::vector<Bar>& study_bars() {
@@ -332,6 +371,7 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
     }
   }
   tally.unreached = unreached_of(answers);
+  tally.methods = methods_of(answers);
   return tally;
 }
 
