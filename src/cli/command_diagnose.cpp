@@ -173,7 +173,7 @@ void add_diagnose(Program& program) {
               "diagnosed for each cause that is named or listed, at its effect and at half of it, "
               "and for none")
       .within(1, 1000000);
-  add_shard_flags(command, "data sets of --rates, or else of the calibration", flags->shards);
+  add_shard_flags(command, "data sets", flags->shards);
   add_json_flag(command, flags->json);
   add_verbose_flag(command, flags->verbose);
   command.runs([flags] {
