@@ -16,6 +16,7 @@
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/diagnosis_result.hpp"
 #include "diagnosis/extended_toml.hpp"
+#include "diagnosis/rates.hpp"
 #include "plot/draw.hpp"
 #include "report/diagnosis_sections.hpp"
 #include "report/result_json.hpp"
@@ -28,6 +29,7 @@ struct DiagnoseFlags {
   std::string out;
   int threads = 0;
   std::int64_t seed = -1;
+  int rates = 0;
   bool json = false;
   bool verbose = false;
   ShardFlags shards;
@@ -47,9 +49,38 @@ Origin origin_of_calibration(const DiagnoseFlags& flags, const FitInputs& inputs
                              calibration.pieces(), calibration.digits());
 }
 
+/// Finds what the design of `diagnosis` could have shown; of a shard, runs its share of that.
+/// @returns what is kept until the result is written; null of a shard
+std::shared_ptr<KeptRows> measure_rates(const DiagnoseFlags& flags, const FitInputs& inputs,
+                                        Diagnosis& diagnosis) {
+  const DesignRates rates(diagnosis, flags.rates);
+  const Origin origin = flags.shards.origin(inputs.spec, inputs.datasets, diagnosis.options.seed,
+                                            rates.pieces(), rates.digits());
+  const Pieces pieces = {"what these points could show", rates.pieces(), flags.threads,
+                         [&](std::size_t piece) { return row_json(rates.run(piece)); }};
+  const std::filesystem::path folder = flags.out;
+  if (flags.shards.one_of_several()) {
+    const std::shared_ptr<KeptRows> kept = flags.shards.rows(origin, folder);
+    if (kept) flags.shards.run_share(pieces, *kept, origin, folder);
+    return nullptr;
+  }
+  const std::shared_ptr<KeptRows> kept =
+      flags.shards.rows(origin, flags.out.empty() ? "" : folder / "rates.json");
+  resumable(pieces, *kept);
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < pieces.count; ++i) rows.push_back(row_numbers(*kept->find(i)));
+  diagnosis.own_design = rates.count(rows);
+  return kept;
+}
+
 void run_shard_of_calibration(const DiagnoseFlags& flags) {
   flags.shards.require_share(flags.out, 1);
   const FitInputs inputs = load_inputs(flags.fit);
+  if (flags.rates > 0) {
+    Diagnosis diagnosis = diagnose(inputs.spec, inputs.datasets, flags.options(inputs.spec));
+    measure_rates(flags, inputs, diagnosis);
+    return;
+  }
   const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
   const Origin origin = origin_of_calibration(flags, inputs, calibration);
   const std::shared_ptr<KeptRows> kept = flags.shards.rows(origin, flags.out);
@@ -64,15 +95,18 @@ std::filesystem::path result_in(const std::filesystem::path& folder) {
 }
 
 /// The pieces of the diagnosis to go on from: of a merge the data sets of its
-/// calibration.
+/// calibration, unless its parts are those of the rates.
 std::shared_ptr<KeptRows> rows_for(const DiagnoseFlags& flags, const FitInputs& inputs) {
+  if (flags.out.empty() || (flags.shards.merging() && flags.rates > 0)) {
+    return std::make_shared<KeptRows>();
+  }
   if (flags.shards.merging()) {
     const Calibration calibration(inputs.spec, inputs.datasets, flags.options(inputs.spec));
     return flags.shards.rows(origin_of_calibration(flags, inputs, calibration), "");
   }
   const Origin origin =
       flags.shards.origin(inputs.spec, inputs.datasets, flags.options(inputs.spec).seed, 0, "");
-  return flags.shards.rows(origin, flags.out.empty() ? "" : result_in(flags.out));
+  return flags.shards.rows(origin, result_in(flags.out));
 }
 
 void run_diagnosis(const DiagnoseFlags& flags) {
@@ -89,6 +123,8 @@ void run_diagnosis(const DiagnoseFlags& flags) {
   options.kept = rows_for(flags, inputs);
   Diagnosis diagnosis =
       resumable(*options.kept, [&] { return diagnose(inputs.spec, inputs.datasets, options); });
+  std::shared_ptr<KeptRows> kept_rates;
+  if (flags.rates > 0) kept_rates = measure_rates(flags, inputs, diagnosis);
   diagnosis.remarks = reconstruction_remarks(diagnosis.datasets);
   const std::string result = diagnosis_json(diagnosis);
   const std::string printed =
@@ -100,6 +136,7 @@ void run_diagnosis(const DiagnoseFlags& flags) {
                     {result_in(folder), result}},
                    printed);
     options.kept->forget();
+    if (kept_rates) kept_rates->forget();
   }
   print_text("{}", printed);
 }
@@ -134,7 +171,13 @@ void add_diagnose(Program& program) {
       .within(1, 4096);
   command.option("--seed", flags->seed, "seed of the simulated data sets (default: the fit file's)")
       .within(std::int64_t{0}, std::numeric_limits<std::int64_t>::max());
-  add_shard_flags(command, "calibration's data sets", flags->shards);
+  command
+      .option("--rates", flags->rates,
+              "also find what these points could have shown: so many data sets are simulated and "
+              "diagnosed for each cause that is named or listed, at its effect and at half of it, "
+              "and for none")
+      .within(1, 1000000);
+  add_shard_flags(command, "data sets", flags->shards);
   add_json_flag(command, flags->json);
   add_verbose_flag(command, flags->verbose);
   command.runs([flags] {

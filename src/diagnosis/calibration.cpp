@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <mutex>
 #include <utility>
 
 #include "core/error.hpp"
 #include "diagnosis/outlying_points.hpp"
 #include "diagnosis/search.hpp"
-#include "diagnosis/singles.hpp"
-#include "diagnosis/structure.hpp"
 
 namespace recoil {
 /// Everything refers to what stands before it.
@@ -20,17 +17,13 @@ struct Calibration::Side {
         datasets(std::move(data)),
         fitted(std::move(fit_result)),
         options(given),
-        base(search_base(spec, datasets, fitted, options)),
-        statistics(fitted.data, base.refit, fitted.prediction_squared) {}
+        base(search_base(spec, datasets, fitted, options)) {}
 
   FitSpec spec;
   std::vector<Dataset> datasets;
   FitResult fitted;
   DiagnosisOptions options;
   SearchBase base;
-  StructureStatistics statistics;
-  std::once_flag tried;
-  std::vector<CandidateResult> candidates;
 };
 
 Calibration::Calibration(const FitSpec& stated, const std::vector<Dataset>& datasets,
@@ -63,14 +56,7 @@ std::size_t Calibration::pieces() const { return sides_.size() * sides_.front()-
 
 std::vector<double> Calibration::run(std::size_t piece) const {
   const std::size_t of_each = sides_.front()->options.pieces();
-  Side& side = *sides_[piece / of_each];
-  const std::size_t index = piece % of_each;
-  const auto simulated = static_cast<std::size_t>(side.options.simulated);
-  if (index >= simulated) {
-    std::call_once(side.tried, [&side] { side.candidates = try_singles(side.base); });
-    return {largest_gain(side.base, side.candidates, index - simulated)};
-  }
-  return calibration_row(structure_of_sample(side.base, side.statistics, index));
+  return calibration_row(residuals_of_sample(sides_[piece / of_each]->base, piece % of_each));
 }
 
 std::string Calibration::digits() const {

@@ -10,11 +10,10 @@
 
 namespace recoil {
 
-/// The simulated data sets that calibrate a diagnosis, as numbered pieces: first those that say how
-/// much structure chance leaves (`simulated`), then those that say what the best candidate gains by
-/// chance (`compared`); both once more for the data without outlying points, where there are any.
-/// The other steps of a diagnosis (every mechanism, pairs, held-out points) are no pieces: they
-/// have few and unequal ones.
+/// The simulated data sets that calibrate a diagnosis, as numbered pieces: their residuals say how
+/// much structure chance leaves, and what causes gain by chance; once more for the data without
+/// outlying points, where there are any. The other steps of a diagnosis (every mechanism, pairs,
+/// held-out points) are no pieces: they have few and unequal ones.
 class Calibration {
  public:
   /// @throws ComputationError when the base model has no usable fit
@@ -24,8 +23,7 @@ class Calibration {
 
   std::size_t pieces() const;
 
-  /// What came of a piece: 1 and the statistics, or 0 where there was no fit; of the second kind
-  /// the gain. Called from any thread.
+  /// `calibration_row` of a piece. Called from any thread.
   std::vector<double> run(std::size_t piece) const;
 
   /// What the pieces begin with, to the last digit.

@@ -17,11 +17,11 @@ namespace recoil {
 namespace {
 
 /// How candidates are fitted: hundreds of descents, of which only the criterion has to be known, to
-/// a hundredth. (A tolerance of the parameters would compare steps of very different units.)
+/// a tenth. (A tolerance of the parameters would compare steps of very different units.)
 LeastSquaresOptions descent() {
   LeastSquaresOptions options;
   options.max_iterations = 100;
-  options.function_tolerance = 1e-6;
+  options.function_tolerance = 1e-4;
   options.gradient_tolerance = 1e-10;
   options.parameter_tolerance = 1e-10;
   options.finish = false;
@@ -282,8 +282,8 @@ Refit refit_candidate(const Candidate& candidate, const Observations& data,
       impact_problem(candidate.model, data.constants_weight != 1.0 ? stated : data), *discrepancy);
   const std::vector<double> first(near.begin(), near.end());
   const auto most = static_cast<std::size_t>(tries);
-  std::vector<std::vector<double>> starts =
-      best_starts(problem, advised_starts(candidate, first), most);
+  std::vector<std::vector<double>> starts = {first};
+  if (tries > 0) starts = best_starts(problem, advised_starts(candidate, first), most);
   if (tries > 1) {
     for (std::vector<double>& start :
          best_starts(problem, advised_starts(candidate, hardly_damped(candidate, first)), most)) {

@@ -78,7 +78,8 @@ std::vector<double> carried_over(const ImpactModel& model, std::span<const doubl
 
 /// Minimises from `near`, with the parameters of the added mechanisms also at every start that the
 /// catalogue advises; of these starts the `tries` with the smallest deviance are followed, and as
-/// many with the damping of the base model taken down to a tenth, if `tries` exceeds one.
+/// many with the damping of the base model taken down to a tenth, if `tries` exceeds one. With no
+/// tries only `near` is followed.
 /// @param near theta of the candidate: the base parameters of a fit without the mechanisms, say
 /// @param discrepancy what the residuals share beside their own noise
 Refit refit_candidate(const Candidate& candidate, const Observations& data,

@@ -30,18 +30,24 @@ namespace {
 constexpr double margin_at_one_size = 20.0;  // there nothing but the shape of one curve speaks
 
 /// Step 1: does the base model leave structure?
-void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
+/// @returns the residuals of the data sets that calibrate it [points x data sets]
+Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   const StructureStatistics statistics(base.fitted.data, base.refit,
                                        base.fitted.prediction_squared);
   const auto count = static_cast<std::size_t>(diagnosis.options.simulated);
-  std::vector<std::optional<PerValue<StructureQuestion, double>>> answers(count);
+  std::vector<std::optional<std::vector<double>>> answers(count);
   parallel_over(count, diagnosis.options.threads, [&](std::size_t b) {
-    answers[b] = structure_of_sample(base, statistics, b);
-    if (b % 10 == 0) progress.advance();
+    answers[b] = residuals_of_sample(base, b);
+    progress.advance();
   });
   std::vector<PerValue<StructureQuestion, double>> simulated;
+  Eigen::MatrixXd residuals(static_cast<Eigen::Index>(base.fitted.data.points.size()),
+                            static_cast<Eigen::Index>(count));
   for (const auto& answer : answers) {
-    if (answer) simulated.push_back(*answer);
+    if (!answer) continue;
+    residuals.col(static_cast<Eigen::Index>(simulated.size())) =
+        Eigen::Map<const Eigen::VectorXd>(answer->data(), residuals.rows());
+    simulated.push_back(statistics(*answer));
   }
   diagnosis.structure = judge_structure(statistics, base.refit.residuals, simulated);
   diagnosis.structure.failed = static_cast<int>(count - simulated.size());
@@ -58,11 +64,17 @@ void test_base(const SearchBase& base, Diagnosis& diagnosis, Progress& progress)
   } else {
     diagnosis.free_form_p = diagnosis.structure.p_value;
   }
+  return residuals.leftCols(static_cast<Eigen::Index>(simulated.size()));
 }
 
 bool beyond_a_sharp_limit(const CandidateResult& c) {
   return std::any_of(c.parameters.begin(), c.parameters.end(),
                      [](const FoundParameter& p) { return p.limit != nullptr && p.limit->sharp; });
+}
+
+/// Is it no description, nor a batch that cannot be told from a law of size?
+bool may_be_a_cause(const CandidateResult& c) {
+  return c.kind != MechanismKind::description && c.set_aside != SetAside::batch_is_size;
 }
 
 /// The best explanation among `candidates` (the best first), and what cannot be told from it; none
@@ -79,8 +91,7 @@ std::vector<const CandidateResult*> explanations(const std::vector<CandidateResu
     // So close to the best one, or before it, the other reasons to set something aside are as
     // doubtful as it. If the best is itself possible by its error only, so is how far others are.
     const bool near = c.near_plausible || (best->only_by_error && !beyond_a_sharp_limit(c));
-    const bool possible = near && c.kind != MechanismKind::description &&
-                          c.set_aside != SetAside::batch_is_size && c.delta_aicc < 0.0;
+    const bool possible = near && may_be_a_cause(c) && c.delta_aicc < 0.0;
     const bool pair = c.candidate.added.size() > 1;
     if (one_size || pair ? c.explains() : possible) found.push_back(&c);
   }
@@ -246,8 +257,7 @@ void add_close_singles(const std::vector<CandidateResult>& singles, double lead,
   const CandidateResult& best = *found.front();
   const auto& both = best.candidate.added;
   for (const CandidateResult& c : singles) {
-    const bool possible = c.near_plausible && c.kind != MechanismKind::description &&
-                          c.set_aside != SetAside::batch_is_size && c.p_value <= chance;
+    const bool possible = c.near_plausible && may_be_a_cause(c) && c.p_value <= chance;
     const bool other = std::find(both.begin(), both.end(), c.candidate.added.front()) == both.end();
     if (possible && other && c.delta_aicc <= best.delta_aicc + lead) found.push_back(&c);
   }
@@ -275,17 +285,16 @@ std::vector<std::string> resembling(const std::vector<CandidateResult>& candidat
 }
 
 /// Steps 2 to 4.
-void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
+/// @param simulated residuals of the data sets that calibrate [points x data sets]
+void search(const SearchBase& base, const Eigen::MatrixXd& simulated, Diagnosis& diagnosis) {
   const DiagnosisOptions& options = diagnosis.options;
   diagnosis.candidates = try_singles(base);
-  calibrate(base, diagnosis.candidates, [&] { progress.advance(); });
+  calibrate(base, diagnosis.candidates, simulated);
   const std::vector<Fold> folds =
       held_out_folds(base.fitted.data, base.datasets.size(), base.candidate.free_count + 1);
-  const std::vector<FoldPrediction> base_folds = predict_folds(
-      base.candidate, base.fitted.data, base.laws, folds, base.refit.theta, options.threads);
   const bool one_size = has_one_size(base.fitted.data);
   const double margin = one_size ? margin_at_one_size : options.margin;
-  judge(base, diagnosis.candidates, INFINITY, folds, base_folds);
+  judge(base, diagnosis.candidates, INFINITY, folds);
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
   const auto impossible =
       std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(), cannot_be_told);
@@ -298,7 +307,7 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   if (found.empty() && more_than_chance(diagnosis)) {
     diagnosis.pairs = try_pairs(base, diagnosis.candidates);
     const double margin_in_pairs = std::max(margin, options.margin_in_pairs);
-    judge(base, diagnosis.pairs, margin_in_pairs, folds, base_folds);
+    judge(base, diagnosis.pairs, margin_in_pairs, folds);
     found = explanations(diagnosis.pairs, margin_in_pairs, one_size);
     if (!found.empty() && outshone_at_the_edge(*found.front(), diagnosis.pairs, margin_in_pairs)) {
       found.clear();
@@ -325,6 +334,12 @@ void search(const SearchBase& base, Diagnosis& diagnosis, Progress& progress) {
   if (diagnosis.extended) extend(base, diagnosis);
 }
 
+double quick_p_value(const SearchBase& base) {
+  return quick_structure(base.fitted.data, base.refit, base.fitted.prediction_squared,
+                         quick_samples, base.options.seed)
+      .p_value;
+}
+
 /// Is it the errors of the materials that make the model adequate?
 std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   if (diagnosis.base.model.constants.empty()) return std::nullopt;
@@ -335,11 +350,31 @@ std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   if (!fitted.usable) return std::nullopt;
   const SearchBase base = search_base(exact, diagnosis.datasets, fitted, diagnosis.options);
   if (!base.refit.usable) return std::nullopt;
-  const double p_value = quick_structure(fitted.data, base.refit, fitted.prediction_squared,
-                                         quick_samples, diagnosis.options.seed)
-                             .p_value;
+  const double p_value = quick_p_value(base);
   if (p_value > diagnosis.options.level) return std::nullopt;
   return MaterialsExplain{p_value};
+}
+
+/// What exact laws would leave and, where that is structure, which causes fit it best.
+std::optional<IfExact> if_exact(const SearchBase& allowed) {
+  if (allowed.laws.none()) return std::nullopt;
+  FitSpec spec = allowed.spec;
+  spec.law_error = 0.0;
+  const SearchBase base = search_base(spec, allowed.datasets, allowed.fitted, allowed.options);
+  if (!base.refit.usable) return std::nullopt;
+  IfExact found{quick_p_value(base), {}};
+  if (found.p_value > base.options.level) return found;
+  std::vector<CandidateResult> candidates = try_singles(base);
+  judge(base, candidates, INFINITY, {});
+  double best = INFINITY;
+  for (const CandidateResult& c : candidates) {
+    if (!c.near_plausible || !may_be_a_cause(c) || !(c.delta_aicc < 0.0)) continue;
+    best = std::min(best, c.delta_aicc);
+    if (c.delta_aicc <= best + base.options.margin) {
+      found.listed.push_back(c.candidate.added.front());
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -366,17 +401,16 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   diagnosis.datasets = base.datasets;
   diagnosis.base = base.fitted;
   diagnosis.expected = expected_effects(base);
-  Progress progress("diagnosis",
-                    static_cast<std::size_t>((options.simulated + 9) / 10 + options.compared));
-  test_base(base, diagnosis, progress);
+  Progress progress("diagnosis", options.pieces());
+  const Eigen::MatrixXd simulated = test_base(base, diagnosis, progress);
   diagnosis.where = misfit_map(diagnosis.base);
   if (diagnosis.structure.p_value > options.level) {
     diagnosis.verdict = Verdict::adequate;
     diagnosis.materials = materials_explain(diagnosis);
-    progress.advance(static_cast<std::size_t>(options.compared));
+    diagnosis.if_exact = if_exact(base);
   } else {
     diagnosis.base_intervals = base_intervals;
-    search(base, diagnosis, progress);
+    search(base, simulated, diagnosis);
     if (!diagnosis.extended_fit) diagnosis.base_intervals.clear();
   }
   return diagnosis;

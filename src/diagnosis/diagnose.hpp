@@ -12,7 +12,8 @@ namespace recoil {
 ///    sets simulated by the fitted model and refitted.
 /// 2. Unless the model is adequate, every mechanism of the catalogue is added and the whole model
 ///    refitted, with the weights of the base fit. The p-value of a candidate is the part of data
-///    sets simulated by the base model in which the best of all candidates gains as much.
+///    sets simulated by the base model in which the best of all candidates gains as much, to first
+///    order.
 /// 3. A candidate explains the data when that p-value is no more than `chance`, it leaves no
 ///    structure (or none to speak of beside what it took), its parameters are possible, and it
 ///    predicts blocks that were held out better than the base does. A description never explains.

@@ -9,8 +9,8 @@ namespace recoil {
 class KeptRows;
 
 struct DiagnosisOptions {
-  int simulated = 999;  ///< data sets of the base model that calibrate the tests of the residuals
-  int compared = 39;    ///< of these, how many are fitted with every candidate
+  /// Data sets of the base model that calibrate the tests of the residuals and the gains of causes.
+  int simulated = 399;
   /// A correct model whose losses are wrong by the error that they are allowed is accused in this
   /// part of all data, if the stated deviations are right; one without that error in less.
   double level = 0.05;
@@ -33,7 +33,7 @@ struct DiagnosisOptions {
   std::size_t first_piece = 0;  ///< of the calibration, for the data that are diagnosed
 
   /// How many pieces the calibration for one set of data has.
-  std::size_t pieces() const { return static_cast<std::size_t>(simulated + compared); }
+  std::size_t pieces() const { return static_cast<std::size_t>(simulated); }
 };
 
 }  // namespace recoil

@@ -42,6 +42,31 @@ struct MaterialsExplain {
   double p_value_exact = 1.0;  ///< of the structure that exact materials leave
 };
 
+/// What an adequate model would leave if laws and losses had no error (`LawErrors`).
+struct IfExact {
+  double p_value = 1.0;  ///< of the structure, `quick_structure`
+  /// Where that is no more than the level of the diagnosis: the possible causes that fit best under
+  /// exact laws, none behind the first by more than its margin.
+  std::vector<std::string> listed;
+};
+
+/// How often data sets like these, in which a cause acts, are answered how (`DesignRates`).
+struct Detection {
+  std::string id;         ///< of the cause
+  double strength = 1.0;  ///< its effect on e^2, over the effect that was found [1]
+  int datasets = 0;       ///< simulated
+  int named = 0;          ///< it alone is named
+  int listed = 0;         ///< it is listed among others
+  int wrong = 0;          ///< something else is named
+};
+
+/// What these points could have shown.
+struct OwnDesign {
+  std::vector<Detection> detection;  ///< of each cause that is named or listed
+  int datasets = 0;                  ///< simulated with nothing but the base model
+  int alarms = 0;                    ///< of these, how many are not adequate
+};
+
 /// What `diagnose` finds.
 struct Diagnosis {
   DiagnosisOptions options;
@@ -77,7 +102,9 @@ struct Diagnosis {
   std::vector<ExpectedEffect> expected;     ///< of what the conditions state, the largest first
   std::vector<UnstatedErrors> unstated;  ///< the likelier first; empty when the model is adequate
   std::optional<MaterialsExplain> materials;  ///< of an adequate model, where its constants matter
+  std::optional<IfExact> if_exact;  ///< of an adequate model, where laws are allowed an error
   std::string outdone;  ///< the best explanation, where unstated errors do better; else empty
+  std::optional<OwnDesign> own_design;  ///< where it was asked for
   /// What a reader has to know about the points: for reconstructions, what their recipe put there.
   std::vector<std::string> remarks;
 };

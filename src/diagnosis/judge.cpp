@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/parallel.hpp"
 #include "diagnosis/batches.hpp"
 #include "diagnosis/plausibility.hpp"
 #include "diagnosis/reading_step.hpp"
@@ -11,9 +10,6 @@
 
 namespace recoil {
 namespace {
-
-constexpr std::size_t shown_leads = 8;  // are held out whatever is held against them
-constexpr double lead_within = 30.0;    // of the criterion, of the best
 
 /// Is the parameter an error of a height, a length that only what falls from heights can have?
 bool is_height(const Parameter& parameter) {
@@ -53,11 +49,16 @@ std::optional<SetAside> reason_against(const SearchBase& base, const CandidateRe
 }  // namespace
 
 void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, double reach,
-           const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base_folds) {
+           const std::vector<Fold>& folds) {
+  std::optional<std::vector<FoldPrediction>> base_folds;  // found where something explains
   const auto hold_out = [&](CandidateResult& c) {
+    if (!base_folds) {
+      base_folds = predict_folds(base.candidate, base.fitted.data, base.laws, folds,
+                                 base.refit.theta, base.options.threads);
+    }
     const std::vector<FoldPrediction> own = predict_folds(
         c.candidate, base.fitted.data, base.laws, folds, c.refit.theta, base.options.threads);
-    c.gain = held_out_gain(folds, base_folds, own, base.options.seed);
+    c.gain = held_out_gain(folds, *base_folds, own, base.options.seed);
     if (c.explains() && c.gain->decisive && !(c.gain->log_score > 0.0)) {
       c.set_aside = SetAside::predicts_no_better;
     }
@@ -65,15 +66,10 @@ void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, dou
   for (CandidateResult& c : candidates) {
     if (c.explains()) c.set_aside = reason_against(base, c);
   }
-  const std::size_t leads = std::min(shown_leads, candidates.size());
-  parallel_over(leads, base.options.threads, [&](std::size_t k) {
-    const double within = std::min(0.0, candidates.front().delta_aicc + lead_within);
-    if (candidates[k].delta_aicc < within) hold_out(candidates[k]);
-  });
   double best = INFINITY;  // of those that explain
   for (CandidateResult& c : candidates) {
     if (!c.explains() || c.delta_aicc > best + reach) continue;
-    if (!c.gain) hold_out(c);
+    hold_out(c);
     if (c.explains()) best = std::min(best, c.delta_aicc);
   }
 }

@@ -6,10 +6,10 @@
 
 namespace recoil {
 
-/// Says of every candidate why it is not a cause, or nothing. Held-out gains are computed for the
-/// first few, and for those that pass everything else and are no more than `reach` (of the
-/// criterion) behind the best explanation; what is further behind explains without that test.
+/// Says of every candidate why it is not a cause, or nothing. Held-out gains are computed for those
+/// that pass everything else and are no more than `reach` (of the criterion) behind the best
+/// explanation; what is further behind explains without that test.
 void judge(const SearchBase& base, std::vector<CandidateResult>& candidates, double reach,
-           const std::vector<Fold>& folds, const std::vector<FoldPrediction>& base_folds);
+           const std::vector<Fold>& folds);
 
 }  // namespace recoil

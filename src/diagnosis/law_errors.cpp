@@ -96,7 +96,7 @@ Refit with_law_errors(const Candidate& candidate, const Observations& data, Refi
   for (int round = 0; round < rounds && refit.usable; ++round) {
     const auto columns = law_error_columns(candidate, data, refit.theta, laws);
     if (!columns) return {};
-    refit = refit_candidate(candidate, data, refit.theta, 1,
+    refit = refit_candidate(candidate, data, refit.theta, 0,
                             std::make_shared<const Discrepancy>(*columns));
   }
   return refit;

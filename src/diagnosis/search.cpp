@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
-#include "core/parallel.hpp"
 #include "diagnosis/kept_pieces.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/residual.hpp"
@@ -14,9 +14,6 @@
 
 namespace recoil {
 namespace {
-
-constexpr std::size_t sets_at_once = 13;    // between two looks at how many gain more
-constexpr std::ptrdiff_t often_enough = 5;  // to say that chance gives as much
 
 /// The fit with an error of settings that no smooth law could explain: the one that it estimated
 /// takes up whatever the base model gets wrong, and would hide it.
@@ -89,60 +86,58 @@ void draw_capture(Observation& point, double square, RandomStream& random) {
 
 }  // namespace
 
-Observations simulate_base(const SearchBase& base, std::uint64_t index) {
+Observations simulate_points(const SearchBase& base, std::span<const double> squares, double bend,
+                             std::uint64_t index) {
   RandomStream random(base.options.seed, RandomPurpose::diagnosis, index);
-  Eigen::VectorXd bend = Eigen::VectorXd::Zero(base.laws.functions.cols());
-  for (double& weight : bend) weight = random.normal();
-  const Eigen::VectorXd wrong_by = base.laws.base * (base.laws.functions * bend);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(base.laws.functions.cols());
+  for (double& weight : weights) weight = random.normal();
+  const Eigen::VectorXd wrong_by = bend * (base.laws.functions * weights);
   Observations sample = base.fitted.data;
   RandomStream of_settings(base.options.seed, RandomPurpose::settings, index);
   const std::vector<double> shared = draw_setting_errors(sample, of_settings);
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     Observation& point = sample.points[i];
-    const double square = base.fitted.prediction_squared[i];
-    const double loss = std::clamp(1.0 - square, 0.0, 1.0);
-    const double bent = square + loss * wrong_by(static_cast<Eigen::Index>(i));
+    const double loss = std::clamp(1.0 - squares[i], 0.0, 1.0);
+    const double bent = squares[i] + loss * wrong_by(static_cast<Eigen::Index>(i));
     point = simulate_observation(point, shifted_square(bent, shared[i]), base.noise_scale,
                                  sample.noise.student, random);
     if (point.peaks()) locate_peak(point);
     if (point.censored && !point.counts_only() && !(point.weights.scatter > 0.0)) {
-      draw_capture(point, square, random);
+      draw_capture(point, squares[i], random);
     }
   }
   return sample;
 }
 
-std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
-    const SearchBase& base, const StructureStatistics& statistics, std::uint64_t index) {
-  using Answer = std::optional<PerValue<StructureQuestion, double>>;
+Observations simulate_base(const SearchBase& base, std::uint64_t index) {
+  return simulate_points(base, base.fitted.prediction_squared, base.laws.base, index);
+}
+
+std::optional<std::vector<double>> residuals_of_sample(const SearchBase& base,
+                                                       std::uint64_t index) {
+  using Answer = std::optional<std::vector<double>>;
   const auto make = [&]() -> Answer {
-    const Observations sample = simulate_base(base, index);
-    const Refit refit =
-        refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
+    Refit refit = refit_candidate(base.candidate, simulate_base(base, index), base.refit.theta, 0,
+                                  base.refit.discrepancy);
     if (!refit.usable) return std::nullopt;
-    return statistics(refit.residuals);
+    return std::move(refit.residuals);
   };
   const auto write = [](const Answer& answer) { return row_json(calibration_row(answer)); };
-  const auto read = [](const Json& row) -> Answer {
+  const auto read = [&](const Json& row) -> Answer {
     const std::vector<double> values = row_numbers(row);
     if (values.size() == 1) return std::nullopt;
-    PerValue<StructureQuestion, double> answer{};
-    std::size_t at = 1;
-    for (const StructureQuestion question : values_of<StructureQuestion>()) {
-      answer[question] = values.at(at++);
+    if (values.size() != base.fitted.data.points.size() + 1) {
+      throw std::length_error("residuals of other points");
     }
-    return answer;
+    return std::vector<double>(values.begin() + 1, values.end());
   };
   return kept_or_made(base.options.kept.get(), base.options.first_piece + index, make, write, read);
 }
 
-std::vector<double> calibration_row(
-    const std::optional<PerValue<StructureQuestion, double>>& answer) {
-  if (!answer) return {0.0};
+std::vector<double> calibration_row(const std::optional<std::vector<double>>& residuals) {
+  if (!residuals) return {0.0};
   std::vector<double> row = {1.0};
-  for (const StructureQuestion question : values_of<StructureQuestion>()) {
-    row.push_back((*answer)[question]);
-  }
+  row.insert(row.end(), residuals->begin(), residuals->end());
   return row;
 }
 
@@ -150,55 +145,76 @@ bool spreads(const CandidateResult& single) {
   return find_mechanism(single.candidate.added.front())->spreads();
 }
 
-double largest_gain(const SearchBase& base, const std::vector<CandidateResult>& candidates,
-                    std::uint64_t index) {
-  double most = -INFINITY;
-  const Observations sample = simulate_base(base, index);
-  const Refit alone =
-      refit_candidate(base.candidate, sample, base.refit.theta, 1, base.refit.discrepancy);
-  if (!alone.usable) return most;
-  const double criterion = corrected_criterion(sample, alone, base.candidate.free_count);
-  bool spread = false;
-  for (const CandidateResult& c : candidates) {
-    // One spread looks like the other, and takes nine times as long as anything else.
-    if (spreads(c) && std::exchange(spread, true)) continue;
-    const std::vector<double> near =
-        carried_over(base.candidate.model, alone.theta, c.candidate.model);
-    // What chance alone makes of a mechanism is small, and so is the error of its law.
-    const Refit refit = refit_candidate(c.candidate, sample, near, 1, base.refit.discrepancy);
-    if (!refit.usable) continue;
-    const double gain = criterion - corrected_criterion(sample, refit, c.candidate.free_count);
-    most = std::max(most, gain);
+namespace {
+
+/// The columns of the Jacobian of `refit` that belong to the chosen slots, under the covariance of
+/// the base, each of unit length [points x columns].
+template <class Chosen>
+Eigen::MatrixXd unit_columns(const SearchBase& base, const Refit& refit, const Chosen& chosen) {
+  const std::size_t n = base.fitted.data.points.size();
+  const std::size_t slots = refit.theta.size();
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(slots));
+  Eigen::Index count = 0;
+  std::vector<double> column(n);
+  for (std::size_t j = 0; j < slots; ++j) {
+    if (!chosen(j)) continue;
+    for (std::size_t i = 0; i < n; ++i) column[i] = refit.jacobian[i * slots + j];
+    refit.discrepancy->unwhiten(column);
+    base.refit.discrepancy->whiten(column);
+    const Eigen::Map<const Eigen::VectorXd> found(column.data(), static_cast<Eigen::Index>(n));
+    const double length = found.norm();
+    if (length > 0.0) columns.col(count++) = found / length;
   }
-  return most;
+  return columns.leftCols(count);
+}
+
+/// An orthonormal basis of what the columns span [points x rank].
+Eigen::MatrixXd basis_of(const Eigen::MatrixXd& columns) {
+  constexpr double negligible = 1e-6;  // of the unit length that columns had
+  if (columns.cols() == 0) return columns;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  Eigen::Index rank = 0;
+  while (rank < std::min(columns.rows(), columns.cols()) &&
+         std::abs(qr.matrixR()(rank, rank)) > negligible) {
+    ++rank;
+  }
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), rank);
+}
+
+}  // namespace
+
+Eigen::MatrixXd gains_by_chance(const SearchBase& base,
+                                const std::vector<CandidateResult>& candidates,
+                                const Eigen::MatrixXd& residuals) {
+  const Observations& data = base.fitted.data;
+  const Eigen::MatrixXd model = basis_of(
+      unit_columns(base, base.refit, [&](std::size_t j) { return bool(base.refit.moving[j]); }));
+  const Eigen::VectorXd squares = residuals.colwise().squaredNorm();
+  Eigen::MatrixXd gains(residuals.cols(), static_cast<Eigen::Index>(candidates.size()));
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Candidate& candidate = candidates[k].candidate;
+    const auto& slots = candidate.model.slots;
+    Eigen::MatrixXd own = unit_columns(base, candidates[k].refit, [&](std::size_t j) {
+      return slots[j].free && candidate.adds(slots[j]);
+    });
+    own -= model * (model.transpose() * own);
+    const Eigen::VectorXd taken = (basis_of(own).transpose() * residuals).colwise().squaredNorm();
+    for (Eigen::Index b = 0; b < residuals.cols(); ++b) {
+      gains(b, static_cast<Eigen::Index>(k)) =
+          corrected_criterion(data, squares(b), base.candidate.free_count) -
+          corrected_criterion(data, squares(b) - taken(b), candidate.free_count);
+    }
+  }
+  return gains;
 }
 
 void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
-               const std::function<void()>& tick) {
-  const auto count = static_cast<std::size_t>(base.options.compared);
-  std::vector<double> most(count, -INFINITY);
-  const auto gains_more = [&](std::size_t b) {
-    most[b] = kept_or_made(
-        base.options.kept.get(),
-        base.options.first_piece + static_cast<std::size_t>(base.options.simulated) + b,
-        [&] { return largest_gain(base, candidates, b); },
-        [](double gain) { return row_json({gain}); },
-        [](const Json& row) { return row_numbers(row).at(0); });
-    tick();
-  };
-  std::size_t done = 0;
-  const auto as_much = [&](const CandidateResult& c) {
-    return std::count_if(most.begin(), most.begin() + static_cast<std::ptrdiff_t>(done),
-                         [&](double gain) { return gain >= -c.delta_aicc; });
-  };
-  while (done < count && !candidates.empty() && as_much(candidates.front()) < often_enough) {
-    const std::size_t now = std::min(sets_at_once, count - done);
-    parallel_over(now, base.options.threads, [&](std::size_t k) { gains_more(done + k); });
-    done += now;
-  }
-  for (std::size_t b = done; b < count; ++b) tick();
+               const Eigen::MatrixXd& residuals) {
+  if (candidates.empty()) return;
+  const Eigen::VectorXd most = gains_by_chance(base, candidates, residuals).rowwise().maxCoeff();
   for (CandidateResult& c : candidates) {
-    c.p_value = (1.0 + static_cast<double>(as_much(c))) / (1.0 + static_cast<double>(done));
+    const auto as_much = (most.array() >= -c.delta_aicc).count();
+    c.p_value = (1.0 + static_cast<double>(as_much)) / (1.0 + static_cast<double>(most.size()));
   }
 }
 

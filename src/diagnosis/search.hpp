@@ -1,7 +1,9 @@
 #pragma once
 
-#include <functional>
+#include <Eigen/Dense>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "diagnosis/candidate_result.hpp"
@@ -31,32 +33,38 @@ FitSpec with_constants_adjusted(FitSpec spec);
 SearchBase search_base(const FitSpec& spec, const std::vector<Dataset>& datasets,
                        const FitResult& fitted, const DiagnosisOptions& options);
 
+/// The sample with readings drawn anew, where the truth is e^2 = `squares` and 1 - e^2 is wrong by
+/// a smooth factor of the size `bend` [1]. The draws are numbered by `index`.
+Observations simulate_points(const SearchBase& base, std::span<const double> squares, double bend,
+                             std::uint64_t index);
+
 /// Replicate `index` of the sample under the base model, its losses wrong by a smooth factor of the
 /// size that `laws` allows.
 Observations simulate_base(const SearchBase& base, std::uint64_t index);
 
-/// The structure in replicate `index`, refitted; none without a fit. Taken from what is kept,
-/// where it is there.
-std::optional<PerValue<StructureQuestion, double>> structure_of_sample(
-    const SearchBase& base, const StructureStatistics& statistics, std::uint64_t index);
+/// The residuals of replicate `index`, refitted, whitened like those of `base.refit` [points]; none
+/// without a fit. Taken from what is kept, where it is there.
+std::optional<std::vector<double>> residuals_of_sample(const SearchBase& base, std::uint64_t index);
 
-/// The row of that piece of the calibration: 1 and the statistics, or 0 where there was no fit.
-std::vector<double> calibration_row(
-    const std::optional<PerValue<StructureQuestion, double>>& answer);
+/// The row of that piece of the calibration: 1 and the residuals, or 0 where there was no fit.
+std::vector<double> calibration_row(const std::optional<std::vector<double>>& residuals);
 
 /// Is a single candidate one under which the spheres of a point differ?
 bool spreads(const CandidateResult& single);
 
-/// What the best of `candidates` gains over the base, in its criterion, on replicate `index`;
-/// -infinity where nothing can be fitted.
-double largest_gain(const SearchBase& base, const std::vector<CandidateResult>& candidates,
-                    std::uint64_t index);
+/// What each of `candidates` gains over the base, in its criterion, on every replicate
+/// [replicates x candidates], to first order: with Q an orthonormal basis of the columns that its
+/// own free parameters have in the Jacobian of its fit, freed of those of the base, the sum of the
+/// squares of the residuals r falls by |Q' r|^2 (the score test of Rao 1948, Proc. Camb. Phil. Soc.
+/// 44, 50-57).
+/// @param residuals of the replicates [points x replicates]
+Eigen::MatrixXd gains_by_chance(const SearchBase& base,
+                                const std::vector<CandidateResult>& candidates,
+                                const Eigen::MatrixXd& residuals);
 
-/// Fills the p-values of `candidates`: (1 + number of simulated data sets in which the best of all
-/// candidates gains as much) / (1 + number of data sets). The data sets end early once chance has
-/// given the best candidate as much five times (Besag & Clifford 1991, Biometrika 78, 301-304).
-/// @param tick called once per data set
+/// Fills the p-values of `candidates`: (1 + number of replicates in which the best of all
+/// candidates gains as much) / (1 + number of replicates).
 void calibrate(const SearchBase& base, std::vector<CandidateResult>& candidates,
-               const std::function<void()>& tick);
+               const Eigen::MatrixXd& residuals);
 
 }  // namespace recoil

@@ -166,6 +166,31 @@ struct DiagnosisFile {
     RECOIL_FIELDS(level, chance, apart, apart_in_pairs, compared, seed)
   };
 
+  struct Exact {
+    double p_value = 1.0;
+    std::vector<std::string> listed;
+    RECOIL_FIELDS(p_value, listed)
+  };
+
+  struct DetectionEntry {
+    std::string id;
+    double strength = 1.0;
+    int datasets = 0, named = 0, listed = 0, wrong = 0;
+    RECOIL_FIELDS(id, strength, datasets, named, listed, wrong)
+  };
+
+  struct FalseAlarms {
+    int datasets = 0;
+    double share = 0.0;
+    RECOIL_FIELDS(datasets, share)
+  };
+
+  struct OwnDesignEntry {
+    std::vector<DetectionEntry> detection;
+    FalseAlarms false_alarms;
+    RECOIL_FIELDS(detection, false_alarms)
+  };
+
   int format_version = recoil::format_version;
   std::string fit;
   std::vector<Data> datasets;
@@ -178,6 +203,7 @@ struct DiagnosisFile {
   std::vector<Outlying> outlying_points;
   std::optional<AnswerForAll> with_outlying_points;
   double law_error = 0.0;
+  std::optional<Exact> if_exact;
   std::vector<std::string> named, rivals, resembles, in_every_explanation;
   std::optional<std::string> shared_cause;
   std::vector<Candidate> candidates, pairs;
@@ -188,13 +214,15 @@ struct DiagnosisFile {
   std::vector<Experiment> next_experiment;
   std::vector<Expected> expected_effects;
   std::vector<Unstated> unstated_errors;
+  OrAbsent<OwnDesignEntry> own_design;
   Settings settings;
   std::vector<std::string> warnings, remarks;
   RECOIL_FIELDS(format_version, fit, datasets, restitution_summary, velocity_dependence,
                 series_differ, verdict, headline, text, misfit, outlying_points,
-                with_outlying_points, law_error, named, rivals, resembles, in_every_explanation,
-                shared_cause, candidates, pairs, gain, base, extended, capture_velocity,
-                next_experiment, expected_effects, unstated_errors, settings, warnings, remarks)
+                with_outlying_points, law_error, if_exact, named, rivals, resembles,
+                in_every_explanation, shared_cause, candidates, pairs, gain, base, extended,
+                capture_velocity, next_experiment, expected_effects, unstated_errors, own_design,
+                settings, warnings, remarks)
 };
 
 }  // namespace recoil

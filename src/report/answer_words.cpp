@@ -324,6 +324,39 @@ std::string materials_words(const Diagnosis& d) {
       moved, moved.empty() ? "" : " standard deviations", d.materials->p_value_exact);
 }
 
+/// What exact laws would leave; empty where that is nothing.
+std::string if_exact_words(const Diagnosis& d) {
+  if (!d.if_exact || d.if_exact->p_value > d.options.level) return "";
+  const std::vector<std::string>& ids = d.if_exact->listed;
+  return fmt::format(
+      "Taken as exact, the model would leave structure ({}){}.",
+      p_words(d.if_exact->p_value, quick_samples),
+      ids.empty() ? ", like nothing in the catalogue" : ", most like " + cause_words(ids, " or "));
+}
+
+/// What these points could have shown: one sentence for each cause, one for none.
+std::vector<std::string> rates_words(const Diagnosis& d) {
+  std::vector<std::string> words;
+  if (!d.own_design) return words;
+  const auto percent = [](int part, int whole) {
+    return fmt::format("{:.0f} %", 100.0 * part / whole);
+  };
+  for (const Detection& one : d.own_design->detection) {
+    words.push_back(fmt::format(
+        "With these {} points recoil would have named {} in {} of cases where it {}, listed it "
+        "among others in {}, and named something else in {} ({} simulated data sets).",
+        d.base.data.points.size(), words_of(one.id), percent(one.named, one.datasets),
+        one.strength == 1.0 ? std::string("acts as found")
+                            : fmt::format("has {:.2g} of the effect found", one.strength),
+        percent(one.listed, one.datasets), percent(one.wrong, one.datasets), one.datasets));
+  }
+  words.push_back(fmt::format(
+      "Where nothing acts beside the model it would have seen something in {} of cases ({} "
+      "simulated data sets).",
+      percent(d.own_design->alarms, d.own_design->datasets), d.own_design->datasets));
+  return words;
+}
+
 /// The middle one of the standard deviations of e that the points have.
 double typical_error(const Diagnosis& d) {
   std::vector<double> errors;
@@ -424,6 +457,7 @@ std::vector<std::string> answer_sentences(const Diagnosis& d) {
     case Verdict::adequate:
       sentences.push_back(evidence_words(d));
       sentences.push_back(materials_words(d));
+      sentences.push_back(if_exact_words(d));
       break;
     case Verdict::cause_named:
       sentences.push_back(d.named.size() == 1
@@ -445,6 +479,8 @@ std::vector<std::string> answer_sentences(const Diagnosis& d) {
       break;
   }
   std::erase(sentences, "");
+  const std::vector<std::string> rates = rates_words(d);
+  sentences.insert(sentences.end(), rates.begin(), rates.end());
   return sentences;
 }
 

@@ -1,47 +1,35 @@
 #include "report/diagnosis_headline.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "diagnosis/diagnosis_result.hpp"
 #include "document/number.hpp"
 #include "report/format.hpp"
+#include "report/words_diagnosis.hpp"
 
 namespace recoil {
 namespace {
 
-constexpr std::size_t most_causes = 5;
-
-std::string causes(const std::vector<std::string>& ids, const char* between = ", ") {
-  std::vector<std::string> words;
-  for (const std::string& id : ids) {
-    if (words.size() < most_causes) words.push_back(words_of(id));
-  }
-  const std::size_t more = ids.size() - words.size();
-  return fmt::format("{}{}", fmt::join(words, between),
-                     more > 0 ? fmt::format(" and {} more", more) : std::string());
-}
-
 std::string headline_of_several(const Diagnosis& d) {
   if (!d.shared_cause.empty()) {
     return fmt::format("What the model misses: {}, by one of several laws ({})", d.shared_cause,
-                       causes(d.rivals));
+                       cause_words(d.rivals));
   }
   std::vector<std::string> doubtful = d.rivals;
   std::erase_if(doubtful, [&](const std::string& id) {
     return std::find(d.common.begin(), d.common.end(), id) != d.common.end();
   });
   if (!d.common.empty() && !doubtful.empty()) {
-    return fmt::format("What the model misses: {}, together with {}", causes(d.common),
-                       causes(doubtful, " or "));
+    return fmt::format("What the model misses: {}, together with {}", cause_words(d.common),
+                       cause_words(doubtful, " or "));
   }
   if (d.rivals.size() == 1) {
     return fmt::format("The model misses something that could be {}, but these data cannot tell",
-                       causes(d.rivals));
+                       cause_words(d.rivals));
   }
-  return "The model misses something, and these data cannot tell what: " + causes(d.rivals);
+  return "The model misses something, and these data cannot tell what: " + cause_words(d.rivals);
 }
 
 }  // namespace
@@ -55,13 +43,13 @@ std::string headline(const Diagnosis& d) {
                                percent(d.spec.law_error))
                  : "The model describes these points";
     case Verdict::cause_named:
-      return "What the model misses: " + causes(d.named);
+      return "What the model misses: " + cause_words(d.named);
     case Verdict::not_separable:
       return headline_of_several(d);
     case Verdict::unexplained:
       if (!d.resembles.empty()) {
         return fmt::format("The misfit has the shape of {}, which cannot be its cause",
-                           causes(d.resembles, " or "));
+                           cause_words(d.resembles, " or "));
       }
       if (series_differ(d)) return "The series differ, and the model has one curve for all of them";
       if (!tests_the_curve(d)) return "The points scatter more than their stated errors";

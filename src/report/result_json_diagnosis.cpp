@@ -177,6 +177,7 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
     out.with_outlying_points = {all->verdict, all->named, all->rivals, all->resembles};
   }
   out.law_error = d.spec.law_error;
+  if (d.if_exact) out.if_exact = {d.if_exact->p_value, d.if_exact->listed};
   out.named = d.named;
   out.rivals = d.rivals;
   if (d.materials) out.rivals.emplace_back("materials_within_errors");
@@ -206,11 +207,20 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
                                     .change = effect.change});
   }
   out.unstated_errors = unstated_of(d);
+  if (d.own_design) {
+    DiagnosisFile::OwnDesignEntry& own = out.own_design.emplace();
+    for (const Detection& one : d.own_design->detection) {
+      own.detection.push_back(
+          {one.id, one.strength, one.datasets, one.named, one.listed, one.wrong});
+    }
+    own.false_alarms = {d.own_design->datasets,
+                        static_cast<double>(d.own_design->alarms) / d.own_design->datasets};
+  }
   out.settings = {.level = d.options.level,
                   .chance = d.options.chance,
                   .apart = d.options.margin,
                   .apart_in_pairs = d.options.margin_in_pairs,
-                  .compared = d.options.compared,
+                  .compared = d.structure.simulated,
                   .seed = d.options.seed};
   out.warnings = diagnosis_warnings(d);
   out.remarks = d.remarks;

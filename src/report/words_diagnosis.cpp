@@ -114,6 +114,17 @@ std::string parameters_words(const CandidateResult& candidate) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
+std::string cause_words(const std::vector<std::string>& ids, const char* between) {
+  constexpr std::size_t most = 5;
+  std::vector<std::string> words;
+  for (const std::string& id : ids) {
+    if (words.size() < most) words.push_back(words_of(id));
+  }
+  const std::size_t more = ids.size() - words.size();
+  return fmt::format("{}{}", fmt::join(words, between),
+                     more > 0 ? fmt::format(" and {} more", more) : std::string());
+}
+
 std::string words_of(StructureQuestion question) {
   switch (question) {
     case StructureQuestion::scatter:

@@ -27,6 +27,9 @@ std::string parameters_words(const CandidateResult& candidate);
 /// Where the base model misses most, in one sentence; empty where it misses nowhere.
 std::string where_words(const Diagnosis& diagnosis);
 
+/// The causes in words: the first five, and how many more there are.
+std::string cause_words(const std::vector<std::string>& ids, const char* between = ", ");
+
 /// What a question put to the residuals found, if it did: "residuals bend with velocity".
 std::string words_of(StructureQuestion question);
 

@@ -199,6 +199,32 @@ TEST(Diagnose, TriesNoBatchWithASingleSeries) {
   EXPECT_TRUE(seen("plastic_yield"));
 }
 
+/// What cannot be true is told only where no cause that can be fits as well: an offset of every
+/// rebound by far more than an instrument has.
+TEST(Diagnose, ResemblesPassesOverNoPossibleCauseThatFitsBetter) {
+  int told = 0;
+  for (unsigned seed = 1; told == 0 && seed <= 3; ++seed) {
+    const auto offset = [](const ImpactPoint& point, double e) {
+      return e > 0.0 ? e - 0.6 / point.incident_velocity : e;
+    };
+    const Diagnosis found = diagnose(synthetic::spec(), {noisy(seed, 0.008, offset)}, quick());
+    if (found.resembles.empty()) continue;
+    ++told;
+    const auto first = std::find_if(
+        found.candidates.begin(), found.candidates.end(),
+        [&](const CandidateResult& c) { return c.candidate.name() == found.resembles.front(); });
+    ASSERT_NE(first, found.candidates.end());
+    for (const CandidateResult& c : found.candidates) {
+      const bool cause = c.kind != MechanismKind::description &&
+                         c.set_aside != SetAside::batch_is_size &&
+                         c.set_aside != SetAside::within_a_step;
+      if (!cause || !c.plausible || *c.p_value > found.options.chance) continue;
+      EXPECT_GT(c.delta_aicc, first->delta_aicc) << c.candidate.name();
+    }
+  }
+  EXPECT_GT(told, 0);
+}
+
 TEST(Diagnose, PointsAtTheOnePointThatIsOff) {
   const Diagnosis found =
       diagnose(synthetic::spec(),

@@ -36,7 +36,6 @@ Dataset hard_to_explain() {
 DiagnosisOptions few(std::shared_ptr<KeptRows> kept) {
   DiagnosisOptions options;
   options.simulated = 99;
-  options.compared = 39;
   options.kept = std::move(kept);
   return options;
 }

@@ -125,6 +125,20 @@ std::vector<Question> within_law_errors() {
   return {{{"li", {"bulk_viscoelastic"}, 10.0, 0}, {Mark::nothing}}};
 }
 
+/// The answer then says what exact laws would leave, and what that is most like; where nothing is
+/// hidden it does so in one of twenty.
+TEST(IfExact, TellsWhatTheErrorsOfLawsHide) {
+  const Answered hidden = ask(within_law_errors().front().order, RECOIL_BINARY, {});
+  ASSERT_EQ(hidden.status, 0) << hidden.complaint;
+  EXPECT_TRUE(hidden.hint);
+  EXPECT_EQ(std::count(hidden.hinted.begin(), hidden.hinted.end(), "bulk_viscoelastic"), 1);
+  int hints = 0;
+  for (const Question& question : nothing_hidden()) {
+    hints += ask(question.order, RECOIL_BINARY, {}).hint ? 1 : 0;
+  }
+  EXPECT_LE(hints, 2) << "of 8: more has a probability of 0.6 % at one of twenty";
+}
+
 /// Losses of the base model that are wrong by 3 % are no alarm.
 std::vector<Question> bent_base() {
   std::vector<Question> all;

@@ -25,6 +25,7 @@ struct HiddenEffectsRun {
   std::string only;
   double minutes = std::numeric_limits<double>::infinity();
   std::string binary;
+  bool baseline = false;
   StudyRun run;
 };
 
@@ -43,8 +44,9 @@ std::vector<hidden::Answered> answers_to(const std::vector<hidden::CaseOrder>& o
     try {
       parallel_over(orders.size(), options.run.threads, [&](std::size_t) {
         const std::size_t i = next++;
-        asked[i] = late() ? hidden::kept_answer(orders[i], options.run.keep)
-                          : hidden::ask(orders[i], options.binary, options.run.keep);
+        asked[i] = late()
+                       ? hidden::kept_answer(orders[i], options.run.keep)
+                       : hidden::ask(orders[i], options.binary, options.run.keep, options.baseline);
         progress.advance();
       });
     } catch (const CalledOff&) {  // by a signal
@@ -121,6 +123,9 @@ void add_hidden_effects(CLI::App& program, const std::string& words) {
                       "flight that are read to a finite step");
   command->add_option("--odd", size.odd, "of each design, with a few points misread");
   command->add_option("--only", options->only, "only orders whose key contains this");
+  command->add_flag("--baseline", options->baseline,
+                    "also ask stepwise AICc and the correlation with a Gaussian process, 40 fits "
+                    "each");
   command->add_option("--recoil", options->binary, "the command to be judged");
   command->add_option("--at-most-minutes", options->minutes,
                       "begin no further diagnosis after this time and report what is done (0: what "

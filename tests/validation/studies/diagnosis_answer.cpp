@@ -76,6 +76,10 @@ FurtherImpacts diagnose(const Case& made, const fs::path& binary, Answered& a) {
   a.resembles = answer.at("resembles").get<std::vector<std::string>>();
   a.certain = answer.at("in_every_explanation").get<std::vector<std::string>>();
   a.shared_cause = answer.at("shared_cause").is_string() ? answer["shared_cause"] : "";
+  const Json& exact = answer.at("if_exact");
+  a.hint = !exact.is_null() && exact.at("p_value") <= answer.at("settings").at("level");
+  a.hinted =
+      a.hint ? exact.at("listed").get<std::vector<std::string>>() : std::vector<std::string>();
   a.errors_told = false;
   for (const auto& errors : answer.at("unstated_errors")) {
     a.errors_told = a.errors_told || errors.at("rival").get<bool>();
@@ -181,7 +185,7 @@ std::optional<Answered> kept_answer(const CaseOrder& order, const fs::path& keep
   return recoil::value_from<Answered>(kept);
 }
 
-Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep) {
+Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& keep, bool baseline) {
   if (const std::optional<Answered> kept = kept_answer(order, keep)) return *kept;
   Answered a;
   a.order = order;
@@ -192,6 +196,7 @@ Answered ask(const CaseOrder& order, const fs::path& binary, const fs::path& kee
   if (made.reached && arm_of(order) == Arm::effect && order.signal_to_noise >= visible) {
     a.nearest_rival = nearest_rival(made, binary);
   }
+  if (made.reached && baseline) a.baseline = baseline_answers(made, binary);
   // A diagnosis that a signal ended (Ctrl-C reaches it too) has answered nothing.
   const bool answered = a.status >= 0 && a.status < 128;
   if (!keep.empty() && answered) {

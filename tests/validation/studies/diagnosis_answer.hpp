@@ -9,6 +9,7 @@
 
 #include "core/json.hpp"
 #include "core/names.hpp"
+#include "validation/studies/baseline.hpp"
 #include "validation/synthetic/further_impacts.hpp"
 
 namespace hidden {
@@ -38,6 +39,8 @@ struct Answered {
   std::vector<std::string> resembles;  ///< what fits best and cannot be true
   std::vector<std::string> certain;    ///< of the rivals, those in every explanation
   std::string shared_cause;            ///< of which all rivals are laws
+  bool hint = false;                   ///< adequate, but exact laws would leave structure
+  std::vector<std::string> hinted;     ///< what that is most like
   int odd = 0;               ///< points that are misread by more than 5 standard deviations,
   int odd_found = 0;         ///< of these, set aside by the answer,
   int right = 0;             ///< the others,
@@ -45,9 +48,10 @@ struct Answered {
   bool errors_told = false;  ///< errors that were not stated would do, and the answer says so
   NearestRival
       nearest_rival;  ///< for one visible effect of the catalogue in a design of several diameters
+  recoil::OrAbsent<BaselineAnswers> baseline;  ///< where it was asked for
   RECOIL_FIELDS(order, reached, signal_to_noise, status, complaint, seconds, rounds, events, taken,
-                verdict, p_value, named, rivals, resembles, certain, shared_cause, odd, odd_found,
-                right, accused, errors_told, nearest_rival)
+                verdict, p_value, named, rivals, resembles, certain, shared_cause, hint, hinted,
+                odd, odd_found, right, accused, errors_told, nearest_rival, baseline)
 };
 
 /// How an answer stands to the truth.
@@ -83,8 +87,9 @@ std::optional<Answered> kept_answer(const CaseOrder& order, const std::filesyste
 
 /// Makes the case in a scratch folder, lets `binary` diagnose it on one thread, and keeps the
 /// answer in `keep` (when not empty), where the next run finds it.
+/// @param baseline ask the plain methods, too
 Answered ask(const CaseOrder& order, const std::filesystem::path& binary,
-             const std::filesystem::path& keep);
+             const std::filesystem::path& keep, bool baseline = false);
 
 }  // namespace hidden
 

@@ -51,6 +51,16 @@ Table bars_table(const StudyTally& tally) {
   return table;
 }
 
+Table methods_table(const std::vector<MethodRow>& methods) {
+  Table table;
+  table.columns = {{"method", {}, true}, {"named"}, {"named or listed"}, {"wrong"}, {"alarms"}};
+  for (const MethodRow& row : methods) {
+    table.rows.push_back({Sentence(row.method), share(row.named), share(row.listed),
+                          share(row.wrong), share(row.alarms)});
+  }
+  return table;
+}
+
 std::string listed(const std::map<std::string, int>& counts) {
   std::string words;
   for (const auto& [name, n] : counts) {
@@ -368,6 +378,16 @@ recoil::Document hidden_effects_page(const StudyTally& tally) {
                "happens near capture.)",
                code("probe_plane"), code("electrostatic_image"))},
            rivals_table(tally)});
+  if (tally.methods) {
+    section("Beside plain methods",
+            {Paragraph{"The same data sets, visible effects in designs of several diameters, and "
+                       "data with nothing hidden. Stepwise: of the same catalogue the mechanism "
+                       "that lowers AICc most is added, twice at most. Correlation: the mechanism "
+                       "whose effect on e correlates most with a Gaussian-process discrepancy of "
+                       "the base model, where AIC wants one. Neither knows limits of what is "
+                       "possible, errors of laws or held-out points."},
+             methods_table(*tally.methods)});
+  }
   // A study of some arms only says nothing of the others.
   const auto arms_section = [&](Sentence title, std::vector<Block> blocks,
                                 std::initializer_list<Arm> arms) {

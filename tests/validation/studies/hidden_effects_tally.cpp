@@ -69,6 +69,13 @@ bool hides_nothing(const Answered& a) { return a.order.effects.empty(); }
 bool sees_structure(const Answered& a) { return a.verdict != "adequate"; }
 bool follows_other_law(const Answered& a) { return a.order.other_law; }
 bool names_a_cause(const Answered& a) { return a.verdict == "cause_named"; }
+bool hints(const Answered& a) { return a.hint; }
+/// Named, listed, its shape recognised, or listed as what exact laws would leave.
+bool is_hinted(const Answered& a) {
+  const Mark mark = mark_of(a);
+  return mark == Mark::named || mark == Mark::inside || mark == Mark::resembled ||
+         std::find(a.hinted.begin(), a.hinted.end(), a.order.effects.front()) != a.hinted.end();
+}
 bool tells_of_errors(const Answered& a) { return a.errors_told; }
 bool alarms(const Answered& a) { return mark_of(a) != Mark::nothing; }
 bool is_wrong(const Answered& a) {
@@ -197,6 +204,45 @@ recoil::OrAbsent<LoopEffort> loop_of(const std::vector<Answered>& all) {
   return effort;
 }
 
+bool contains(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+/// A method that answers with the mechanisms it takes for true; none: it sees nothing.
+MethodRow method_row(const char* method, const Answers& effects, const Answers& nothing,
+                     const std::function<std::vector<std::string>(const Answered&)>& ids) {
+  const auto truth = [](const Answered& a) { return a.order.effects.front(); };
+  return {method, count(effects, [&](const Answered& a) { return ids(a) == a.order.effects; }),
+          count(effects, [&](const Answered& a) { return contains(ids(a), truth(a)); }),
+          count(effects,
+                [&](const Answered& a) {
+                  std::vector<std::string> others = ids(a);
+                  std::erase(others, truth(a));
+                  return !others.empty();
+                }),
+          count(nothing, [&](const Answered& a) { return !ids(a).empty(); })};
+}
+
+recoil::OrAbsent<std::vector<MethodRow>> methods_of(const std::vector<Answered>& all) {
+  const Test asked = [](const Answered& a) { return a.baseline.has_value(); };
+  const Answers effects = those(all, both(seen(Arm::effect), asked));
+  const Answers nothing = those(all, both(in(Arm::correct), asked));
+  if (effects.empty() && nothing.empty()) return {};
+  std::vector<MethodRow> rows = {
+      {"recoil", count(effects, marked({Mark::named})),
+       count(effects, marked({Mark::named, Mark::inside})), count(effects, is_wrong),
+       count(nothing, alarms)},
+      method_row("stepwise AICc", effects, nothing,
+                 [](const Answered& a) { return a.baseline->stepwise; }),
+      method_row("correlation with a Gaussian process", effects, nothing, [](const Answered& a) {
+        const std::string& id = a.baseline->correlated;
+        return id.empty() ? std::vector<std::string>() : std::vector<std::string>{id};
+      })};
+  recoil::OrAbsent<std::vector<MethodRow>> found;
+  found.emplace(std::move(rows));
+  return found;
+}
+
 }  // namespace
 
 const std::vector<Bar>& study_bars() {
@@ -231,6 +277,13 @@ const std::vector<Bar>& study_bars() {
       {"unseen", "visible effect called adequate", 0.05, false, effects, adequate},
       {"bent_listed", "law bent by 10 %: among named and rivals, or its shape recognised", 0.90,
        true, bent, recognised},
+      {"hinted",
+       "visible effect among named and rivals, its shape recognised, or told as what exact laws "
+       "would leave",
+       0.95, true, effects, is_hinted},
+      {"bent_hinted", "the same, law bent by 10 %", 0.90, true, bent, is_hinted},
+      {"false_hint", "nothing hidden: told that exact laws would leave structure", 0.05, false,
+       in(Arm::correct), hints},
       {"bent_wrong", "law bent by 10 %: wrong cause named", 0.03, false, bent, is_wrong},
       {"bent_unexplained", "law bent by 10 %: unexplained", 0.10, false, bent, unexplained},
       {"other_listed",
@@ -318,6 +371,7 @@ StudyTally tally_of(const std::vector<Answered>& answers, std::size_t planned,
     }
   }
   tally.unreached = unreached_of(answers);
+  tally.methods = methods_of(answers);
   return tally;
 }
 

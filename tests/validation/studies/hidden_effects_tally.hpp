@@ -116,6 +116,16 @@ struct NotNamed {
   RECOIL_FIELDS(n, alike, told_by_cause)
 };
 
+/// What one method answered to the visible effects, and where nothing was hidden.
+struct MethodRow {
+  std::string method;
+  Count named;   ///< the effect alone
+  Count listed;  ///< it, alone or among others
+  Count wrong;   ///< something that is not there
+  Count alarms;  ///< something, where nothing was hidden
+  RECOIL_FIELDS(method, named, listed, wrong, alarms)
+};
+
 /// All that the page and the picture of the study show.
 struct StudyTally {
   recoil::StudyStamp stamp;
@@ -134,8 +144,9 @@ struct StudyTally {
   recoil::OrAbsent<LoopEffort> loop;
   std::vector<std::string> complaints;  ///< of diagnoses without an answer
   std::vector<UnreachedRow> unreached;
+  recoil::OrAbsent<std::vector<MethodRow>> methods;  ///< on the data sets that all were asked of
   RECOIL_FIELDS(seed, planned, tried, made, bars, not_named, rivals, powers, confusion, alarms,
-                errors_told_astray, times, loop, complaints, unreached)
+                errors_told_astray, times, loop, complaints, unreached, methods)
 
   Count bar(std::string_view id) const;  ///< of no data sets where the study has no such bar
 };
