@@ -29,9 +29,11 @@ struct ImpactPoint {
   /// [m/s]; e, a ratio to this velocity, shares it.
   std::optional<double> setting_velocity_sd;
   std::optional<double> diameter_sd;  ///< one standard deviation of `diameter` [m]
-  int events = 1;                     ///< impacts averaged in this point, captured ones included
-  int captured = 0;                   ///< how many of them did not rebound
-  bool counted = false;               ///< `captured` is stated: 0 is a count, not unknown
+  /// One standard deviation of an error of `diameter` that all points of its series share [m].
+  std::optional<double> series_diameter_sd;
+  int events = 1;        ///< impacts averaged in this point, captured ones included
+  int captured = 0;      ///< how many of them did not rebound
+  bool counted = false;  ///< `captured` is stated: 0 is a count, not unknown
   /// Points of one setting of the apparatus share its error. Empty without such a column: then
   /// points of one series, diameter and incident velocity have one setting.
   std::string setting;

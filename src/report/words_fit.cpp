@@ -100,7 +100,7 @@ std::string setting_words(const Observations& data, int free_count) {
     return fmt::format("; the points of one setting share its stated error of velocity ({})",
                        source);
   }
-  if (too_few_settings(data, free_count)) {
+  if (data.setting_sd_estimated && spare_settings(data, free_count) < 1) {
     return fmt::format(
         "; an error that the points of one setting share cannot be estimated from so few settings "
         "({})",
@@ -122,10 +122,17 @@ void add_new(Sentences& list, const Sentences& more) {
 
 /// Standard deviations that the fit did not use.
 Sentences data_warnings(const Observations& data) {
+  if (data.sd_stated && data.sd_missing > 0) {
+    return {fmt::format(
+        "{} points state no restitution_sd: a single impact of theirs is taken to scatter like the "
+        "median of the others",
+        data.sd_missing)};
+  }
   if (data.sd_stated || data.sd_set_aside == 0) return {};
-  return {fmt::format("the restitution_sd of {} points is ignored: {}", data.sd_set_aside,
-                      data.spec.variance ? "the fit file requests an estimated variance"
-                                         : fmt::format("{} points state none", data.sd_missing))};
+  return {
+      fmt::format("the restitution_sd of {} points is ignored: the fit file requests an "
+                  "estimated variance",
+                  data.sd_set_aside)};
 }
 
 /// Parameters that the fit does not determine.

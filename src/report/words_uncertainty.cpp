@@ -256,7 +256,7 @@ std::string missing_words(const Interval& interval) {
     case NoInterval::refit_failed:
       return "a constrained refit along the profile failed";
     case NoInterval::few_replicates:
-      return fmt::format("fewer than {} usable replicates", fewest_replicates);
+      return "fewer usable replicates than the level needs";
     case NoInterval::few_delete_one_refits:
       return "fewer than three delete-one refits succeeded";
     case NoInterval::one_sided_replicates:
@@ -393,6 +393,9 @@ std::string scheme_words(const BootstrapResult& bootstrap) {
       break;
     case SchemeBecause::no_residuals:
       why = "no point rebounded, so there are no residuals";
+      break;
+    case SchemeBecause::shared_sizes:
+      why = "points of one series share an error of their diameter";
       break;
   }
   constexpr std::size_t few = 10;

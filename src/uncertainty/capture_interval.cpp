@@ -23,7 +23,7 @@ std::vector<WaldTerm> capture_terms(const std::vector<NoiseAlternative>& alterna
             : capture_velocity(other.model, other.theta, dataset, diameter, capture.value);
     if (!v.found || !(v.value > 0.0)) continue;
     terms.push_back({alternative.weight, std::log(v.value / capture.value),
-                     logarithmic_error(v, other.covariance), other.data.sd_stated ? 0 : other.dof});
+                     logarithmic_error(v, other.covariance), other.quantile_dof});
   }
   return terms;
 }
@@ -131,7 +131,8 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
   const bool spread = fitted.data.noise.event_spread > 0.0;
   const Interval& delta = capture[CaptureIntervalKind::delta];
   const Interval& percentile = capture[CaptureIntervalKind::percentile];
-  const bool replicates = (sd_stated && !spread) || at_bound || !delta.available();
+  const bool replicates =
+      (sd_stated && !spread && fitted.quantile_dof == 0) || at_bound || !delta.available();
   const auto quote = [&](const Interval& interval) {
     capture.interval = interval;
     capture.interval.note = delta.note;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -61,8 +62,10 @@ struct NamesOf<NoInterval> {
       "noise_unknown",         "all_captured"};
 };
 
-/// The least number of replicates that have an interval: (B + 1) 0.025 >= 1.
-inline constexpr std::size_t fewest_replicates = 39;
+/// The least number of replicates that have an interval: (B + 1) (1 - level) / 2 >= 1.
+inline std::size_t fewest_replicates(double level) {
+  return static_cast<std::size_t>(std::ceil(2.0 / (1.0 - level) - 1.0 - 1e-6));
+}
 
 /// The share of the replicates that have to answer where a band is drawn.
 inline constexpr double share_for_band = 0.9;

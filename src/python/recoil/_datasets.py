@@ -19,6 +19,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 _UNITS = {
     "diameter": "um",
     "diameter_sd": "um",
+    "series_diameter_sd": "um",
     "incident_velocity": "m/s",
     "rebound_velocity": "m/s",
     "velocity_sd": "m/s",
