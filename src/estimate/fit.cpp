@@ -102,6 +102,15 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
     }
   };
   if (!result.data.sd_stated) known_by(result.dof);
+  if (noise.event_spread > 0.0) {
+    // The spread of the impacts is known by those that lie where some of them stick.
+    const std::vector<bool> among = among_captures(result.data.points);
+    int impacts = 0;
+    for (std::size_t i = 0; i < among.size(); ++i) {
+      impacts += among[i] ? result.data.points[i].events : 0;
+    }
+    known_by(impacts - 1);
+  }
   if (result.data.setting_sd_estimated) {
     known_by(spare_settings(result.data, result.model.free_count()));
   }

@@ -300,6 +300,11 @@ Sentence note_words(const Interval& interval, const Sentence& what) {
           "the interval of {} is too narrow, because every point averages over many sizes: in "
           "simulations {:.0f} % of such 95 % intervals contained the truth",
           what, 100.0 * value);
+    case Caution::model_rejected:
+      return say(
+          "{} and its interval follow from a model that the data reject (p {}): the interval does "
+          "not include the error of the model",
+          what, value < 1e-6 ? "< 1e-6" : fmt::format("= {:.2g}", value));
   }
   return {};
 }
@@ -316,6 +321,8 @@ std::string short_note(Caution caution) {
     case Caution::wide_spread:
     case Caution::mixed_sizes:
       break;
+    case Caution::model_rejected:
+      return "the data reject the model";
   }
   return "";
 }

@@ -40,6 +40,9 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
   if (averages_over_sizes(fitted.model, dataset)) {
     interval.note = {Caution::mixed_sizes, mixed_capture_coverage};
   }
+  if (fitted.noise_verdict == NoiseVerdict::exceeded) {
+    interval.note = {Caution::model_rejected, fitted.p_value};
+  }
   const double error = logarithmic_error(capture, fitted.covariance);
   if (!capture.found || !(capture.value > 0.0) || !(error > 0.0)) {
     interval.missing = !fitted.data.noise.known ? NoInterval::noise_unknown

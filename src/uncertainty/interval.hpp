@@ -87,17 +87,19 @@ enum class Caution {
   undecided_noise,    ///< see `undecided`
   wide_spread,        ///< see `widest_spread`
   mixed_sizes,        ///< see `mixed_capture_coverage`
+  model_rejected,     ///< the data reject the model from which the value follows
 };
 template <>
 struct NamesOf<Caution> {
-  static constexpr std::array<std::string_view, 6> names = {"spans_both_bounds", "begins_at_bound",
-                                                            "ends_at_bound",     "undecided_noise",
-                                                            "wide_spread",       "mixed_sizes"};
+  static constexpr std::array<std::string_view, 7> names = {
+      "spans_both_bounds", "begins_at_bound", "ends_at_bound", "undecided_noise",
+      "wide_spread",       "mixed_sizes",     "model_rejected"};
 };
 
 struct IntervalNote {
   Caution caution = Caution::begins_at_bound;
-  /// The bound, the factor between the errors, the spread of the impacts, or a measured coverage.
+  /// The bound, the factor between the errors, the spread of the impacts, a measured coverage, or
+  /// the p-value of the fit.
   double value = 0.0;
 };
 

@@ -71,8 +71,9 @@ class Dataset:
 
         ``frame``: one row per point, columns as in points.csv: ``series``, ``diameter`` [um],
         ``incident_velocity`` [m/s], ``restitution`` [1] or ``rebound_velocity`` [m/s]; optional
-        ``restitution_sd``, ``velocity_sd``, ``diameter_sd``, ``events``, ``captured``, ``setting``,
-        ``setting_velocity_sd`` and the conditions. Missing values are empty cells.
+        ``restitution_sd``, ``velocity_sd``, ``diameter_sd``, ``series_diameter_sd``, ``events``,
+        ``captured``, ``setting``, ``setting_velocity_sd`` and the conditions. Missing values are
+        empty cells.
         ``units``: of columns in other units than these, ``{"diameter": "mm"}``.
         ``particle``, ``surface``: ``{"material": ..., "density": 1050, "youngs_modulus": 2.56e9,
         "poisson_ratio": 0.35}`` [kg/m3, Pa, 1]; ``provenance``: ``"measured"``, ``"digitised"``,
