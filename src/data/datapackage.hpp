@@ -28,6 +28,7 @@ enum class Quantity {
   restitution_sd,
   velocity_sd,
   diameter_sd,
+  series_diameter_sd,
   events,
   captured,
   setting,
@@ -46,10 +47,19 @@ enum class Quantity {
 template <>
 struct NamesOf<Quantity> {
   static constexpr auto names = [] {
-    constexpr std::array<std::string_view, 12> own = {
-        "series",           "diameter",       "incident_velocity", "restitution",
-        "rebound_velocity", "restitution_sd", "velocity_sd",       "diameter_sd",
-        "events",           "captured",       "setting",           "setting_velocity_sd"};
+    constexpr std::array<std::string_view, 13> own = {"series",
+                                                      "diameter",
+                                                      "incident_velocity",
+                                                      "restitution",
+                                                      "rebound_velocity",
+                                                      "restitution_sd",
+                                                      "velocity_sd",
+                                                      "diameter_sd",
+                                                      "series_diameter_sd",
+                                                      "events",
+                                                      "captured",
+                                                      "setting",
+                                                      "setting_velocity_sd"};
     std::array<std::string_view, own.size() + count_of<Condition>> all{};
     for (std::size_t i = 0; i < own.size(); ++i) all[i] = own[i];
     for (const Condition condition : values_of<Condition>()) {

@@ -52,6 +52,7 @@ class PointReader {
       throw InputError({file_, header_line_, 1}, "there is a header but no point below it", "",
                        "write one line for each point");
     }
+    refuse_impossible_sd();
     name_series();
     for (const auto& [remark, warning] : warnings_) dataset_.warnings.push_back(warning);
   }
@@ -90,6 +91,23 @@ class PointReader {
                        "the schema in datapackage.json lists it",
                        "add the column, or remove it from the schema");
     }
+  }
+
+  /// A standard deviation far below the others holds the fit to one point: no impact is measured a
+  /// thousand times better than the middle one.
+  void refuse_impossible_sd() const {
+    constexpr double most_ratio = 1000.0;
+    if (stated_sd_.size() < 3) return;
+    std::vector<StatedSd> sorted = stated_sd_;
+    std::sort(sorted.begin(), sorted.end(),
+              [](const StatedSd& a, const StatedSd& b) { return a.of_impact < b.of_impact; });
+    const double middle = sorted[sorted.size() / 2].of_impact;
+    if (!(sorted.front().of_impact * most_ratio < middle)) return;
+    throw InputError(sorted.front().where,
+                     fmt::format("restitution_sd = {:g}", sorted.front().stated),
+                     fmt::format("that of a single impact is {:.2g} times smaller than usual here",
+                                 middle / sorted.front().of_impact),
+                     "correct it, or leave the cell empty when it is not known");
   }
 
   const CsvField& field(Quantity quantity) const { return (*row_)[field_of_.at(quantity)]; }
@@ -152,7 +170,8 @@ class PointReader {
     if (converted < 0.0 || (converted == 0.0 && range.lower > 0.0)) {
       const bool optional =
           quantity == Quantity::restitution_sd || quantity == Quantity::velocity_sd ||
-          quantity == Quantity::setting_velocity_sd || quantity == Quantity::diameter_sd;
+          quantity == Quantity::setting_velocity_sd || quantity == Quantity::diameter_sd ||
+          quantity == Quantity::series_diameter_sd;
       fail(*found, problem, range.lower > 0.0 ? "it has to be positive" : "it cannot be negative",
            optional ? "leave the cell empty when it is not known" : "correct it or remove the row");
     }
@@ -286,9 +305,15 @@ class PointReader {
     }
     point.restitution = restitution(point);
     point.restitution_sd = value(Quantity::restitution_sd, limits::restitution_sd);
+    if (point.restitution_sd) {
+      const int impacts = std::max(1, point.events - point.captured);
+      stated_sd_.push_back({*point.restitution_sd * std::sqrt(impacts), *point.restitution_sd,
+                            field(Quantity::restitution_sd).in(file_)});
+    }
     point.velocity_sd = value(Quantity::velocity_sd, limits::velocity_sd);
     point.setting_velocity_sd = value(Quantity::setting_velocity_sd, limits::velocity_sd);
     point.diameter_sd = value(Quantity::diameter_sd, limits::diameter_sd);
+    point.series_diameter_sd = value(Quantity::series_diameter_sd, limits::diameter_sd);
     if (const CsvField* const setting = cell(Quantity::setting)) point.setting = setting->text;
     remark(point);
     dataset_.points.push_back(point);
@@ -323,6 +348,12 @@ class PointReader {
   std::map<std::pair<std::string, Conditions>, std::size_t> series_of_;
   std::set<std::tuple<std::size_t, double, double, double>> seen_;
   std::map<PointRemark, DatasetWarning> warnings_;
+  struct StatedSd {
+    double of_impact;  ///< sqrt(rebounds) times what is stated [1]
+    double stated;     ///< [1]
+    Location where;
+  };
+  std::vector<StatedSd> stated_sd_;
 };
 
 /// The statements of `package` without points; the checksum is that of the package alone.

@@ -29,10 +29,12 @@ struct ImpactPoint {
   /// [m/s]; e, a ratio to this velocity, shares it.
   std::optional<double> setting_velocity_sd;
   std::optional<double> diameter_sd;  ///< one standard deviation of `diameter` [m]
-  int events = 1;                     ///< impacts averaged in this point, captured ones included
-  int captured = 0;                   ///< how many of them did not rebound
-  bool counted = false;               ///< `captured` is stated: 0 is a count, not unknown
-  bool counts_only = false;           ///< of its rebounds nothing but their number is known
+  /// One standard deviation of an error of `diameter` that all points of its series share [m].
+  std::optional<double> series_diameter_sd;
+  int events = 1;            ///< impacts averaged in this point, captured ones included
+  int captured = 0;          ///< how many of them did not rebound
+  bool counted = false;      ///< `captured` is stated: 0 is a count, not unknown
+  bool counts_only = false;  ///< of its rebounds nothing but their number is known
   /// Points of one setting of the apparatus share its error. Empty without such a column: then
   /// points of one series, diameter and incident velocity have one setting.
   std::string setting;

@@ -31,7 +31,7 @@ FitResult with_rough_settings(const FitSpec& spec, const std::vector<Dataset>& d
   }
   const double rough = estimated_setting_error(data, fitted.prediction_squared, free, trends);
   NoiseSpec noise = spec.noise;
-  noise.setting_sd = std::min(rough, data.noise.setting_sd);
+  noise.setting_sd = too_few_settings(data, free) ? 0.0 : std::min(rough, data.noise.setting_sd);
   FitOptions options;
   options.several_starts = false;
   options.start = fitted.theta;

@@ -15,6 +15,7 @@
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/reweighting.hpp"
+#include "estimate/shared_settings.hpp"
 #include "estimate/start_search.hpp"
 #include "estimate/weights.hpp"
 
@@ -94,6 +95,24 @@ void judge_noise(FitResult& result, const Misfit& misfit) {
   if (!noise.known) {
     result.noise_scale = 1.0;
     result.noise_verdict = NoiseVerdict::unchecked;
+  }
+  const auto known_by = [&](int dof) {
+    if (dof > 0 && (result.quantile_dof == 0 || dof < result.quantile_dof)) {
+      result.quantile_dof = dof;
+    }
+  };
+  if (!result.data.sd_stated) known_by(result.dof);
+  if (noise.event_spread > 0.0) {
+    // The spread of the impacts is known by those that lie where some of them stick.
+    const std::vector<bool> among = among_captures(result.data.points);
+    int impacts = 0;
+    for (std::size_t i = 0; i < among.size(); ++i) {
+      impacts += among[i] ? result.data.points[i].events : 0;
+    }
+    known_by(impacts - 1);
+  }
+  if (result.data.setting_sd_estimated) {
+    known_by(spare_settings(result.data, result.model.free_count()));
   }
 }
 

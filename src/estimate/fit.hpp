@@ -95,6 +95,9 @@ struct FitResult {
   double rmse = 0.0;         ///< of e over all points that rebounded [1]
   double noise_scale = 1.0;  ///< what the standard deviations of `data` are multiplied by in every
                              ///< interval: 1 where they hold, or were estimated by this fit
+  /// Degrees of freedom of the Student's t whose quantiles make intervals of standard errors: of
+  /// the estimated error that is known least. 0: nothing is estimated, and they are normal.
+  int quantile_dof = 0;
   NoiseVerdict noise_verdict = NoiseVerdict::unchecked;
   int strained_points = 0;      ///< with an input_bias above `strained_bias`
   bool weights_at_rest = true;  ///< false: the weights still moved when their rounds ran out

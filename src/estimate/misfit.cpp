@@ -36,6 +36,7 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
               std::span<const double> predicted, int free_count, const ConstantsInFit& constants) {
   Misfit result;
   const std::optional<StudentNoise>& student = data.noise.student;
+  std::vector<double> plain;  // residuals, those of Student's t turned back
   int informative = 0;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
@@ -47,7 +48,10 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
     if (!data.sd_stated && point.weights.scatter > 0.0) {
       r = (point.restitution - expected_restitution(point, predicted[i])) / point.weights.mean_sd;
     }
-    if (student) r = student->psi(r);
+    if (student) {
+      plain.push_back(r);
+      r = student->psi(r);
+    }
     result.square += r * r;
   }
   if (student) result.square /= student->mean_square;
@@ -56,10 +60,8 @@ Misfit misfit(const Observations& data, std::span<const double> residuals,
   if (data.sd_stated) result.square += constants.square;
   result.dof = informative - free_count;
   if (result.dof <= 0) return result;
-  // psi^2 scatters less than the square of a normal: a chi-squared with more degrees of freedom,
-  // scaled to the same mean and variance (Satterthwaite).
-  const double ratio = student ? 2.0 / student->square_spread : 1.0;
-  result.p_value = gsl_cdf_chisq_Q(result.square * ratio, result.dof * ratio);
+  result.p_value =
+      student ? student->p_value(plain, result.dof) : gsl_cdf_chisq_Q(result.square, result.dof);
   return result;
 }
 

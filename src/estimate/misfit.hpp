@@ -33,7 +33,8 @@ struct Misfit {
   double learned = 0.0;       ///< ConstantsInFit::learned
   int dof = 0;                ///< points less free parameters; captured points that the model also
                               ///< captures do not count, as they cannot scatter
-  double p_value = 1.0;       ///< of `square` under the weights as they are; 1 without dof
+  double p_value = 1.0;       ///< of `square` under the weights as they are; 1 without dof. For
+                              ///< Student's t, see StudentNoise::p_value
 
   /// sqrt(point_square / (dof - learned)): what the weights are too small by; 1 without dof.
   double scale() const;

@@ -33,6 +33,7 @@ struct MeasuredPoint {
   double velocity_sd = 0.0;       ///< [m/s]; 0: none
   double setting_velocity_sd = 0.0;  ///< of an error that its setting shares [m/s]; 0: none
   double diameter_sd = 0.0;          ///< [m]; 0: none
+  double series_diameter_sd = 0.0;   ///< of an error that its series shares [m]; 0: none
 
   int rebounds() const { return events - captured; }
   /// Are there both rebounds and captures among the impacts of this point?
@@ -61,8 +62,10 @@ struct PointWeights {
   double shift = 0.0;         ///< mean e^2 of the impacts minus that of the mean impact [1]
   double mean_sd = 0.0;       ///< sd of the mean e with its share of input_sd, beside scatter [1]
   double setting_sd = 0.0;    ///< sd of e that the stated error of V of its setting causes [1]
+  double size_sd = 0.0;       ///< sd of e that the error of d of its series causes [1]
   double setting_load = 0.0;  ///< |dr / de| of the residual times the error of e that the points of
                               ///< its setting share [1]
+  double size_load = 0.0;     ///< |dr / de| size_sd, of the points of its series [1]
   DeviancePeak peak;          ///< where scatter is in use and some sphere rebounded
 };
 

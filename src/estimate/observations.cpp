@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <string_view>
 #include <tuple>
@@ -44,6 +45,7 @@ Observation observe(const Dataset& dataset, std::size_t index, const ImpactPoint
   point.setting_velocity_sd = p.setting_velocity_sd.value_or(0.0);
   if (spec.diameter_errors) {
     point.diameter_sd = p.diameter_sd.value_or(spec.diameter_relative_sd * p.diameter);
+    point.series_diameter_sd = p.series_diameter_sd.value_or(0.0);
   }
   point.line = p.line;
   return point;
@@ -97,9 +99,9 @@ void begin_counts(std::vector<Observation>& points) {
   }
 }
 
-/// A captured point says nothing of the scatter of e: where it states none, its impacts are taken
-/// to scatter like the middle one of the points with rebounds.
-void complete_captured(std::vector<Observation>& points) {
+/// Where a point states none, its impacts are taken to scatter like the middle one of those that
+/// do: a captured point says nothing of the scatter of e.
+void complete_sd(std::vector<Observation>& points) {
   std::vector<double> known;
   for (const Observation& point : points) {
     if (point.weights.sd > 0.0) known.push_back(point.event_sd());
@@ -107,8 +109,9 @@ void complete_captured(std::vector<Observation>& points) {
   std::sort(known.begin(), known.end());
   const double middle = known.empty() ? nominal_sd : known[known.size() / 2];
   for (Observation& point : points) {
-    if (point.censored && !(point.weights.sd > 0.0))
-      point.weights.sd = middle / std::sqrt(point.events);
+    if (point.weights.sd > 0.0) continue;
+    const int impacts = point.censored ? point.events : point.rebounds();
+    point.weights.sd = middle / std::sqrt(static_cast<double>(impacts));
   }
 }
 
@@ -123,6 +126,32 @@ void weigh_equally(std::vector<Observation>& points) {
 
 double Observation::event_sd() const {
   return weights.sd * std::sqrt(static_cast<double>(rebounds() > 0 ? rebounds() : events));
+}
+
+std::vector<bool> among_captures(const std::vector<Observation>& points) {
+  struct Overlap {
+    double slowest_rebound = INFINITY;
+    double fastest_capture = 0.0;
+  };
+  std::map<std::pair<std::size_t, double>, Overlap> ranges;
+  for (const Observation& point : points) {
+    if (point.captured > 0) ranges[{point.dataset, point.diameter}];
+  }
+  std::vector<bool> among(points.size(), false);
+  if (ranges.empty()) return among;
+  for (const Observation& point : points) {
+    const auto range = ranges.find({point.dataset, point.diameter});
+    if (range == ranges.end()) continue;
+    auto& [slowest_rebound, fastest_capture] = range->second;
+    if (!point.censored) slowest_rebound = std::min(slowest_rebound, point.velocity);
+    if (point.captured > 0) fastest_capture = std::max(fastest_capture, point.velocity);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto range = ranges.find({points[i].dataset, points[i].diameter});
+    among[i] = range != ranges.end() && points[i].velocity >= range->second.slowest_rebound &&
+               points[i].velocity <= range->second.fastest_capture;
+  }
+  return among;
 }
 
 Observations Observations::subset(std::span<const std::size_t> indices) const {
@@ -140,10 +169,10 @@ std::vector<PointConditions> Observations::conditions() const {
 }
 
 bool Observations::weights_depend_on_fit() const {
-  return !sd_stated || shares_settings() ||
+  return !sd_stated || shares_errors() ||
          std::any_of(points.begin(), points.end(), [](const Observation& point) {
            return point.velocity_sd > 0.0 || point.diameter_sd > 0.0 ||
-                  point.weights.scatter > 0.0 || point.mixed();
+                  point.weights.scatter > 0.0 || point.captured > 0;
          });
 }
 
@@ -168,12 +197,16 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
     }
   }
   const bool several = number_settings(datasets, data);
-  data.setting_velocity_stated =
-      std::any_of(data.points.begin(), data.points.end(),
-                  [](const Observation& point) { return point.setting_velocity_sd > 0.0; });
-  if (data.setting_velocity_stated && spec.student) {
-    throw InputError({}, "residuals = \"student\" beside setting_velocity_sd",
-                     "errors that points share are normal", "leave out one of them");
+  for (const Observation& point : data.points) {
+    data.setting_velocity_stated |= point.setting_velocity_sd > 0.0;
+    data.series_diameter_stated |= point.series_diameter_sd > 0.0;
+  }
+  if ((data.setting_velocity_stated || data.series_diameter_stated) && spec.student) {
+    throw InputError(
+        {},
+        fmt::format("residuals = \"student\" beside {}",
+                    data.setting_velocity_stated ? "setting_velocity_sd" : "series_diameter_sd"),
+        "errors that points share are normal", "leave out one of them");
   }
   data.setting_sd_estimated = several && !spec.setting_sd && !spec.student &&
                               (spec.every_setting || !data.setting_velocity_stated);
@@ -184,9 +217,12 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
                     data.points.size()),
         "", "write \"auto\", or state them all");
   }
-  data.sd_stated = spec.variance ? spec.variance == VarianceFunction::stated : missing == 0;
+  // Those that state none are completed; all captured and none stated, too.
+  data.sd_stated =
+      spec.variance ? spec.variance == VarianceFunction::stated : stated > 0 || missing == 0;
   if (data.sd_stated) {
-    complete_captured(data.points);
+    data.sd_missing = stated > 0 ? missing : 0;
+    complete_sd(data.points);
     begin_counts(data.points);
     return data;
   }
@@ -195,7 +231,6 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
   data.noise.variance = spec.variance.value_or(VarianceFunction::constant);
   data.noise.scale = nominal_sd;
   data.sd_set_aside = stated;
-  data.sd_missing = missing;
   return data;
 }
 

@@ -40,9 +40,8 @@ struct Observations {
   bool sd_stated = true;  ///< false: the noise is estimated from the residuals
   NoiseSpec spec;
   NoiseModel noise;
-  /// Points whose stated standard deviation is not used, and points that state none.
-  int sd_set_aside = 0;
-  int sd_missing = 0;
+  int sd_set_aside = 0;  ///< points whose stated standard deviation is not used
+  int sd_missing = 0;    ///< points with rebounds that state none where others do
   /// The stated values of ImpactModel::constants, which are observations, too: empty for those of
   /// the model, others in a bootstrap replicate.
   std::vector<double> constants;
@@ -65,10 +64,19 @@ struct Observations {
   bool shares_settings() const {
     return setting_sd_estimated || setting_velocity_stated || spec.setting_sd.value_or(0.0) > 0.0;
   }
+  /// Is an error of d that the points of a series share stated?
+  bool series_diameter_stated = false;
+  /// Do points share any error?
+  bool shares_errors() const { return shares_settings() || series_diameter_stated; }
 
   /// Must the weights be found together with the parameters?
   bool weights_depend_on_fit() const;
 };
+
+/// Which points lie where spheres of their dataset and diameter both rebound and stick: between the
+/// slowest point with a rebound and the fastest with a capture, these included. Impacts differ
+/// there, whether a row holds one of them or many.
+std::vector<bool> among_captures(const std::vector<Observation>& points);
 
 /// Flattens the datasets. Where the standard deviations are not stated (or not to be used) the
 /// weights are a first guess, one constant for every impact.

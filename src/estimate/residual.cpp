@@ -172,7 +172,9 @@ double survivors_sd(const Observation& point, double m) {
   if (point.censored) return point.weights.sd;
   const double variance =
       root_of_positive_normal((m + point.weights.shift) / point.weights.scatter).variance;
-  return std::max(point.weights.sd, std::sqrt(point.weights.scatter * variance / point.rebounds()));
+  const double of_scatter = std::sqrt(point.weights.scatter * variance / point.rebounds());
+  return point.rebounds() == 1 ? std::hypot(point.weights.sd, of_scatter)
+                               : std::max(point.weights.sd, of_scatter);
 }
 
 double expected_restitution(const Observation& point, double m) {

@@ -47,7 +47,8 @@ double event_deviance(const Observation& point, double restitution_squared);
 
 /// Standard deviation of the mean e of the survivors of a point with scatter [1]: its own, but no
 /// less than what the scatter alone makes of so few (with two or three survivors a deviation stated
-/// from their differences may be anything).
+/// from their differences may be anything). That of a single survivor is the error of its reading,
+/// to which the scatter adds in quadrature.
 double survivors_sd(const Observation& point, double restitution_squared);
 
 /// What the mean e of the rebounds of this point should be where the model predicts

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "core/roots.hpp"
 #include "estimate/residual.hpp"
@@ -84,28 +85,85 @@ double slope_in_restitution(const WeightedResidual& residual, double restitution
 }
 
 SharedSettings::SharedSettings(const std::vector<Observation>& points) {
-  std::map<std::size_t, std::vector<Member>> members;
+  // Every error is a column of U; those that have a point in common are of one block.
+  using Source = std::tuple<bool, std::size_t, std::size_t>;  // of size, dataset, setting or series
+  std::map<Source, std::vector<Member>> columns;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double load = points[i].weights.setting_load;
-    if (load > 0.0) members[points[i].setting].push_back({i, load});
+    const PointWeights& weights = points[i].weights;
+    if (weights.setting_load > 0.0) {
+      columns[{false, 0, points[i].setting}].push_back({i, weights.setting_load});
+    }
+    if (weights.size_load != 0.0) {
+      columns[{true, points[i].dataset, points[i].series}].push_back({i, weights.size_load});
+    }
   }
-  for (auto& [setting, own] : members) {
-    double square = 0.0;
-    for (const Member& member : own) square += member.load * member.load;
-    const double factor = (1.0 - 1.0 / std::sqrt(1.0 + square)) / square;
-    settings_.push_back({std::move(own), factor});
-    log_determinant_ += std::log1p(square);
+  std::map<std::size_t, std::size_t> block_of;  // of a point
+  std::vector<std::vector<const std::vector<Member>*>> blocks;
+  for (const auto& [source, members] : columns) {
+    const std::size_t own = blocks.size();
+    blocks.push_back({&members});
+    for (const Member& member : members) {
+      const std::size_t other = block_of.try_emplace(member.point, own).first->second;
+      if (other == own) continue;
+      for (const std::vector<Member>* column : blocks[other]) {
+        for (const Member& moved : *column) block_of[moved.point] = own;
+      }
+      blocks[own].insert(blocks[own].end(), blocks[other].begin(), blocks[other].end());
+      blocks[other].clear();
+    }
+  }
+  for (const auto& own : blocks) {
+    if (!own.empty()) add_block(own);
   }
 }
 
-void SharedSettings::whiten(std::span<double> rows, std::size_t columns) const {
-  for (const Setting& setting : settings_) {
-    for (std::size_t k = 0; k < columns; ++k) {
-      double along = 0.0;
-      for (const auto& [point, load] : setting.members) along += load * rows[point * columns + k];
-      for (const auto& [point, load] : setting.members) {
-        rows[point * columns + k] -= setting.factor * load * along;
+void SharedSettings::add_block(const std::vector<const std::vector<Member>*>& columns) {
+  Block block;
+  std::map<std::size_t, Eigen::Index> row;
+  for (const auto* column : columns) {
+    for (const Member& member : *column) {
+      if (row.try_emplace(member.point, static_cast<Eigen::Index>(row.size())).second) {
+        block.points.push_back(member.point);
       }
+    }
+  }
+  const auto errors = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(row.size()), errors);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    for (const Member& member : *columns[k]) {
+      loads(row[member.point], static_cast<Eigen::Index>(k)) = member.load;
+    }
+  }
+  // U'U = W S W' makes the root I - U W ((1 - (1 + S)^(-1/2)) / S) W' U'.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares(loads.transpose() * loads);
+  Eigen::VectorXd factors(errors);
+  for (Eigen::Index k = 0; k < errors; ++k) {
+    const double square = squares.eigenvalues()(k);
+    factors(k) = square > 0.0 ? (1.0 - 1.0 / std::sqrt(1.0 + square)) / square : 0.5;
+    log_determinant_ += std::log1p(std::max(0.0, square));
+  }
+  const Eigen::MatrixXd inner =
+      squares.eigenvectors() * factors.asDiagonal() * squares.eigenvectors().transpose();
+  block.loads.assign(loads.data(), loads.data() + loads.size());
+  block.inner.assign(inner.data(), inner.data() + inner.size());
+  blocks_.push_back(std::move(block));
+}
+
+void SharedSettings::whiten(std::span<double> rows, std::size_t columns) const {
+  for (const Block& block : blocks_) {
+    const auto count = static_cast<Eigen::Index>(block.points.size());
+    const auto errors = static_cast<Eigen::Index>(block.loads.size()) / count;
+    const Eigen::Map<const Eigen::MatrixXd> loads(block.loads.data(), count, errors);
+    const Eigen::Map<const Eigen::MatrixXd> inner(block.inner.data(), errors, errors);
+    Eigen::MatrixXd own(count, static_cast<Eigen::Index>(columns));
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double* row = &rows[block.points[static_cast<std::size_t>(i)] * columns];
+      for (Eigen::Index k = 0; k < own.cols(); ++k) own(i, k) = row[k];
+    }
+    own -= (loads * (inner * (loads.transpose() * own))).eval();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      double* row = &rows[block.points[static_cast<std::size_t>(i)] * columns];
+      for (Eigen::Index k = 0; k < own.cols(); ++k) row[k] = own(i, k);
     }
   }
 }
@@ -165,11 +223,11 @@ bool too_few_settings(const Observations& data, int free_count) {
 }
 
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data) {
-  if (!data.shares_settings()) return;
+  if (!data.shares_errors()) return;
   double& error = data.noise.setting_sd;
   if (data.spec.setting_sd) {
     error = *data.spec.setting_sd;
-  } else if (!data.setting_sd_estimated || too_few_settings(data, free_count)) {
+  } else if (!data.setting_sd_estimated || spare_settings(data, free_count) < 1) {
     error = 0.0;
   } else {
     error = std::min(estimated_setting_error(data, predicted, free_count, series_offsets(data)),
@@ -177,24 +235,33 @@ void renew_settings(std::span<const double> predicted, int free_count, Observati
   }
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     Observation& point = data.points[i];
-    point.weights.setting_load =
-        point.censored
-            ? 0.0
-            : std::hypot(error, point.weights.setting_sd) *
-                  slope_in_restitution(weighted_residual(point, predicted[i]), predicted[i]);
+    const double slope =
+        point.censored ? 0.0
+                       : slope_in_restitution(weighted_residual(point, predicted[i]), predicted[i]);
+    point.weights.setting_load = slope * std::hypot(error, point.weights.setting_sd);
+    point.weights.size_load = slope * point.weights.size_sd;
   }
 }
 
 std::vector<double> draw_setting_errors(const Observations& data, RandomStream& random) {
   std::vector<double> errors(data.points.size(), 0.0);
+  if (data.series_diameter_stated) {
+    std::map<std::pair<std::size_t, std::size_t>, double> of_series;  // in standard deviations
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const Observation& point = data.points[i];
+      const auto [place, is_new] = of_series.try_emplace({point.dataset, point.series}, 0.0);
+      if (is_new) place->second = random.normal();
+      errors[i] = place->second * point.weights.size_sd;
+    }
+  }
   if (!(data.noise.setting_sd > 0.0) && !data.setting_velocity_stated) return errors;
   std::map<std::size_t, double> drawn;  // in standard deviations
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const auto [place, is_new] = drawn.try_emplace(data.points[i].setting, 0.0);
     if (is_new) place->second = random.normal();
     const double stated = data.points[i].weights.setting_sd;
-    errors[i] = place->second *
-                (stated > 0.0 ? std::hypot(data.noise.setting_sd, stated) : data.noise.setting_sd);
+    errors[i] += place->second *
+                 (stated > 0.0 ? std::hypot(data.noise.setting_sd, stated) : data.noise.setting_sd);
   }
   return errors;
 }

@@ -11,23 +11,22 @@ namespace recoil {
 /// |dr / de| where the model predicts e^2 = `restitution_squared`, r = `residual`.
 double slope_in_restitution(const WeightedResidual& residual, double restitution_squared);
 
-/// The errors that the points of one setting of the apparatus share: a height, a day. Every setting
-/// k has an error z_k of e, normal with standard deviation sigma, to which a stated error s of its
-/// V adds |e + V de/dV| s / V in quadrature (its points have one V, so that both act alike), so
-/// that the weighted residuals r of its points have the covariance I + g g', with loads g_i = sigma
-/// |dr_i / de|. Whitening takes them to
-///   (I + g g')^(-1/2) r = r - c g (g'r),  c = (1 - 1 / sqrt(1 + g'g)) / g'g,
-/// whose sum of squares is that of the generalised least squares. A captured point has no e, and
-/// its load is 0.
+/// The errors that points share. Every setting of the apparatus (a height, a day) has an error of
+/// e, normal with standard deviation sigma, to which a stated error s of its V adds
+/// |e + V de/dV| s / V in quadrature (its points have one V, so that both act alike). Every series
+/// may have an error s of its d, which moves e by (de/dd) s. With the loads |dr_i / de| times the
+/// error of e as the columns of U, one for each setting or series, the weighted residuals r have
+/// the covariance I + U U'. Whitening takes them to (I + U U')^(-1/2) r, whose sum of squares is
+/// that of the generalised least squares. A captured point has no e, and its load is 0.
 class SharedSettings {
  public:
   explicit SharedSettings(const std::vector<Observation>& points);
 
-  bool none() const { return settings_.empty(); }
+  bool none() const { return blocks_.empty(); }
   void whiten(std::span<double> residuals) const { whiten(residuals, 1); }
   /// Every column of `rows` [points x columns, row major]; what follows the points stays.
   void whiten(std::span<double> rows, std::size_t columns) const;
-  /// ln det (I + U U') of all settings.
+  /// ln det (I + U U').
   double log_determinant() const { return log_determinant_; }
 
  private:
@@ -35,11 +34,15 @@ class SharedSettings {
     std::size_t point;
     double load;
   };
-  struct Setting {
-    std::vector<Member> members;
-    double factor;  ///< c
+  /// Points that share errors with one another, and U of them [points x errors, column major].
+  struct Block {
+    std::vector<std::size_t> points;
+    std::vector<double> loads;
+    std::vector<double> inner;  ///< M of (I + U U')^(-1/2) = I - U M U' [errors x errors]
   };
-  std::vector<Setting> settings_;
+  void add_block(const std::vector<const std::vector<Member>*>& columns);
+
+  std::vector<Block> blocks_;
   double log_determinant_ = 0.0;
 };
 
@@ -57,16 +60,15 @@ double estimated_setting_error(const Observations& data, std::span<const double>
 /// sigma rests on.
 int spare_settings(const Observations& data, int free_count);
 
-/// Would sigma be estimated, but from too few settings? Then it is 0.
+/// Is sigma estimated from so few settings that nobody can tell it from what a model gets wrong?
 bool too_few_settings(const Observations& data, int free_count);
 
-/// Renews `setting_load` of all points where they predict e^2 = `predicted`, and before it, where
-/// it is not stated, sigma: estimated beside an offset of every series, and no larger than what the
-/// stated errors of the velocities make of e.
+/// Renews `setting_load` and `size_load` of all points where they predict e^2 = `predicted`, and
+/// before it, where it is not stated, sigma: estimated beside an offset of every series, and no
+/// larger than what the stated errors of the velocities make of e.
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data);
 
-/// An error of e for every point, the same for all of a setting [1]; 0 where settings share
-/// nothing.
+/// An error of e for every point, which it shares with its setting and series [1].
 std::vector<double> draw_setting_errors(const Observations& data, RandomStream& random);
 
 /// e^2 where e reads too large by `error`; below capture nothing is read.

@@ -17,13 +17,10 @@ namespace {
 constexpr std::size_t many_points = 20000;
 constexpr std::size_t searched_of_many = 10000;
 
-/// The stated start, and the damping factors ten times smaller and larger in all combinations:
-/// capture and strong damping make flat and non-convex regions on either side. Then what the
-/// catalogue of mechanisms advises, one parameter at a time.
-std::vector<std::vector<double>> starting_points(const ImpactModel& model,
-                                                 const std::vector<double>& first, bool several) {
-  std::vector<std::vector<double>> starts = {first};
-  if (!several) return starts;
+/// Adds `first` with the damping factors ten times smaller and larger in all combinations: capture
+/// and strong damping make flat and non-convex regions on either side.
+void add_dampings(const ImpactModel& model, const std::vector<double>& first,
+                  std::vector<std::vector<double>>& starts) {
   for (const double hertz : {0.1, 1.0, 10.0}) {
     for (const double adhesion : {0.1, 1.0, 10.0}) {
       if (hertz == 1.0 && adhesion == 1.0) continue;
@@ -39,6 +36,28 @@ std::vector<std::vector<double>> starting_points(const ImpactModel& model,
       }
       if (moved) starts.push_back(std::move(start));
     }
+  }
+}
+
+/// The stated start and other dampings; the same about the dampings of the catalogue, where the
+/// stated ones are more than ten times another; then what the catalogue of mechanisms advises, one
+/// parameter at a time.
+std::vector<std::vector<double>> starting_points(const ImpactModel& model,
+                                                 const std::vector<double>& first, bool several) {
+  std::vector<std::vector<double>> starts = {first};
+  if (!several) return starts;
+  add_dampings(model, first, starts);
+  std::vector<double> usual = first;
+  bool far = false;
+  for (std::size_t j = 0; j < first.size(); ++j) {
+    const ParameterSlot& slot = model.slots[j];
+    if (!slot.free || !slot.parameter->is_damping()) continue;
+    usual[j] = std::clamp(slot.parameter->initial, slot.lower, slot.upper);
+    far = far || !(first[j] <= 10.0 * usual[j] && usual[j] <= 10.0 * first[j]);
+  }
+  if (far) {
+    starts.push_back(usual);
+    add_dampings(model, usual, starts);
   }
   for (std::size_t j = 0; j < first.size(); ++j) {
     const ParameterSlot& slot = model.slots[j];
@@ -71,13 +90,13 @@ std::vector<std::size_t> spread_part(const std::vector<Observation>& points) {
 /// above the curve until the scatter of the impacts is known, so points with rebounds and captures
 /// wait for `reweighted_fit`, if the others suffice.
 std::optional<Observations> searched_part(const Observations& data, std::ptrdiff_t free_count) {
+  const std::vector<bool> mixed = among_captures(data.points);
   std::ptrdiff_t rebounds = 0;
-  std::ptrdiff_t mixed = 0;
-  for (const Observation& point : data.points) {
-    if (point.mixed()) ++mixed;
-    if (!point.mixed() && !point.censored) ++rebounds;
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    if (!mixed[i] && !data.points[i].censored) ++rebounds;
   }
-  const bool leave_mixed = mixed > 0 && rebounds > free_count;
+  const bool leave_mixed =
+      std::find(mixed.begin(), mixed.end(), true) != mixed.end() && rebounds > free_count;
   const bool many = data.points.size() > many_points;
   if (!leave_mixed && !many) return std::nullopt;
   std::vector<std::size_t> used;
@@ -87,7 +106,7 @@ std::optional<Observations> searched_part(const Observations& data, std::ptrdiff
     used.resize(data.points.size());
     std::iota(used.begin(), used.end(), std::size_t{0});
   }
-  if (leave_mixed) std::erase_if(used, [&](std::size_t i) { return data.points[i].mixed(); });
+  if (leave_mixed) std::erase_if(used, [&](std::size_t i) { return mixed[i]; });
   return data.subset(used);
 }
 
@@ -100,6 +119,29 @@ bool ends_elsewhere(const LeastSquaresResult& run, const LeastSquaresResult& bes
     if (std::abs(run.theta[j] - best.theta[j]) > unit) return true;
   }
   return false;
+}
+
+/// Goes on from where the iterations of a start ran out, if that is better than where any ended: by
+/// the other descent, and as long as it gains.
+void finish_promising(const LeastSquaresProblem& problem, LeastSquaresOptions options,
+                      std::vector<StartSummary>& starts, std::vector<StartLead>& ended) {
+  constexpr int most_descents = 5;
+  double least = INFINITY;
+  for (const StartLead& lead : ended) least = std::min(least, lead.run.sum_of_squares);
+  options.strategies = {Strategy::box_descent};
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    StartSummary& start = starts[k];
+    for (int round = 0; start.ending == DescentEnd::limit && round < most_descents; ++round) {
+      if (!(start.chi2 < least)) break;
+      LeastSquaresResult run = minimise(problem, start.end, options);
+      if (run.end == DescentEnd::no_answer || !(run.sum_of_squares < start.chi2 || run.ended()))
+        break;
+      start = {start.start, run.theta, run.sum_of_squares, run.end, run.message};
+      if (!run.ended()) continue;
+      least = std::min(least, run.sum_of_squares);
+      ended.push_back({k, std::move(run)});
+    }
+  }
 }
 
 }  // namespace
@@ -120,6 +162,7 @@ StartSearch search_from_starts(const ImpactModel& model, const Observations& dat
     search.starts.push_back({start, run.theta, run.sum_of_squares, run.end, run.message});
     if (run.ended()) ended.push_back({search.starts.size() - 1, std::move(run)});
   }
+  finish_promising(problem, options, search.starts, ended);
   if (ended.empty()) return search;
   const auto best =
       std::min_element(ended.begin(), ended.end(), [](const StartLead& a, const StartLead& b) {

@@ -1,7 +1,10 @@
 #include "estimate/student.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
+#include <gsl/gsl_sf_psi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -70,14 +73,31 @@ StudentNoise student_noise(double dof) {
   const auto square = [&](double z) { return student.psi(z) * student.psi(z); };
   student.mean_slope = normal_mean([&](double z) { return psi_slope(dof, z); });
   student.mean_square = normal_mean(square);
-  const double fourth = normal_mean([&](double z) { return square(z) * square(z); });
-  student.square_spread = fourth / (student.mean_square * student.mean_square) - 1.0;
   student.gauss_newton = normal_mean([&](double z) {
     const double d = (dof + 1.0) * std::log1p(z * z / dof);
     return d > 0.0 ? square(z) / d : (dof + 1.0) / dof;
   });
   student.core = core_scale(student);
   return student;
+}
+
+double StudentNoise::p_value(std::span<const double> residuals, int freedom) const {
+  const auto n = static_cast<double>(residuals.size());
+  double sum = 0.0;
+  double largest = 0.0;
+  for (const double r : residuals) {
+    const double t = r / core;
+    sum += (dof + 1.0) * std::log1p(t * t / dof);
+    largest = std::max(largest, std::abs(t));
+  }
+  const double mean = (dof + 1.0) * (gsl_sf_psi(0.5 * (dof + 1.0)) - gsl_sf_psi(0.5 * dof));
+  const double variance =
+      (dof + 1.0) * (dof + 1.0) * (gsl_sf_psi_1(0.5 * dof) - gsl_sf_psi_1(0.5 * (dof + 1.0)));
+  const double scale = variance / mean;
+  const double of_sum = gsl_cdf_gamma_Q(sum, freedom * mean / scale, scale);
+  const double tail = std::min(1.0, 2.0 * gsl_cdf_tdist_Q(largest, dof));
+  const double of_largest = -std::expm1(n * std::log1p(-std::min(tail, 1.0 - 1e-16)));
+  return std::min(1.0, 2.0 * std::min(of_sum, of_largest));
 }
 
 double gain_under_outliers(const StudentNoise& student, double share, double factor) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 namespace recoil {
 
 /// A residual, dimensionless, and its derivative with respect to the predicted e^2.
@@ -16,18 +18,25 @@ struct WeightedResidual {
 /// the estimate has variance E psi^2 / (E psi')^2, that is 1 / efficiency times that of least
 /// squares, and c^2 D with c^2 = E psi' / E psi^2 rises like a chi-squared.
 struct StudentNoise {
-  double dof = 4.0;            ///< nu
-  double mean_slope = 1.0;     ///< E psi' for normal r
-  double mean_square = 1.0;    ///< E psi^2
-  double square_spread = 2.0;  ///< Var(psi^2) / (E psi^2)^2; 2 for normal residuals
-  double gauss_newton = 1.0;   ///< E psi^2 / D, what J'J holds instead of E psi'
-  double core = 1.0;           ///< scale of a t whose psi(r)^2 has the same mean: for simulations
+  double dof = 4.0;           ///< nu
+  double mean_slope = 1.0;    ///< E psi' for normal r
+  double mean_square = 1.0;   ///< E psi^2
+  double gauss_newton = 1.0;  ///< E psi^2 / D, what J'J holds instead of E psi'
+  double core = 1.0;          ///< scale of a t whose psi(r)^2 has the same mean: for simulations
 
   double psi(double r) const;
   /// sign(r) c sqrt(D(r)): what least squares has to be given to minimise c^2 D.
   WeightedResidual transformed(const WeightedResidual& normal) const;
   /// The r that `transformed` turned into `value`.
   double original(double value) const;
+  /// That residuals of t noise with this core are as large as `residuals`: twice the smaller of two
+  /// probabilities (Bonferroni). One is that of the sum of D, which grows with every outlier, by a
+  /// gamma distribution with the mean and variance of D for t, both times dof / n; for t
+  ///   E D = (nu + 1) (psi((nu + 1) / 2) - psi(nu / 2)),
+  ///   Var D = (nu + 1)^2 (psi'(nu / 2) - psi'((nu + 1) / 2)),
+  /// as 1 / (1 + t^2 / nu) is a beta variate. The other is that of the largest among n. psi itself
+  /// falls beyond sqrt(nu) and sees no outlier.
+  double p_value(std::span<const double> residuals, int dof) const;
   double calibration() const { return mean_slope / mean_square; }  ///< c^2
   /// What (J'J)^-1 is multiplied by to be the covariance.
   double covariance_factor() const { return gauss_newton / mean_slope; }

@@ -61,9 +61,8 @@ class Renewal {
 
   explicit Renewal(Observations& data, What what = What::everything)
       : data_(data), everything_(what == What::everything) {
-    for (const Observation& point : data.points) {
-      mixed_ = mixed_ || point.mixed();
-    }
+    const std::vector<bool> mixed = among_captures(data.points);
+    mixed_ = std::find(mixed.begin(), mixed.end(), true) != mixed.end();
     if (!mixed_) forget_scatter();
     if (mixed_ && !(data.noise.event_spread > 0.0)) data.noise.event_spread = first_spread;
   }
@@ -83,8 +82,9 @@ class Renewal {
         beside(p, error_step(p.velocity_sd / p.velocity), true);
       if (everything_ && p.setting_velocity_sd > 0.0)
         beside(p, error_step(p.setting_velocity_sd / p.velocity), true);
-      if (everything_ && p.diameter_sd > 0.0)
-        beside(p, error_step(p.diameter_sd / p.diameter), false);
+      for (const double sd : {p.diameter_sd, p.series_diameter_sd}) {
+        if (everything_ && sd > 0.0) beside(p, error_step(sd / p.diameter), false);
+      }
       if (mixed_) beside(p, std::sqrt(3.0) * data_.noise.event_spread, true);
     }
     return all;
@@ -167,6 +167,11 @@ class Renewal {
       }
     }
     add(point.diameter_sd / point.diameter, 0.0);
+    point.weights.size_sd = 0.0;
+    if (const double relative = point.series_diameter_sd / point.diameter; relative > 0.0) {
+      const Local at = local(m, error_step(relative));
+      if (m > 0.0) point.weights.size_sd = at.slope * relative / (2.0 * std::sqrt(m));
+    }
     point.weights.input_sd = std::sqrt(variance);
   }
 
@@ -242,7 +247,7 @@ class Renewal {
 
   Observations& data_;
   bool everything_;
-  bool mixed_ = false;  ///< some point has both rebounds and captures
+  bool mixed_ = false;  ///< somewhere spheres both rebound and stick
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ CaptureCurve fitted_curve(const FitResult& fitted, std::size_t dataset,
   curve.velocity = fitted_velocities(fitted.model, fitted.theta, dataset, diameters);
   const std::size_t count =
       std::min(bootstrap.theta.size(), static_cast<std::size_t>(options.replicates));
-  if (count < fewest_replicates) return curve;
+  if (count < fewest_replicates(options.level)) return curve;
   std::vector<std::vector<double>> values(count);
   parallel_over(count, options.threads, [&](std::size_t i) {
     values[i] = fitted_velocities(fitted.model, bootstrap.theta[i], dataset, diameters);

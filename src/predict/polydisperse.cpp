@@ -101,8 +101,9 @@ BandedValue banded(double value, std::vector<double> replicates, double level) {
   BandedValue out{finite(value), {}, {}};
   const std::size_t count = replicates.size();
   std::erase_if(replicates, [](double v) { return !std::isfinite(v); });
-  const bool enough = count >= fewest_replicates && static_cast<double>(replicates.size()) >=
-                                                        share_for_band * static_cast<double>(count);
+  const bool enough =
+      count >= fewest_replicates(level) &&
+      static_cast<double>(replicates.size()) >= share_for_band * static_cast<double>(count);
   if (!out.value || !enough) return out;
   std::sort(replicates.begin(), replicates.end());
   out.lower = sorted_quantile(replicates, (1.0 - level) / 2.0);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +95,7 @@ std::string setting_words(const Observations& data, int free_count) {
     return fmt::format("; the points of one setting share its stated error of velocity ({})",
                        source);
   }
-  if (too_few_settings(data, free_count)) {
+  if (data.setting_sd_estimated && spare_settings(data, free_count) < 1) {
     return fmt::format(
         "; an error that the points of one setting share cannot be estimated from so few settings "
         "({})",
@@ -114,12 +115,75 @@ void add_new(Sentences& list, const Sentences& more) {
   }
 }
 
+/// Where the residuals of one dataset are far larger than those of another, though one scale of the
+/// noise is estimated for all: an F test of the most and the least, for all pairs (Bonferroni).
+Sentences unequal_noise_warnings(const FitResult& fitted) {
+  const std::size_t datasets = fitted.model.contacts.size();
+  if (fitted.data.sd_stated || datasets < 2) return {};
+  struct Residuals {
+    double square = 0.0;
+    double count = 0.0;
+    double mean() const { return square / count; }
+  };
+  std::vector<Residuals> of(datasets);
+  for (std::size_t i = 0; i < fitted.residuals.size(); ++i) {
+    const Observation& point = fitted.data.points[i];
+    if (point.censored) continue;
+    of[point.dataset].square += fitted.residuals[i] * fitted.residuals[i];
+    of[point.dataset].count += 1.0;
+  }
+  std::erase_if(of, [](const Residuals& r) { return !(r.count > 2.0) || !(r.square > 0.0); });
+  if (of.size() < 2) return {};
+  const auto [least, most] = std::minmax_element(
+      of.begin(), of.end(),
+      [](const Residuals& a, const Residuals& b) { return a.mean() < b.mean(); });
+  constexpr double level = 0.01;
+  const double ratio = most->mean() / least->mean();
+  const double pairs = static_cast<double>(datasets * (datasets - 1));
+  if (!(gsl_cdf_fdist_Q(ratio, most->count, least->count) * pairs < level)) return {};
+  return {
+      fmt::format("the residuals of one dataset are {:.1f} times those of another, while one scale "
+                  "of the noise "
+                  "is estimated for all: the intervals may be too narrow; state restitution_sd",
+                  std::sqrt(ratio))};
+}
+
+/// Shared errors that the points cannot show.
+Sentences setting_warnings(const FitResult& fitted) {
+  const Observations& data = fitted.data;
+  if (!data.setting_sd_estimated || spare_settings(data, fitted.model.free_count()) > 0) return {};
+  return {fmt::format(
+      "the points of one setting may share an error, such as that of a drop height; {} settings "
+      "cannot show it, and the intervals leave it out: state setting_velocity_sd or setting_sd",
+      count_settings(data).settings)};
+}
+
+/// A standard deviation computed from fewer impacts is off by a fifth or more: 1 / sqrt(2 (n - 1)).
+constexpr int few_impacts = 15;
+
 /// Standard deviations that the fit did not use.
 Sentences data_warnings(const Observations& data) {
+  if (data.sd_stated && data.sd_missing > 0) {
+    return {fmt::format(
+        "{} points state no restitution_sd: a single impact of theirs is taken to scatter like the "
+        "median of the others",
+        data.sd_missing)};
+  }
+  const auto few = std::count_if(data.points.begin(), data.points.end(), [](const auto& point) {
+    return point.rebounds() > 1 && point.rebounds() < few_impacts;
+  });
+  if (data.sd_stated && few > 0) {
+    return {fmt::format(
+        "{} points average fewer than {} impacts: if their restitution_sd were computed from these "
+        "alone, the intervals are too narrow; pool the deviations of all points, or let the fit "
+        "estimate them ([noise] variance = \"constant\")",
+        few, few_impacts)};
+  }
   if (data.sd_stated || data.sd_set_aside == 0) return {};
-  return {fmt::format("the restitution_sd of {} points is ignored: {}", data.sd_set_aside,
-                      data.spec.variance ? "the fit file requests an estimated variance"
-                                         : fmt::format("{} points state none", data.sd_missing))};
+  return {
+      fmt::format("the restitution_sd of {} points is ignored: the fit file requests an "
+                  "estimated variance",
+                  data.sd_set_aside)};
 }
 
 /// Parameters that the fit does not determine.
@@ -345,6 +409,8 @@ Sentence noise_warning(const FitResult& fitted) {
 
 std::vector<Sentence> fit_warnings(const FitResult& fitted) {
   Sentences warnings = data_warnings(fitted.data);
+  add_new(warnings, unequal_noise_warnings(fitted));
+  add_new(warnings, setting_warnings(fitted));
   if (fitted.usable) {
     add_new(warnings, undetermined_warnings(fitted));
     add_new(warnings, bound_warnings(fitted));

@@ -256,7 +256,7 @@ std::string missing_words(const Interval& interval) {
     case NoInterval::refit_failed:
       return "a constrained refit along the profile failed";
     case NoInterval::few_replicates:
-      return fmt::format("fewer than {} usable replicates", fewest_replicates);
+      return "fewer usable replicates than the level needs";
     case NoInterval::few_delete_one_refits:
       return "fewer than three delete-one refits succeeded";
     case NoInterval::one_sided_replicates:
@@ -300,6 +300,11 @@ Sentence note_words(const Interval& interval, const Sentence& what) {
           "the interval of {} is too narrow, because every point averages over many sizes: in "
           "simulations {:.0f} % of such 95 % intervals contained the truth",
           what, 100.0 * value);
+    case Caution::model_rejected:
+      return say(
+          "{} and its interval follow from a model that the data reject (p {}): the interval does "
+          "not include the error of the model",
+          what, value < 1e-6 ? "< 1e-6" : fmt::format("= {:.2g}", value));
   }
   return {};
 }
@@ -316,6 +321,8 @@ std::string short_note(Caution caution) {
     case Caution::wide_spread:
     case Caution::mixed_sizes:
       break;
+    case Caution::model_rejected:
+      return "the data reject the model";
   }
   return "";
 }
@@ -393,6 +400,9 @@ std::string scheme_words(const BootstrapResult& bootstrap) {
       break;
     case SchemeBecause::no_residuals:
       why = "no point rebounded, so there are no residuals";
+      break;
+    case SchemeBecause::shared_sizes:
+      why = "points of one series share an error of their diameter";
       break;
   }
   constexpr std::size_t few = 10;

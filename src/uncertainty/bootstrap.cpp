@@ -30,6 +30,13 @@ constexpr double refit_tolerance_factor = 100.0;
 constexpr int fewest_automatic = 999;
 constexpr int most_automatic = 19999;
 
+/// How many replicates a run begins with: no fewer than have an interval at its level.
+int first_count(const UncertaintyOptions& options) {
+  const int asked = options.replicates_auto ? fewest_automatic : options.replicates;
+  const double needed = static_cast<double>(fewest_replicates(options.level));
+  return asked == 0 ? 0 : std::max(asked, static_cast<int>(std::min(needed, 1.0 * most_automatic)));
+}
+
 /// What one thread needs to refit samples one after the other without building anything anew: the
 /// problem refers to the sample beside it, and outlives its data as long as the points stay where
 /// they are and only their restitution changes.
@@ -215,7 +222,7 @@ BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEsti
                           const UncertaintyOptions& options) {
   Bootstrap run(fitted, capture, options);
   const bool known = fitted.data.noise.known;  // else there is nothing to draw
-  for (int count = !known ? 0 : options.replicates_auto ? fewest_automatic : options.replicates;;) {
+  for (int count = known ? first_count(options) : 0;;) {
     run.extend(count);
     BootstrapResult result = run.result();
     const double error = monte_carlo_error(fitted, result, capture, options.level);
@@ -229,7 +236,7 @@ BootstrapResult bootstrap(const FitResult& fitted, const std::vector<CaptureEsti
 }
 
 std::size_t replicates_at_most(const UncertaintyOptions& options) {
-  return static_cast<std::size_t>(options.replicates_auto ? most_automatic : options.replicates);
+  return static_cast<std::size_t>(options.replicates_auto ? most_automatic : first_count(options));
 }
 
 Pieces bootstrap_pieces(const FitResult& fitted, const std::vector<CaptureEstimate>& capture,

@@ -23,7 +23,7 @@ std::vector<WaldTerm> capture_terms(const std::vector<NoiseAlternative>& alterna
             : capture_velocity(other.model, other.theta, dataset, diameter, capture.value);
     if (!v.found || !(v.value > 0.0)) continue;
     terms.push_back({alternative.weight, std::log(v.value / capture.value),
-                     logarithmic_error(v, other.covariance), other.data.sd_stated ? 0 : other.dof});
+                     logarithmic_error(v, other.covariance), other.quantile_dof});
   }
   return terms;
 }
@@ -39,6 +39,9 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
   if (spread > widest_spread) interval.note = {Caution::wide_spread, spread};
   if (averages_over_sizes(fitted.model, dataset)) {
     interval.note = {Caution::mixed_sizes, mixed_capture_coverage};
+  }
+  if (fitted.noise_verdict == NoiseVerdict::exceeded) {
+    interval.note = {Caution::model_rejected, fitted.p_value};
   }
   const double error = logarithmic_error(capture, fitted.covariance);
   if (!capture.found || !(capture.value > 0.0) || !(error > 0.0)) {
@@ -131,7 +134,8 @@ void recommend_capture(const FitResult& fitted, bool sd_stated, CaptureEstimate&
   const bool spread = fitted.data.noise.event_spread > 0.0;
   const Interval& delta = capture[CaptureIntervalKind::delta];
   const Interval& percentile = capture[CaptureIntervalKind::percentile];
-  const bool replicates = (sd_stated && !spread) || at_bound || !delta.available();
+  const bool replicates =
+      (sd_stated && !spread && fitted.quantile_dof == 0) || at_bound || !delta.available();
   const auto quote = [&](const Interval& interval) {
     capture.interval = interval;
     capture.interval.note = delta.note;

@@ -47,7 +47,7 @@ std::vector<double> evaluate(const ImpactModel& model, std::span<const double> t
 void add_band(const ImpactModel& model, const BandSource& band, RestitutionCurve& curve) {
   const auto& replicates = band.theta;
   const std::size_t count = std::min(replicates.size(), most_band_replicates);
-  if (count < fewest_replicates) return;
+  if (count < fewest_replicates(band.level)) return;
   std::vector<std::vector<double>> values(count);
   parallel_over(count, band.threads,
                 [&](std::size_t i) { values[i] = evaluate(model, replicates[i], curve); });

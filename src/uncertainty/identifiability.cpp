@@ -117,7 +117,7 @@ Identifiability judge_identifiability(const FitResult& fitted,
   int free_count = 0;
   int good = 0;
   const std::vector<double> scales = loss_scales(fitted);
-  const double widened = largest_error_factor(fitted.data.sd_stated ? 0 : fitted.dof);
+  const double widened = largest_error_factor(fitted.quantile_dof);
   for (std::size_t j = 0; j < fitted.theta.size(); ++j) {
     const ParameterSlot& slot = fitted.model.slots[j];
     ParameterIdentifiability& found = result.parameter.emplace_back();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -61,8 +62,10 @@ struct NamesOf<NoInterval> {
       "noise_unknown",         "all_captured"};
 };
 
-/// The least number of replicates that have an interval: (B + 1) 0.025 >= 1.
-inline constexpr std::size_t fewest_replicates = 39;
+/// The least number of replicates that have an interval: (B + 1) (1 - level) / 2 >= 1.
+inline std::size_t fewest_replicates(double level) {
+  return static_cast<std::size_t>(std::ceil(2.0 / (1.0 - level) - 1.0 - 1e-6));
+}
 
 /// The share of the replicates that have to answer where a band is drawn.
 inline constexpr double share_for_band = 0.9;
@@ -84,17 +87,19 @@ enum class Caution {
   undecided_noise,    ///< see `undecided`
   wide_spread,        ///< see `widest_spread`
   mixed_sizes,        ///< see `mixed_capture_coverage`
+  model_rejected,     ///< the data reject the model from which the value follows
 };
 template <>
 struct NamesOf<Caution> {
-  static constexpr std::array<std::string_view, 6> names = {"spans_both_bounds", "begins_at_bound",
-                                                            "ends_at_bound",     "undecided_noise",
-                                                            "wide_spread",       "mixed_sizes"};
+  static constexpr std::array<std::string_view, 7> names = {
+      "spans_both_bounds", "begins_at_bound", "ends_at_bound", "undecided_noise",
+      "wide_spread",       "mixed_sizes",     "model_rejected"};
 };
 
 struct IntervalNote {
   Caution caution = Caution::begins_at_bound;
-  /// The bound, the factor between the errors, the spread of the impacts, or a measured coverage.
+  /// The bound, the factor between the errors, the spread of the impacts, a measured coverage, or
+  /// the p-value of the fit.
   double value = 0.0;
 };
 

@@ -24,7 +24,7 @@ double distribution_inverse(double p, int dof) {
 }  // namespace
 
 Interval percentile_interval(std::vector<double> replicates, double level) {
-  if (replicates.size() < fewest_replicates) return no_interval(NoInterval::few_replicates);
+  if (replicates.size() < fewest_replicates(level)) return no_interval(NoInterval::few_replicates);
   std::sort(replicates.begin(), replicates.end());
   const double tail = (1.0 - level) / 2.0;
   Interval interval;
@@ -84,7 +84,7 @@ double bca_rank_sd(const BcaConstants& constants, double p, double q, double cou
 
 Interval bca_interval(std::vector<double> replicates, double estimate,
                       std::span<const double> delete_one, double level) {
-  if (replicates.size() < fewest_replicates) return no_interval(NoInterval::few_replicates);
+  if (replicates.empty()) return no_interval(NoInterval::few_replicates);
   if (delete_one.size() < 3) return no_interval(NoInterval::few_delete_one_refits);
   const auto constants = bca_constants(replicates, estimate, delete_one);
   if (!constants) return no_interval(NoInterval::one_sided_replicates);
@@ -94,6 +94,7 @@ Interval bca_interval(std::vector<double> replicates, double estimate,
   if (!low || !high) {
     return no_interval(NoInterval::large_acceleration);
   }
+  if (replicates.size() < fewest_replicates(level)) return no_interval(NoInterval::few_replicates);
   std::sort(replicates.begin(), replicates.end());
   const double count = static_cast<double>(replicates.size());
   Interval interval;
@@ -121,7 +122,7 @@ Interval studentized_interval(std::span<const double> replicates,
   if (left_out > most_without_error * static_cast<double>(replicates.size())) {
     return no_interval(NoInterval::replicates_without_error);
   }
-  if (pivots.size() < fewest_replicates) return no_interval(NoInterval::few_replicates);
+  if (pivots.size() < fewest_replicates(level)) return no_interval(NoInterval::few_replicates);
   std::sort(pivots.begin(), pivots.end());
   const double tail = (1.0 - level) / 2.0;
   Interval interval;

@@ -51,8 +51,8 @@ std::vector<WaldTerm> terms_of_slot(const std::vector<NoiseAlternative>& alterna
   std::vector<WaldTerm> terms;
   for (const NoiseAlternative& alternative : alternatives) {
     const FitResult& fitted = alternative.fitted;
-    terms.push_back({alternative.weight, fitted.theta[j], fitted.std_error[j],
-                     fitted.data.sd_stated ? 0 : fitted.dof});
+    terms.push_back(
+        {alternative.weight, fitted.theta[j], fitted.std_error[j], fitted.quantile_dof});
   }
   return terms;
 }

@@ -89,7 +89,7 @@ void add_resampled_intervals(const FitResult& fitted, const BootstrapResult& rep
   }
   for (std::size_t j = 0; j < slots.size(); ++j) {
     if (!slots[j].free) continue;
-    sets[j].disagreement = explain_disagreement(fitted, j, sets, sd_stated, level);
+    sets[j].disagreement = explain_disagreement(fitted, j, sets, level);
   }
 }
 

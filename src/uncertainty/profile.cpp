@@ -161,8 +161,8 @@ class ConstantErrors {
 };
 
 Allowance allowance(const FitResult& fitted, std::size_t slot, double level, double error) {
-  const int dof = fitted.data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
-  return {fitted.model.slots[slot], level, dof, fitted.noise_scale * fitted.noise_scale, error};
+  return {fitted.model.slots[slot], level, fitted.quantile_dof,
+          fitted.noise_scale * fitted.noise_scale, error};
 }
 
 /// One end of the interval, walking from the estimate in `direction` until the rise exceeds what is
@@ -257,7 +257,6 @@ double profile_level(const FitResult& fitted, std::size_t slot, double value) {
   const double error = free_standard_error(fitted, slot);
   const ParameterSlot& parameter = fitted.model.slots[slot];
   const double room = std::min(value - parameter.lower, parameter.upper - value);
-  const int dof = fitted.data.sd_stated || fitted.dof <= 0 ? 0 : fitted.dof;
   double height = std::max(*rise, 0.0) / (fitted.noise_scale * fitted.noise_scale);
   const ConstantErrors constants(fitted, slot);
   if (height > 0.0) {
@@ -265,7 +264,7 @@ double profile_level(const FitResult& fitted, std::size_t slot, double value) {
     const double ratio = constants.ratio(value);
     height = 1.0 / (1.0 / height + ratio * ratio);
   }
-  return level_of_rise(height, dof, error > 0.0 ? room / error : INFINITY);
+  return level_of_rise(height, fitted.quantile_dof, error > 0.0 ? room / error : INFINITY);
 }
 
 std::vector<ProfilePoint> profile_curve(const FitResult& fitted, std::size_t slot, double level,

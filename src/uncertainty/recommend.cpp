@@ -71,13 +71,12 @@ std::optional<double> skewed_arms(const Interval& profile, double estimate) {
   return std::nullopt;
 }
 
-std::optional<Disagreement::FewPoints> few_points_of(const FitResult& fitted, bool sd_stated,
-                                                     double level) {
-  if (sd_stated || fitted.dof <= 0) return std::nullopt;
+std::optional<Disagreement::FewPoints> few_points_of(const FitResult& fitted, double level) {
+  if (fitted.quantile_dof == 0) return std::nullopt;
   const double p = 0.5 + level / 2.0;
-  const double ratio = gsl_cdf_tdist_Pinv(p, fitted.dof) / gsl_cdf_ugaussian_Pinv(p);
+  const double ratio = gsl_cdf_tdist_Pinv(p, fitted.quantile_dof) / gsl_cdf_ugaussian_Pinv(p);
   if (ratio <= clear_student) return std::nullopt;
-  return Disagreement::FewPoints{fitted.dof, ratio};
+  return Disagreement::FewPoints{fitted.quantile_dof, ratio};
 }
 
 }  // namespace
@@ -96,7 +95,7 @@ void recommend(IntervalSet& set, bool sd_stated) {
 
 std::optional<Disagreement> explain_disagreement(const FitResult& fitted, std::size_t slot,
                                                  const std::vector<IntervalSet>& sets,
-                                                 bool sd_stated, double level) {
+                                                 double level) {
   const IntervalSet& set = sets[slot];
   const Interval& reference = recommended_interval(set);
   if (!reference.available()) return std::nullopt;
@@ -116,7 +115,7 @@ std::optional<Disagreement> explain_disagreement(const FitResult& fitted, std::s
     if (std::abs(bias) > clear_bias) found.bias = bias;
   }
   found.arms = skewed_arms(set[IntervalKind::profile], fitted.theta[slot]);
-  found.few_points = few_points_of(fitted, sd_stated, level);
+  found.few_points = few_points_of(fitted, level);
   return found;
 }
 

@@ -32,7 +32,7 @@ void recommend(IntervalSet& set, bool sd_stated);
 /// @param sets of all slots, complete but for this
 std::optional<Disagreement> explain_disagreement(const FitResult& fitted, std::size_t slot,
                                                  const std::vector<IntervalSet>& sets,
-                                                 bool sd_stated, double level);
+                                                 double level);
 
 /// The share of the usable replicates in which `slot` rests on one of its bounds.
 std::optional<double> bound_share(const BootstrapResult& boot, const ParameterSlot& slot,

@@ -26,7 +26,7 @@ std::vector<double> scaled_residuals(const FitResult& fitted, double power) {
     }
     const double h = std::min(fitted.leverage[i], most_leverage);
     // With what its setting shares in it.
-    const double residual = fitted.data.shares_settings()
+    const double residual = fitted.data.shares_errors()
                                 ? weighted_residual(point, fitted.prediction_squared[i]).value
                                 : fitted.residuals[i];
     scaled[i] = residual / std::pow(1.0 - h, power);
@@ -52,8 +52,9 @@ std::vector<std::vector<std::size_t>> clusters_of(const Observations& data) {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> found;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const Observation& point = data.points[i];
-    found[data.shares_settings() ? std::pair(std::size_t{0}, point.setting)
-                                 : std::pair(point.dataset, point.series)]
+    const bool by_setting = data.shares_settings() && !data.series_diameter_stated;
+    found[by_setting ? std::pair(std::size_t{0}, point.setting)
+                     : std::pair(point.dataset, point.series)]
         .push_back(i);
   }
   std::vector<std::vector<std::size_t>> clusters;
@@ -96,6 +97,10 @@ std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations&
       (data.noise.setting_sd > 0.0 || data.setting_velocity_stated)) {
     return SchemeObstacle::shared_settings;
   }
+  if ((scheme == Scheme::residual || scheme == Scheme::wild || scheme == Scheme::cases) &&
+      data.series_diameter_stated) {
+    return SchemeObstacle::shared_sizes;
+  }
   if (scheme == Scheme::cluster && clusters_of(data).size() < 2) {
     return SchemeObstacle::single_series;
   }
@@ -111,6 +116,9 @@ std::string obstacle_words(SchemeObstacle obstacle) {
     case SchemeObstacle::shared_settings:
       return "points of one setting share an error: single points cannot be exchanged, whole "
              "settings can (cluster)";
+    case SchemeObstacle::shared_sizes:
+      return "points of one series share an error of their diameter: single points cannot be "
+             "exchanged, whole series can (cluster)";
   }
   return "";
 }
@@ -123,9 +131,10 @@ ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
   if (asked == Scheme::automatic) {
     const bool residuals = !scheme_obstacle(Scheme::wild, data);
     plan.scheme = data.sd_stated || !residuals ? Scheme::parametric : Scheme::wild;
-    plan.because = data.sd_stated ? SchemeBecause::sd_stated
-                   : residuals    ? SchemeBecause::sd_not_stated
-                                  : SchemeBecause::no_residuals;
+    plan.because = data.sd_stated                ? SchemeBecause::sd_stated
+                   : residuals                   ? SchemeBecause::sd_not_stated
+                   : data.series_diameter_stated ? SchemeBecause::shared_sizes
+                                                 : SchemeBecause::no_residuals;
   }
   if (plan.scheme == Scheme::residual) plan.residuals = residual_pool(fitted);
   if (plan.scheme == Scheme::wild) plan.residuals = scaled_residuals(fitted, 1.0);

@@ -19,23 +19,25 @@ enum class SchemeBecause {
   sd_stated,      ///< parametric: every point states its standard deviation
   sd_not_stated,  ///< wild: the scatter need not be equal everywhere
   no_residuals,   ///< parametric: no point rebounded
+  shared_sizes,   ///< parametric: points of one series share an error of their diameter
 };
 template <>
 struct NamesOf<SchemeBecause> {
-  static constexpr std::array<std::string_view, 4> names = {"asked_for", "sd_stated",
-                                                            "sd_not_stated", "no_residuals"};
+  static constexpr std::array<std::string_view, 5> names = {
+      "asked_for", "sd_stated", "sd_not_stated", "no_residuals", "shared_sizes"};
 };
 
 /// Why a scheme cannot be used.
 enum class SchemeObstacle {
-  no_residuals,    ///< no point rebounded
-  single_series,   ///< there is nothing to exchange
-  shared_settings  ///< points of one setting share an error, and single ones would be exchanged
+  no_residuals,     ///< no point rebounded
+  single_series,    ///< there is nothing to exchange
+  shared_settings,  ///< points of one setting share an error, and single ones would be exchanged
+  shared_sizes      ///< points of one series do
 };
 template <>
 struct NamesOf<SchemeObstacle> {
-  static constexpr std::array<std::string_view, 3> names = {"no_residuals", "single_series",
-                                                            "shared_settings"};
+  static constexpr std::array<std::string_view, 4> names = {"no_residuals", "single_series",
+                                                            "shared_settings", "shared_sizes"};
 };
 
 /// What a scheme draws from, prepared once for all replicates. Refers to the fit, which has to

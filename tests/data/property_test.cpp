@@ -56,7 +56,7 @@ rc::Gen<Row> any_row() {
     row.events = *rc::gen::inRange(1, 1000);
     row.captured = *rc::gen::inRange(0, row.events + 1);
     row.restitution = row.captured == row.events ? 0.0 : *between(1e-9, 1.2);
-    if (*rc::gen::arbitrary<bool>()) row.sd = *between(1e-9, 1.0);
+    if (*rc::gen::arbitrary<bool>()) row.sd = *between(0.03, 1.0);
     return row;
   });
 }

@@ -128,7 +128,7 @@ TEST(Noise, TheChoiceIsReportedWithItsMargin) {
   EXPECT_TRUE(constant.data.noise.candidates.empty());
 }
 
-TEST(Noise, StatedDeviationsAreUsedOnlyWhenAllStateThem) {
+TEST(Noise, StatedDeviationsAreUsedAndTheMissingOnesCompleted) {
   Dataset data = design(6);
   for (ImpactPoint& point : data.points) point.restitution_sd = 0.01;
   EXPECT_TRUE(gather({data}).sd_stated);
@@ -137,9 +137,10 @@ TEST(Noise, StatedDeviationsAreUsedOnlyWhenAllStateThem) {
   EXPECT_FALSE(gather({data}, constant).sd_stated);
   data.points[2].restitution_sd.reset();
   const Observations mixed = gather({data});
-  EXPECT_FALSE(mixed.sd_stated);
-  EXPECT_EQ(mixed.sd_set_aside, 5);
+  EXPECT_TRUE(mixed.sd_stated);
+  EXPECT_EQ(mixed.sd_set_aside, 0);
   EXPECT_EQ(mixed.sd_missing, 1);
+  EXPECT_EQ(mixed.points[2].weights.sd, 0.01) << "the median of the others";
   NoiseSpec stated;
   stated.variance = VarianceFunction::stated;
   EXPECT_THROW(gather({data}, stated), InputError);

@@ -4,6 +4,7 @@
 #include <gsl/gsl_integration.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -88,6 +89,20 @@ TEST(Student, TransformationIsSmoothAndHasAnInverse) {
         (2.0 * h);
     EXPECT_NEAR(at.slope, difference, 1e-6) << r;
   }
+}
+
+/// Made with scipy: the sum of D by stats.gamma with moments by quadrature, the largest residual by
+/// stats.t, the core by root finding.
+TEST(Student, TheMisfitGrowsWithOutliers) {
+  const StudentNoise student = student_noise(4.0);
+  std::vector<double> one(12, 0.5);
+  one.back() = 33.0;
+  EXPECT_NEAR(student.p_value(one, 10) / 8.246702107e-05, 1.0, 1e-6);
+  std::vector<double> five(12, 0.5);
+  std::copy_n(std::array{25.0, 28.0, 30.0, 31.0, 33.0}.begin(), 5, five.begin() + 7);
+  EXPECT_NEAR(student.p_value(five, 10) / 3.812228448e-17, 1.0, 1e-5);
+  const std::vector<double> usual = {0.2, -0.4, 0.6, -0.8, 1.0, -1.2, 1.4, -1.6};
+  EXPECT_NEAR(student.p_value(usual, 6), 0.6134480868, 1e-6);
 }
 
 TEST(Student, CostsWhatItSaysUnderNormalNoise) {

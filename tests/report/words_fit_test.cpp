@@ -43,6 +43,19 @@ TEST(FitWarnings, OneForEveryFact) {
               f.data.sd_set_aside = 5;
             }),
             1U);
+  EXPECT_EQ(warnings_after([](FitResult& f) {
+              f.data.points.resize(3);
+              f.data.points[1].events = 6;
+            }),
+            1U)
+      << "standard deviations of few impacts";
+  EXPECT_EQ(warnings_after([](FitResult& f) {
+              f.data.points.resize(4);
+              f.data.points[3].setting = 1;
+              f.data.setting_sd_estimated = true;
+            }),
+            1U)
+      << "two settings and as many parameters";
   EXPECT_EQ(warnings_after([](FitResult& f) { f.weights_at_rest = false; }), 1U);
   EXPECT_EQ(warnings_after([](FitResult& f) { f.noise_verdict = NoiseVerdict::exceeded; }), 1U);
   EXPECT_EQ(warnings_after([](FitResult& f) { f.noise_verdict = NoiseVerdict::doubtful; }), 0U);

@@ -47,7 +47,7 @@ Example agreeing() {
 }
 
 std::optional<Disagreement> disagreement(const Example& example) {
-  return explain_disagreement(example.fitted, 0, example.sets, true, 0.95);
+  return explain_disagreement(example.fitted, 0, example.sets, 0.95);
 }
 
 TEST(Recommend, ProfileThenPercentileThenWald) {
@@ -124,7 +124,8 @@ TEST(Disagreement, NamesTheCauseThatTheNumbersShow) {
   Example few = e;
   few.fitted.dof = 8;
   EXPECT_FALSE(disagreement(few)->few_points) << "the deviations are stated";
-  const auto found = explain_disagreement(few.fitted, 0, few.sets, false, 0.95);
+  few.fitted.quantile_dof = 8;
+  const auto found = explain_disagreement(few.fitted, 0, few.sets, 0.95);
   ASSERT_TRUE(found->few_points);
   EXPECT_EQ(found->few_points->dof, 8);
   EXPECT_NEAR(found->few_points->factor, 2.306 / 1.960, 1e-3);

@@ -24,6 +24,7 @@ Material = Union[str, Mapping[str, Any]]
 _UNITS = {
     "diameter": "um",
     "diameter_sd": "um",
+    "series_diameter_sd": "um",
     "incident_velocity": "m/s",
     "rebound_velocity": "m/s",
     "velocity_sd": "m/s",
@@ -131,8 +132,9 @@ class Dataset:
 
         ``frame``: one row per point, columns as in points.csv: ``series``, ``diameter`` [um],
         ``incident_velocity`` [m/s], ``restitution`` [1] or ``rebound_velocity`` [m/s]; optional
-        ``restitution_sd``, ``velocity_sd``, ``diameter_sd``, ``events``, ``captured``, ``setting``,
-        ``setting_velocity_sd`` and the conditions. Missing values are empty cells.
+        ``restitution_sd``, ``velocity_sd``, ``diameter_sd``, ``series_diameter_sd``, ``events``,
+        ``captured``, ``setting``, ``setting_velocity_sd`` and the conditions. Missing values are
+        empty cells.
         Without ``series`` the points of each diameter are one.
         ``units``: of columns in other units than these, ``{"diameter": "mm"}``.
         ``particle``, ``surface``: a name (``recoil materials`` lists them), or ``{"material": ...,
