@@ -35,15 +35,15 @@ TEST(LoadDataset, ReadsTheSizesOverWhichPointsAverage) {
   const Dataset one_size = load_dataset(folder.path());
   EXPECT_FALSE(one_size.mixed_sizes);
   const std::string package = read_text_file(folder.path() / "datapackage.json");
-  write_whole_file(
-      folder.path() / "datapackage.json",
-      changed(package, "\"provenance\"", "\"mixed_sizes\": \"s.csv\", \"provenance\""));
+  write_whole_file(folder.path() / "datapackage.json",
+                   changed(package, "\"provenance\"", "\"mixed_sizes\": \"s.csv\", \"provenance\""),
+                   Replacing::data);
   EXPECT_THROW(load_dataset(folder.path()), InputError);  // no such file
   write_whole_file(folder.path() / "s.csv", "lower,upper,count\n1,2,3\n2,4,1\n");
   const Dataset mixed = load_dataset(folder.path());
   ASSERT_TRUE(mixed.mixed_sizes);
   EXPECT_NEAR(mixed.mixed_sizes->mean_diameter(), (3 * 1.5e-6 + 3e-6) / 4.0, 1e-18);
-  write_whole_file(folder.path() / "s.csv", "lower,upper,count\n1,2,3\n2,4,2\n");
+  write_whole_file(folder.path() / "s.csv", "lower,upper,count\n1,2,3\n2,4,2\n", Replacing::data);
   EXPECT_NE(load_dataset(folder.path()).sha256, mixed.sha256);
   // Of another dataset they are not taken over.
   EXPECT_FALSE(stated_system(folder.path()).contains("mixed_sizes"));
