@@ -158,8 +158,11 @@ std::string table_html(const Table& full) {
   constexpr std::size_t widest = 3;  // columns that a phone shows side by side
   const Table table = without_empty_columns(full);
   const bool stacks = table.has_headings() && table.columns.size() > widest;
-  std::string out = fmt::format("<div class=\"wide\"><table class=\"{}{}\">\n",
-                                table.compact ? "compact" : "full", stacks ? " stack" : "");
+  const std::string look_of_table =
+      fmt::format("{}{}", table.compact ? "compact" : "", stacks ? " stack" : "");
+  std::string out =
+      fmt::format("<div class=\"wide\"><table{}>\n",
+                  look_of_table.empty() ? "" : fmt::format(" class=\"{}\"", look_of_table));
   if (!table.caption.empty()) {
     out += fmt::format("<caption>{}</caption>\n", html_of(table.caption));
   }
