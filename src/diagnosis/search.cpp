@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "diagnosis/discrepancy.hpp"
 #include "diagnosis/kept_pieces.hpp"
+#include "estimate/impact_problem.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_settings.hpp"
@@ -147,23 +149,31 @@ bool spreads(const CandidateResult& single) {
 
 namespace {
 
-/// The columns of the Jacobian of `refit` that belong to the chosen slots, under the covariance of
-/// the base, each of unit length [points x columns].
+/// The Jacobian of the residuals of the points under `theta`, under the covariance of the base
+/// [at least points x slots].
+std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candidate,
+                                const std::vector<double>& theta) {
+  const LeastSquaresProblem problem =
+      whitened(impact_problem(candidate.model, base.fitted.data), *base.refit.discrepancy);
+  std::vector<double> residuals(problem.residual_count);
+  std::vector<double> jacobian(problem.residual_count * theta.size(), 0.0);
+  if (!problem.evaluate(theta, residuals, jacobian)) jacobian.assign(jacobian.size(), 0.0);
+  return jacobian;
+}
+
+/// The chosen columns of the first `points` rows of a Jacobian, each of unit length.
 template <class Chosen>
-Eigen::MatrixXd unit_columns(const SearchBase& base, const Refit& refit, const Chosen& chosen) {
-  const std::size_t n = base.fitted.data.points.size();
-  const std::size_t slots = refit.theta.size();
-  Eigen::MatrixXd columns(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(slots));
+Eigen::MatrixXd unit_columns(const std::vector<double>& jacobian, Eigen::Index points,
+                             std::size_t slots, const Chosen& chosen) {
+  using PointRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Map<const PointRows> all(jacobian.data(), points, static_cast<Eigen::Index>(slots));
+  Eigen::MatrixXd columns(points, all.cols());
   Eigen::Index count = 0;
-  std::vector<double> column(n);
   for (std::size_t j = 0; j < slots; ++j) {
     if (!chosen(j)) continue;
-    for (std::size_t i = 0; i < n; ++i) column[i] = refit.jacobian[i * slots + j];
-    refit.discrepancy->unwhiten(column);
-    base.refit.discrepancy->whiten(column);
-    const Eigen::Map<const Eigen::VectorXd> found(column.data(), static_cast<Eigen::Index>(n));
-    const double length = found.norm();
-    if (length > 0.0) columns.col(count++) = found / length;
+    const Eigen::VectorXd column = all.col(static_cast<Eigen::Index>(j));
+    const double length = column.norm();
+    if (length > 0.0) columns.col(count++) = column / length;
   }
   return columns.leftCols(count);
 }
@@ -187,16 +197,18 @@ Eigen::MatrixXd gains_by_chance(const SearchBase& base,
                                 const std::vector<CandidateResult>& candidates,
                                 const Eigen::MatrixXd& residuals) {
   const Observations& data = base.fitted.data;
-  const Eigen::MatrixXd model = basis_of(
-      unit_columns(base, base.refit, [&](std::size_t j) { return bool(base.refit.moving[j]); }));
+  const Eigen::Index points = residuals.rows();
+  const Eigen::MatrixXd model =
+      basis_of(unit_columns(base.refit.jacobian, points, base.refit.theta.size(),
+                            [&](std::size_t j) { return bool(base.refit.moving[j]); }));
   const Eigen::VectorXd squares = residuals.colwise().squaredNorm();
   Eigen::MatrixXd gains(residuals.cols(), static_cast<Eigen::Index>(candidates.size()));
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Candidate& candidate = candidates[k].candidate;
     const auto& slots = candidate.model.slots;
-    Eigen::MatrixXd own = unit_columns(base, candidates[k].refit, [&](std::size_t j) {
-      return slots[j].free && candidate.adds(slots[j]);
-    });
+    Eigen::MatrixXd own =
+        unit_columns(jacobian_at(base, candidate, candidates[k].refit.theta), points, slots.size(),
+                     [&](std::size_t j) { return slots[j].free && candidate.adds(slots[j]); });
     own -= model * (model.transpose() * own);
     const Eigen::VectorXd taken = (basis_of(own).transpose() * residuals).colwise().squaredNorm();
     for (Eigen::Index b = 0; b < residuals.cols(); ++b) {

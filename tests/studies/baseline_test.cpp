@@ -27,14 +27,4 @@ TEST(Baseline, DiscrepancyIsTheMeanOfTheLikeliestGaussianProcess) {
       discrepancy_mean(log_velocity, log_diameter, {0.5, -0.7, 0.2, 0.1, -0.4, 0.6}).empty());
 }
 
-/// No other mechanism moves one batch alone; the selection may add a second one to it.
-TEST(Baseline, FindsAStrongBatch) {
-  const Case made = make_case({"wall-batches", {"series_offset"}, 20.0, 0});
-  ASSERT_TRUE(made.reached);
-  const BaselineAnswers answers = baseline_answers(made, RECOIL_BINARY);
-  ASSERT_FALSE(answers.stepwise.empty());
-  EXPECT_EQ(answers.stepwise.front(), "series_offset");
-  EXPECT_EQ(answers.correlated, "series_offset");
-}
-
 }  // namespace
