@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
+#include "core/random.hpp"
 #include "core/units.hpp"
 #include "data/dataset.hpp"
 #include "data/text.hpp"
@@ -114,12 +116,16 @@ std::string example_points(const Dataset& dataset, double diameter) {
   const std::vector<double> theta = model.initial();
   const CaptureVelocity capture = capture_velocity(model, theta, 0, diameter);
   const double unit = capture.found && capture.value > 0.0 ? capture.value : 1.0;
-  std::string csv = "incident_velocity,restitution,captured\n";
+  constexpr double sd = 0.01;
+  RandomStream random(1, RandomPurpose::example, 0);
+  std::string csv = "incident_velocity,restitution,restitution_sd,events,captured\n";
   for (const double multiple : {0.8, 1.1, 1.3, 1.6, 2.2, 3.0, 5.0, 9.0, 16.0, 30.0}) {
     const double v = multiple * unit;
     const Prediction at = predict(model, theta, 0, diameter, v, false);
-    const double e = at.usable() ? at.restitution() : 0.0;
-    csv += fmt::format("{:.4g},{:.4f},{}\n", v, e, e > 0.0 ? 0 : 1);
+    const bool rebounds = at.usable() && at.restitution() > 0.0;
+    const double e = rebounds ? at.restitution() + sd * random.normal() : 0.0;
+    csv += rebounds ? fmt::format("{:.4g},{:.3f},{},20,0\n", v, std::clamp(e, 0.0, 1.0), sd)
+                    : fmt::format("{:.4g},0,,20,20\n", v);
   }
   return csv;
 }
@@ -145,7 +151,9 @@ Dataset make_example(ImportRequest request, double diameter) {
   request.file = "example.csv";
   request.provenance = Provenance::synthetic;
   request.title = "An example";
-  request.sources = {"Computed by recoil init from the model: put your own points in their place"};
+  request.sources = {
+      "Computed by recoil init from the model, with noise: put your own points in their place"};
+  request.sd_of = "mean";
   request.text = "incident_velocity,restitution\n1,0.5\n2,0.6\n";
   request.map = map_of(request.text);
   const Dataset first = import_points(request).dataset;  // its materials are what is needed
@@ -193,7 +201,7 @@ void run_init(InitOptions options) {
   made.stay();
   print_text("{}: {} points{}\n", folder.string(), dataset.points.size(),
              options.points.empty()
-                 ? ", SYNTHETIC: computed from the model, to show the form. Put your own into "
+                 ? ", SYNTHETIC: computed from the model, with noise. Put your own into "
                    "points.csv and their provenance into datapackage.json"
                  : "");
   print_text("next:\n  recoil check {0}\n  recoil fit {0}/fit.toml --out {0}/result\n",

@@ -12,6 +12,7 @@
 
 #include "cli/commands.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/gsl_errors.hpp"
 #include "core/interrupt.hpp"
 #include "core/program.hpp"
@@ -107,5 +108,6 @@ int run(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
   recoil::open_standard_streams();
   recoil::gsl_errors_are_values();
+  recoil::protect_inputs();
   return recoil::run(std::vector<std::string>(argv + 1, argv + argc));
 }

@@ -24,6 +24,10 @@ struct WholeFile {
   std::string text;
 };
 
+/// From now on this process replaces no file that it has read, and no points.csv or
+/// datapackage.json, unless `Replacing::data` says so. The commands of recoil begin with this.
+void protect_inputs();
+
 /// May a file that the program has read, or that holds data, be replaced?
 enum class Replacing { results, data };
 
@@ -41,8 +45,9 @@ void write_whole_files(const std::vector<WholeFile>& files,
                        Replacing replacing = Replacing::results);
 
 /// Commands ask before the work, and write_whole_files asks again.
-/// @throws InputError where two of the outputs are one file, and, unless data may be replaced,
-/// where one is a file that this process has read or an existing points.csv or datapackage.json
+/// @throws InputError where two of the outputs are one file, and, where inputs are protected and
+/// data may not be replaced, where one is a file that this process has read or an existing
+/// points.csv or datapackage.json
 void require_free(const std::vector<std::filesystem::path>& outputs,
                   Replacing replacing = Replacing::results);
 

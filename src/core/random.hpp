@@ -15,6 +15,7 @@ enum class RandomPurpose : std::uint32_t {
   posterior = 8,
   settings = 9,
   calibration = 10,
+  example = 11,
 };
 
 /// A reproducible stream of random numbers that is a pure function of (seed, purpose, replicate):

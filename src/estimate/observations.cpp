@@ -143,7 +143,7 @@ std::vector<bool> among_captures(const std::vector<Observation>& points) {
     const auto range = ranges.find({point.dataset, point.diameter});
     if (range == ranges.end()) continue;
     auto& [slowest_rebound, fastest_capture] = range->second;
-    if (!point.censored) slowest_rebound = std::min(slowest_rebound, point.velocity);
+    if (point.captured < point.events) slowest_rebound = std::min(slowest_rebound, point.velocity);
     if (point.captured > 0) fastest_capture = std::max(fastest_capture, point.velocity);
   }
   for (std::size_t i = 0; i < points.size(); ++i) {

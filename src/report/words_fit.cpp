@@ -43,10 +43,14 @@ std::string variance_words(const Observations& data) {
                             margin < clear ? ", not clearly" : "");
 }
 
-std::string unknown_noise_words(const FitResult& fitted) {
+std::string why_noise_is_unknown(const FitResult& fitted) {
   return fmt::format(
-      "unknown: no standard deviation is stated, and {}",
+      "no standard deviation is stated, and {}",
       fitted.dof > 0 ? "the readings do not scatter" : "there are no more points than parameters");
+}
+
+std::string unknown_noise_words(const FitResult& fitted) {
+  return "unknown: " + why_noise_is_unknown(fitted);
 }
 
 std::string verdict_words(const FitResult& fitted) {
@@ -152,10 +156,11 @@ Sentences unequal_noise_warnings(const FitResult& fitted) {
 Sentences setting_warnings(const FitResult& fitted) {
   const Observations& data = fitted.data;
   if (!data.setting_sd_estimated || spare_settings(data, fitted.model.free_count()) > 0) return {};
+  const std::size_t settings = count_settings(data).settings;
   return {fmt::format(
-      "the points of one setting may share an error, such as that of a drop height; {} settings "
+      "the points of one setting may share an error, such as that of a drop height; {} setting{} "
       "cannot show it, and the intervals leave it out: state setting_velocity_sd or setting_sd",
-      count_settings(data).settings)};
+      settings, settings == 1 ? "" : "s")};
 }
 
 /// A standard deviation computed from fewer impacts is off by a fifth or more: 1 / sqrt(2 (n - 1)).
@@ -293,7 +298,9 @@ Sentence point_words(const MeasuredPoint& point) {
 Sentence equation_words(AdhesionLaw law) { return say(traits(law).description); }
 
 Sentence quality_words(const FitResult& f) {
-  if (!f.data.noise.known) return "The fit cannot be tested: its noise is not known.";
+  if (!f.data.noise.known) {
+    return say("The fit cannot be tested: its noise is not known ({}).", why_noise_is_unknown(f));
+  }
   if (!f.data.sd_stated) {
     return say(
         "The rms residual of {e} is {}; without stated standard deviations the fit cannot be "

@@ -347,11 +347,11 @@ TEST(Shards, ADiagnosisTakesItsCalibrationFromThem) {
       if (!name.starts_with("part-1-")) continue;
       const std::string text = place.read("parts/" + name);
       std::string marked;
-      for (std::size_t at = text.find('\n') + 1; at < text.size(); at = text.find('\n', at) + 1) {
-        const std::size_t end = text.find(',', at);
-        const bool structure = std::stoi(text.substr(at + 1, end - at - 1)) < 999;
-        marked += text.substr(at, end - at) +
-                  (structure ? ",[1,9e9,9e9,9e9,9e9,9e9,9e9,9e9]]\n" : ",[9e9]]\n");
+      std::istringstream rows(text.substr(text.find('\n') + 1));
+      for (std::string line; std::getline(rows, line);) {  // [piece, [1, residuals of the points]]
+        auto row = nlohmann::json::parse(line);
+        for (std::size_t i = 1; i < row[1].size(); ++i) row[1][i] = 1e3 * row[1][i].get<double>();
+        marked += row.dump() + "\n";
       }
       put_rows(place, "parts/" + name, marked);
     }

@@ -1,5 +1,5 @@
 """The posterior against emcee (Foreman-Mackey et al. 2013, PASP 125, 306) with a density of its own:
-impacts by Runge-Kutta, likelihood and priors as docs/intervals.md writes them down, and of recoil's
+impacts by Runge-Kutta, likelihood and priors as docs/posterior.md writes them down, and of recoil's
 results only what that page says is held fixed."""
 
 import csv
