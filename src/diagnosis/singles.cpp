@@ -14,7 +14,7 @@
 namespace recoil {
 namespace {
 
-constexpr int tries_alone = 2;
+constexpr int tries_alone = 4;
 
 constexpr double least_effect = 0.01;  // of a standard deviation of the point it moves most
 
