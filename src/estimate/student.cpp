@@ -93,8 +93,8 @@ double StudentNoise::p_value(std::span<const double> residuals, int freedom) con
   const double mean = (dof + 1.0) * (gsl_sf_psi(0.5 * (dof + 1.0)) - gsl_sf_psi(0.5 * dof));
   const double variance =
       (dof + 1.0) * (dof + 1.0) * (gsl_sf_psi_1(0.5 * dof) - gsl_sf_psi_1(0.5 * (dof + 1.0)));
-  const double scale = variance / mean;
-  const double of_sum = gsl_cdf_gamma_Q(sum, freedom * mean / scale, scale);
+  const double ratio = variance / mean;
+  const double of_sum = gsl_cdf_gamma_Q(sum, freedom * mean / ratio, ratio);
   const double tail = std::min(1.0, 2.0 * gsl_cdf_tdist_Q(largest, dof));
   const double of_largest = -std::expm1(n * std::log1p(-std::min(tail, 1.0 - 1e-16)));
   return std::min(1.0, 2.0 * std::min(of_sum, of_largest));

@@ -208,13 +208,14 @@ DiagnosisFile diagnosis_file(const Diagnosis& d) {
   }
   out.unstated_errors = unstated_of(d);
   if (d.own_design) {
-    DiagnosisFile::OwnDesignEntry& own = out.own_design.emplace();
+    DiagnosisFile::OwnDesignEntry own;
     for (const Detection& one : d.own_design->detection) {
       own.detection.push_back(
           {one.id, one.strength, one.datasets, one.named, one.listed, one.wrong});
     }
     own.false_alarms = {d.own_design->datasets,
                         static_cast<double>(d.own_design->alarms) / d.own_design->datasets};
+    out.own_design = std::move(own);
   }
   out.settings = {.level = d.options.level,
                   .chance = d.options.chance,

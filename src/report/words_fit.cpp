@@ -156,7 +156,7 @@ Sentences unequal_noise_warnings(const FitResult& fitted) {
 Sentences setting_warnings(const FitResult& fitted) {
   const Observations& data = fitted.data;
   if (!data.setting_sd_estimated || spare_settings(data, fitted.model.free_count()) > 0) return {};
-  const std::size_t settings = count_settings(data).settings;
+  const int settings = count_settings(data).settings;
   return {fmt::format(
       "the points of one setting may share an error, such as that of a drop height; {} setting{} "
       "cannot show it, and the intervals leave it out: state setting_velocity_sd or setting_sd",

@@ -160,8 +160,10 @@ std::string share_in(const std::string& cell) {
 }
 
 TEST(Readme, DiagnosisIsThatOfTheStudy) {
-  const auto study = page::table_of(tree::root() / "reports/hidden-effects.md", "| bar |");
-  const auto manual = page::table_of(tree::root() / "docs/diagnose-accuracy.md", "| several diameters");
+  auto study = page::table_of(tree::root() / "reports/hidden-effects.md", "| bar |");
+  std::erase_if(study, [](const auto& row) { return row.at(3) == "not studied"; });
+  const auto manual =
+      page::table_of(tree::root() / "docs/diagnose-accuracy.md", "| several diameters");
   ASSERT_EQ(manual.size(), study.size()) << "one row for every bar, in the same order";
   for (std::size_t i = 0; i < study.size(); ++i) {
     EXPECT_EQ(share_in(manual[i].at(2)), share_in(study[i].at(2))) << manual[i][0];
