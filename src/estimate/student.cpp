@@ -95,8 +95,8 @@ double StudentNoise::p_value(std::span<const double> residuals, int freedom) con
       (dof + 1.0) * (dof + 1.0) * (gsl_sf_psi_1(0.5 * dof) - gsl_sf_psi_1(0.5 * (dof + 1.0)));
   const double ratio = variance / mean;
   const double of_sum = gsl_cdf_gamma_Q(sum, freedom * mean / ratio, ratio);
-  const double tail = std::min(1.0, 2.0 * gsl_cdf_tdist_Q(largest, dof));
-  const double of_largest = -std::expm1(n * std::log1p(-std::min(tail, 1.0 - 1e-16)));
+  const double beyond = std::min(1.0, 2.0 * gsl_cdf_tdist_Q(largest, dof));
+  const double of_largest = -std::expm1(n * std::log1p(-std::min(beyond, 1.0 - 1e-16)));
   return std::min(1.0, 2.0 * std::min(of_sum, of_largest));
 }
 
