@@ -13,6 +13,7 @@
 #include "core/quoting.hpp"
 #include "core/units.hpp"
 #include "document/terminal.hpp"
+#include "estimate/restitution_summary.hpp"
 #include "export/fluent.hpp"
 #include "export/lammps.hpp"
 #include "export/liggghts.hpp"
@@ -20,6 +21,7 @@
 #include "export/table.hpp"
 #include "export/yade.hpp"
 #include "json/fitted_values.hpp"
+#include "report/words_dataset.hpp"
 #include "report/words_export.hpp"
 
 namespace recoil {
