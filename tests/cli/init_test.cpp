@@ -32,10 +32,15 @@ TEST(Init, AnExampleSaysThatItIsOneAndIsFoundAgainByItsFit) {
   EXPECT_EQ(place.run({"check", "mine"}).status, 0);
   const Outcome fitted = place.run({"fit", "mine/fit.toml", "--replicates", "0", "--json"});
   ASSERT_EQ(fitted.status, 0) << fitted.err;
-  // the model made the points: the fit passes through them
+  // The model made the points, with C_H = 3e-3 s/m, C_A = 3e-2 s/m and noise of 0.01.
   const auto found = nlohmann::json::parse(fitted.out);
-  EXPECT_TRUE(found["parameters"].contains("C_H"));
-  EXPECT_LT(found["goodness"]["rmse"], 1e-3);
+  EXPECT_GT(found["goodness"]["p_value"], 1e-3);
+  EXPECT_LT(found["goodness"]["rmse"], 0.02);
+  const auto& all_points = found["comparison"].at(1);
+  for (const auto& [name, truth] : {std::pair("C_H", 3e-3), std::pair("C_A", 3e-2)}) {
+    const double error = all_points[std::string(name) + "_standard_error"];
+    EXPECT_NEAR(all_points[name], truth, 4.0 * error) << name;
+  }
 }
 
 TEST(Init, TakesPointsWithTheirProvenance) {
