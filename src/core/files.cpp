@@ -23,7 +23,7 @@
 namespace recoil {
 namespace {
 
-/// 16 hexadecimal digits that nobody can foresee.
+/// 16 unpredictable hexadecimal digits.
 std::string unpredictable_name() {
   std::uint64_t number = 0;
   if (getentropy(&number, sizeof number) != 0) {
@@ -147,7 +147,7 @@ std::string contents_of(const std::filesystem::path& path, std::uintmax_t max_by
                         const std::string& suggestion) {
     throw InputError(where, problem, why, suggestion);
   };
-  // O_NONBLOCK: a pipe that nobody writes into is opened all the same.
+  // O_NONBLOCK: a pipe without a writer is opened all the same.
   const OpenFile file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (file.get() < 0 || fstat(file.get(), &status) != 0) {
@@ -167,7 +167,7 @@ std::string contents_of(const std::filesystem::path& path, std::uintmax_t max_by
       last = Clock::now();
       continue;
     }
-    // Nobody has opened the other end of a pipe yet, or nothing is in it yet.
+    // The pipe has no writer yet, or is still empty.
     const bool waits =
         size == 0 ? S_ISFIFO(status.st_mode) && text.empty() : errno == EAGAIN || errno == EINTR;
     if (!waits && size < 0) {

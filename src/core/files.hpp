@@ -32,7 +32,7 @@ void protect_inputs();
 enum class Replacing { results, data };
 
 /// Writes into a new file of an unpredictable name beside the target, waits for the disk and
-/// renames: a reader sees the old file or the new one, never a part, whoever else writes it. The
+/// renames: a reader sees the old file or the new one, never a part, even with other writers. The
 /// new file has the permissions of the old one. Makes the folder when it is missing. Where `path`
 /// is a link, the file behind it is replaced; a device or a pipe is written into.
 /// @throws InputError when the place cannot be written; see also require_free

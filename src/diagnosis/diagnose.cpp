@@ -72,7 +72,7 @@ bool beyond_a_sharp_limit(const CandidateResult& c) {
                      [](const FoundParameter& p) { return p.limit != nullptr && p.limit->sharp; });
 }
 
-/// Is it no description, nor a batch that cannot be told from a law of size?
+/// Is it no description, nor a batch with the same effect as a law of size?
 bool may_be_a_cause(const CandidateResult& c) {
   return c.kind != MechanismKind::description && c.set_aside != SetAside::batch_is_size;
 }

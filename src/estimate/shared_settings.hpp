@@ -60,7 +60,7 @@ double estimated_setting_error(const Observations& data, std::span<const double>
 /// sigma rests on.
 int spare_settings(const Observations& data, int free_count);
 
-/// Is sigma estimated from so few settings that nobody can tell it from what a model gets wrong?
+/// Is sigma estimated from too few settings to separate it from a misfit of the model?
 bool too_few_settings(const Observations& data, int free_count);
 
 /// Renews `setting_load` and `size_load` of all points where they predict e^2 = `predicted`, and

@@ -16,13 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using support::Outcome;
 using support::Started;
+using support::with;
+using support::Words;
 using support::Workplace;
-using Words = std::vector<std::string>;
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 /// Points that the model cannot follow, so that all mechanisms and their pairs are tried.
 void spoil(const Workplace& place) {

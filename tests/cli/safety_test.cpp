@@ -1,4 +1,4 @@
-// What nobody asked for: data lost, code run from names, crashes, waits without end.
+// Unwanted effects: data lost, code run from names, crashes, waits without end.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
@@ -23,13 +23,9 @@ namespace fs = std::filesystem;
 using support::Outcome;
 using support::run_command;
 using support::Started;
+using support::with;
+using support::Words;
 using support::Workplace;
-using Words = std::vector<std::string>;
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 /// Status 2 and one line.
 void expect_refusal(const Outcome& run, const std::string& words) {
@@ -242,7 +238,7 @@ TEST(Safety, PlacesThatCannotBeUsedAreMistakesOfTheUser) {
   fs::permissions(place / "private", fs::perms::owner_all);
 }
 
-TEST(Safety, APipeThatNobodyWritesIntoEndsWithTheSignal) {
+TEST(Safety, APipeWithoutAWriterEndsWithTheSignal) {
   const Workplace place;
   ASSERT_EQ(mkfifo((place / "pipe.toml").c_str(), 0600), 0);
   ASSERT_EQ(mkfifo((place / "unfinished-fit.json.jsonl").c_str(), 0600), 0);

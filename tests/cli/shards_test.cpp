@@ -19,13 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using support::Outcome;
+using support::with;
+using support::Words;
 using support::Workplace;
-using Words = std::vector<std::string>;
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 std::string shard(int number, int of) { return std::to_string(number) + "/" + std::to_string(of); }
 
