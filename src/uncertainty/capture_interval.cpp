@@ -40,7 +40,7 @@ Interval delta_interval(const std::vector<NoiseAlternative>& alternatives,
   if (averages_over_sizes(fitted.model, dataset)) {
     interval.note = {Caution::mixed_sizes, mixed_capture_coverage};
   }
-  if (fitted.noise_verdict == NoiseVerdict::exceeded) {
+  if (fitted.noise_verdict == NoiseVerdict::exceeded && !without_adhesion(fitted.model, dataset)) {
     interval.note = {Caution::model_rejected, fitted.p_value};
   }
   const double error = logarithmic_error(capture, fitted.covariance);
