@@ -288,6 +288,7 @@ ImpactModel make_model(const FitSpec& spec, const std::vector<Dataset>& datasets
     model.contacts.push_back(derive_contact(dataset.system, reference_diameter_of(dataset)));
     model.surroundings.push_back(surroundings_of(dataset.system, model.contacts.back()));
     model.surroundings.back().adhesion = spec.adhesion;
+    model.surroundings.back().phase = spec.phase;
     model.surroundings.back().separation = spec.separation;
     for (std::size_t s = 0; s < dataset.series.size(); ++s) {
       model.surroundings.back().of_series.push_back(conditions_of(dataset, s));

@@ -34,8 +34,9 @@ struct Surroundings {
   std::vector<Conditions> of_series;
   Method method = Method::unknown;  ///< how velocities were measured
   AdhesionLaw adhesion = AdhesionLaw::ring;
-  double separation = equilibrium_separation;  ///< z_0 of `maugis` [m]
-  MixedSizes sizes;                            ///< over which every point averages, if any
+  AdhesionDampingPhase phase = AdhesionDampingPhase::rebound;  ///< in which C_A acts
+  double separation = equilibrium_separation;                  ///< z_0 of `maugis` [m]
+  MixedSizes sizes;  ///< over which every point averages, if any
 
   std::optional<double> stated(Condition condition, std::size_t series) const {
     return (series < of_series.size() ? of_series[series] : conditions).of(condition);
@@ -134,15 +135,7 @@ struct Encounter {
   /// Largest penetration of an undamped sphere under the ring law [m]: where `undamped_square`
   /// vanishes. Damping on the way in makes it smaller by about C_H V / 5 of itself.
   T deepest() const {
-    Encounter<double> plain;
-    plain.at = at;
-    plain.series = series;
-    plain.density = value_of(density);
-    plain.stiffness = value_of(stiffness);
-    plain.diameter = value_of(diameter);
-    plain.contact_radius = value_of(contact_radius);
-    plain.velocity = value_of(velocity);
-    plain.adhesion_force = value_of(adhesion_force);
+    const Encounter<double> plain = without_slopes();
     // From above, where the function is concave, Newton's steps cannot overshoot.
     double n = plain.hertz_penetration() +
                10.0 / 3.0 * std::numbers::pi * plain.adhesion_force / plain.stiffness;
@@ -154,6 +147,27 @@ struct Encounter {
     }
     // One more step carries the derivatives.
     return T(n) - undamped_square(T(n)) / plain.square_slope(n);
+  }
+  Encounter<double> without_slopes() const {
+    Encounter<double> plain;
+    plain.at = at;
+    plain.series = series;
+    plain.density = value_of(density);
+    plain.stiffness = value_of(stiffness);
+    plain.adhesion_energy = value_of(adhesion_energy);
+    plain.wave_mobility = value_of(wave_mobility);
+    plain.measured_velocity = value_of(measured_velocity);
+    plain.diameter = value_of(diameter);
+    plain.contact_radius = value_of(contact_radius);
+    plain.velocity = value_of(velocity);
+    plain.adhesion_force = value_of(adhesion_force);
+    plain.hertz_damping = value_of(hertz_damping);
+    plain.adhesion_damping = value_of(adhesion_damping);
+    plain.relaxation = value_of(relaxation);
+    plain.square = value_of(square);
+    plain.flow_pressure = flow_pressure;
+    plain.flow_radius = flow_radius;
+    return plain;
   }
   /// d undamped_square / d n.
   T square_slope(const T& n) const {

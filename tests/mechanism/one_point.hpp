@@ -63,6 +63,7 @@ inline Answer ask(const Surroundings& at, const std::vector<std::string>& ids,
     throw std::invalid_argument("values of the mechanisms");
   ImpactOptions options;
   options.adhesion = at.adhesion;
+  options.phase = at.phase;
   options.gradient = gradient;
   impacts.evaluate(values, options, simulate_impacts_fast);
   Answer answer;

@@ -1,0 +1,135 @@
+#include "mechanism/opening_loss.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mechanism/radau.hpp"
+
+namespace recoil {
+namespace {
+
+// The slopes of a number: in the groups, in their order, and in the deepest point.
+constexpr std::size_t by_deepest = OpeningGroups::count;
+constexpr std::size_t by_returned = by_deepest - 1;
+using Sloped = Dual<by_deepest + 1>;
+
+/// Potential energy of the contact at x.
+double potential(double x, double beta) { return x * std::sqrt(x) * (0.4 * x - 2.0 / 3.0 * beta); }
+double potential_by_place(double x, double beta) { return std::sqrt(x) * (x - beta); }
+double potential_by_beta(double x) { return -2.0 / 3.0 * x * std::sqrt(x); }
+
+/// One phase between the deepest point X (s = 0) and x = 0 (s = 1): x = X cos^4(pi s / 2), in which
+/// u and the rates of all losses are smooth.
+struct Phase {
+  const OpeningGroups& g;
+  double direction;  ///< 1 in, -1 out
+  bool gamma_acts;
+  double deepest;
+  bool opens = false;     ///< the opening takes energy, too
+  Sloped elsewhere = {};  ///< energy that is lost evenly in x
+
+  /// The energy lost per s where `lost` is what was lost since the deepest point.
+  RateOfLoss rate(double s, double lost, Sloped* sloped = nullptr) const {
+    const double angle = 0.5 * std::numbers::pi * s;
+    const double cosine = std::cos(angle);
+    const double cube = cosine * cosine * cosine;
+    const double part = cube * cosine;
+    const double stretch = 2.0 * std::numbers::pi * cube * std::sin(angle);
+    const double x = deepest * part;
+    const double dx = deepest * stretch;
+    if (sloped != nullptr) *sloped = stretch * elsewhere;
+    if (s == 1.0) return {0.0, 0.0};  // dx vanishes, and faster than u / x^(1/2) grows
+    const double gamma = gamma_acts ? g.gamma : 0.0;
+    const double root = std::sqrt(x);
+    const double square =
+        2.0 * (potential(deepest, g.beta) - potential(x, g.beta) + direction * lost);
+    // A captured sphere stops, and then nothing opens: u^2 is rounded off over this width.
+    constexpr double width = 1e-4;
+    const double hypotenuse = std::hypot(square, width);
+    const double seen =
+        square > 0.0 ? 0.5 * (square + hypotenuse) : 0.5 * width * width / (hypotenuse - square);
+    const double u = std::sqrt(seen);
+    const double damping = root * (g.alpha * x + g.beta * gamma + g.kappa) * u;
+    const double per_strength = opens ? std::pow(seen / x, 0.5 * g.exponent) : 0.0;
+    const double opening = g.strength * per_strength;
+    const double by_square = 0.5 * (damping + g.exponent * opening) / hypotenuse * dx;
+    if (sloped != nullptr) {
+      auto& by = sloped->slope;
+      by[0] += root * x * u * dx;
+      by[1] += root * gamma * u * dx +
+               2.0 * by_square * (potential_by_beta(deepest) - potential_by_beta(x));
+      if (gamma_acts) by[2] += root * g.beta * u * dx;
+      by[3] += root * u * dx;
+      by[4] += per_strength * dx;
+      by[5] += 0.5 * opening * std::log(seen / x) * dx;
+      // x and dx are proportional to the deepest point.
+      by[by_deepest] +=
+          (1.5 * damping + root * g.alpha * x * u + (1.0 - 0.5 * g.exponent) * opening) * dx /
+              deepest +
+          2.0 * by_square *
+              (potential_by_place(deepest, g.beta) - potential_by_place(x, g.beta) * part);
+    }
+    return {(damping + opening) * dx + elsewhere.value * stretch, 2.0 * direction * by_square};
+  }
+
+  /// The energy lost on the whole way.
+  Sloped loss() const {
+    return integrate_loss<Sloped>([&](double s, double lost) { return rate(s, lost); },
+                                  [&](double s, double lost) {
+                                    Sloped sloped;
+                                    rate(s, lost, &sloped);
+                                    return sloped;
+                                  });
+  }
+};
+
+/// The deepest point X: 1/2 = U(X) + the loss on the way in. Newton's method.
+Sloped deepest_point(const OpeningGroups& g, bool damps_both) {
+  // Without damping first. From above, where U is convex, no step overshoots.
+  double deepest = std::pow(1.25, 0.4) + 5.0 / 3.0 * g.beta;
+  for (double change = deepest; change > 1e-6 * deepest; deepest -= change) {
+    change = (potential(deepest, g.beta) - 0.5) / potential_by_place(deepest, g.beta);
+  }
+  for (int step = 0;; ++step) {
+    const Sloped lost = Phase{g, 1.0, damps_both, deepest}.loss();
+    const double by_place = potential_by_place(deepest, g.beta) + lost.slope[by_deepest];
+    const double change = (potential(deepest, g.beta) + lost.value - 0.5) / by_place;
+    deepest = std::max(deepest - change, 0.1 * deepest);
+    if (std::abs(change) > 1e-8 * deepest && step < 30) continue;
+    Sloped found = (-1.0 / by_place) * lost;
+    found.value = deepest;
+    found.slope[1] -= potential_by_beta(deepest) / by_place;
+    found.slope[by_deepest] = 0.0;
+    return found;
+  }
+}
+
+/// u^2 at x = 0 on the way out.
+Sloped square_out(const OpeningGroups& g, const Sloped& deepest, bool opens,
+                  const Sloped& elsewhere) {
+  const Sloped lost = Phase{g, -1.0, true, deepest.value, opens, elsewhere}.loss();
+  Sloped square = -2.0 * lost;
+  square.value += 2.0 * potential(deepest.value, g.beta);
+  square.slope[1] += 2.0 * potential_by_beta(deepest.value);
+  const double by_place =
+      square.slope[by_deepest] + 2.0 * potential_by_place(deepest.value, g.beta);
+  square.slope[by_deepest] = 0.0;
+  add_slopes(square, by_place, deepest);
+  return square;
+}
+
+}  // namespace
+
+OpeningLoss opening_loss(const OpeningGroups& groups, bool damps_both) {
+  const Sloped deepest = deepest_point(groups, damps_both);
+  Sloped elsewhere = 0.5 * (square_out(groups, deepest, false, {}) - groups.returned);
+  elsewhere.slope[by_returned] = -0.5;
+  const Sloped taken =
+      square_out(groups, deepest, false, elsewhere) - square_out(groups, deepest, true, elsewhere);
+  OpeningLoss loss{taken.value, {}};
+  std::copy_n(taken.slope.begin(), OpeningGroups::count, loss.slopes.begin());
+  return loss;
+}
+
+}  // namespace recoil
