@@ -13,6 +13,7 @@
 #include "estimate/capture_velocity.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/shared_settings.hpp"
+#include "estimate/simulated_observation.hpp"
 
 namespace recoil {
 namespace {
@@ -191,13 +192,19 @@ CoverageTruth coverage_truth(const FitSpec& spec, const std::vector<Dataset>& da
     auto next = design.begin();
     RandomStream noise(seed, RandomPurpose::coverage, index);
     RandomStream of_settings(seed, RandomPurpose::settings, index);
-    const std::vector<double> shared = draw_setting_errors(fit.data, of_settings);
+    const std::vector<double> shared = draw_setting_errors(fit.data, fit.noise_scale, of_settings);
     auto off = shared.begin();
     std::vector<Dataset> made = datasets;
     for (Dataset& dataset : made) {
       for (ImpactPoint& point : dataset.points) {
-        simulate_point(*next++, fit.data.noise.event_spread, other_truth, fit.data.sd_stated, noise,
-                       point);
+        DesignPoint designed = *next++;
+        const Observation& observed =
+            fit.data.points[static_cast<std::size_t>(off - shared.begin())];
+        const auto stated = point.restitution_sd;
+        designed.sd = own_noise_scale(observed, designed.sd);
+        simulate_point(designed, fit.data.noise.event_spread, other_truth, fit.data.sd_stated,
+                       noise, point);
+        if (observed.launch != Observation::no_launch) point.restitution_sd = stated;
         const double error = *off++;
         if (!point.all_captured() && !point.counts_only) {
           point.restitution = std::max(0.0, point.restitution + error);

@@ -315,8 +315,9 @@ std::optional<ImpactSystem> readable_system(const Json& system) {
 Dimension dimension_of(Quantity quantity) {
   using enum Dimension;
   static constexpr std::array<Dimension, count_of<Quantity>> dimensions = {
-      text, length,   velocity, ratio, velocity,    ratio,  velocity, length, length, count, count,
-      text, velocity, pressure, ratio, temperature, length, length,   count,  length, count, count};
+      text,        length, velocity, ratio, velocity, ratio, velocity, length,
+      length,      count,  count,    text,  velocity, text,  pressure, ratio,
+      temperature, length, length,   count, length,   count, count};
   return dimensions[static_cast<std::size_t>(quantity)];
 }
 

@@ -33,6 +33,7 @@ enum class Quantity {
   captured,
   setting,
   setting_velocity_sd,
+  launch,
   // The conditions, in the order of `Condition`.
   ambient_pressure,
   relative_humidity,
@@ -47,7 +48,7 @@ enum class Quantity {
 template <>
 struct NamesOf<Quantity> {
   static constexpr auto names = [] {
-    constexpr std::array<std::string_view, 13> own = {"series",
+    constexpr std::array<std::string_view, 14> own = {"series",
                                                       "diameter",
                                                       "incident_velocity",
                                                       "restitution",
@@ -59,7 +60,8 @@ struct NamesOf<Quantity> {
                                                       "events",
                                                       "captured",
                                                       "setting",
-                                                      "setting_velocity_sd"};
+                                                      "setting_velocity_sd",
+                                                      "launch"};
     std::array<std::string_view, own.size() + count_of<Condition>> all{};
     for (std::size_t i = 0; i < own.size(); ++i) all[i] = own[i];
     for (const Condition condition : values_of<Condition>()) {
@@ -69,7 +71,7 @@ struct NamesOf<Quantity> {
   }();
 };
 
-/// What a quantity measures; a series and a setting are texts.
+/// What a quantity measures; a series, a setting and a launch are texts.
 Dimension dimension_of(Quantity quantity);
 
 /// The column of a condition.

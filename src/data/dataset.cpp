@@ -315,6 +315,7 @@ class PointReader {
     point.diameter_sd = value(Quantity::diameter_sd, limits::diameter_sd);
     point.series_diameter_sd = value(Quantity::series_diameter_sd, limits::diameter_sd);
     if (const CsvField* const setting = cell(Quantity::setting)) point.setting = setting->text;
+    if (const CsvField* const launch = cell(Quantity::launch)) point.launch = launch->text;
     remark(point);
     dataset_.points.push_back(point);
   }

@@ -38,6 +38,9 @@ struct ImpactPoint {
   /// Points of one setting of the apparatus share its error. Empty without such a column: then
   /// points of one series, diameter and incident velocity have one setting.
   std::string setting;
+  /// Successive rows of one launch are successive bounces that were timed at the same instants.
+  /// Empty: the errors of e are independent.
+  std::string launch;
   int line = 0;  ///< line in points.csv, for messages
 
   bool all_captured() const { return captured >= events; }

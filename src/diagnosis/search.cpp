@@ -96,13 +96,14 @@ Observations simulate_points(const SearchBase& base, std::span<const double> squ
   const Eigen::VectorXd wrong_by = bend * (base.laws.functions * weights);
   Observations sample = base.fitted.data;
   RandomStream of_settings(base.options.seed, RandomPurpose::settings, index);
-  const std::vector<double> shared = draw_setting_errors(sample, of_settings);
+  const std::vector<double> shared = draw_setting_errors(sample, base.noise_scale, of_settings);
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     Observation& point = sample.points[i];
     const double loss = std::clamp(1.0 - squares[i], 0.0, 1.0);
     const double bent = squares[i] + loss * wrong_by(static_cast<Eigen::Index>(i));
-    point = simulate_observation(point, shifted_square(bent, shared[i]), base.noise_scale,
-                                 sample.noise.student, random);
+    point = simulate_observation(point, shifted_square(bent, shared[i]),
+                                 own_noise_scale(point, base.noise_scale), sample.noise.student,
+                                 random);
     if (point.peaks()) locate_peak(point);
     if (point.censored && !point.counts_only() && !(point.weights.scatter > 0.0)) {
       draw_capture(point, squares[i], random);

@@ -1,4 +1,4 @@
-// Saves the pictures of a page: beside each links to it as SVG and PNG and one to its data as CSV,
+// Saves the pictures of a page: beside each links to it as SVG, PNG and PDF and one to its data as CSV,
 // made of what is in the page. The data of a picture are a JSON string in the script of class csv after it,
 // with runs of commas counted (html.cpp).
 "use strict";
@@ -42,6 +42,26 @@ document.addEventListener("DOMContentLoaded", () => {
     image.src = "data:image/svg+xml," + encodeURIComponent(alone(svg));
   }
 
+  // A PDF is a print of the picture alone, on a page of its size: the browser's dialog saves it.
+  function printPdf(svg, name) {
+    const frame = document.createElement("iframe");
+    frame.title = name;
+    frame.style.cssText = "position: fixed; width: 0; height: 0; border: 0";
+    document.body.append(frame);
+    const inner = frame.contentDocument;
+    const [, , width, height] = svg.getAttribute("viewBox").split(" ");
+    const sheet = new frame.contentWindow.CSSStyleSheet();
+    sheet.replaceSync(`@page { size: ${width}px ${height}px; margin: 0 } body { margin: 0 }`);
+    inner.adoptedStyleSheets = [sheet];
+    inner.title = name;
+    const copy = inner.importNode(svg, true);
+    copy.setAttribute("width", width);
+    copy.setAttribute("height", height);
+    inner.body.append(copy);
+    frame.contentWindow.addEventListener("afterprint", () => frame.remove());
+    frame.contentWindow.print();
+  }
+
   // The file is made when it is asked for: a picture may have changed since the page was read.
   function link(label, file, type, content) {
     const made = document.createElement("a");
@@ -74,7 +94,15 @@ document.addEventListener("DOMContentLoaded", () => {
       event.preventDefault();
       savePng(svg, png.download);
     });
-    links.append(" ", png);
+    const pdf = document.createElement("a");
+    pdf.textContent = "PDF";
+    pdf.title = name + ".pdf";
+    pdf.href = "#";
+    pdf.addEventListener("click", event => {
+      event.preventDefault();
+      printPdf(svg, name);
+    });
+    links.append(" ", png, " ", pdf);
     const data = (figure || picture.parentNode).querySelector("script.csv");
     if (data) {
       links.append(" ", link("CSV", name + ".csv", "text/csv", () =>

@@ -19,12 +19,14 @@ struct PointConditions {
 struct MeasuredPoint {
   std::size_t dataset = 0;
   std::size_t series = 0;
-  std::size_t setting = 0;   ///< of the apparatus: points of one setting share its error
-  int line = 0;              ///< in the dataset's file of points
-  double diameter = 0.0;     ///< [m]
-  double velocity = 0.0;     ///< [m/s]
-  double restitution = 0.0;  ///< mean e of the impacts that rebounded [1]
-  bool censored = false;     ///< no e is known: all spheres were captured, or only counted
+  std::size_t setting = 0;         ///< of the apparatus: points of one setting share its error
+  std::size_t launch = no_launch;  ///< successive bounces of one launch share instants
+  std::size_t bounce = 0;          ///< its number within the launch
+  int line = 0;                    ///< in the dataset's file of points
+  double diameter = 0.0;           ///< [m]
+  double velocity = 0.0;           ///< [m/s]
+  double restitution = 0.0;        ///< mean e of the impacts that rebounded [1]
+  bool censored = false;           ///< no e is known: all spheres were captured, or only counted
 
   int events = 1;                 ///< impacts, captured ones included
   int captured = 0;               ///< how many of them were captured
@@ -34,6 +36,9 @@ struct MeasuredPoint {
   double setting_velocity_sd = 0.0;  ///< of an error that its setting shares [m/s]; 0: none
   double diameter_sd = 0.0;          ///< [m]; 0: none
   double series_diameter_sd = 0.0;   ///< of an error that its series shares [m]; 0: none
+
+  /// No other point was timed at the same instants.
+  static constexpr std::size_t no_launch = static_cast<std::size_t>(-1);
 
   int rebounds() const { return events - captured; }
   /// Are there both rebounds and captures among the impacts of this point?

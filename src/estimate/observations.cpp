@@ -86,6 +86,38 @@ bool number_settings(const std::vector<Dataset>& datasets, Observations& data) {
   return several;
 }
 
+/// Finds the bounces that follow each other in a launch and state their errors: V of each is the
+/// speed of the rebound before, but for the drag of the air.
+/// @returns whether there are any
+bool number_bounces(const std::vector<Dataset>& datasets, Observations& data) {
+  constexpr double drag = 0.02;  // most of the speed that a flight loses
+  std::size_t launches = 0;
+  bool any = false;
+  std::size_t first = 0;
+  for (const Dataset& dataset : datasets) {
+    std::map<std::string_view, std::size_t> last;  // of each launch
+    for (std::size_t k = 0; k < dataset.points.size(); ++k) {
+      const ImpactPoint& p = dataset.points[k];
+      if (p.launch.empty() || !p.restitution_sd || !(p.restitution > 0.0)) continue;
+      Observation& point = data.points[first + k];
+      const auto before = last.find(p.launch);
+      if (before != last.end()) {
+        Observation& previous = data.points[first + before->second];
+        const double rebound = previous.restitution * previous.velocity;
+        if (std::abs(rebound / point.velocity - 1.0) < drag) {
+          if (previous.launch == Observation::no_launch) previous.launch = launches++;
+          point.launch = previous.launch;
+          point.bounce = previous.bounce + 1;
+          any = true;
+        }
+      }
+      last[p.launch] = k;
+    }
+    first += dataset.points.size();
+  }
+  return any;
+}
+
 /// Sd of e^2 from impact to impact until it is estimated, where only counts are known: e^2 rises by
 /// about 2 in ln V at capture, and capture velocities that differ by a tenth are usual.
 constexpr double first_scatter = 0.2;
@@ -222,6 +254,7 @@ Observations gather(const std::vector<Dataset>& datasets, const NoiseSpec& spec,
       spec.variance ? spec.variance == VarianceFunction::stated : stated > 0 || missing == 0;
   if (data.sd_stated) {
     data.sd_missing = stated > 0 ? missing : 0;
+    if (!spec.student) data.shares_instants = number_bounces(datasets, data);
     complete_sd(data.points);
     begin_counts(data.points);
     return data;

@@ -66,8 +66,12 @@ struct Observations {
   }
   /// Is an error of d that the points of a series share stated?
   bool series_diameter_stated = false;
+  /// Are there successive bounces of one launch, timed at the same instants?
+  bool shares_instants = false;
   /// Do points share any error?
-  bool shares_errors() const { return shares_settings() || series_diameter_stated; }
+  bool shares_errors() const {
+    return shares_settings() || series_diameter_stated || shares_instants;
+  }
 
   /// Must the weights be found together with the parameters?
   bool weights_depend_on_fit() const;

@@ -78,6 +78,30 @@ double stated_setting_error(const Observations& data) {
   return most;
 }
 
+/// Of the errors of these points: 1, and what bounces of one launch share, see `SharedSettings`.
+Eigen::MatrixXd correlations(const std::vector<Observation>& points,
+                             const std::vector<std::size_t>& which) {
+  const auto count = static_cast<Eigen::Index>(which.size());
+  Eigen::MatrixXd found = Eigen::MatrixXd::Identity(count, count);
+  const auto by_instants = [](const Observation& point) {
+    const double back = 1.0 / point.restitution;
+    return Eigen::Vector3d(1.0, -(1.0 + back), back).normalized().eval();
+  };
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Observation& first = points[which[static_cast<std::size_t>(i)]];
+    if (first.launch == Observation::no_launch) continue;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const Observation& second = points[which[static_cast<std::size_t>(j)]];
+      if (second.launch != first.launch || second.bounce <= first.bounce) continue;
+      const auto apart = static_cast<Eigen::Index>(second.bounce - first.bounce);
+      if (apart > 2) continue;
+      found(i, j) = found(j, i) =
+          by_instants(first).tail(3 - apart).dot(by_instants(second).head(3 - apart));
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 double slope_in_restitution(const WeightedResidual& residual, double restitution_squared) {
@@ -86,15 +110,19 @@ double slope_in_restitution(const WeightedResidual& residual, double restitution
 
 SharedSettings::SharedSettings(const std::vector<Observation>& points) {
   // Every error is a column of U; those that have a point in common are of one block.
-  using Source = std::tuple<bool, std::size_t, std::size_t>;  // of size, dataset, setting or series
+  enum class Kind { setting, size, instants };
+  using Source = std::tuple<Kind, std::size_t, std::size_t>;  // dataset; setting, series or launch
   std::map<Source, std::vector<Member>> columns;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PointWeights& weights = points[i].weights;
     if (weights.setting_load > 0.0) {
-      columns[{false, 0, points[i].setting}].push_back({i, weights.setting_load});
+      columns[{Kind::setting, 0, points[i].setting}].push_back({i, weights.setting_load});
     }
     if (weights.size_load != 0.0) {
-      columns[{true, points[i].dataset, points[i].series}].push_back({i, weights.size_load});
+      columns[{Kind::size, points[i].dataset, points[i].series}].push_back({i, weights.size_load});
+    }
+    if (points[i].launch != Observation::no_launch) {
+      columns[{Kind::instants, 0, points[i].launch}].push_back({i, 0.0});
     }
   }
   std::map<std::size_t, std::size_t> block_of;  // of a point
@@ -113,17 +141,20 @@ SharedSettings::SharedSettings(const std::vector<Observation>& points) {
     }
   }
   for (const auto& own : blocks) {
-    if (!own.empty()) add_block(own);
+    if (!own.empty()) add_block(points, own);
   }
 }
 
-void SharedSettings::add_block(const std::vector<const std::vector<Member>*>& columns) {
+void SharedSettings::add_block(const std::vector<Observation>& points,
+                               const std::vector<const std::vector<Member>*>& columns) {
   Block block;
+  bool bounces = false;
   std::map<std::size_t, Eigen::Index> row;
   for (const auto* column : columns) {
     for (const Member& member : *column) {
       if (row.try_emplace(member.point, static_cast<Eigen::Index>(row.size())).second) {
         block.points.push_back(member.point);
+        bounces = bounces || points[member.point].launch != Observation::no_launch;
       }
     }
   }
@@ -133,6 +164,15 @@ void SharedSettings::add_block(const std::vector<const std::vector<Member>*>& co
     for (const Member& member : *columns[k]) {
       loads(row[member.point], static_cast<Eigen::Index>(k)) = member.load;
     }
+  }
+  if (bounces) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> covariance(
+        correlations(points, block.points) + loads * loads.transpose());
+    const Eigen::MatrixXd whole = covariance.operatorInverseSqrt();
+    log_determinant_ += covariance.eigenvalues().array().log().sum();
+    block.whole.assign(whole.data(), whole.data() + whole.size());
+    blocks_.push_back(std::move(block));
+    return;
   }
   // U'U = W S W' makes the root I - U W ((1 - (1 + S)^(-1/2)) / S) W' U'.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares(loads.transpose() * loads);
@@ -152,15 +192,19 @@ void SharedSettings::add_block(const std::vector<const std::vector<Member>*>& co
 void SharedSettings::whiten(std::span<double> rows, std::size_t columns) const {
   for (const Block& block : blocks_) {
     const auto count = static_cast<Eigen::Index>(block.points.size());
-    const auto errors = static_cast<Eigen::Index>(block.loads.size()) / count;
-    const Eigen::Map<const Eigen::MatrixXd> loads(block.loads.data(), count, errors);
-    const Eigen::Map<const Eigen::MatrixXd> inner(block.inner.data(), errors, errors);
     Eigen::MatrixXd own(count, static_cast<Eigen::Index>(columns));
     for (Eigen::Index i = 0; i < count; ++i) {
       const double* row = &rows[block.points[static_cast<std::size_t>(i)] * columns];
       for (Eigen::Index k = 0; k < own.cols(); ++k) own(i, k) = row[k];
     }
-    own -= (loads * (inner * (loads.transpose() * own))).eval();
+    if (!block.whole.empty()) {
+      own = Eigen::Map<const Eigen::MatrixXd>(block.whole.data(), count, count) * own;
+    } else {
+      const auto errors = static_cast<Eigen::Index>(block.loads.size()) / count;
+      const Eigen::Map<const Eigen::MatrixXd> loads(block.loads.data(), count, errors);
+      const Eigen::Map<const Eigen::MatrixXd> inner(block.inner.data(), errors, errors);
+      own -= (loads * (inner * (loads.transpose() * own))).eval();
+    }
     for (Eigen::Index i = 0; i < count; ++i) {
       double* row = &rows[block.points[static_cast<std::size_t>(i)] * columns];
       for (Eigen::Index k = 0; k < own.cols(); ++k) row[k] = own(i, k);
@@ -243,8 +287,28 @@ void renew_settings(std::span<const double> predicted, int free_count, Observati
   }
 }
 
-std::vector<double> draw_setting_errors(const Observations& data, RandomStream& random) {
+std::vector<double> draw_setting_errors(const Observations& data, double noise_scale,
+                                        RandomStream& random) {
   std::vector<double> errors(data.points.size(), 0.0);
+  if (data.shares_instants) {
+    std::map<std::size_t, std::vector<std::size_t>> launches;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      if (data.points[i].launch != Observation::no_launch) {
+        launches[data.points[i].launch].push_back(i);
+      }
+    }
+    for (const auto& [launch, own] : launches) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> correlated(
+          correlations(data.points, own));
+      Eigen::VectorXd drawn(static_cast<Eigen::Index>(own.size()));
+      for (double& error : drawn) error = random.normal();
+      drawn = (correlated.operatorSqrt() * drawn).eval();
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        errors[own[k]] =
+            noise_scale * data.points[own[k]].weights.sd * drawn(static_cast<Eigen::Index>(k));
+      }
+    }
+  }
   if (data.series_diameter_stated) {
     std::map<std::pair<std::size_t, std::size_t>, double> of_series;  // in standard deviations
     for (std::size_t i = 0; i < errors.size(); ++i) {

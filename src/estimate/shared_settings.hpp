@@ -18,6 +18,11 @@ double slope_in_restitution(const WeightedResidual& residual, double restitution
 /// error of e as the columns of U, one for each setting or series, the weighted residuals r have
 /// the covariance I + U U'. Whitening takes them to (I + U U')^(-1/2) r, whose sum of squares is
 /// that of the generalised least squares. A captured point has no e, and its load is 0.
+///
+/// Successive bounces of a launch share the instants t at which they were timed: e_k = (t_(k+2) -
+/// t_(k+1)) / (t_(k+1) - t_k) errs as 1, -(1 + 1/e_k), 1/e_k times the errors of the three, which
+/// are independent and alike. Their residuals have the correlation matrix that follows, instead of
+/// I. What these errors do to V is left out: V de/dV is small beside e for a ball.
 class SharedSettings {
  public:
   explicit SharedSettings(const std::vector<Observation>& points);
@@ -39,8 +44,10 @@ class SharedSettings {
     std::vector<std::size_t> points;
     std::vector<double> loads;
     std::vector<double> inner;  ///< M of (I + U U')^(-1/2) = I - U M U' [errors x errors]
+    std::vector<double> whole;  ///< with bounces instead: the root itself [points x points]
   };
-  void add_block(const std::vector<const std::vector<Member>*>& columns);
+  void add_block(const std::vector<Observation>& points,
+                 const std::vector<const std::vector<Member>*>& columns);
 
   std::vector<Block> blocks_;
   double log_determinant_ = 0.0;
@@ -68,8 +75,10 @@ bool too_few_settings(const Observations& data, int free_count);
 /// larger than what the stated errors of the velocities make of e.
 void renew_settings(std::span<const double> predicted, int free_count, Observations& data);
 
-/// An error of e for every point, which it shares with its setting and series [1].
-std::vector<double> draw_setting_errors(const Observations& data, RandomStream& random);
+/// An error of e for every point, which it shares with its setting, series and launch [1].
+/// @param noise_scale of the errors of the bounces of a launch, whose own errors these are
+std::vector<double> draw_setting_errors(const Observations& data, double noise_scale,
+                                        RandomStream& random);
 
 /// e^2 where e reads too large by `error`; below capture nothing is read.
 double shifted_square(double restitution_squared, double error);

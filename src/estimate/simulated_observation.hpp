@@ -13,6 +13,12 @@ namespace recoil {
 /// rebounds has; its mean is left to the caller.
 Observation redraw_captures(const Observation& point, double restitution_squared, double uniform);
 
+/// Of the error that a point has for itself: 0 for a bounce whose error `draw_setting_errors`
+/// draws.
+inline double own_noise_scale(const Observation& point, double noise_scale) {
+  return point.launch == Observation::no_launch ? noise_scale : 0.0;
+}
+
 /// A point measured anew under the noise that weights it, where the truth is `restitution_squared`:
 /// - a mean of rebounds gets an e^2 shifted by input_sd z_1 and a mean about its root by sd
 ///   `noise_scale` z_2 (Student's t in place of z_2 where `student` says so), not below 0;

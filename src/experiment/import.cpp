@@ -125,6 +125,7 @@ ImportedPoints read_columns(const ImportRequest& request,
     point.series = table.text(r, "series");
     if (point.series.empty()) point.series = default_series(request);
     point.setting = table.text(r, "setting");
+    point.launch = table.text(r, "launch");
     for (const ImportQuantity& quantity : known) {
       if (quantity.dimension == Dimension::text) continue;
       point.value[*value_named<Quantity>(quantity.name)] = table.value(r, quantity.name);

@@ -401,6 +401,7 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
   point.value[Quantity::diameter] = launch.diameter;
   point.value[Quantity::incident_velocity] = v;
   point.value[Quantity::restitution] = e;
+  if (table.has("time")) point.launch = launch.name;
   if (time.stated()) {
     const double tau = time.of(in.duration);
     const double sd_vacuum =
@@ -534,7 +535,7 @@ ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& s
   }
   if (unused) out.notes.push_back({ImportRemark::first_bounces_not_used});
   flights.add_notes(out.notes);
-  out.notes.push_back({ImportRemark::shared_bounces});
+  if (table.has("interval")) out.notes.push_back({ImportRemark::shared_bounces});
   return out;
 }
 

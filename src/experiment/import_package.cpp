@@ -210,6 +210,7 @@ Output output_of(Quantity quantity, bool millimetres) {
 std::string cell_of(const ImportedPoint& point, const Output& output) {
   if (output.quantity == Quantity::series) return csv_cell(point.series);
   if (output.quantity == Quantity::setting) return csv_cell(point.setting);
+  if (output.quantity == Quantity::launch) return csv_cell(point.launch);
   const auto value = point.value[output.quantity];
   return value ? fmt::format("{:.9g}", *value / output.factor) : "";
 }
@@ -237,8 +238,9 @@ std::optional<ExistingPackage> existing_package(const std::filesystem::path& fol
 PointsText points_text(const std::vector<ImportedPoint>& points) {
   const auto any = [&](Quantity quantity) {
     return std::any_of(points.begin(), points.end(), [&](const ImportedPoint& point) {
-      return quantity == Quantity::setting ? !point.setting.empty()
-                                           : point.value[quantity].has_value();
+      return quantity == Quantity::setting  ? !point.setting.empty()
+             : quantity == Quantity::launch ? !point.launch.empty()
+                                            : point.value[quantity].has_value();
     });
   };
   const bool millimetres =

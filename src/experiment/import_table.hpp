@@ -48,6 +48,7 @@ std::optional<std::pair<std::string, std::string>> split_pair(const std::string&
 struct ImportedPoint {
   std::string series;
   std::string setting;                              ///< empty where the file has none
+  std::string launch;                               ///< of timed bounces; empty: none
   PerValue<Quantity, std::optional<double>> value;  ///< of all quantities but texts
   int line = 0;                                     ///< in the file
 

@@ -101,6 +101,10 @@ std::optional<SchemeObstacle> scheme_obstacle(Scheme scheme, const Observations&
       data.series_diameter_stated) {
     return SchemeObstacle::shared_sizes;
   }
+  if ((scheme == Scheme::residual || scheme == Scheme::wild || scheme == Scheme::cases) &&
+      data.shares_instants) {
+    return SchemeObstacle::shared_instants;
+  }
   if (scheme == Scheme::cluster && clusters_of(data).size() < 2) {
     return SchemeObstacle::single_series;
   }
@@ -116,6 +120,9 @@ std::string obstacle_words(SchemeObstacle obstacle) {
     case SchemeObstacle::shared_settings:
       return "points of one setting share an error: single points cannot be exchanged, whole "
              "settings can (cluster)";
+    case SchemeObstacle::shared_instants:
+      return "successive bounces of one launch share instants: single points cannot be exchanged, "
+             "whole series can (cluster)";
     case SchemeObstacle::shared_sizes:
       return "points of one series share an error of their diameter: single points cannot be "
              "exchanged, whole series can (cluster)";
@@ -149,7 +156,8 @@ void resample_parametric(const ResamplingPlan& plan, std::span<const double> set
     sample.points[i] =
         simulate_observation(plan.fitted->data.points[i],
                              shifted_square(plan.fitted->prediction_squared[i], setting_errors[i]),
-                             plan.fitted->noise_scale, plan.fitted->data.noise.student, random);
+                             own_noise_scale(plan.fitted->data.points[i], plan.fitted->noise_scale),
+                             plan.fitted->data.noise.student, random);
   }
 }
 
@@ -181,12 +189,15 @@ void resample_cases(const ResamplingPlan& plan, RandomStream& random, Observatio
 
 void resample_clusters(const ResamplingPlan& plan, RandomStream& random, Observations& sample) {
   sample.points.clear();
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> again;  // (draw, setting)
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> again;     // (draw, setting)
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> launches;  // (draw, launch)
   for (std::size_t k = 0; k < plan.clusters.size(); ++k) {
     for (const std::size_t i : plan.clusters[random.below(plan.clusters.size())]) {
       Observation& point = sample.points.emplace_back(plan.fitted->data.points[i]);
       // A setting that is drawn twice is two settings.
       point.setting = again.try_emplace({k, point.setting}, again.size()).first->second;
+      if (point.launch == Observation::no_launch) continue;
+      point.launch = launches.try_emplace({k, point.launch}, launches.size()).first->second;
     }
   }
 }
@@ -205,7 +216,7 @@ void resample_constants(const FitResult& fitted, std::uint64_t seed, std::uint64
 std::vector<double> setting_errors_of(const ResamplingPlan& plan, std::uint64_t seed,
                                       std::uint64_t index) {
   RandomStream random(seed, RandomPurpose::settings, index);
-  return draw_setting_errors(plan.fitted->data, random);
+  return draw_setting_errors(plan.fitted->data, plan.fitted->noise_scale, random);
 }
 
 void resample(const ResamplingPlan& plan, std::uint64_t seed, std::uint64_t index,

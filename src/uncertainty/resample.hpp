@@ -32,12 +32,13 @@ enum class SchemeObstacle {
   no_residuals,     ///< no point rebounded
   single_series,    ///< there is nothing to exchange
   shared_settings,  ///< points of one setting share an error, and single ones would be exchanged
-  shared_sizes      ///< points of one series do
+  shared_sizes,     ///< points of one series do
+  shared_instants   ///< successive bounces of one launch do
 };
 template <>
 struct NamesOf<SchemeObstacle> {
-  static constexpr std::array<std::string_view, 4> names = {"no_residuals", "single_series",
-                                                            "shared_settings", "shared_sizes"};
+  static constexpr std::array<std::string_view, 5> names = {
+      "no_residuals", "single_series", "shared_settings", "shared_sizes", "shared_instants"};
 };
 
 /// What a scheme draws from, prepared once for all replicates. Refers to the fit, which has to

@@ -58,6 +58,16 @@ class Browser : public testing::Test {
 
 TEST_F(Browser, ShowsThePage) { EXPECT_EQ(open(page_, 6), 0); }
 
+TEST_F(Browser, ShowsNothingThatAxeFinds) {
+  const fs::path axe = fs::path(RECOIL_SOURCE_DIR) / "build" / "axe" / "axe.min.js";
+  if (!fs::exists(axe)) GTEST_SKIP() << "`./run test` fetches axe-core; it could not";
+  EXPECT_EQ(open(page_, 6, {"--axe", axe.string()}), 0) << last_words_;
+  EXPECT_EQ(open(index_, 0, {"--axe", axe.string()}), 0) << last_words_;
+  EXPECT_EQ(
+      open(replaced(page_, "</main>", "<button></button></main>"), 6, {"--axe", axe.string()}), 1);
+  EXPECT_NE(last_words_.find("axe button-name"), std::string::npos) << last_words_;
+}
+
 TEST_F(Browser, ShowsThePageWithoutScript) {
   EXPECT_EQ(open(page_, 6, {"--without-script"}), 0);
   EXPECT_EQ(

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Opens pages in headless Chromium and fails on whatever a reader would see go wrong.
 
-usage: open_in_chromium.py [--figures N] [--pictures DIR] [--without-script] PAGE.html ...
+usage: open_in_chromium.py [--figures N] [--pictures DIR] [--without-script] [--axe FILE] PAGE.html ...
 
 For every page, at desktop width (1200 px), on a phone (360 px) and as printed on A4 (680 px between
 the margins):
@@ -12,6 +12,8 @@ the margins):
   - in print no navigation, no links that save, no sliders; the addresses of other pages are readable,
     and no page ends within a picture or a row of a table
 
+--axe FILE runs axe-core (its axe.min.js) on every page as well, at desktop width and on a phone, and fails on
+what it finds against WCAG 2.2 A and AA.
 --pictures DIR also writes PNG screenshots of both widths and the printed PDF.
 Only Python's standard library is used; Chromium is driven by the DevTools protocol over a pipe.
 """
@@ -242,12 +244,28 @@ def inspect(browser, page, options):
         if options.without_script and result["made"] > 0:
             complaints.append(f"{result['made']} things that only a script makes")
         found += [f"{name}: {complaint}" for complaint in complaints]
+        if options.axe and name != "print":
+            found += [f"{name}: {complaint}" for complaint in findings_of_axe(browser, session, options)]
         summary = f"{result['drawn']} figures"
         if options.pictures:
             stem = options.pictures / page.stem
             take_pictures(browser, session, stem, name, width, result["height"])
         browser.call("Target.closeTarget", targetId=target)
     return found, summary
+
+
+def findings_of_axe(browser, session, options):
+    """What axe-core finds against WCAG 2.2, levels A and AA, one line each."""
+    browser.call("Runtime.evaluate", session, expression=options.axe.read_text())
+    answer = browser.call(
+        "Runtime.evaluate", session, awaitPromise=True, returnByValue=True,
+        expression="""axe.run({resultTypes: ['violations'], runOnly: ['wcag2a', 'wcag2aa',
+            'wcag21a', 'wcag21aa', 'wcag22aa']}).then(found => found.violations.map(v =>
+            v.id + ': ' + v.help + ' (' + v.nodes.length + ' times, first ' +
+            v.nodes[0].html.slice(0, 160) + ')'))""")
+    if "exceptionDetails" in answer:
+        raise RuntimeError("axe failed: " + json.dumps(answer)[:400])
+    return ["axe " + complaint for complaint in answer["result"]["value"]]
 
 
 def take_pictures(browser, session, stem, name, width, height):
@@ -274,6 +292,7 @@ def main():
     parser.add_argument("pages", nargs="+", type=pathlib.Path, metavar="PAGE.html")
     parser.add_argument("--figures", type=int, default=1, help="least number of drawn figures")
     parser.add_argument("--pictures", type=pathlib.Path, help="write screenshots and PDF here")
+    parser.add_argument("--axe", type=pathlib.Path, metavar="FILE", help="axe.min.js of axe-core")
     parser.add_argument("--without-script", action="store_true",
                         help="as a browser in which scripts are switched off")
     options = parser.parse_args()

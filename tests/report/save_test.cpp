@@ -71,7 +71,7 @@ class SavedPictures : public testing::Test {
     folder_->write("expressions.json", Json({R"js(
         (async () => {
           const names = [];
-          for (const link of document.querySelectorAll('.save a')) {
+          for (const link of document.querySelectorAll('.save a[download]')) {
             names.push(link.download);
             link.click();
             await new Promise(resolve => setTimeout(resolve, 120));

@@ -32,7 +32,7 @@ _UNITS = {
     "restitution": "1",
     "restitution_sd": "1",
 }
-_TEXTS = ("series", "setting")
+_TEXTS = ("series", "setting", "launch")
 _COUNTS = ("events", "captured")
 
 
