@@ -69,11 +69,6 @@ bool same(std::span<const double> one, std::span<const double> other) {
 /// range meets it.
 ContactForce force_at(const ImpactModel& model, std::span<const double> theta,
                       const ExportRequest& request) {
-  if (model.contacts[request.dataset].surface_diameter > 0.0) {
-    throw InputError({}, "the surface of this dataset is a sphere",
-                     "an exported impact is that of a sphere on a flat",
-                     "leave out the diameter of the surface");
-  }
   const double middle = std::sqrt(request.slowest * request.fastest);
   const ImpactConditions c = conditions_at(model, theta, request.dataset, request.diameter, middle);
   const AdhesionLaw law = traits(model.adhesion).exportable ? model.adhesion : AdhesionLaw::ring;
@@ -192,6 +187,7 @@ ExportedImpact exported_impact(const ImpactModel& model, std::span<const double>
                  !without_adhesion(model, request.dataset);
   out.capture_velocity = out.captures ? capture.value : 0.0;
   out.force = force_at(model, values, request);
+  out.surface_diameter = model.contacts[request.dataset].surface_diameter;
   const std::vector<double> alone = restitution_under(out.force, out.velocity);
   out.force_is_all = traits(model.adhesion).exportable && same(alone, out.restitution);
   out.shortest_contact = contact_time_under(out.force, request.fastest);

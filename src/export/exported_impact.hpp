@@ -67,7 +67,8 @@ struct ExportRequest {
 /// for they say nothing about the sphere; the others are in `restitution` and `capture_velocity`.
 struct ExportedImpact {
   ExportRequest request;
-  ContactForce force;
+  ContactForce force;             ///< of two spheres: of one on a flat with their R* and m*
+  double surface_diameter = 0.0;  ///< of the second sphere [m]; 0: a flat
   /// Is e(V) that of the force alone? Mechanisms that act elsewhere than in the equation of motion,
   /// and laws that ContactForce does not know, are not.
   bool force_is_all = false;

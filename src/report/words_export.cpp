@@ -160,6 +160,14 @@ std::vector<std::string> export_heading(ExportTarget target, const ExportSource&
                           job.force.stiffness / units::GPa, to_string(job.force.adhesion),
                           to_string(job.force.phase)));
   }
+  if (job.impact.surface_diameter > 0.0) {
+    wrap_into(lines,
+              fmt::format("Both bodies are spheres, of {:.6g} um and {:.6g} um. e is that of their "
+                          "relative velocity; a force law is that of one sphere on a flat that has "
+                          "their R* and m*.",
+                          job.impact.request.diameter / units::um,
+                          job.impact.surface_diameter / units::um));
+  }
   for (const std::string& sentence : export_losses(target, job)) wrap_into(lines, sentence);
   return lines;
 }

@@ -140,6 +140,29 @@ TEST(Export, LengthsAndForcesOfLammpsAreInItsUnits) {
   EXPECT_NEAR(value_of(text, "P") / (M_PI * W * 2e-6 / 6.0 * 1e9), 1.0, 1e-9);  // nN
 }
 
+/// 4 um against 12 um: R* = 1 / (1/2 + 1/6) um = 1.5 um, m* = m M / (m + M), rho* 3^3 = rho 4^3
+/// / (1 + (4/12)^3 rho / rho_M).
+TEST(Export, TwoSpheresAreTheOneWithTheirRadiusAndMass) {
+  const Workplace place;
+  nlohmann::json package = nlohmann::json::parse(place.read("data/datapackage.json"));
+  package["recoil"]["surface"]["diameter"] = 12e-6;
+  package["recoil"]["surface"]["density"] = 2500.0;
+  place.write("data/datapackage.json", package.dump());
+  const double density = package["recoil"]["particle"]["density"];
+  ASSERT_EQ(place.run({"fit", "fit.toml", "--replicates", "0", "--out", "fitted"}).status, 0);
+  const Outcome run =
+      export_to(place, "lammps", {"--parameters", "fitted/fit.json", "--diameter", "4"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string text = place.read("out/impact.lammps");
+  EXPECT_NEAR(value_of(text, "R"), 1.5, 1e-12);
+  const std::size_t at = text.find("A sphere of 3 um, ");
+  ASSERT_NE(at, std::string::npos) << text.substr(0, 2000);
+  EXPECT_NEAR(
+      std::stod(text.substr(at + 18)) / (density * 64.0 / 27.0 / (1.0 + density / 2500.0 / 27.0)),
+      1.0, 1e-5);
+  EXPECT_NE(text.find("Both bodies are spheres, of 4 um and 12 um."), std::string::npos);
+}
+
 TEST(Export, TheSameBytesAtAnyThreadCount) {
   const Workplace place;
   std::string first;
