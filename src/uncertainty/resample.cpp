@@ -151,6 +151,10 @@ ResamplingPlan plan_resampling(const FitResult& fitted, Scheme asked) {
 
 void resample_parametric(const ResamplingPlan& plan, std::span<const double> setting_errors,
                          RandomStream& random, Observations& sample) {
+  // A replicate with other constants is to be fitted to what was measured, which follows the true
+  // ones, not to the curve of the stated ones.
+  const ImpactModel& model = plan.fitted->model;
+  const bool other_constants = !model.constants.empty() && !model.adjusts_constants();
   sample.points = plan.fitted->data.points;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     sample.points[i] =
@@ -158,6 +162,13 @@ void resample_parametric(const ResamplingPlan& plan, std::span<const double> set
                              shifted_square(plan.fitted->prediction_squared[i], setting_errors[i]),
                              own_noise_scale(plan.fitted->data.points[i], plan.fitted->noise_scale),
                              plan.fitted->data.noise.student, random);
+    if (!other_constants || !plan.fitted->data.sd_stated) continue;
+    const Observation& measured = plan.fitted->data.points[i];
+    Observation& point = sample.points[i];
+    if (measured.censored || point.censored) continue;
+    point.restitution = std::max(
+        0.0, point.restitution + measured.restitution -
+                 expected_restitution(measured, plan.fitted->prediction_squared[i]));
   }
 }
 
