@@ -1,5 +1,3 @@
-#include "diagnosis/pairs.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -7,9 +5,9 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "diagnosis/batches.hpp"
+#include "diagnosis/judge.hpp"
 #include "diagnosis/trial.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {

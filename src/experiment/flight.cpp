@@ -5,8 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/quadrature.hpp"
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

@@ -1,5 +1,3 @@
-#include "impact/reference_solver.hpp"
-
 #include <ceres/jet.h>
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
@@ -12,6 +10,7 @@
 #include <sundials/sundials_context.hpp>
 #include <utility>
 
+#include "impact/impact.hpp"
 #include "impact/laws.hpp"
 #include "impact/with_dashpot.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/quadrature.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

@@ -2,7 +2,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/quadrature.hpp"
+#include "core/numerics.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {

@@ -41,14 +41,4 @@ std::array<double, spread_nodes> interpolation_weights(double z);
 template <class T>
 T survivors_square(std::span<const T> squares, const T& seen, const MixedSizes& sizes = {});
 
-extern template double survivors_square(std::span<const double>, const double&, const MixedSizes&);
-extern template FewDirections survivors_square(std::span<const FewDirections>, const FewDirections&,
-                                               const MixedSizes&);
-extern template SomeDirections survivors_square(std::span<const SomeDirections>,
-                                                const SomeDirections&, const MixedSizes&);
-extern template SeveralDirections survivors_square(std::span<const SeveralDirections>,
-                                                   const SeveralDirections&, const MixedSizes&);
-extern template ManyDirections survivors_square(std::span<const ManyDirections>,
-                                                const ManyDirections&, const MixedSizes&);
-
 }  // namespace recoil

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnosis/law_errors.hpp"
+#include "diagnosis/discrepancy.hpp"
 #include "support/synthetic.hpp"
 
 namespace recoil {

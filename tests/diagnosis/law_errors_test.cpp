@@ -1,5 +1,3 @@
-#include "diagnosis/law_errors.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
