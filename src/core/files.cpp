@@ -137,7 +137,7 @@ std::string advice_on(int failed) {
   }
 }
 
-/// What is in a file, or comes out of a pipe or a device until it ends.
+/// Reads a file, or a pipe or device to its end.
 /// @throws InputError as read_text_file
 std::string contents_of(const std::filesystem::path& path, std::uintmax_t max_bytes,
                         std::chrono::milliseconds patience) {

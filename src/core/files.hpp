@@ -61,7 +61,7 @@ void require_writable_folder(const std::filesystem::path& folder);
 /// SHA-256 of `bytes` as 64 lower-case hexadecimal digits (FIPS 180-4).
 std::string sha256_hex(std::string_view bytes);
 
-/// The same of what a file holds; empty for one that cannot be read.
+/// SHA-256 of the content of a file; empty if it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
 
 /// While one of these lives, no other process of recoil works on the same result: two would mix

@@ -178,7 +178,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is said where a field of two origins differs; the plainest first.
+/// The message where a field of two origins differs; the most general first.
 struct Difference {
   const char* field;
   const char* words;

@@ -138,6 +138,11 @@ void take_stated_scatter(const std::vector<Dataset>& datasets, ParameterSpec& sp
 
 }  // namespace
 
+std::shared_ptr<const Discrepancy> nothing_shared() {
+  static const auto nothing = std::make_shared<const Discrepancy>();
+  return nothing;
+}
+
 bool Candidate::adds(const std::string& id) const {
   return std::ranges::find(added, id) != added.end();
 }
@@ -164,7 +169,7 @@ std::vector<const Mechanism*> mechanisms_that_may_act(const FitSpec& spec,
     const auto& own = spec.mechanisms;
     if (!mechanism.works_with(spec.adhesion)) continue;
     if (std::ranges::find(own, mechanism.info.id) != own.end()) continue;
-    // Nothing is left to say of sizes that are stated.
+    // Stated sizes leave such a mechanism nothing to explain.
     if (std::ranges::none_of(model.surroundings, [&](const Surroundings& at) {
           return mechanism.acts_at(at) && !(mechanism.info.mixes_sizes && at.sizes.mixed());
         })) {

@@ -14,7 +14,7 @@ namespace recoil {
 
 class Discrepancy;
 
-/// What residuals share that have nothing but their own noise.
+/// The discrepancy of residuals with nothing but their own noise.
 std::shared_ptr<const Discrepancy> nothing_shared();
 
 /// The model of a fit with further mechanisms, ready to be refitted to many samples.

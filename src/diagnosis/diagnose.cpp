@@ -29,7 +29,7 @@ namespace {
 
 constexpr double margin_at_one_size = 20.0;  // there nothing but the shape of one curve speaks
 
-/// Of the structure in the residuals of `refit`, which predicts as the base model does.
+/// The p-value of structure in the residuals of `refit`, which predicts as the base model does.
 double quick_p_value(const SearchBase& base, const Refit& refit) {
   return quick_structure(base.fitted.data, refit, base.fitted.prediction_squared, quick_samples,
                          base.options.seed)
@@ -350,7 +350,7 @@ std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   return MaterialsExplain{p_value};
 }
 
-/// What exact laws would leave and, where that is structure, which causes fit it best.
+/// The structure that exact laws would leave and, if there is any, the causes that fit it best.
 std::optional<IfExact> if_exact(const SearchBase& allowed) {
   if (allowed.laws.none()) return std::nullopt;
   FitSpec spec = allowed.spec;

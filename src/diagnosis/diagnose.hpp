@@ -67,7 +67,7 @@ class Calibration {
   /// `calibration_row` of a piece. Called from any thread.
   std::vector<double> run(std::size_t piece) const;
 
-  /// What the pieces begin with, to the last digit.
+  /// The numbers that the pieces start from, to the last digit.
   std::string digits() const;
 
  private:

@@ -32,7 +32,7 @@ struct DiagnosisOptions {
   std::shared_ptr<KeptRows> kept;
   std::size_t first_piece = 0;  ///< of the calibration, for the data that are diagnosed
 
-  /// How many pieces the calibration for one set of data has.
+  /// The number of pieces of the calibration for one set of data.
   std::size_t pieces() const { return static_cast<std::size_t>(simulated); }
 };
 

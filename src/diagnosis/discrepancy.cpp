@@ -1,13 +1,7 @@
 #include "diagnosis/discrepancy.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
-#include <numeric>
 
-#include "diagnosis/candidate.hpp"
-#include "estimate/predictor.hpp"
-#include "estimate/residual.hpp"
 #include "estimate/shared_settings.hpp"
 
 namespace recoil {
@@ -109,100 +103,6 @@ LeastSquaresProblem whitened(LeastSquaresProblem problem, const Discrepancy& dis
     return true;
   };
   return problem;
-}
-
-std::shared_ptr<const Discrepancy> nothing_shared() {
-  static const auto nothing = std::make_shared<const Discrepancy>();
-  return nothing;
-}
-
-namespace {
-
-/// Rounds in which the covariance follows the parameters: the second moves a criterion by less than
-/// 0.1.
-constexpr int rounds = 2;
-constexpr double most_loss = 1.0;  // of e^2: no more than all the energy
-
-/// e^2 of every point, 0 where it is captured; empty where there is no answer.
-std::optional<Eigen::VectorXd> squares(PointPredictor& predictor, std::span<const double> theta) {
-  predictor.evaluate(theta, false);
-  Eigen::VectorXd found(static_cast<Eigen::Index>(predictor.size()));
-  for (std::size_t i = 0; i < predictor.size(); ++i) {
-    if (!predictor.at(i).usable()) return std::nullopt;
-    found(static_cast<Eigen::Index>(i)) = predictor.at(i).restitution_squared;
-  }
-  return found;
-}
-
-}  // namespace
-
-LawErrors LawErrors::of(const std::vector<std::size_t>& points) const {
-  LawErrors part{mechanism, base, {}};
-  part.functions.resize(static_cast<Eigen::Index>(points.size()), functions.cols());
-  if (functions.cols() > 0) part.functions = functions(points, Eigen::all);
-  return part;
-}
-
-std::optional<Eigen::MatrixXd> law_error_columns(const Candidate& candidate,
-                                                 const Observations& data,
-                                                 std::span<const double> theta,
-                                                 const LawErrors& laws) {
-  const ImpactModel& model = candidate.model;
-  const std::vector<double> full(theta.begin(), theta.end());
-  PointPredictor predictor(model, data.conditions());
-  const std::optional<Eigen::VectorXd> all = squares(predictor, full);
-  if (!all) return std::nullopt;
-  const std::optional<Eigen::VectorXd> bare = squares(predictor, without_mechanisms(model, full));
-  if (!bare) return std::nullopt;
-  std::vector<Eigen::VectorXd> sizes;  // of each error, in e^2
-  sizes.push_back(laws.base * (1.0 - bare->array()).min(most_loss).max(0.0).matrix());
-  for (const Mechanism* mechanism : model.chain) {
-    const std::optional<Eigen::VectorXd> less =
-        squares(predictor, without_mechanism(model, full, *mechanism));
-    if (!less) return std::nullopt;
-    sizes.push_back(laws.mechanism *
-                    (*all - *less).array().min(most_loss).max(-most_loss).matrix());
-  }
-  Eigen::VectorXd slopes(all->size());
-  for (Eigen::Index i = 0; i < slopes.size(); ++i) {
-    slopes(i) =
-        weighted_residual(data.points[static_cast<std::size_t>(i)], (*all)(i), data.noise.student)
-            .slope;
-  }
-  const Eigen::Index rank = laws.functions.cols();
-  Eigen::MatrixXd columns(slopes.size(), rank * static_cast<Eigen::Index>(sizes.size()));
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    columns.middleCols(static_cast<Eigen::Index>(k) * rank, rank) =
-        slopes.cwiseProduct(sizes[k]).asDiagonal() * laws.functions;
-  }
-  whiten_settings(data, columns);
-  return columns;
-}
-
-Refit under_law_errors(const Candidate& candidate, const Observations& data, Refit refit,
-                       const LawErrors& laws) {
-  if (laws.none() || !refit.usable) return refit;
-  const auto columns = law_error_columns(candidate, data, refit.theta, laws);
-  if (!columns) return {};
-  refit.discrepancy = std::make_shared<const Discrepancy>(*columns);
-  refit.discrepancy->whiten(refit.residuals);
-  refit.jacobian.resize(data.points.size() * refit.theta.size());
-  refit.discrepancy->whiten(refit.jacobian, refit.theta.size());
-  refit.chi2 = std::inner_product(refit.residuals.begin(), refit.residuals.end(),
-                                  refit.residuals.begin(), 0.0);
-  return refit;
-}
-
-Refit with_law_errors(const Candidate& candidate, const Observations& data, Refit refit,
-                      const LawErrors& laws) {
-  if (laws.none()) return refit;
-  for (int round = 0; round < rounds && refit.usable; ++round) {
-    const auto columns = law_error_columns(candidate, data, refit.theta, laws);
-    if (!columns) return {};
-    refit = refit_candidate(candidate, data, refit.theta, 0,
-                            std::make_shared<const Discrepancy>(*columns));
-  }
-  return refit;
 }
 
 }  // namespace recoil

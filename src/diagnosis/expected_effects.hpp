@@ -10,7 +10,7 @@ namespace recoil {
 
 struct SearchBase;
 
-/// What theory says must be there, as the conditions of the data state all that decides about it.
+/// An effect that theory predicts from the stated conditions of the data.
 struct ExpectedEffect {
   std::string id;  ///< of the mechanism
   std::size_t dataset = 0;

@@ -8,7 +8,7 @@
 #include "core/random.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
-#include "diagnosis/discrepancy.hpp"
+#include "diagnosis/law_errors.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"

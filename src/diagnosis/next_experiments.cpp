@@ -119,7 +119,7 @@ std::optional<Linearised> linearised_at(const CandidateResult& rival, const Obse
   return Linearised{Eigen::Map<Eigen::VectorXd>(residuals.data(), rows), std::move(both), p};
 }
 
-/// What a rival predicts of each possible impact.
+/// The prediction of a rival for each possible impact.
 struct PredictedImpacts {
   std::vector<double> restitution;  ///< mean e, 0 where captured; NaN without an answer
   std::vector<double> variance;     ///< of that mean, over the variance of one impact

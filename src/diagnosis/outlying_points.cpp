@@ -24,7 +24,7 @@ constexpr std::size_t fewest = 8;        // points that can accuse one
 
 using Indices = std::vector<std::size_t>;
 
-/// What all residuals follow: the base model's parameters and any smooth function.
+/// The columns that residuals may follow: the base model's parameters and smooth functions.
 Eigen::MatrixXd predictable(const SearchBase& base) {
   const Observations& data = base.fitted.data;
   const std::size_t p = base.refit.theta.size();

@@ -8,7 +8,7 @@
 
 #include "diagnosis/candidate_result.hpp"
 #include "diagnosis/diagnosis_options.hpp"
-#include "diagnosis/discrepancy.hpp"
+#include "diagnosis/law_errors.hpp"
 #include "diagnosis/structure.hpp"
 
 namespace recoil {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "diagnosis/discrepancy.hpp"
 #include "diagnosis/judge.hpp"
+#include "diagnosis/law_errors.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"

@@ -129,7 +129,7 @@ double tails_p(const StructureStatistics& statistics, std::span<const double> re
   return (1.0 + as_large) / (1.0 + quick_samples);
 }
 
-/// Of the structure and the tails of the residuals, the more striking p-value, paid for both.
+/// The smaller p-value of structure and tails of the residuals, corrected for two tests.
 double remaining_p(const SearchBase& base, const Observations& data, const Refit& refit,
                    std::span<const double> predicted) {
   const std::uint64_t seed = base.options.seed;
@@ -154,7 +154,7 @@ FitResult fit_with_velocity_errors(const SearchBase& base, double relative_sd) {
   return fit_under(base, base.datasets, noise);
 }
 
-/// What was read of a rebound: a height [m], or a time of flight [s].
+/// The reading of a rebound: a height [m], or a time of flight [s].
 double reading_of(const ImpactPoint& point, ErrorSource source) {
   return source == ErrorSource::height_readings
              ? rebound_height(point)

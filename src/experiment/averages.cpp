@@ -90,7 +90,7 @@ struct Moments {
   double sd = 0.0;
 };
 
-/// Of the values that are known: not negative.
+/// Mean and deviation of the known values, which are not negative.
 template <class Value>
 Moments moments_of(const std::vector<Arrival>& all, std::size_t begin, std::size_t end,
                    const Value& value) {

@@ -68,14 +68,14 @@ struct Averages {
 Averages average(const std::vector<Passage>& passages, const std::vector<std::string>& series,
                  const PairingResult& pairs, const AverageOptions& options);
 
-/// What `recoil pair` is asked.
+/// The request of `recoil pair`.
 struct PairRequest {
   std::string file;
   PairingOptions pairing;
   AverageOptions averaging;
 };
 
-/// What it finds.
+/// Its result.
 struct PairedPassages {
   PassageTable table;
   PairingResult pairs;

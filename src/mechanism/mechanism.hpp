@@ -196,7 +196,7 @@ const std::vector<Mechanism>& mechanism_catalogue();
 /// The mechanism `id`; null when there is none.
 const Mechanism* find_mechanism(std::string_view id);
 
-/// Those of `ids`, in the order in which they act. @pre all of them exist
+/// The mechanisms `ids`, in the order in which they act. @pre all of them exist
 std::vector<const Mechanism*> chain_of(const std::vector<std::string>& ids);
 
 /// The values of one parameter that matter, or a careful experiment, can have in given impacts.

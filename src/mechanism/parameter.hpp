@@ -48,7 +48,7 @@ struct StatedBy {
                                  const Conditions& all) = nullptr;
 };
 
-/// Of a strength that is 0 where `condition`, which is yes or no, says yes.
+/// States that a strength is 0 where `condition`, a yes-or-no one, is yes.
 StatedBy none_where(Condition condition);
 
 /// What a parameter is to the base model.

@@ -28,7 +28,7 @@ T cut_lognormal_mean(const T& s) {
   return 0.5 * shift * shift + logarithm(within(shift) / within(T(0.0)));
 }
 
-/// What each node counts in the polynomial through all of them, at z.
+/// The weight of each node in the polynomial through all of them, at z.
 std::array<double, spread_nodes> interpolation_weights(double z);
 
 /// The e^2 that a point shows when its spheres differ: the square of the mean e of those that come

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnosis/discrepancy.hpp"
+#include "diagnosis/law_errors.hpp"
 #include "support/synthetic.hpp"
 
 namespace recoil {

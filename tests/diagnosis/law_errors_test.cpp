@@ -1,10 +1,11 @@
+#include "diagnosis/law_errors.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "diagnosis/discrepancy.hpp"
 #include "diagnosis/held_out.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"

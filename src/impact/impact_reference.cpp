@@ -26,7 +26,7 @@ constexpr double undecided_energy = 1e-15;
 
 enum class Stage { compression, restitution };
 
-/// What an integration under `Law` is about.
+/// The data of an integration under `Law`.
 template <class Law>
 struct Field {
   std::array<double, Law::groups> groups;
@@ -335,7 +335,7 @@ class Integration {
   bool ready_ = false;
 };
 
-/// What is watched on the way, from step to step.
+/// Updates the largest penetration, forces and energy after a step.
 template <class Law>
 void observe(const Integration<Law>& run, const ImpactOptions& options, ImpactResult& result,
              std::vector<ImpactMoment>* history) {

@@ -28,7 +28,7 @@ std::string owner_in(int file) {
   return size > 0 ? std::string(words.data(), static_cast<std::size_t>(size)) : std::string();
 }
 
-/// Is it an ordinary file that is empty, or in which an owner stands?
+/// Is it an ordinary file that is empty or names an owner?
 bool is_mark(int file) {
   struct stat opened {};
   if (fstat(file, &opened) != 0 || !S_ISREG(opened.st_mode)) return false;
