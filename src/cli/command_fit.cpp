@@ -7,7 +7,6 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/shard_flags.hpp"
-#include "core/claim.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
 #include "report/fit_sections.hpp"

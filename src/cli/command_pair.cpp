@@ -6,7 +6,6 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "core/claim.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/quoting.hpp"
@@ -14,7 +13,6 @@
 #include "data/datapackage.hpp"
 #include "data/dataset.hpp"
 #include "experiment/averages.hpp"
-#include "experiment/paired_passages.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/pairing_files.hpp"
 #include "experiment/passages.hpp"

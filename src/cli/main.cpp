@@ -13,8 +13,8 @@
 #include "cli/commands.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/gsl_errors.hpp"
 #include "core/interrupt.hpp"
+#include "core/numerics.hpp"
 #include "core/program.hpp"
 #include "core/quoting.hpp"
 

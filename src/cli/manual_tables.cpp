@@ -14,7 +14,6 @@
 #include "data/text.hpp"
 #include "estimate/fit_keys.hpp"
 #include "estimate/fit_spec.hpp"
-#include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {

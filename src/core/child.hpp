@@ -7,7 +7,7 @@
 
 namespace recoil {
 
-/// What another program left behind.
+/// The result of running another program.
 struct ChildOutcome {
   int failed = 0;  ///< errno of a start that failed
   bool timed_out = false;

@@ -23,7 +23,7 @@ struct Location {
 /// The problem says what is there ("the file is empty", "'captured' is 5"); the reason is given
 /// where the problem alone does not explain itself, and the suggestion, an imperative or "did you
 /// mean ...?", where there is something to suggest. What is empty is left out with its punctuation.
-/// Whoever wants a part asks for it; nothing takes the line apart.
+/// The parts are available as members; no code parses the line.
 class InputError : public std::runtime_error {
  public:
   InputError(const Location& where, const std::string& problem, const std::string& why,

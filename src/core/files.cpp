@@ -32,8 +32,8 @@ std::string unpredictable_name() {
   return fmt::format("{:016x}", number);
 }
 
-/// Which file it is, whatever its name. The time tells a new file from one that is gone and had the
-/// same number.
+/// Which file it is, whatever its name. The time tells a new file from a deleted one that
+/// had the same number.
 using FileIdentity = std::tuple<dev_t, ino_t, std::int64_t, std::int64_t>;
 
 FileIdentity identity_of(const struct stat& file) {
@@ -137,7 +137,7 @@ std::string advice_on(int failed) {
   }
 }
 
-/// What is in a file, or comes out of a pipe or a device until it ends.
+/// Reads a file, or a pipe or device to its end.
 /// @throws InputError as read_text_file
 std::string contents_of(const std::filesystem::path& path, std::uintmax_t max_bytes,
                         std::chrono::milliseconds patience) {

@@ -61,7 +61,29 @@ void require_writable_folder(const std::filesystem::path& folder);
 /// SHA-256 of `bytes` as 64 lower-case hexadecimal digits (FIPS 180-4).
 std::string sha256_hex(std::string_view bytes);
 
-/// The same of what a file holds; empty for one that cannot be read.
+/// SHA-256 of the content of a file; empty if it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
+
+/// While one of these lives, no other process of recoil works on the same result: two would mix
+/// their files, and take from each other what is finished. The mark is a locked file
+/// "RESULT.lock" beside it, which ends with the process, however that ends. Where the file system
+/// has no locks, nothing is claimed.
+class Claim {
+ public:
+  /// Makes the folder when it is missing.
+  /// @throws InputError when another process has it, or the place cannot be written
+  explicit Claim(const std::filesystem::path& result);
+  /// Removes the mark, and the folders that were made for it where nothing was put into them.
+  ~Claim();
+  Claim(const Claim&) = delete;
+  Claim& operator=(const Claim&) = delete;
+
+ private:
+  void let_go();
+
+  std::filesystem::path mark_;
+  std::vector<std::filesystem::path> made_;  // the innermost first
+  int file_ = -1;
+};
 
 }  // namespace recoil

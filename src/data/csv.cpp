@@ -220,8 +220,7 @@ void require_width(const CsvRow& row, std::size_t width, const std::string& file
 char delimiter_of(std::string_view header) {
   char best = ',';
   for (const char candidate : {';', '\t'}) {
-    if (std::count(header.begin(), header.end(), candidate) >
-        std::count(header.begin(), header.end(), best)) {
+    if (std::ranges::count(header, candidate) > std::ranges::count(header, best)) {
       best = candidate;
     }
   }

@@ -32,8 +32,8 @@ void refuse_others(const JsonNode& node, const std::vector<std::string>& known,
                    const std::vector<std::string>& changing) {
   for (const JsonNode& member : node.members()) {
     const std::string& key = member.key();
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    if (std::find(changing.begin(), changing.end(), key) == changing.end()) continue;
+    if (std::ranges::find(known, key) != known.end()) continue;
+    if (std::ranges::find(changing, key) == changing.end()) continue;
     member.fail(fmt::format("{} is not supported", quote(key)),
                 "the cells would be read differently from what it says",
                 fmt::format("remove it; supported: {}", join(known)));
@@ -73,7 +73,7 @@ void read_constraints(const JsonNode& field, Column& column) {
       text || column.boolean ? std::vector<std::string>{"required"}
                              : std::vector<std::string>{"required", "minimum", "maximum"};
   for (const JsonNode& member : constraints->members()) {
-    if (std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
+    if (std::ranges::find(known, member.key()) != known.end()) continue;
     member.fail(fmt::format("the constraint {} is not checked", quote(member.key())), "",
                 fmt::format("remove it; checked: {}", join(known)));
   }
@@ -92,7 +92,7 @@ void read_type(const JsonNode& field, Column& column) {
   std::vector<std::string> allowed = {"number", "integer"};
   if (text) allowed = {"string"};
   if (may_be_boolean(quantity)) allowed.emplace_back("boolean");
-  if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) {
+  if (std::ranges::find(allowed, word) == allowed.end()) {
     type.fail(fmt::format("the type of '{}' is {}", name_of(quantity), quote(word)), "",
               fmt::format("write {}", join(allowed)));
   }
@@ -137,8 +137,8 @@ Column read_field(const JsonNode& field) {
 }
 
 const Column* find_column(const std::vector<Column>& columns, Quantity quantity) {
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [&](const Column& c) { return c.quantity == quantity; });
+  const auto found =
+      std::ranges::find_if(columns, [&](const Column& c) { return c.quantity == quantity; });
   return found == columns.end() ? nullptr : &*found;
 }
 
@@ -183,7 +183,7 @@ std::vector<Column> read_fields(const JsonNode& fields) {
 std::string read_path(const JsonNode& node) {
   const std::string text = node.string();
   const std::filesystem::path path(text);
-  const bool climbs = std::find(path.begin(), path.end(), "..") != path.end();
+  const bool climbs = std::ranges::find(path, "..") != path.end();
   if (text.empty() || path.is_absolute() || climbs || !path.has_filename() ||
       text.find("://") != std::string::npos || printable(text) != text) {
     node.fail(fmt::format("the path {} names no file in the dataset's folder", quote(text)),
@@ -272,7 +272,7 @@ void read_resource(const JsonNode& root, Package& package) {
 /// Frictionless: a name is fit for a file name.
 std::string read_id(const JsonNode& node) {
   const std::string id = node.string();
-  const bool plain = std::all_of(id.begin(), id.end(), [](char c) {
+  const bool plain = std::ranges::all_of(id, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
            c == '_' || c == '-';
   });
@@ -415,7 +415,7 @@ std::vector<LeftOverride> leave_out_contradictions(Json& system,
                              double ContactProperties::*derived) {
     const std::optional<double> value = (*kept).*stated;
     const double other = derive_contact(*kept, diameter).*derived;
-    if (std::find(own.begin(), own.end(), key) != own.end()) return false;
+    if (std::ranges::find(own, key) != own.end()) return false;
     if (!value || *value == 0.0 || !contradicts(*value, other)) return false;
     left.push_back({key, *value, other});
     system.erase(key);

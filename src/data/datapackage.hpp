@@ -18,7 +18,7 @@
 
 namespace recoil {
 
-/// What a column of the points holds.
+/// The quantity that a column of the points holds.
 enum class Quantity {
   series,
   diameter,

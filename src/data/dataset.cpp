@@ -68,7 +68,7 @@ class PointReader {
     std::vector<std::string> names;
     for (const Column& column : package_.columns) names.push_back(column.name);
     for (const CsvField& cell : row) {
-      const auto column = std::find(names.begin(), names.end(), cell.text);
+      const auto column = std::ranges::find(names, cell.text);
       if (column == names.end()) {
         const bool other_delimiter =
             row.size() == 1 && cell.text.find_first_of(",;\t|") != std::string::npos;
@@ -99,8 +99,8 @@ class PointReader {
     constexpr double most_ratio = 1000.0;
     if (stated_sd_.size() < 3) return;
     std::vector<StatedSd> sorted = stated_sd_;
-    std::sort(sorted.begin(), sorted.end(),
-              [](const StatedSd& a, const StatedSd& b) { return a.of_impact < b.of_impact; });
+    std::ranges::sort(
+        sorted, [](const StatedSd& a, const StatedSd& b) { return a.of_impact < b.of_impact; });
     const double middle = sorted[sorted.size() / 2].of_impact;
     if (!(sorted.front().of_impact * most_ratio < middle)) return;
     throw InputError(sorted.front().where,
@@ -119,8 +119,8 @@ class PointReader {
     if (!field_of_.contains(quantity)) return nullptr;
     const CsvField& found = field(quantity);
     const auto& missing = column(quantity).missing_values;
-    const bool unknown = found.text.empty() ||
-                         std::find(missing.begin(), missing.end(), found.text) != missing.end();
+    const bool unknown =
+        found.text.empty() || std::ranges::find(missing, found.text) != missing.end();
     if (unknown && column(quantity).required) {
       fail(found, fmt::format("'{}' is empty", column(quantity).name),
            "the schema says that it is required", "fill it in or remove the row");
@@ -132,7 +132,7 @@ class PointReader {
   double stated(const CsvField& cell, const Column& column) const {
     if (column.boolean) {
       const auto among = [&](const std::vector<std::string>& words) {
-        return std::find(words.begin(), words.end(), cell.text) != words.end();
+        return std::ranges::find(words, cell.text) != words.end();
       };
       if (among(column.yes)) return 1.0;
       if (among(column.no)) return 0.0;
@@ -232,7 +232,7 @@ class PointReader {
       const Conditions& first = dataset_.series_conditions[members.front()];
       std::vector<Condition> differing;
       for (const Condition condition : values_of<Condition>()) {
-        if (std::any_of(members.begin(), members.end(), [&](std::size_t s) {
+        if (std::ranges::any_of(members, [&](std::size_t s) {
               return dataset_.series_conditions[s].of(condition) != first.of(condition);
             })) {
           differing.push_back(condition);
@@ -455,7 +455,7 @@ Conditions conditions_of(const Dataset& dataset, std::size_t series) {
 std::vector<double> distinct_diameters(const Dataset& dataset) {
   std::vector<double> diameters;
   for (const ImpactPoint& point : dataset.points) diameters.push_back(point.diameter);
-  std::sort(diameters.begin(), diameters.end());
+  std::ranges::sort(diameters);
   diameters.erase(std::unique(diameters.begin(), diameters.end()), diameters.end());
   return diameters;
 }

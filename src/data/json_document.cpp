@@ -159,7 +159,7 @@ double JsonNode::number() const {
 
 void JsonNode::allow_only(const std::vector<std::string>& known) const {
   for (const JsonNode& member : members()) {
-    if (std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
+    if (std::ranges::find(known, member.key()) != known.end()) continue;
     throw InputError(member.where_key(),
                      fmt::format("unknown key {} in '{}'", quote(member.key()), name_), "",
                      did_you_mean(member.key(), known));

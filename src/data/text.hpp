@@ -37,7 +37,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 double known_factor(Dimension dimension, const std::string& unit, const std::string& of,
                     const Location& where);
 
-/// What follows a number in words: " m/s", nothing for a pure number (unit "1" or none).
+/// The unit after a number in a message: " m/s"; empty for a pure number (unit "1" or none).
 std::string unit_suffix(std::string_view unit);
 
 /// "a, b, c and 7 more": words of a user's file for a message that has to stay readable, each

@@ -97,7 +97,7 @@ void TomlReader::allow_only(const toml::table& table, const std::string& name,
                             const std::vector<std::string>& known) const {
   for (const auto& [key, value] : table) {
     const std::string word(key.str());
-    if (std::find(known.begin(), known.end(), word) != known.end()) continue;
+    if (std::ranges::find(known, word) != known.end()) continue;
     throw InputError(at(key.source()), fmt::format("unknown key {} in {}", quote(word), name), "",
                      did_you_mean(word, known));
   }

@@ -11,7 +11,7 @@
 
 #include "diagnosis/discrepancy.hpp"
 #include "estimate/impact_problem.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
@@ -78,7 +78,7 @@ std::vector<std::vector<double>> best_starts(const LeastSquaresProblem& problem,
     order.emplace_back(
         std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0), k);
   }
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::vector<std::vector<double>> best;
   for (const auto& [deviance, k] : order) {
     if (best.size() < most) best.push_back(std::move(starts[k]));
@@ -123,7 +123,7 @@ std::optional<double> scatter_of_slow_rebounds(const std::vector<Dataset>& datas
     }
   }
   if (stated.size() < fewest) return {};
-  std::sort(stated.begin(), stated.end());
+  std::ranges::sort(stated);
   stated.resize(std::max(fewest, stated.size() / 20));
   double sum = 0.0;
   for (const auto& [velocity, square] : stated) sum += square;
@@ -138,8 +138,13 @@ void take_stated_scatter(const std::vector<Dataset>& datasets, ParameterSpec& sp
 
 }  // namespace
 
+std::shared_ptr<const Discrepancy> nothing_shared() {
+  static const auto nothing = std::make_shared<const Discrepancy>();
+  return nothing;
+}
+
 bool Candidate::adds(const std::string& id) const {
-  return std::find(added.begin(), added.end(), id) != added.end();
+  return std::ranges::find(added, id) != added.end();
 }
 
 bool Candidate::adds(const ParameterSlot& slot) const {
@@ -163,12 +168,11 @@ std::vector<const Mechanism*> mechanisms_that_may_act(const FitSpec& spec,
   for (const Mechanism& mechanism : mechanism_catalogue()) {
     const auto& own = spec.mechanisms;
     if (!mechanism.works_with(spec.adhesion)) continue;
-    if (std::find(own.begin(), own.end(), mechanism.info.id) != own.end()) continue;
-    // Nothing is left to say of sizes that are stated.
-    if (std::none_of(
-            model.surroundings.begin(), model.surroundings.end(), [&](const Surroundings& at) {
-              return mechanism.acts_at(at) && !(mechanism.info.mixes_sizes && at.sizes.mixed());
-            })) {
+    if (std::ranges::find(own, mechanism.info.id) != own.end()) continue;
+    // Stated sizes leave such a mechanism nothing to explain.
+    if (std::ranges::none_of(model.surroundings, [&](const Surroundings& at) {
+          return mechanism.acts_at(at) && !(mechanism.info.mixes_sizes && at.sizes.mixed());
+        })) {
       continue;
     }
     possible.push_back(&mechanism);
@@ -200,7 +204,7 @@ AllowedValues allowed_values(const Candidate& candidate, std::span<const double>
   std::vector<Encounter<double>> spheres;
   for (const PointConditions& at : candidate.impacts) {
     const std::vector<std::size_t>& slots = model.slot_own[first + k][at.dataset];
-    if (std::find(slots.begin(), slots.end(), j) == slots.end()) continue;
+    if (std::ranges::find(slots, j) == slots.end()) continue;
     if (own.empty()) {
       for (std::size_t i = 0; i < parameters.size(); ++i) {
         const auto slot = own_slot(model, first + i, parameters[i], at);
@@ -226,9 +230,8 @@ Candidate make_candidate(const FitSpec& spec, const std::vector<Dataset>& datase
   for (const Parameter* parameter : parameters_with(candidate.spec.mechanisms, spec.adhesion)) {
     ParameterSpec stated = spec.statement_of(*parameter);
     const auto& before = spec.mechanisms;
-    const bool is_new =
-        parameter->mechanism != nullptr &&
-        std::find(before.begin(), before.end(), parameter->mechanism->info.id) == before.end();
+    const bool is_new = parameter->mechanism != nullptr &&
+                        std::ranges::find(before, parameter->mechanism->info.id) == before.end();
     if (is_new) {
       stated.free = stated.free || (release && stated.parameter->searched);
       if (parameter->is_scatter_of_rebounds) take_stated_scatter(datasets, stated);

@@ -5,12 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/shared_discrepancy.hpp"
+#include "core/json.hpp"
 #include "estimate/fit.hpp"
 #include "estimate/observation.hpp"
-#include "mechanism/plausible_range.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
+
+class Discrepancy;
+
+/// The discrepancy of residuals with nothing but their own noise.
+std::shared_ptr<const Discrepancy> nothing_shared();
 
 /// The model of a fit with further mechanisms, ready to be refitted to many samples.
 struct Candidate {
@@ -69,6 +74,8 @@ struct Refit {
   std::vector<double> jacobian;   ///< d residual / d theta [points x slots]
   std::vector<bool> moving;       ///< [slots] free, and not resting on a bound
   std::shared_ptr<const Discrepancy> discrepancy = nothing_shared();
+
+  RECOIL_FIELDS(usable, theta, chi2, residuals, jacobian, moving)
 };
 
 /// Start values for the model `to`: its moving slots take the values of `theta` under `model` that

@@ -6,20 +6,20 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "diagnosis/diagnosis_result.hpp"
 #include "diagnosis/expected_effects.hpp"
 #include "diagnosis/judge.hpp"
-#include "diagnosis/misfit_map.hpp"
 #include "diagnosis/next_experiments.hpp"
-#include "diagnosis/pairs.hpp"
 #include "diagnosis/search.hpp"
-#include "diagnosis/singles.hpp"
+#include "diagnosis/trial.hpp"
 #include "diagnosis/unstated_errors.hpp"
 #include "estimate/capture_velocity.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "uncertainty/bootstrap.hpp"
 #include "uncertainty/noise_alternatives.hpp"
 #include "uncertainty/parameter_intervals.hpp"
@@ -28,6 +28,13 @@ namespace recoil {
 namespace {
 
 constexpr double margin_at_one_size = 20.0;  // there nothing but the shape of one curve speaks
+
+/// The p-value of structure in the residuals of `refit`, which predicts as the base model does.
+double quick_p_value(const SearchBase& base, const Refit& refit) {
+  return quick_structure(base.fitted.data, refit, base.fitted.prediction_squared, quick_samples,
+                         base.options.seed)
+      .p_value;
+}
 
 /// Step 1: does the base model leave structure?
 /// @returns the residuals of the data sets that calibrate it [points x data sets]
@@ -53,14 +60,11 @@ Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress
   diagnosis.structure.failed = static_cast<int>(count - simulated.size());
   diagnosis.free_form = statistics.free_form(base.refit.residuals);
   if (!diagnosis.free_form.empty()) {
-    Observations rest = base.fitted.data;
     Refit without = base.refit;
     for (std::size_t i = 0; i < without.residuals.size(); ++i) {
       without.residuals[i] -= diagnosis.free_form[i];
     }
-    diagnosis.free_form_p = quick_structure(rest, without, base.fitted.prediction_squared,
-                                            quick_samples, diagnosis.options.seed)
-                                .p_value;
+    diagnosis.free_form_p = quick_p_value(base, without);
   } else {
     diagnosis.free_form_p = diagnosis.structure.p_value;
   }
@@ -68,8 +72,8 @@ Eigen::MatrixXd test_base(const SearchBase& base, Diagnosis& diagnosis, Progress
 }
 
 bool beyond_a_sharp_limit(const CandidateResult& c) {
-  return std::any_of(c.parameters.begin(), c.parameters.end(),
-                     [](const FoundParameter& p) { return p.limit != nullptr && p.limit->sharp; });
+  return std::ranges::any_of(
+      c.parameters, [](const FoundParameter& p) { return p.limit != nullptr && p.limit->sharp; });
 }
 
 /// Is it no description, nor a batch with the same effect as a law of size?
@@ -81,8 +85,7 @@ bool may_be_a_cause(const CandidateResult& c) {
 /// without an explanation.
 std::vector<const CandidateResult*> explanations(const std::vector<CandidateResult>& candidates,
                                                  double margin, bool one_size) {
-  const auto best = std::find_if(candidates.begin(), candidates.end(),
-                                 [](const CandidateResult& c) { return c.explains(); });
+  const auto best = std::ranges::find_if(candidates, &CandidateResult::explains);
   if (best == candidates.end()) return {};
   std::vector<const CandidateResult*> found = {&*best};
   for (const CandidateResult& c : candidates) {
@@ -128,14 +131,14 @@ void decide(const std::vector<const CandidateResult*>& found, bool one_size, Dia
     }
     for (const std::string& id : c->candidate.added) {
       auto& rivals = diagnosis.rivals;
-      if (std::find(rivals.begin(), rivals.end(), id) == rivals.end()) rivals.push_back(id);
+      if (std::ranges::find(rivals, id) == rivals.end()) rivals.push_back(id);
     }
   }
   if (one_size) return;  // which tells no cause, nor what causes have in common
   for (const std::string& id : diagnosis.rivals) {
-    const bool everywhere = std::all_of(found.begin(), found.end(), [&](const auto* c) {
+    const bool everywhere = std::ranges::all_of(found, [&](const auto* c) {
       const auto& added = c->candidate.added;
-      return std::find(added.begin(), added.end(), id) != added.end();
+      return std::ranges::find(added, id) != added.end();
     });
     if (everywhere) diagnosis.common.push_back(id);
   }
@@ -208,11 +211,10 @@ void extend(const SearchBase& base, Diagnosis& diagnosis) {
 bool outdone_by_errors(const CandidateResult& best, const Diagnosis& diagnosis, double margin) {
   const bool pair = best.candidate.added.size() > 1;
   const double lead = pair ? -2.0 * std::log(static_cast<double>(diagnosis.pairs.size())) : margin;
-  return std::any_of(diagnosis.unstated.begin(), diagnosis.unstated.end(),
-                     [&](const UnstatedErrors& errors) {
-                       const double ahead = errors.of_readings() ? lead - 2.0 * margin : lead;
-                       return errors.leave_nothing() && errors.delta_aicc + ahead < best.delta_aicc;
-                     });
+  return std::ranges::any_of(diagnosis.unstated, [&](const UnstatedErrors& errors) {
+    const double ahead = errors.of_readings() ? lead - 2.0 * margin : lead;
+    return errors.leave_nothing() && errors.delta_aicc + ahead < best.delta_aicc;
+  });
 }
 
 /// Does the best of all single candidates gain more than chance gives it?
@@ -221,8 +223,8 @@ bool more_than_chance(const Diagnosis& diagnosis) {
          diagnosis.candidates.front().p_value <= diagnosis.options.chance;
 }
 
-/// Would it explain the misfit, if only its value were possible, or it were not the same as a law
-/// of size that nobody knows, or as rounding?
+/// Would it explain the misfit, but for an impossible value, or because an unknown law of size or
+/// rounding looks the same?
 bool cannot_be_told(const CandidateResult& c) {
   return (c.set_aside == SetAside::not_possible && !c.near_plausible) ||
          c.set_aside == SetAside::batch_is_size || c.set_aside == SetAside::within_a_step;
@@ -240,11 +242,11 @@ bool outshone(const CandidateResult& best, const CandidateResult& impossible, do
                             : best.delta_aicc > impossible.delta_aicc + margin;
 }
 
-/// Fit two causes better by `lead`, of which one rests on the edge of what is possible? They want
-/// to be what cannot be, and keep their place as single ones do.
+/// Does a pair with a parameter at its limit fit better by `lead`? Then nothing is named, as with
+/// single causes.
 bool outshone_at_the_edge(const CandidateResult& best, const std::vector<CandidateResult>& pairs,
                           double lead) {
-  return std::any_of(pairs.begin(), pairs.end(), [&](const CandidateResult& c) {
+  return std::ranges::any_of(pairs, [&](const CandidateResult& c) {
     return c.set_aside == SetAside::at_the_edge && c.delta_aicc < best.delta_aicc - lead;
   });
 }
@@ -258,7 +260,7 @@ void add_close_singles(const std::vector<CandidateResult>& singles, double lead,
   const auto& both = best.candidate.added;
   for (const CandidateResult& c : singles) {
     const bool possible = c.near_plausible && may_be_a_cause(c) && c.p_value <= chance;
-    const bool other = std::find(both.begin(), both.end(), c.candidate.added.front()) == both.end();
+    const bool other = std::ranges::find(both, c.candidate.added.front()) == both.end();
     if (possible && other && c.delta_aicc <= best.delta_aicc + lead) found.push_back(&c);
   }
 }
@@ -266,7 +268,7 @@ void add_close_singles(const std::vector<CandidateResult>& singles, double lead,
 /// Does a possible cause fit no worse than `impossible`, though something is held against it, too?
 bool passes_over(const std::vector<CandidateResult>& candidates, const CandidateResult& impossible,
                  double chance) {
-  return std::any_of(candidates.begin(), candidates.end(), [&](const CandidateResult& c) {
+  return std::ranges::any_of(candidates, [&](const CandidateResult& c) {
     return c.plausible && c.kind != MechanismKind::description && !cannot_be_told(c) &&
            c.p_value <= chance && c.delta_aicc <= impossible.delta_aicc;
   });
@@ -296,8 +298,7 @@ void search(const SearchBase& base, const Eigen::MatrixXd& simulated, Diagnosis&
   const double margin = one_size ? margin_at_one_size : options.margin;
   judge(base, diagnosis.candidates, INFINITY, folds);
   std::vector<const CandidateResult*> found = explanations(diagnosis.candidates, margin, one_size);
-  const auto impossible =
-      std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(), cannot_be_told);
+  const auto impossible = std::ranges::find_if(diagnosis.candidates, cannot_be_told);
   const auto outshone_by_it = [&] {
     return impossible != diagnosis.candidates.end() &&
            (found.empty() || outshone(*found.front(), *impossible, margin,
@@ -334,12 +335,6 @@ void search(const SearchBase& base, const Eigen::MatrixXd& simulated, Diagnosis&
   if (diagnosis.extended) extend(base, diagnosis);
 }
 
-double quick_p_value(const SearchBase& base) {
-  return quick_structure(base.fitted.data, base.refit, base.fitted.prediction_squared,
-                         quick_samples, base.options.seed)
-      .p_value;
-}
-
 /// Is it the errors of the materials that make the model adequate?
 std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   if (diagnosis.base.model.constants.empty()) return std::nullopt;
@@ -350,19 +345,19 @@ std::optional<MaterialsExplain> materials_explain(const Diagnosis& diagnosis) {
   if (!fitted.usable) return std::nullopt;
   const SearchBase base = search_base(exact, diagnosis.datasets, fitted, diagnosis.options);
   if (!base.refit.usable) return std::nullopt;
-  const double p_value = quick_p_value(base);
+  const double p_value = quick_p_value(base, base.refit);
   if (p_value > diagnosis.options.level) return std::nullopt;
   return MaterialsExplain{p_value};
 }
 
-/// What exact laws would leave and, where that is structure, which causes fit it best.
+/// The structure that exact laws would leave and, if there is any, the causes that fit it best.
 std::optional<IfExact> if_exact(const SearchBase& allowed) {
   if (allowed.laws.none()) return std::nullopt;
   FitSpec spec = allowed.spec;
   spec.law_error = 0.0;
   const SearchBase base = search_base(spec, allowed.datasets, allowed.fitted, allowed.options);
   if (!base.refit.usable) return std::nullopt;
-  IfExact found{quick_p_value(base), {}};
+  IfExact found{quick_p_value(base, base.refit), {}};
   if (found.p_value > base.options.level) return found;
   std::vector<CandidateResult> candidates = try_singles(base);
   judge(base, candidates, INFINITY, {});
@@ -376,21 +371,6 @@ std::optional<IfExact> if_exact(const SearchBase& allowed) {
   }
   return found;
 }
-
-}  // namespace
-
-Diagnosis diagnose(const FitSpec& stated, const std::vector<Dataset>& datasets,
-                   const DiagnosisOptions& options) {
-  const FitSpec spec = with_constants_adjusted(stated);
-  const FitResult fitted = fit(make_model(spec, datasets), gather(datasets, spec.noise));
-  if (!fitted.usable) {
-    throw ComputationError(
-        fmt::format("{}: the fit has no usable answer: {}", spec.file.string(), fitted.failure));
-  }
-  return diagnose(spec, datasets, fitted, options);
-}
-
-namespace {
 
 /// Steps 1 to 4 on all points of `base`.
 Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& base_intervals) {
@@ -416,44 +396,117 @@ Diagnosis diagnose_all(const SearchBase& base, const std::vector<IntervalSet>& b
   return diagnosis;
 }
 
+/// `fitted`, which belongs to `spec`. @throws ComputationError when it has no usable answer
+FitResult usable(const FitSpec& spec, FitResult fitted) {
+  if (fitted.usable) return fitted;
+  throw ComputationError(
+      fmt::format("{}: the fit has no usable answer: {}", spec.file.string(), fitted.failure));
+}
+
+FitResult usable_fit(const FitSpec& spec, const std::vector<Dataset>& datasets) {
+  return usable(spec, fit(make_model(spec, datasets), gather(datasets, spec.noise)));
+}
+
 }  // namespace
+
+/// The points of one diagnosis and the base model fitted to them. `base` refers to the members
+/// before it.
+struct DiagnosedData {
+  DiagnosedData(const FitSpec& stated, std::vector<Dataset> points, const FitResult& fitted,
+                const DiagnosisOptions& given)
+      : spec(stated),
+        datasets(std::move(points)),
+        options(given),
+        base(search_base(spec, datasets, fitted, options)) {}
+
+  FitSpec spec;
+  std::vector<Dataset> datasets;
+  DiagnosisOptions options;
+  SearchBase base;
+};
+
+namespace {
+
+/// @throws ComputationError when the fit cannot be repeated from its own answer
+std::unique_ptr<DiagnosedData> all_points(const FitSpec& spec, const std::vector<Dataset>& datasets,
+                                          const FitResult& fitted,
+                                          const DiagnosisOptions& options) {
+  auto all = std::make_unique<DiagnosedData>(spec, datasets, fitted, options);
+  if (all->base.refit.usable) return all;
+  throw ComputationError(
+      fmt::format("{}: the fit cannot be repeated from its own answer", spec.file.string()));
+}
+
+/// The data without `outlying`, fitted again; null where there are none or no fit is usable.
+std::unique_ptr<DiagnosedData> other_points(const DiagnosedData& all,
+                                            const std::vector<OutlyingPoint>& outlying) {
+  if (outlying.empty()) return nullptr;
+  const std::vector<Dataset> others = without_points(all.datasets, outlying);
+  const FitResult refitted = fit(make_model(all.spec, others), gather(others, all.spec));
+  if (!refitted.usable) return nullptr;
+  DiagnosisOptions options = all.options;
+  options.first_piece += options.pieces();
+  auto data = std::make_unique<DiagnosedData>(all.spec, others, refitted, options);
+  return data->base.refit.usable ? std::move(data) : nullptr;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const FitSpec& stated, const std::vector<Dataset>& datasets,
+                   const DiagnosisOptions& options) {
+  const FitSpec spec = with_constants_adjusted(stated);
+  return diagnose(spec, datasets, usable_fit(spec, datasets), options);
+}
 
 Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
                    const FitResult& fitted, const DiagnosisOptions& options,
                    const std::vector<IntervalSet>& base_intervals) {
   if (!fitted.model.constants.empty() && !fitted.model.adjusts_constants()) {
     const FitResult adjusted =
-        fit(with_adjusted_materials(fitted.model), gather(datasets, spec.noise));
-    if (!adjusted.usable) {
-      throw ComputationError(fmt::format("{}: the fit has no usable answer: {}", spec.file.string(),
-                                         adjusted.failure));
-    }
+        usable(spec, fit(with_adjusted_materials(fitted.model), gather(datasets, spec.noise)));
     return diagnose(with_constants_adjusted(spec), datasets, adjusted, options);
   }
-  const SearchBase base = search_base(spec, datasets, fitted, options);
-  if (!base.refit.usable) {
-    throw ComputationError(
-        fmt::format("{}: the fit cannot be repeated from its own answer", spec.file.string()));
-  }
-  const std::vector<OutlyingPoint> outlying = outlying_points(base);
-  Diagnosis for_all = diagnose_all(base, base_intervals);
+  const auto all = all_points(spec, datasets, fitted, options);
+  const std::vector<OutlyingPoint> outlying = outlying_points(all->base);
+  Diagnosis for_all = diagnose_all(all->base, base_intervals);
   // Errors that all points have make odd points, too, and are the plainer answer.
-  const bool errors_do =
-      std::any_of(for_all.unstated.begin(), for_all.unstated.end(),
-                  [](const UnstatedErrors& errors) { return errors.leave_nothing(); });
-  if (outlying.empty() || errors_do) return for_all;
-  const std::vector<Dataset> others = without_points(datasets, outlying);
-  const FitResult refitted = fit(make_model(spec, others), gather(others, spec));
-  if (!refitted.usable) return for_all;
-  DiagnosisOptions options_of_others = options;
-  options_of_others.first_piece += options.pieces();
-  const SearchBase of_others = search_base(spec, others, refitted, options_of_others);
-  if (!of_others.refit.usable) return for_all;
-  Diagnosis diagnosis = diagnose_all(of_others, {});
+  const bool errors_do = std::ranges::any_of(for_all.unstated, &UnstatedErrors::leave_nothing);
+  const auto others = errors_do ? nullptr : other_points(*all, outlying);
+  if (!others) return for_all;
+  Diagnosis diagnosis = diagnose_all(others->base, {});
   diagnosis.outlying = outlying;
   diagnosis.for_all =
       AnswerForAll{for_all.verdict, for_all.named, for_all.rivals, for_all.resembles};
   return diagnosis;
+}
+
+Calibration::Calibration(const FitSpec& stated, const std::vector<Dataset>& datasets,
+                         const DiagnosisOptions& options) {
+  const FitSpec spec = with_constants_adjusted(stated);
+  DiagnosisOptions own = options;
+  own.kept.reset();
+  data_.push_back(all_points(spec, datasets, usable_fit(spec, datasets), own));
+  auto others = other_points(*data_.front(), outlying_points(data_.front()->base));
+  if (others) data_.push_back(std::move(others));
+}
+
+Calibration::~Calibration() = default;
+
+std::size_t Calibration::pieces() const { return data_.size() * data_.front()->options.pieces(); }
+
+std::vector<double> Calibration::run(std::size_t piece) const {
+  const std::size_t of_each = data_.front()->options.pieces();
+  return calibration_row(residuals_of_sample(data_[piece / of_each]->base, piece % of_each));
+}
+
+std::string Calibration::digits() const {
+  std::string digits;
+  for (const auto& data : data_) {
+    for (const double value : data->base.refit.theta) digits += fmt::format("{:a}|", value);
+    for (const double value : data->base.refit.residuals) digits += fmt::format("{:a}|", value);
+    digits += fmt::format("{:a};", data->base.criterion);
+  }
+  return digits;
 }
 
 }  // namespace recoil

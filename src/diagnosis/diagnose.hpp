@@ -1,10 +1,15 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "diagnosis/diagnosis_result.hpp"
 
 namespace recoil {
+
+struct DiagnosedData;
 
 /// What the fitted model of `spec` gets wrong, and why.
 ///
@@ -40,5 +45,33 @@ Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets, co
 /// @throws ComputationError when the base model has no usable fit, too.
 Diagnosis diagnose(const FitSpec& spec, const std::vector<Dataset>& datasets,
                    const DiagnosisOptions& options);
+
+/// The fit file of a diagnosis with the extended model, as a text that `parse_fit` reads: the same
+/// datasets (seen from `folder`), noise and uncertainty, the mechanisms that were found, every
+/// parameter starting at its estimate. Without a cause it is the fit file as it was.
+std::string extended_toml(const Diagnosis& diagnosis, const std::filesystem::path& folder);
+
+/// The simulated data sets that calibrate a diagnosis, as numbered pieces: their residuals say how
+/// much structure chance leaves, and what causes gain by chance; once more for the data without
+/// outlying points, where there are any. The other steps of a diagnosis (every mechanism, pairs,
+/// held-out points) are no pieces: they have few and unequal ones.
+class Calibration {
+ public:
+  /// @throws ComputationError when the base model has no usable fit
+  Calibration(const FitSpec& spec, const std::vector<Dataset>& datasets,
+              const DiagnosisOptions& options);
+  ~Calibration();
+
+  std::size_t pieces() const;
+
+  /// `calibration_row` of a piece. Called from any thread.
+  std::vector<double> run(std::size_t piece) const;
+
+  /// The numbers that the pieces start from, to the last digit.
+  std::string digits() const;
+
+ private:
+  std::vector<std::unique_ptr<DiagnosedData>> data_;  // all points; those that do not lie off
+};
 
 }  // namespace recoil

@@ -27,12 +27,12 @@ struct DiagnosisOptions {
   double margin_in_pairs = 6.0;
   std::uint64_t seed = 20260101;
   int threads = 0;  ///< 0: all cores. No digit depends on it.
-  /// What came of pieces of the work (`KeptPiece`), of an earlier run or of other processes: they
-  /// are not run again, and what is run is kept there. Null: nothing is kept.
+  /// Results of pieces of the work (`KeptPiece`) from an earlier run or other processes: those
+  /// pieces are not run again, and new results are added. Null: nothing is kept.
   std::shared_ptr<KeptRows> kept;
   std::size_t first_piece = 0;  ///< of the calibration, for the data that are diagnosed
 
-  /// How many pieces the calibration for one set of data has.
+  /// The number of pieces of the calibration for one set of data.
   std::size_t pieces() const { return static_cast<std::size_t>(simulated); }
 };
 

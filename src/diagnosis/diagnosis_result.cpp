@@ -2,10 +2,66 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "estimate/residual.hpp"
 #include "estimate/restitution_summary.hpp"
 
 namespace recoil {
+
+namespace {
+
+constexpr int bands = 4;
+
+}  // namespace
+
+std::vector<MisfitCell> misfit_map(const FitResult& fitted) {
+  const std::vector<Observation>& points = fitted.data.points;
+  double low = INFINITY, high = 0.0;
+  for (const Observation& point : points) {
+    low = std::min(low, point.velocity);
+    high = std::max(high, point.velocity);
+  }
+  const double width = std::log(high / low) / bands;
+  std::map<std::tuple<std::size_t, double, int>, std::vector<std::size_t>> cells;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int band =
+        width > 0.0
+            ? std::min(bands - 1, static_cast<int>(std::log(points[i].velocity / low) / width))
+            : 0;
+    cells[{points[i].dataset, points[i].diameter, band}].push_back(i);
+  }
+  std::vector<MisfitCell> map;
+  for (const auto& [key, members] : cells) {
+    MisfitCell cell;
+    cell.dataset = std::get<0>(key);
+    cell.diameter = std::get<1>(key);
+    cell.points = static_cast<int>(members.size());
+    cell.slowest = INFINITY;
+    const ContactProperties& contact = fitted.model.contacts[cell.dataset];
+    const double mass = contact.reduced_mass(cell.diameter, contact.particle_density);
+    double weights = 0.0, weighted = 0.0;
+    for (const std::size_t i : members) {
+      const Observation& point = points[i];
+      const double expected = expected_restitution(point, fitted.prediction_squared[i]);
+      const double measured = point.counts_only() ? expected
+                              : point.censored    ? 0.0
+                                                  : point.restitution;
+      const double miss = measured - expected;
+      cell.slowest = std::min(cell.slowest, point.velocity);
+      cell.fastest = std::max(cell.fastest, point.velocity);
+      cell.restitution += miss / cell.points;
+      cell.energy += 0.5 * mass * point.velocity * point.velocity *
+                     (measured * measured - expected * expected) / cell.points;
+      if (point.censored || !(point.weights.sd > 0.0)) continue;
+      weights += 1.0 / (point.weights.sd * point.weights.sd);
+      weighted += miss / (point.weights.sd * point.weights.sd);
+    }
+    if (weights > 0.0) cell.standardised = weighted / std::sqrt(weights);
+    map.push_back(cell);
+  }
+  return map;
+}
 
 bool has_one_size(const Observations& data) {
   constexpr double size_factor = 1.2;
@@ -19,9 +75,8 @@ bool has_one_size(const Observations& data) {
 
 bool tests_the_curve(const Diagnosis& diagnosis) {
   const auto& tests = diagnosis.structure.tests;
-  return std::any_of(tests.begin(), tests.end(), [](const StructureTest& test) {
-    return test.question != StructureQuestion::scatter;
-  });
+  return std::ranges::any_of(
+      tests, [](const StructureTest& test) { return test.question != StructureQuestion::scatter; });
 }
 
 bool series_differ(const Diagnosis& diagnosis) {
@@ -37,18 +92,17 @@ bool simulations_failed(const Structure& structure) {
 
 const MisfitCell* worst_cell(const Diagnosis& diagnosis) {
   const auto& where = diagnosis.where;
-  const auto worst =
-      std::max_element(where.begin(), where.end(), [](const MisfitCell& a, const MisfitCell& b) {
-        return std::abs(a.standardised) < std::abs(b.standardised);
-      });
+  const auto worst = std::ranges::max_element(where, [](const MisfitCell& a, const MisfitCell& b) {
+    return std::abs(a.standardised) < std::abs(b.standardised);
+  });
   return worst == where.end() || std::abs(worst->standardised) < 2.0 ? nullptr : &*worst;
 }
 
 std::optional<std::size_t> dominant_point(const Diagnosis& diagnosis) {
   constexpr double most = 0.5;
   const auto& residuals = diagnosis.base.residuals;
-  const auto worst = std::max_element(residuals.begin(), residuals.end(),
-                                      [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const auto worst = std::ranges::max_element(
+      residuals, [](double a, double b) { return std::abs(a) < std::abs(b); });
   if (worst == residuals.end() || *worst * *worst < most * diagnosis.base.chi2) return std::nullopt;
   return static_cast<std::size_t>(worst - residuals.begin());
 }
@@ -56,20 +110,18 @@ std::optional<std::size_t> dominant_point(const Diagnosis& diagnosis) {
 Evidence evidence_for(const Diagnosis& diagnosis) {
   const auto& points = diagnosis.base.data.points;
   const auto& slots = diagnosis.base.model.slots;
-  return {static_cast<int>(std::count_if(points.begin(), points.end(),
-                                         [](const Observation& p) { return !p.censored; })),
-          static_cast<int>(std::count_if(slots.begin(), slots.end(),
-                                         [](const ParameterSlot& slot) { return slot.free; }))};
+  return {static_cast<int>(
+              std::ranges::count_if(points, [](const Observation& p) { return !p.censored; })),
+          static_cast<int>(std::ranges::count_if(slots, &ParameterSlot::free))};
 }
 
 const CandidateResult* closest_cause(const Diagnosis& diagnosis) {
   constexpr double nearly_all = 0.2;
   const auto& candidates = diagnosis.candidates;
-  const auto closest =
-      std::find_if(candidates.begin(), candidates.end(), [](const CandidateResult& c) {
-        return c.plausible && c.kind != MechanismKind::description && c.delta_aicc < 0.0 &&
-               c.remaining_part < nearly_all && c.remaining_p < tolerated_level;
-      });
+  const auto closest = std::ranges::find_if(candidates, [](const CandidateResult& c) {
+    return c.plausible && c.kind != MechanismKind::description && c.delta_aicc < 0.0 &&
+           c.remaining_part < nearly_all && c.remaining_p < tolerated_level;
+  });
   return closest == candidates.end() ? nullptr : &*closest;
 }
 

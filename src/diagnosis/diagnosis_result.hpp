@@ -7,15 +7,30 @@
 #include "core/names.hpp"
 #include "diagnosis/candidate_result.hpp"
 #include "diagnosis/diagnosis_options.hpp"
-#include "diagnosis/expected_effect.hpp"
-#include "diagnosis/misfit_map.hpp"
+#include "diagnosis/expected_effects.hpp"
 #include "diagnosis/next_experiments.hpp"
 #include "diagnosis/outlying_points.hpp"
 #include "diagnosis/structure.hpp"
 #include "diagnosis/unstated_errors.hpp"
+#include "estimate/fit.hpp"
 #include "uncertainty/interval.hpp"
 
 namespace recoil {
+
+/// Where the fitted base model misses: one diameter, one band of velocities.
+struct MisfitCell {
+  std::size_t dataset = 0;
+  double diameter = 0.0;  ///< [m]
+  double slowest = 0.0;   ///< incident velocity [m/s]
+  double fastest = 0.0;   ///< [m/s]
+  int points = 0;
+  double restitution = 0.0;   ///< mean of e - e_model [1]: positive where the model is too low
+  double energy = 0.0;        ///< mean of m V^2 / 2 (e^2 - e_model^2) [J]
+  double standardised = 0.0;  ///< mean of e - e_model over its standard error [1]
+};
+
+/// Every diameter of every dataset in four bands of equal width in ln V; empty bands are left out.
+std::vector<MisfitCell> misfit_map(const FitResult& fitted);
 
 enum class Verdict { adequate, cause_named, not_separable, unexplained };
 template <>
@@ -141,7 +156,7 @@ Evidence evidence_for(const Diagnosis& diagnosis);
 /// left; null where there is none.
 const CandidateResult* closest_cause(const Diagnosis& diagnosis);
 
-/// Errors that nobody stated and that would do as well as the answer, or without one; beside two
+/// Errors that were not stated and that would do as well as the answer, or without one; beside two
 /// causes at once also those that fit less well, as they need one number.
 std::vector<UnstatedErrors> rival_errors(const Diagnosis& diagnosis);
 

@@ -7,8 +7,6 @@
 namespace recoil {
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 constexpr double left_out = 1e-6;   // of the unit variance of a smooth function
 constexpr double too_small = 1e-9;  // of a variance of residuals, beside their own
 

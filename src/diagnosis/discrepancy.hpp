@@ -10,6 +10,9 @@
 
 namespace recoil {
 
+/// As Jacobians are stored [points x slots].
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// Smooth random functions of ln V and ln d on the points of a sample: zero mean and covariance
 ///   k = exp(-((ln V / V')^2 + (ln d / d')^2) / 2),
 /// so that they keep their value over a factor of two or so and are free of it a decade away.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/search.hpp"
 #include "estimate/predictor.hpp"
 
 namespace recoil {
@@ -48,7 +49,7 @@ std::vector<ExpectedEffect> expected_effects(const SearchBase& base) {
     if (parameters.empty() || parameters.front().stated_by.empty()) continue;
     add_effects(base, *mechanism, all);
   }
-  std::stable_sort(all.begin(), all.end(), [](const ExpectedEffect& a, const ExpectedEffect& b) {
+  std::ranges::stable_sort(all, [](const ExpectedEffect& a, const ExpectedEffect& b) {
     return std::abs(a.change) > std::abs(b.change);
   });
   return all;

@@ -215,7 +215,7 @@ HeldOutGain held_out_gain(const std::vector<Fold>& folds, const std::vector<Fold
     }
     if (square_base > 0.0) samples.push_back(1.0 - std::sqrt(square_extended / square_base));
   }
-  std::sort(samples.begin(), samples.end());
+  std::ranges::sort(samples);
   if (!samples.empty()) {
     gain.lower = sorted_quantile(samples, 0.025);
     gain.upper = sorted_quantile(samples, 0.975);

@@ -1,14 +1,232 @@
 #include "diagnosis/judge.hpp"
 
+#include <gsl/gsl_cdf.h>
+
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
 
-#include "diagnosis/batches.hpp"
-#include "diagnosis/plausibility.hpp"
-#include "diagnosis/reading_step.hpp"
-#include "mechanism/catalogue.hpp"
+#include "core/numerics.hpp"
+#include "diagnosis/unstated_errors.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
+namespace {
+
+/// The columns of a refit's Jacobian that belong to what moves, each of unit length: the units of
+/// the parameters lie twenty decades apart.
+struct MovingColumns {
+  std::vector<std::size_t> slots;  ///< [columns]
+  Eigen::MatrixXd unit;            ///< [points x columns]
+  Eigen::VectorXd length;          ///< [columns]
+};
+
+/// Nothing where no slot moves, or where no residual feels one that does.
+std::optional<MovingColumns> moving_columns(const Refit& refit) {
+  const std::size_t slots = refit.theta.size();
+  MovingColumns found;
+  for (std::size_t j = 0; j < slots; ++j) {
+    if (refit.moving[j]) found.slots.push_back(j);
+  }
+  if (found.slots.empty()) return std::nullopt;
+  const Eigen::Map<const RowMajor> jacobian(
+      refit.jacobian.data(), static_cast<Eigen::Index>(refit.jacobian.size() / slots),
+      static_cast<Eigen::Index>(slots));
+  found.unit = jacobian(Eigen::all, found.slots);
+  found.length = found.unit.colwise().norm();
+  if (!(found.length.minCoeff() > 0.0)) return std::nullopt;
+  found.unit *= found.length.cwiseInverse().asDiagonal();
+  return found;
+}
+
+constexpr double at_null = 1e-9;  // of the range of a parameter
+
+/// Beyond the range by no more than half of it, or a factor of two.
+bool is_near(const ParameterSlot& slot, double value, double lower, double upper) {
+  if (slot.log_scale) return value >= 0.5 * lower && value <= 2.0 * upper;
+  const double half = 0.5 * (upper - lower);
+  return value >= lower - half && value <= upper + half;
+}
+
+/// `value` by `reach` towards the range; for a logarithmic slot in ln.
+double nearest_to_range(const ParameterSlot& slot, double value, double reach, double lower,
+                        double upper) {
+  if (!(reach > 0.0)) return value;
+  const double down = slot.log_scale ? value * std::exp(-reach / value) : value - reach;
+  const double up = slot.log_scale ? value * std::exp(reach / value) : value + reach;
+  if (value > upper) return std::max(down, upper);
+  if (value < lower) return std::min(up, lower);
+  return value;
+}
+
+/// Sets what of `parameter`, the one of slot `j`, is impossible.
+void set_implausible(const Candidate& candidate, const Refit& refit, std::size_t j, double reach,
+                     FoundParameter& parameter) {
+  const ParameterSlot& slot = candidate.model.slots[j];
+  const AllowedValues allowed = allowed_values(candidate, refit.theta, j);
+  const double value = nearest_to_range(slot, parameter.value, reach, allowed.lower, allowed.upper);
+  if (value >= allowed.lower && value <= allowed.upper) return;
+  const bool by_limit = value > allowed.upper ? allowed.upper_by_limit : allowed.lower_by_limit;
+  const PlausibleLimit& limit = slot.parameter->limit;
+  parameter.implausible = by_limit ? Implausible::beyond_limit : Implausible::outside_range;
+  parameter.near_plausible =
+      !(by_limit && limit.sharp) && is_near(slot, value, allowed.lower, allowed.upper);
+  parameter.lower = allowed.lower;
+  parameter.upper = allowed.upper;
+  parameter.range_why = slot.parameter->plausible.why;
+  if (by_limit) {
+    parameter.limit = &limit;
+    parameter.quantity = allowed.quantity;
+  }
+}
+
+}  // namespace
+
+std::vector<double> standard_errors(const Refit& refit, double noise_scale) {
+  std::vector<double> errors(refit.theta.size(), 0.0);
+  const auto moving = moving_columns(refit);
+  if (!moving) return errors;
+  const Eigen::MatrixXd& J = moving->unit;
+  const Eigen::Index count = J.cols();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J);
+  if (qr.rank() < count) return errors;
+  const Eigen::MatrixXd inverse =
+      (J.transpose() * J).ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+  for (Eigen::Index j = 0; j < count; ++j) {
+    errors[moving->slots[static_cast<std::size_t>(j)]] =
+        noise_scale * std::sqrt(std::max(inverse(j, j), 0.0)) / moving->length(j);
+  }
+  return errors;
+}
+
+std::vector<FoundParameter> found_parameters(const Candidate& candidate, const Refit& refit,
+                                             double noise_scale, double errors) {
+  const std::vector<double> sd = standard_errors(refit, noise_scale);
+  std::vector<FoundParameter> found;
+  for (std::size_t j = 0; j < refit.theta.size(); ++j) {
+    const ParameterSlot& slot = candidate.model.slots[j];
+    if (!candidate.adds(slot)) continue;
+    FoundParameter parameter;
+    parameter.label = slot.label();
+    parameter.unit = slot.parameter->unit;
+    parameter.value = refit.theta[j];
+    parameter.sd = sd[j];
+    parameter.null_value = slot.parameter->null_value;
+    parameter.stated_by = slot.stated;
+    const bool vanishes = std::abs(parameter.value - slot.parameter->null_value) <=
+                          at_null * (slot.upper - slot.lower);
+    if (slot.free && !vanishes) set_implausible(candidate, refit, j, errors * sd[j], parameter);
+    found.push_back(std::move(parameter));
+  }
+  return found;
+}
+
+namespace {
+
+constexpr double not_by_chance = 0.001;
+constexpr std::size_t terms = 3;  // of a parabola
+
+struct Offset {
+  std::size_t slot = 0;
+  std::size_t dataset = 0;
+  double log_diameter = 0.0;
+};
+
+/// The offsets that move, each with the diameter of its series.
+std::vector<Offset> moving_offsets(const Observations& data, const CandidateResult& candidate) {
+  const ImpactModel& model = candidate.candidate.model;
+  const auto batch = std::ranges::find_if(model.chain, &Mechanism::is_batch);
+  if (batch == model.chain.end()) return {};
+  const std::size_t first = first_parameter(model, **batch);
+  std::map<std::size_t, Offset> found;
+  for (const Observation& point : data.points) {
+    const std::size_t slot = model.slot_own[first][point.dataset][point.series];
+    if (candidate.refit.moving[slot]) {
+      found[slot] = {slot, point.dataset, std::log(point.diameter)};
+    }
+  }
+  std::vector<Offset> offsets;
+  for (const auto& [slot, offset] : found) offsets.push_back(offset);
+  return offsets;
+}
+
+/// The covariance of all that moves; the place of each slot in it.
+Eigen::MatrixXd covariance_of(const Refit& refit, std::vector<Eigen::Index>& place) {
+  const auto moving = moving_columns(refit);
+  if (!moving) return {};
+  place.assign(refit.theta.size(), -1);
+  for (std::size_t k = 0; k < moving->slots.size(); ++k) {
+    place[moving->slots[k]] = static_cast<Eigen::Index>(k);
+  }
+  const Eigen::MatrixXd inverse =
+      (moving->unit.transpose() * moving->unit).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::VectorXd back = moving->length.cwiseInverse();
+  return back.asDiagonal() * inverse * back.asDiagonal();
+}
+
+}  // namespace
+
+bool series_are_sizes(const Observations& data) {
+  std::set<std::pair<std::size_t, std::size_t>> series;
+  std::set<std::pair<std::size_t, double>> sizes;
+  std::set<std::tuple<std::size_t, std::size_t, double>> both;
+  for (const Observation& point : data.points) {
+    series.insert({point.dataset, point.series});
+    sizes.insert({point.dataset, point.diameter});
+    both.insert({point.dataset, point.series, point.diameter});
+  }
+  return sizes.size() > 1 && series.size() == both.size() && sizes.size() == both.size();
+}
+
+bool batch_is_size(const Observations& data, const CandidateResult& candidate, double noise_scale) {
+  if (!series_are_sizes(data)) return false;
+  const std::vector<Offset> offsets = moving_offsets(data, candidate);
+  std::map<std::size_t, std::vector<Offset>> of_dataset;
+  for (const Offset& offset : offsets) of_dataset[offset.dataset].push_back(offset);
+  std::size_t columns = 0;
+  for (const auto& [dataset, own] : of_dataset) columns += std::min(terms, own.size());
+  if (offsets.size() <= columns) return true;
+  std::vector<Eigen::Index> place;
+  const Eigen::MatrixXd all = covariance_of(candidate.refit, place);
+  if (all.size() == 0) return true;
+  const auto count = static_cast<Eigen::Index>(offsets.size());
+  Eigen::MatrixXd C(count, count),
+      A = Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(columns));
+  Eigen::VectorXd o(count);
+  Eigen::Index column = 0;
+  std::map<std::size_t, Eigen::Index> first;  // column of each dataset
+  for (const auto& [dataset, own] : of_dataset) {
+    first[dataset] = column;
+    column += static_cast<Eigen::Index>(std::min(terms, own.size()));
+  }
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Offset& at = offsets[static_cast<std::size_t>(i)];
+    o(i) = candidate.refit.theta[at.slot];
+    const std::vector<Offset>& own = of_dataset[at.dataset];
+    double power = 1.0;
+    for (std::size_t k = 0; k < std::min(terms, own.size()); ++k) {
+      A(i, first[at.dataset] + static_cast<Eigen::Index>(k)) = power;
+      power *= at.log_diameter - own.front().log_diameter;
+    }
+    for (Eigen::Index j = 0; j < count; ++j) {
+      C(i, j) = noise_scale * noise_scale *
+                all(place[at.slot], place[offsets[static_cast<std::size_t>(j)].slot]);
+    }
+  }
+  // What the base model's own parameters make of offsets has no error of its own: a floor.
+  C.diagonal().array() += 1e-12;
+  const Eigen::LLT<Eigen::MatrixXd> root(C);
+  if (root.info() != Eigen::Success) return true;
+  const Eigen::MatrixXd white = root.matrixL().solve(A);
+  const Eigen::VectorXd seen = root.matrixL().solve(o);
+  const Eigen::VectorXd rest = seen - white * white.colPivHouseholderQr().solve(seen);
+  gsl_errors_are_values();
+  return gsl_cdf_chisq_Q(rest.squaredNorm(), static_cast<double>(count - column)) > not_by_chance;
+}
 namespace {
 
 /// Is the parameter an error of a height, a length that only what falls from heights can have?

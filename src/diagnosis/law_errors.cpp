@@ -32,11 +32,7 @@ std::optional<Eigen::VectorXd> squares(PointPredictor& predictor, std::span<cons
 LawErrors LawErrors::of(const std::vector<std::size_t>& points) const {
   LawErrors part{mechanism, base, {}};
   part.functions.resize(static_cast<Eigen::Index>(points.size()), functions.cols());
-  if (functions.cols() == 0) return part;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    part.functions.row(static_cast<Eigen::Index>(i)) =
-        functions.row(static_cast<Eigen::Index>(points[i]));
-  }
+  if (functions.cols() > 0) part.functions = functions(points, Eigen::all);
   return part;
 }
 

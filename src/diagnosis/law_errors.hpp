@@ -10,7 +10,7 @@
 
 namespace recoil {
 
-/// Of the error of a mechanism's law, that of the base model is this part [1].
+/// The error of the base model over the error of a mechanism's law [1].
 inline constexpr double law_error_of_base = 0.3;
 
 /// How wrong laws may be: no law of a mechanism, and no base model, is exact in nature. The effect
@@ -25,7 +25,7 @@ struct LawErrors {
   Eigen::MatrixXd functions;  ///< `smooth_functions` of the sample [points x rank]
 
   bool none() const { return !(mechanism > 0.0) && !(base > 0.0); }
-  /// Those of a part of the points.
+  /// The errors of a part of the points.
   LawErrors of(const std::vector<std::size_t>& points) const;
 };
 

@@ -11,8 +11,7 @@
 #include "diagnosis/search.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/predictor.hpp"
-#include "mechanism/catalogue.hpp"
-#include "mechanism/plausible_range.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
@@ -24,8 +23,6 @@ constexpr double least_restitution = 0.05;  // below it e^2 is not linear in e
 constexpr double most_impacts = 1e6;        // of an experiment
 constexpr int effort_of_a_change = 100;     // of a condition, in impacts
 constexpr double wanted_log_odds = 4.59511985013459;  // ln 99
-
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The impacts to choose from, see `next_experiments`, and the standard deviation of e of one [1].
 struct PossibleImpacts {
@@ -39,8 +36,8 @@ double sold_size(double diameter) {
   const int decade = static_cast<int>(std::floor(std::log10(diameter)));
   const double unit = decade < 0 ? 1.0 / std::pow(10.0, -decade) : std::pow(10.0, decade);
   const auto away = [&](double size) { return std::abs(std::log(size * unit / diameter)); };
-  return unit * *std::min_element(sold.begin(), sold.end(),
-                                  [&](double a, double b) { return away(a) < away(b); });
+  return unit *
+         *std::ranges::min_element(sold, [&](double a, double b) { return away(a) < away(b); });
 }
 
 PossibleImpacts possible_impacts(const FitResult& base) {
@@ -54,7 +51,7 @@ PossibleImpacts possible_impacts(const FitResult& base) {
   std::set<std::pair<std::size_t, double>> wider = sizes;
   for (const auto& [dataset, diameter] : sizes) {
     const auto of_dataset = [d = dataset](const auto& size) { return size.first == d; };
-    const auto first = std::find_if(sizes.begin(), sizes.end(), of_dataset);
+    const auto first = std::ranges::find_if(sizes, of_dataset);
     const auto last = std::find_if(sizes.rbegin(), sizes.rend(), of_dataset);
     wider.insert({dataset, sold_size(0.6 * first->second)});
     wider.insert({dataset, sold_size(1.6 * last->second)});
@@ -111,18 +108,18 @@ std::optional<Linearised> linearised_at(const CandidateResult& rival, const Obse
   const auto rows = static_cast<Eigen::Index>(problem.residual_count);
   const Eigen::Map<const RowMajor> J(jacobian.data(), rows,
                                      static_cast<Eigen::Index>(theta.size()));
-  std::vector<Eigen::Index> moving;
+  std::vector<std::size_t> moving;
   for (std::size_t j = 0; j < rival.refit.moving.size(); ++j) {
-    if (rival.refit.moving[j]) moving.push_back(static_cast<Eigen::Index>(j));
+    if (rival.refit.moving[j]) moving.push_back(j);
   }
   const auto p = static_cast<Eigen::Index>(moving.size());
   Eigen::MatrixXd both = Eigen::MatrixXd::Zero(rows, p + columns->cols());
-  for (Eigen::Index k = 0; k < p; ++k) both.col(k) = J.col(moving[static_cast<std::size_t>(k)]);
+  both.leftCols(p) = J(Eigen::all, moving);
   both.topRightCorner(columns->rows(), columns->cols()) = *columns;
   return Linearised{Eigen::Map<Eigen::VectorXd>(residuals.data(), rows), std::move(both), p};
 }
 
-/// What a rival predicts of each possible impact.
+/// The prediction of a rival for each possible impact.
 struct PredictedImpacts {
   std::vector<double> restitution;  ///< mean e, 0 where captured; NaN without an answer
   std::vector<double> variance;     ///< of that mean, over the variance of one impact
@@ -237,10 +234,9 @@ bool find_impact(const PossibleImpacts& possible, const PredictedImpacts& a,
 
 /// Were some impacts of this dataset measured under a condition that removes the mechanism?
 bool was_taken_away(const Candidate& candidate, const Mechanism& mechanism, std::size_t dataset) {
-  return std::any_of(
-      candidate.impacts.begin(), candidate.impacts.end(), [&](const PointConditions& at) {
-        return at.dataset == dataset && is_taken_away(candidate.model, mechanism, at);
-      });
+  return std::ranges::any_of(candidate.impacts, [&](const PointConditions& at) {
+    return at.dataset == dataset && is_taken_away(candidate.model, mechanism, at);
+  });
 }
 
 /// The series whose impacts are most similar to `experiment`: in ln d first, then in ln V.
@@ -332,9 +328,8 @@ std::vector<NextExperiment> next_experiments(const SearchBase& base,
     }
   }
   for (NextExperiment& next : all) next.series = most_similar_series(base.fitted.data, next);
-  std::stable_sort(all.begin(), all.end(), [](const NextExperiment& a, const NextExperiment& b) {
-    return effort(a) < effort(b);
-  });
+  std::ranges::stable_sort(
+      all, [](const NextExperiment& a, const NextExperiment& b) { return effort(a) < effort(b); });
   return all;
 }
 

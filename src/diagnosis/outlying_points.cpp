@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/gsl_errors.hpp"
+#include "core/numerics.hpp"
 #include "diagnosis/search.hpp"
 #include "estimate/leave_one_out.hpp"
 #include "estimate/residual.hpp"
@@ -24,7 +24,7 @@ constexpr std::size_t fewest = 8;        // points that can accuse one
 
 using Indices = std::vector<std::size_t>;
 
-/// What all residuals follow: the base model's parameters and any smooth function.
+/// The columns that residuals may follow: the base model's parameters and smooth functions.
 Eigen::MatrixXd predictable(const SearchBase& base) {
   const Observations& data = base.fitted.data;
   const std::size_t p = base.refit.theta.size();
@@ -132,15 +132,14 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
   const std::size_t most = kept.size() / 5;
   double scale = 1.0;
   const auto& moving = base.refit.moving;
-  const auto free = static_cast<std::size_t>(std::count(moving.begin(), moving.end(), true));
+  const auto free = static_cast<std::size_t>(std::ranges::count(moving, true));
   while (out.size() < most && kept.size() > fewest + free) {
     const PredictionByOthers prediction(U, r, kept);
     std::vector<double> z;
     for (const std::size_t i : kept) z.push_back(prediction.of_one_of_them(i));
     scale = scale_of(z, data.sd_stated);
     const auto worst = static_cast<std::size_t>(
-        std::max_element(z.begin(), z.end(),
-                         [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+        std::ranges::max_element(z, [](double a, double b) { return std::abs(a) < std::abs(b); }) -
         z.begin());
     if (!(scale > 0.0) || !(std::abs(z[worst]) > limit * scale)) break;
     out.push_back(kept[worst]);
@@ -158,7 +157,7 @@ std::vector<OutlyingPoint> outlying_points(const SearchBase& base) {
     if (const std::optional<OddPoint> odd = odd_point(base.fitted)) add(odd->index, odd->residual);
     return found;
   }
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out);
   const PredictionByOthers prediction(U, r, kept);
   for (const std::size_t i : out) {
     const double z = prediction.of_another(i) / scale;
@@ -174,8 +173,8 @@ std::vector<Dataset> without_points(std::vector<Dataset> datasets,
   for (Dataset& dataset : datasets) {
     std::vector<ImpactPoint> kept;
     for (const ImpactPoint& point : dataset.points) {
-      const bool odd = std::any_of(outlying.begin(), outlying.end(),
-                                   [&](const OutlyingPoint& o) { return o.index == index; });
+      const bool odd =
+          std::ranges::any_of(outlying, [&](const OutlyingPoint& o) { return o.index == index; });
       if (!odd) kept.push_back(point);
       ++index;
     }

@@ -24,7 +24,7 @@ struct OutlyingPoint {
 /// one of twenty data sets (Bonferroni's bound: |z| > 3.3 of 60 points).
 ///
 /// The others predict a point by the base model, linear over its errors, and a smooth function of
-/// ln V and ln d of any shape, so that a wrong model accuses nobody: residuals
+/// ln V and ln d of any shape, so that a wrong model accuses no point: residuals
 ///   r ~ N(0, s^2 (I + U U')),
 /// U the columns of the Jacobian (of any size), smooth discrepancies of e^2 of 0.3, and for every
 /// diameter one of 1 that falls like (V_min / V)^2, as a wrong capture velocity leaves it. Without

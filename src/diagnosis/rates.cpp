@@ -58,7 +58,7 @@ DiagnosisOptions of_one_data_set(DiagnosisOptions options) {
 }
 
 bool contains(const std::vector<std::string>& ids, const std::string& id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
+  return std::ranges::find(ids, id) != ids.end();
 }
 
 }  // namespace

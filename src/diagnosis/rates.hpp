@@ -35,7 +35,7 @@ class DesignRates {
   /// @param rows of all pieces
   OwnDesign count(const std::vector<std::vector<double>>& rows) const;
 
-  /// What the pieces begin with, to the last digit.
+  /// The numbers that the pieces start from, to the last digit.
   std::string digits() const;
 
  private:

@@ -5,14 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/resumable.hpp"
 #include "diagnosis/discrepancy.hpp"
-#include "diagnosis/kept_pieces.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_settings.hpp"
 #include "estimate/simulated_observation.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
@@ -166,8 +166,7 @@ std::vector<double> jacobian_at(const SearchBase& base, const Candidate& candida
 template <class Chosen>
 Eigen::MatrixXd unit_columns(const std::vector<double>& jacobian, Eigen::Index points,
                              std::size_t slots, const Chosen& chosen) {
-  using PointRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const PointRows> all(jacobian.data(), points, static_cast<Eigen::Index>(slots));
+  const Eigen::Map<const RowMajor> all(jacobian.data(), points, static_cast<Eigen::Index>(slots));
   Eigen::MatrixXd columns(points, all.cols());
   Eigen::Index count = 0;
   for (std::size_t j = 0; j < slots; ++j) {

@@ -41,7 +41,7 @@ std::vector<double> legendre(double u, int degree) {
 
 /// `values` mapped onto [-1, 1]; zeros when they are all the same.
 std::vector<double> onto_unit(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = std::ranges::minmax_element(values);
   std::vector<double> unit(values.size(), 0.0);
   if (!(*high > *low)) return unit;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -80,7 +80,7 @@ StructureStatistics::StructureStatistics(const Observations& data, const Refit& 
         impacts.try_emplace({point.dataset, point.series, point.diameter, point.velocity}, next)
             .first->second);
   }
-  used_count_ = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
+  used_count_ = static_cast<std::size_t>(std::ranges::count(used_, true));
   for (std::size_t j = 0; j < p; ++j) {
     if (!fitted.moving[j]) continue;
     Column column(n, 0.0);
@@ -148,7 +148,7 @@ void StructureStatistics::add_local_functions(const Observations& data) {
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::erase_if(order, [&](std::size_t i) { return !used_[i]; });
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     const Observation& x = data.points[a];
     const Observation& y = data.points[b];
     return std::tie(x.dataset, x.diameter, x.velocity) <
@@ -165,7 +165,7 @@ void StructureStatistics::add_local_functions(const Observations& data) {
   }
   Column near_capture(n, 0.0);
   for (std::vector<std::size_t>& run : groups) {
-    std::stable_sort(run.begin(), run.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::stable_sort(run, [&](std::size_t a, std::size_t b) {
       return data.points[a].velocity < data.points[b].velocity;
     });
     std::vector<std::vector<std::size_t>>& velocities = runs_.emplace_back();
@@ -350,7 +350,7 @@ Structure judge_structure(const StructureStatistics& statistics, std::span<const
     if (!statistics.asks(question)) continue;
     std::vector<double> sorted;
     for (const auto& sample : simulated) sorted.push_back(sample[question]);
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     const double p = upper_share(sorted, own[question]);
     judged.tests.push_back({question, own[question], p});
     smallest_own = std::min(smallest_own, p);
@@ -360,7 +360,7 @@ Structure judge_structure(const StructureStatistics& statistics, std::span<const
     if (!scatter && p <= 0.01) judged.smooth = true;
   }
   const auto as_small =
-      std::count_if(smallest.begin(), smallest.end(), [&](double p) { return p <= smallest_own; });
+      std::ranges::count_if(smallest, [&](double p) { return p <= smallest_own; });
   judged.p_value =
       (1.0 + static_cast<double>(as_small)) / (1.0 + static_cast<double>(simulated.size()));
   return judged;

@@ -1,17 +1,46 @@
 #include "diagnosis/trial.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
+#include "core/parallel.hpp"
+#include "diagnosis/judge.hpp"
 #include "diagnosis/law_errors.hpp"
-#include "diagnosis/plausibility.hpp"
 #include "estimate/observation.hpp"
 #include "estimate/predictor.hpp"
-#include "mechanism/catalogue.hpp"
+#include "estimate/residual.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
+
+std::size_t number_of(const DiagnosisOptions& options, KeptPiece kind, std::size_t k) {
+  constexpr std::size_t kinds = 4;
+  constexpr std::size_t of_each = std::size_t{1} << 32;
+  return ((options.first_piece + 1) * kinds + static_cast<std::size_t>(kind)) * of_each + k;
+}
+
+Json json_of(const Refit& refit) { return as_json(refit, NonFinite::word); }
+
+Refit refit_of(const Json& json, const Candidate& candidate, std::size_t points) {
+  Refit refit = value_from<Refit>(json);
+  const std::size_t p = candidate.model.slots.size();
+  if (refit.usable && (refit.theta.size() != p || refit.moving.size() != p ||
+                       refit.residuals.size() != points || refit.jacobian.size() < points * p)) {
+    throw std::length_error("a refit of something else");
+  }
+  return refit;
+}
+
+void require_names(const Json& row, const std::vector<std::string>& names) {
+  if (row.at(0).get<std::vector<std::string>>() != names) {
+    throw std::invalid_argument("a row of something else");
+  }
+}
 namespace {
 
 constexpr double worth_releasing = 2.0;  // gain of the criterion by a released parameter
@@ -36,7 +65,7 @@ std::vector<double> predicted_squares(const Candidate& candidate, const Refit& r
 
 /// See `CandidateResult::remaining_part`.
 double part_left(const SearchBase& base, const CandidateResult& candidate) {
-  if (!base.fitted.data.sd_stated) return 1.0;  // nobody knows how much misfit there is
+  if (!base.fitted.data.sd_stated) return 1.0;  // how much misfit there is, is not known
   const auto n = static_cast<double>(base.fitted.data.points.size());
   const double before = base.refit.chi2 - (n - base.candidate.free_count);
   const double after = candidate.refit.chi2 - (n - candidate.candidate.free_count);
@@ -44,8 +73,7 @@ double part_left(const SearchBase& base, const CandidateResult& candidate) {
 }
 
 bool all_plausible(const std::vector<FoundParameter>& parameters) {
-  return std::all_of(parameters.begin(), parameters.end(),
-                     [](const FoundParameter& p) { return p.plausible(); });
+  return std::ranges::all_of(parameters, &FoundParameter::plausible);
 }
 
 /// Sets the parameters of a fitted candidate and whether they are possible.
@@ -57,8 +85,7 @@ void find_parameters(const SearchBase& base, CandidateResult& result) {
   result.parameters = found(by_error ? allowed_errors : 0.0);
   result.plausible = all_plausible(result.parameters);
   result.only_by_error = result.plausible && by_error && !all_plausible(found(0.0));
-  result.near_plausible = std::all_of(result.parameters.begin(), result.parameters.end(),
-                                      [](const FoundParameter& p) { return p.near_plausible; });
+  result.near_plausible = std::ranges::all_of(result.parameters, &FoundParameter::near_plausible);
 }
 
 /// What a fitted candidate is, `cost_of_possible` being known.
@@ -76,8 +103,8 @@ CandidateResult described(const SearchBase& base, Candidate candidate, Refit ref
 /// Does the mechanism act otherwise in one series than in another?
 bool knows_series(const Mechanism& mechanism) {
   const auto& parameters = mechanism.info.parameters;
-  return std::any_of(parameters.begin(), parameters.end(),
-                     [](const Parameter& p) { return p.per_series || !p.stated_by.empty(); });
+  return std::ranges::any_of(
+      parameters, [](const Parameter& p) { return p.per_series || !p.stated_by.empty(); });
 }
 
 std::size_t series_count(const Observations& data) {
@@ -87,10 +114,9 @@ std::size_t series_count(const Observations& data) {
 }
 
 bool can_be_released(const Candidate& candidate) {
-  return std::any_of(
-      candidate.model.slots.begin(), candidate.model.slots.end(), [&](const ParameterSlot& slot) {
-        return !slot.free && !slot.stated && slot.parameter->searched && candidate.adds(slot);
-      });
+  return std::ranges::any_of(candidate.model.slots, [&](const ParameterSlot& slot) {
+    return !slot.free && !slot.stated && slot.parameter->searched && candidate.adds(slot);
+  });
 }
 
 }  // namespace
@@ -99,11 +125,10 @@ bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
   const Observations& data = base.fitted.data;
   if (!data.noise.known) return false;
   const std::vector<const Mechanism*> added = chain_of(candidate.added);
-  const bool batch =
-      std::any_of(added.begin(), added.end(), [](const Mechanism* m) { return m->is_batch(); });
+  const bool batch = std::ranges::any_of(added, &Mechanism::is_batch);
   if (batch && series_count(data) < 2) return false;  // series differ from other series
   const bool by_series =
-      std::any_of(added.begin(), added.end(), [](const Mechanism* m) { return knows_series(*m); });
+      std::ranges::any_of(added, [](const Mechanism* m) { return knows_series(*m); });
   std::set<std::tuple<std::size_t, std::size_t, double, double>> impacts;
   int says_more = 0;  // points with both rebounds and captures say two things
   for (const Observation& point : data.points) {
@@ -111,7 +136,7 @@ bool can_be_seen(const SearchBase& base, const Candidate& candidate) {
     if (point.mixed()) ++says_more;
   }
   const auto& moving = base.refit.moving;
-  const auto before = static_cast<int>(std::count(moving.begin(), moving.end(), true));
+  const auto before = static_cast<int>(std::ranges::count(moving, true));
   const int own = candidate.free_count - base.candidate.free_count;
   const int known = static_cast<int>(impacts.size()) + says_more;
   return known >= before + std::max(own, 1);
@@ -140,7 +165,7 @@ CandidateResult try_one(const SearchBase& base, Candidate candidate, std::span<c
 
 void try_released(const SearchBase& base, CandidateResult& result, int tries) {
   if (!result.refit.usable || !can_be_released(result.candidate)) return;
-  // A single one may want to be what it cannot be, and is to say so.
+  // An implausible single cause is kept, so that it can be reported.
   const bool pair = result.candidate.added.size() > 1;
   Candidate released = make_candidate(base.spec, base.datasets, result.candidate.added, true, pair);
   if (!can_be_seen(base, released)) return;
@@ -202,10 +227,86 @@ std::vector<double> within_bounds(const ImpactModel& model, std::vector<double> 
 
 void sort_by_criterion(std::vector<CandidateResult>& candidates) {
   std::erase_if(candidates, [](const CandidateResult& c) { return !c.refit.usable; });
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const CandidateResult& a, const CandidateResult& b) {
-                     return a.delta_aicc < b.delta_aicc;
-                   });
+  std::ranges::stable_sort(candidates, [](const CandidateResult& a, const CandidateResult& b) {
+    return a.delta_aicc < b.delta_aicc;
+  });
+}
+
+namespace {
+
+constexpr int tries_alone = 4;
+
+constexpr double least_effect = 0.01;  // of a standard deviation of the point it moves most
+
+/// Can the mechanism move any residual by `least_effect`, with its parameters at their start and
+/// each at either end of what it can be?
+bool can_matter(const SearchBase& base, const Mechanism& mechanism, const Candidate& candidate,
+                const std::vector<double>& near) {
+  const ImpactModel& model = candidate.model;
+  const Observations& data = base.fitted.data;
+  const std::vector<Prediction> plain =
+      predict(model, without_mechanism(model, near, mechanism), candidate.impacts, false);
+  const auto moves = [&](const std::vector<double>& theta) {
+    const std::vector<Prediction> acted = predict(model, theta, candidate.impacts, false);
+    for (std::size_t i = 0; i < acted.size(); ++i) {
+      if (!acted[i].usable() || !plain[i].usable()) return true;  // only a fit can tell
+      const double r = weighted_residual(data.points[i], acted[i].restitution_squared).value;
+      const double before = weighted_residual(data.points[i], plain[i].restitution_squared).value;
+      if (std::abs(r - before) >= least_effect) return true;
+    }
+    return false;
+  };
+  if (moves(near)) return true;
+  for (std::size_t j = 0; j < near.size(); ++j) {
+    const ParameterSlot& slot = model.slots[j];
+    if (slot.stated || !candidate.adds(slot)) continue;
+    const AllowedValues allowed = allowed_values(candidate, near, j);
+    for (const double end : {allowed.upper, allowed.lower}) {
+      std::vector<double> theta = near;
+      theta[j] = std::clamp(end, slot.lower, slot.upper);
+      if (moves(theta)) return true;
+    }
+  }
+  return false;
+}
+
+/// One mechanism of the catalogue; without a usable refit where it cannot be fitted.
+CandidateResult try_single(const SearchBase& base, const Mechanism& mechanism,
+                           Candidate candidate) {
+  if (candidate.free_count >= static_cast<int>(base.fitted.data.points.size()) - 1) return {};
+  const std::vector<PointConditions>& impacts = candidate.impacts;
+  if (std::ranges::all_of(impacts, [&](const PointConditions& at) {
+        return is_taken_away(candidate.model, mechanism, at);
+      })) {
+    return {};
+  }
+  const std::vector<double> near =
+      carried_over(base.candidate.model, base.refit.theta, candidate.model);
+  if (!can_be_seen(base, candidate) || !can_matter(base, mechanism, candidate, near)) return {};
+  CandidateResult result = try_one(base, std::move(candidate), near, tries_alone);
+  try_released(base, result, tries_alone);
+  hold_to_what_is_possible(base, result, tries_alone);
+  return result;
+}
+
+}  // namespace
+
+std::vector<CandidateResult> try_singles(const SearchBase& base) {
+  std::vector<const Mechanism*> untried;
+  for (const Mechanism* mechanism : mechanisms_that_may_act(base.spec, base.candidate.model)) {
+    // Counts of captures have told the base model already how the impacts differ.
+    if (mechanism->spreads() && base.fitted.data.noise.event_spread > 0.0) continue;
+    untried.push_back(mechanism);
+  }
+  std::vector<CandidateResult> results(untried.size());
+  parallel_over(untried.size(), base.options.threads, [&](std::size_t k) {
+    const std::vector<std::string> added = {std::string(untried[k]->info.id)};
+    results[k] = kept_candidate(base, KeptPiece::single, k, added, [&] {
+      return try_single(base, *untried[k], make_candidate(base.spec, base.datasets, added));
+    });
+  });
+  sort_by_criterion(results);
+  return results;
 }
 
 }  // namespace recoil

@@ -4,19 +4,77 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
-#include "diagnosis/reading_step.hpp"
 #include "diagnosis/search.hpp"
 #include "estimate/residual.hpp"
 #include "estimate/shared_settings.hpp"
 
 namespace recoil {
+
+namespace {
+
+constexpr double steps_of_rulers[] = {0.01, 0.005, 0.002, 0.001};
+constexpr double highest_of_steps = 15.0;
+constexpr double coherent = 0.9;
+constexpr std::size_t fewest_heights = 4;
+
+/// How often a step goes into the heights of the rebounds of one size and velocity.
+struct Heights {
+  double sum = 0.0;      ///< of the heights [m]
+  double cosines = 0.0;  ///< of 2 pi h / step
+  int count = 0;
+};
+
+/// The mean cosine of all sizes and velocities whose rebounds are low enough, each counting once; 0
+/// where there are too few.
+double coherence(const Dataset& dataset, double step) {
+  std::map<std::pair<double, double>, Heights> places;
+  for (const ImpactPoint& point : dataset.points) {
+    if (!(point.restitution > 0.0)) continue;
+    Heights& heights = places[{point.diameter, point.incident_velocity}];
+    const double height = rebound_height(point);
+    heights.sum += height;
+    heights.cosines += std::cos(2.0 * std::numbers::pi * height / step);
+    ++heights.count;
+  }
+  double sum = 0.0;
+  std::size_t low = 0;
+  for (const auto& [place, heights] : places) {
+    if (heights.sum > highest_of_steps * step * heights.count) continue;
+    sum += heights.cosines / heights.count;
+    ++low;
+  }
+  return low < fewest_heights ? 0.0 : sum / static_cast<double>(low);
+}
+
+}  // namespace
+
+double rebound_height(const ImpactPoint& point) {
+  const double rebound = point.restitution * point.incident_velocity;
+  return rebound * rebound / (2.0 * standard_gravity);
+}
+
+double height_step(const Dataset& dataset) {
+  if (dataset.system.method != Method::drop_heights) return 0.0;
+  for (const double step : steps_of_rulers) {
+    if (coherence(dataset, step) > coherent) return step;
+  }
+  return 0.0;
+}
+
+double height_step(const std::vector<Dataset>& datasets) {
+  double largest = 0.0;
+  for (const Dataset& dataset : datasets) largest = std::max(largest, height_step(dataset));
+  return largest;
+}
 namespace {
 
 constexpr double smallest_error = 0.002;  // of a velocity, relative
@@ -71,7 +129,7 @@ double tails_p(const StructureStatistics& statistics, std::span<const double> re
   return (1.0 + as_large) / (1.0 + quick_samples);
 }
 
-/// Of the structure and the tails of the residuals, the more striking p-value, paid for both.
+/// The smaller p-value of structure and tails of the residuals, corrected for two tests.
 double remaining_p(const SearchBase& base, const Observations& data, const Refit& refit,
                    std::span<const double> predicted) {
   const std::uint64_t seed = base.options.seed;
@@ -96,7 +154,7 @@ FitResult fit_with_velocity_errors(const SearchBase& base, double relative_sd) {
   return fit_under(base, base.datasets, noise);
 }
 
-/// What was read of a rebound: a height [m], or a time of flight [s].
+/// The reading of a rebound: a height [m], or a time of flight [s].
 double reading_of(const ImpactPoint& point, ErrorSource source) {
   return source == ErrorSource::height_readings
              ? rebound_height(point)
@@ -132,30 +190,31 @@ double vertex(double middle, double step, double before, double at, double after
   return middle + step * std::clamp(0.5 * (before - after) / curvature, -1.0, 1.0);
 }
 
-/// The error from `least` to `most` that makes the data most likely; none where it is on the edge
-/// of what was tried.
-template <class FitWith>
-std::optional<double> likeliest_error(const SearchBase& base, double least, double most,
-                                      const FitWith& fit_with) {
+/// The error from `least` to `most` at which `cost` is smallest, by the parabola through the best
+/// three of a grid; nullopt where it is on the edge of the grid.
+template <class Cost>
+std::optional<double> best_error(const SearchBase& base, double least, double most,
+                                 const Cost& cost) {
   const double step = std::log(most / least) / (steps - 1);
-  std::vector<double> deviance(steps, INFINITY);
+  std::vector<double> costs(steps);
   parallel_over(steps, base.options.threads, [&](std::size_t k) {
-    const FitResult fitted = fit_with(least * std::exp(step * static_cast<double>(k)));
-    if (fitted.usable) deviance[k] = deviance_with_weights(fitted.data, fitted.residuals);
+    costs[k] = cost(least * std::exp(step * static_cast<double>(k)));
   });
-  const auto best = static_cast<std::size_t>(std::min_element(deviance.begin(), deviance.end()) -
-                                             deviance.begin());
-  if (best == 0 || best + 1 == deviance.size()) return std::nullopt;
-  if (!std::isfinite(deviance[best - 1]) || !std::isfinite(deviance[best + 1])) return std::nullopt;
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin());
+  if (best == 0 || best + 1 == costs.size()) return std::nullopt;
+  if (!std::isfinite(costs[best - 1]) || !std::isfinite(costs[best + 1])) return std::nullopt;
   const double middle = std::log(least) + step * static_cast<double>(best);
-  return std::exp(vertex(middle, step, deviance[best - 1], deviance[best], deviance[best + 1]));
+  return std::exp(vertex(middle, step, costs[best - 1], costs[best], costs[best + 1]));
 }
 
 /// Errors of the size that makes the data most likely.
 template <class FitWith>
 std::optional<UnstatedErrors> likeliest(const SearchBase& base, ErrorSource source, double least,
                                         double most, const FitWith& fit_with) {
-  const std::optional<double> value = likeliest_error(base, least, most, fit_with);
+  const std::optional<double> value = best_error(base, least, most, [&](double sd) {
+    const FitResult fitted = fit_with(sd);
+    return fitted.usable ? deviance_with_weights(fitted.data, fitted.residuals) : INFINITY;
+  });
   if (!value) return std::nullopt;
   const FitResult fitted = fit_with(*value);
   if (!fitted.usable) return std::nullopt;
@@ -177,8 +236,8 @@ std::optional<UnstatedErrors> likeliest(const SearchBase& base, ErrorSource sour
 
 std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
   const Observations& data = base.fitted.data;
-  const bool some = std::any_of(data.points.begin(), data.points.end(),
-                                [](const Observation& point) { return point.velocity_sd > 0.0; });
+  const bool some = std::ranges::any_of(
+      data.points, [](const Observation& point) { return point.velocity_sd > 0.0; });
   if (some) return std::nullopt;
   return likeliest(base, ErrorSource::velocity_errors, smallest_error, largest_error,
                    [&](double sd) { return fit_with_velocity_errors(base, sd); });
@@ -187,8 +246,8 @@ std::optional<UnstatedErrors> velocity_errors(const SearchBase& base) {
 /// What the instrument of all datasets reads; none where they have no such scale in common.
 std::optional<ErrorSource> readings_of(const std::vector<Dataset>& datasets) {
   const auto all_by = [&](Method method) {
-    return std::all_of(datasets.begin(), datasets.end(),
-                       [&](const Dataset& one) { return one.system.method == method; });
+    return std::ranges::all_of(datasets,
+                               [&](const Dataset& one) { return one.system.method == method; });
   };
   if (all_by(Method::drop_heights)) return ErrorSource::height_readings;
   if (all_by(Method::bounce_intervals)) return ErrorSource::time_readings;
@@ -251,8 +310,8 @@ Eigen::MatrixXd setting_columns(const SearchBase& base, double sd) {
 
 bool has_settings_of_several_points(const Observations& data) {
   std::set<std::size_t> seen;
-  return std::any_of(data.points.begin(), data.points.end(),
-                     [&](const Observation& point) { return !seen.insert(point.setting).second; });
+  return std::ranges::any_of(
+      data.points, [&](const Observation& point) { return !seen.insert(point.setting).second; });
 }
 
 /// The base model refitted with what its laws and the settings share.
@@ -270,29 +329,22 @@ Refit fit_with_settings(const SearchBase& base, double sd) {
 std::optional<UnstatedErrors> shared_settings(const SearchBase& base) {
   const Observations& data = base.fitted.data;
   if (base.spec.noise.setting_sd.value_or(0.0) > 0.0 || data.setting_velocity_stated) {
-    return std::nullopt;  // somebody knows it
+    return std::nullopt;  // it is stated
   }
   if (!has_settings_of_several_points(data)) return std::nullopt;
   const int free = base.candidate.free_count;
-  const double step = std::log(largest_error / smallest_setting_error) / (steps - 1);
-  std::vector<double> criterion(steps, INFINITY);
-  parallel_over(steps, base.options.threads, [&](std::size_t k) {
-    const double sd = smallest_setting_error * std::exp(step * static_cast<double>(k));
-    const Refit refit = fit_with_settings(base, sd);
-    if (refit.usable) criterion[k] = corrected_criterion(data, refit, free + 1);
-  });
-  const auto best = static_cast<std::size_t>(std::min_element(criterion.begin(), criterion.end()) -
-                                             criterion.begin());
-  if (best == 0 || best + 1 == criterion.size()) return std::nullopt;
-  const double middle = std::log(smallest_setting_error) + step * static_cast<double>(best);
+  const std::optional<double> sd =
+      best_error(base, smallest_setting_error, largest_error, [&](double size) {
+        const Refit refit = fit_with_settings(base, size);
+        return refit.usable ? corrected_criterion(data, refit, free + 1) : INFINITY;
+      });
+  if (!sd) return std::nullopt;
+  const Refit refit = fit_with_settings(base, *sd);
+  if (!refit.usable) return std::nullopt;
   UnstatedErrors found;
   found.source = ErrorSource::shared_setting;
-  found.value =
-      std::exp(vertex(middle, step, criterion[best - 1], criterion[best], criterion[best + 1]));
-  const Refit refit = fit_with_settings(base, found.value);
-  if (!refit.usable) return std::nullopt;
   found.delta_aicc = corrected_criterion(data, refit, free + 1) - base.criterion;
-  found.value = std::hypot(found.value, data.noise.setting_sd);
+  found.value = std::hypot(*sd, data.noise.setting_sd);
   found.remaining_p = remaining_p(base, data, refit, base.fitted.prediction_squared);
   return found;
 }
@@ -309,7 +361,7 @@ std::vector<UnstatedErrors> unstated_errors(const SearchBase& base) {
       if (found) all.push_back(*found);
     }
   }
-  std::sort(all.begin(), all.end(), [](const UnstatedErrors& a, const UnstatedErrors& b) {
+  std::ranges::sort(all, [](const UnstatedErrors& a, const UnstatedErrors& b) {
     return a.delta_aicc < b.delta_aicc;
   });
   return all;

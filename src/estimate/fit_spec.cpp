@@ -13,7 +13,6 @@
 #include "data/text.hpp"
 #include "data/toml_reader.hpp"
 #include "estimate/fit_keys.hpp"
-#include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {

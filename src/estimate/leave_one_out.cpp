@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/gsl_errors.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

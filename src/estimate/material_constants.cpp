@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "mechanism/half_space.hpp"
+#include "mechanism/encounter.hpp"
 
 namespace recoil {
 namespace {

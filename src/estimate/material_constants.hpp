@@ -71,7 +71,7 @@ class MaterialLaw {
   double relative_radius_;  // at the reference diameter [m]
   std::vector<Acting> acting_;
   double mobility_ = 0.0;                 // as stated
-  std::array<double, 2> radiation_ = {};  // first two derivatives of ln c(nu) of half_space.hpp
+  std::array<double, 2> radiation_ = {};  // of ln c(nu), half_space_radiation: first two
 };
 
 /// The constants of `datasets` that are known with an error. One of a body is shared by all

@@ -7,9 +7,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "impact/fast_solver.hpp"
-#include "impact/reference_solver.hpp"
-#include "mechanism/catalogue.hpp"
+#include "impact/impact.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {

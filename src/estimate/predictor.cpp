@@ -8,7 +8,7 @@
 
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/gsl_errors.hpp"
+#include "core/numerics.hpp"
 #include "estimate/survivors.hpp"
 
 namespace recoil {

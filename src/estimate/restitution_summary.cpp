@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "core/gsl_errors.hpp"
+#include "core/numerics.hpp"
 #include "core/statistics.hpp"
 #include "estimate/reweighting.hpp"
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 #include "estimate/residual.hpp"
 
 namespace recoil {

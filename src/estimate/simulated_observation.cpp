@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gsl_errors.hpp"
+#include "core/numerics.hpp"
 #include "estimate/residual.hpp"
 
 namespace recoil {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

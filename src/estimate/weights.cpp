@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/impact_problem.hpp"
 #include "estimate/predictor.hpp"

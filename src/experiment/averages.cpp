@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "core/error.hpp"
 #include "core/statistics.hpp"
 #include "core/units.hpp"
 #include "experiment/flight.hpp"
@@ -44,7 +46,7 @@ std::vector<double> class_edges(const std::vector<Arrival>& arrivals,
   if (!options.size_edges.empty()) return options.size_edges;
   std::vector<double> sizes;
   for (const Arrival& arrival : arrivals) sizes.push_back(arrival.diameter);
-  std::sort(sizes.begin(), sizes.end());
+  std::ranges::sort(sizes);
   std::vector<double> edges = {sizes.empty() ? 0.0 : sizes.front()};
   for (std::size_t k = 1; k < options.size_classes; ++k) {
     const double edge = sizes.empty() ? 0.0 : sizes[k * sizes.size() / options.size_classes];
@@ -88,7 +90,7 @@ struct Moments {
   double sd = 0.0;
 };
 
-/// Of the values that are known: not negative.
+/// Mean and deviation of the known values, which are not negative.
 template <class Value>
 Moments moments_of(const std::vector<Arrival>& all, std::size_t begin, std::size_t end,
                    const Value& value) {
@@ -152,7 +154,7 @@ PointMean mean_of(const std::vector<Arrival>& sorted, std::size_t begin, std::si
 /// The share of unpaired among the fastest quarter of each series: the lost share cannot be larger
 /// unless slow rebounds are lost less.
 void look_at_fastest(std::vector<Arrival> arrivals, Averages& result) {
-  std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
+  std::ranges::sort(arrivals, [](const Arrival& a, const Arrival& b) {
     return a.series < b.series || (a.series == b.series && a.velocity < b.velocity);
   });
   std::size_t unpaired = 0;
@@ -197,7 +199,7 @@ Averages average(const std::vector<Passage>& passages, const std::vector<std::st
     arrival.size_class =
         std::min(static_cast<std::size_t>(above - edges.begin()), edges.size() - 1) - 1;
   }
-  std::stable_sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
+  std::ranges::stable_sort(arrivals, [](const Arrival& a, const Arrival& b) {
     if (a.series != b.series) return a.series < b.series;
     if (a.size_class != b.size_class) return a.size_class < b.size_class;
     return a.velocity < b.velocity;
@@ -238,6 +240,23 @@ Averages average(const std::vector<Passage>& passages, const std::vector<std::st
   result.unresolved = std::max(
       0.0, static_cast<double>(result.unpaired - result.captured) - result.lost - result.too_slow);
   return result;
+}
+
+PairedPassages pair_and_average(PassageTable table, const PairRequest& request) {
+  PairedPassages paired;
+  paired.table = std::move(table);
+  paired.pairs = pair_passages(paired.table.passages, request.pairing);
+  paired.averages =
+      average(paired.table.passages, paired.table.series, paired.pairs, request.averaging);
+  return paired;
+}
+
+void require_impacts(const PairedPassages& paired, const PairRequest& request, const char* dashes) {
+  if (!paired.pairs.impacts.empty()) return;
+  throw ComputationError(fmt::format(
+      "{0}: no impacts found (no passage up follows a passage down within the time that a plane "
+      "{1:g} mm above the surface allows); check {2}height, the units and {2}positive",
+      request.file, request.pairing.height / units::mm, dashes));
 }
 
 }  // namespace recoil

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiment/pairing.hpp"
+#include "experiment/passages.hpp"
 
 namespace recoil {
 
@@ -66,5 +67,27 @@ struct Averages {
 /// below 1 %, divided by the number of bins.
 Averages average(const std::vector<Passage>& passages, const std::vector<std::string>& series,
                  const PairingResult& pairs, const AverageOptions& options);
+
+/// The request of `recoil pair`.
+struct PairRequest {
+  std::string file;
+  PairingOptions pairing;
+  AverageOptions averaging;
+};
+
+/// Its result.
+struct PairedPassages {
+  PassageTable table;
+  PairingResult pairs;
+  Averages averages;
+};
+
+/// Pairs the passages of `table` and averages them.
+PairedPassages pair_and_average(PassageTable table, const PairRequest& request);
+
+/// @param dashes what stands before the name of an option where it is given: "--" or nothing
+/// @throws ComputationError when there are no impacts, with what may be wrong.
+void require_impacts(const PairedPassages& paired, const PairRequest& request,
+                     const char* dashes = "--");
 
 }  // namespace recoil

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/quadrature.hpp"
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {
@@ -86,7 +85,7 @@ AirFlight::Part AirFlight::rise(double speed) const {
 }
 
 AirFlight::Part AirFlight::fall(double height) const {
-  // What one panel from y over `width` adds.
+  // The contribution of one panel from y over `width`.
   const auto panel = [&](double from, double width) {
     Part part;
     for (const QuadratureNode& node : panel_nodes()) {

@@ -107,7 +107,6 @@ class AirFlight {
   /// The height of the fall that ends with `speed` [m]; infinity from the terminal speed on.
   double fall_to_reach(double speed) const;
 
-  double terminal_speed() const { return terminal_; }
   double reynolds(double speed) const { return reynolds_per_speed_ * speed; }
 
  private:

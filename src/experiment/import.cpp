@@ -4,46 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/files.hpp"
 #include "data/text.hpp"
-#include "experiment/import_digitised.hpp"
-#include "experiment/import_flights.hpp"
-#include "experiment/import_package.hpp"
+#include "experiment/import_formats.hpp"
 #include "experiment/import_table.hpp"
-#include "experiment/import_track.hpp"
 
 namespace recoil {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// `map`, completed by the entries for columns of the file that the replaced package describes.
-std::vector<std::string> completed_map(const ImportRequest& request,
-                                       const std::vector<std::string>& package_map) {
-  std::vector<std::string> map = request.map;
-  std::set<std::string> mapped;
-  for (const std::string& entry : split_lists(map)) {
-    if (const auto pair = split_pair(entry)) mapped.insert(pair->first);
-  }
-  std::set<std::string> columns;
-  std::vector<ImportNote> unused;
-  const CsvRow header = import_rows(request, unused).front();
-  for (const CsvField& cell : header) columns.insert(cell.text);
-  for (const std::string& entry : package_map) {
-    const auto pair = split_pair(entry);
-    const std::string column = pair->second.substr(0, pair->second.find(':'));
-    if (columns.contains(column) && !mapped.contains(pair->first)) map.push_back(entry);
-  }
-  return map;
-}
-
 /// Takes the magnitudes of velocities whose signs tell the direction: all that come in have one
 /// sign, all that leave the other one.
 void drop_signs(const ImportTable& table, ImportedPoints& out) {
   const auto count = [&](Quantity quantity, auto sign) {
-    return std::count_if(out.points.begin(), out.points.end(), [&](const ImportedPoint& point) {
+    return std::ranges::count_if(out.points, [&](const ImportedPoint& point) {
       const auto value = point.value[quantity];
       return value && sign(*value);
     });
@@ -100,15 +76,14 @@ void settle_deviations(const ImportRequest& request, const ImportTable& table,
 }
 
 /// Any table: its quantities are those of a dataset.
-/// @param package_map entries for columns that the replaced dataset describes
-ImportedPoints read_columns(const ImportRequest& request,
-                            const std::vector<std::string>& package_map) {
+/// @param units of columns, as the replaced dataset states them
+ImportedPoints read_columns(const ImportRequest& request, const FieldUnits& units) {
   std::vector<ImportQuantity> known;
   for (const Quantity quantity : values_of<Quantity>()) {
     known.push_back(
         {to_string(quantity), dimension_of(quantity), quantity == Quantity::incident_velocity});
   }
-  ImportTable table(request, completed_map(request, package_map), known);
+  ImportTable table(request, known, units);
   const bool counts = table.has("events") && table.has("captured");
   const bool both = table.has("restitution") && table.has("rebound_velocity");
   if (both || !(table.has("restitution") || table.has("rebound_velocity") || counts)) {
@@ -122,8 +97,7 @@ ImportedPoints read_columns(const ImportRequest& request,
   for (std::size_t r = 0; r < table.size(); ++r) {
     ImportedPoint point;
     point.line = table.line(r);
-    point.series = table.text(r, "series");
-    if (point.series.empty()) point.series = default_series(request);
+    point.series = table.name(r, "series");
     point.setting = table.text(r, "setting");
     point.launch = table.text(r, "launch");
     for (const ImportQuantity& quantity : known) {
@@ -150,7 +124,7 @@ ImportedPoints read_columns(const ImportRequest& request,
 }
 
 ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
-                              const std::vector<std::string>& package_map) {
+                              const FieldUnits& units) {
   switch (request.format) {
     case ImportFormat::webplotdigitizer:
       return read_digitised(request);
@@ -163,7 +137,7 @@ ImportedPoints read_points_of(const ImportRequest& request, const Json& system,
     case ImportFormat::csv:
       break;
   }
-  return read_columns(request, package_map);
+  return read_columns(request, units);
 }
 
 /// Adds the scatter of the experiment to the errors of the readings.
@@ -214,13 +188,13 @@ void refuse_existing(const ImportRequest& request) {
 void refuse_reconstructed_points(const ImportRequest& request, const Dataset& imported) {
   const Dataset before = load_dataset(request.into);
   const auto known = [&](const ImpactPoint& point) {
-    return std::any_of(before.points.begin(), before.points.end(), [&](const ImpactPoint& old) {
+    return std::ranges::any_of(before.points, [&](const ImpactPoint& old) {
       return std::abs(old.incident_velocity / point.incident_velocity - 1.0) < 1e-9 &&
              std::abs(old.restitution - point.restitution) < 1e-9 &&
              std::abs(old.diameter / point.diameter - 1.0) < 1e-9;
     });
   };
-  const auto same = std::count_if(imported.points.begin(), imported.points.end(), known);
+  const auto same = std::ranges::count_if(imported.points, known);
   if (2 * static_cast<std::size_t>(same) <= imported.points.size()) return;
   throw InputError(
       {request.file.string()},
@@ -252,7 +226,7 @@ ImportResult import_points(const ImportRequest& request) {
   ImportResult result;
   const Json system = imported_system(request, existing, result.notes);
   ImportedPoints imported =
-      read_points_of(request, system, existing ? existing->map : std::vector<std::string>());
+      read_points_of(request, system, existing ? existing->units : FieldUnits());
   settle_diameters(request, imported);
   add_scatter(request, imported.points);
 

@@ -1,5 +1,3 @@
-#include "experiment/import_digitised.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <cmath>
 
 #include "data/text.hpp"
+#include "experiment/import_formats.hpp"
 
 namespace recoil {
 namespace {
@@ -195,8 +194,7 @@ std::vector<ErrorSeries> error_series_of(const ImportRequest& request, const Lay
     std::vector<std::string> names = one.ends;
     names.push_back(one.of);
     for (const std::string& name : names) {
-      if (std::find(layout.series.begin(), layout.series.end(), name) != layout.series.end())
-        continue;
+      if (std::ranges::find(layout.series, name) != layout.series.end()) continue;
       throw InputError({}, fmt::format("--error-series: there is no series {}", quote(name)), "",
                        did_you_mean(name, layout.series));
     }
@@ -215,10 +213,9 @@ void take_error_bars(const ErrorSeries& bars, const ImportRequest& request,
     for (ImportedPoint& point : points) {
       if (point.series == series) members.push_back(&point);
     }
-    std::stable_sort(
-        members.begin(), members.end(), [](const ImportedPoint* a, const ImportedPoint* b) {
-          return *a->value[Quantity::incident_velocity] < *b->value[Quantity::incident_velocity];
-        });
+    std::ranges::stable_sort(members, [](const ImportedPoint* a, const ImportedPoint* b) {
+      return *a->value[Quantity::incident_velocity] < *b->value[Quantity::incident_velocity];
+    });
     return members;
   };
   const std::vector<ImportedPoint*> own = sorted(bars.of);
@@ -241,7 +238,7 @@ void take_error_bars(const ErrorSeries& bars, const ImportRequest& request,
     if (length[i] > 0.0) own[i]->value[Quantity::restitution_sd] = length[i];
   }
   std::erase_if(points, [&](const ImportedPoint& point) {
-    return std::find(bars.ends.begin(), bars.ends.end(), point.series) != bars.ends.end();
+    return std::ranges::find(bars.ends, point.series) != bars.ends.end();
   });
 }
 

@@ -1,5 +1,3 @@
-#include "experiment/import_flights.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "data/text.hpp"
+#include "experiment/import_formats.hpp"
 
 namespace recoil {
 namespace {
@@ -107,8 +106,7 @@ Drops read_drop(const ImportTable& table, std::size_t r, const ImportRequest& re
   drop.height = table.positive(r, "drop_height");
   const double rebound = table.needed(r, "rebound_height");
   if (rebound < 0.0) table.positive(r, "rebound_height");
-  drop.series = table.text(r, "series");
-  if (drop.series.empty()) drop.series = default_series(request);
+  drop.series = table.name(r, "series");
   drop.diameter = table.value(r, "diameter");
   drop.line = table.line(r);
   drop.height_sd = table.value(r, "drop_height_sd").value_or(errors.drop.of(drop.height));
@@ -207,11 +205,10 @@ struct Bounce {
 /// twice.
 void sort_flights(const ImportTable& table, Launch& launch) {
   std::vector<Flight>& flights = launch.flights;
-  std::stable_sort(flights.begin(), flights.end(),
-                   [](const Flight& a, const Flight& b) { return a.bounce < b.bounce; });
-  const auto twice =
-      std::adjacent_find(flights.begin(), flights.end(),
-                         [](const Flight& a, const Flight& b) { return a.bounce == b.bounce; });
+  std::ranges::stable_sort(flights,
+                           [](const Flight& a, const Flight& b) { return a.bounce < b.bounce; });
+  const auto twice = std::ranges::adjacent_find(
+      flights, [](const Flight& a, const Flight& b) { return a.bounce == b.bounce; });
   if (twice == flights.end()) return;
   table.fail(std::next(twice)->row, "bounce",
              fmt::format("bounce {:g} of launch '{}' appears here and on line {}", twice->bounce,
@@ -220,13 +217,12 @@ void sort_flights(const ImportTable& table, Launch& launch) {
              "if several columns name a launch, join them: --map launch=COLUMN+COLUMN");
 }
 
-std::vector<Launch> read_launches(const ImportTable& table, const ImportRequest& request) {
+std::vector<Launch> read_launches(const ImportTable& table) {
   std::vector<Launch> launches;
   std::map<std::string, std::size_t> index;
   std::map<std::string, Bounce> last;  // of each launch, when times are given
   for (std::size_t r = 0; r < table.size(); ++r) {
-    std::string name = table.text(r, "launch");
-    if (name.empty()) name = default_series(request);
+    std::string name = table.name(r, "launch");
     if (!table.has("launch") && table.has_replicates()) {
       name = fmt::format("{} line {}", name, table.line(r));
     }
@@ -357,7 +353,7 @@ std::vector<std::string> suspected_gaps(const Launch& launch,
   }
   if (logs.size() < 3) return {};
   std::vector<double> sorted = logs;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const double middle = sorted[sorted.size() / 2];
   if (!(middle < 0.0)) return {};
   std::vector<std::string> places;
@@ -417,13 +413,12 @@ ImportedPoint bounce_between(const Flight& in, const Flight& back, const Launch&
 bool air_acts(const Air& air) { return air.pressure >= thinnest_air; }
 
 ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sphere) {
-  ImportTable table(request, request.map,
-                    {{"series", Dimension::text},
-                     {"diameter", Dimension::length},
-                     {"drop_height", Dimension::length, true},
-                     {"rebound_height", Dimension::length, true},
-                     {"drop_height_sd", Dimension::length},
-                     {"rebound_height_sd", Dimension::length}});
+  ImportTable table(request, {{"series", Dimension::text},
+                              {"diameter", Dimension::length},
+                              {"drop_height", Dimension::length, true},
+                              {"rebound_height", Dimension::length, true},
+                              {"drop_height_sd", Dimension::length},
+                              {"rebound_height_sd", Dimension::length}});
   const HeightErrors errors = {
       stated_error(request.drop_error, Dimension::length, "--drop-error"),
       stated_error(request.rebound_error, Dimension::length, "--rebound-error")};
@@ -440,8 +435,7 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
   }
   if (request.average) drops = joined(drops);
   // Where the table has captures, rows without one have counted none.
-  const bool counted =
-      std::any_of(drops.begin(), drops.end(), [](const Drops& d) { return d.captured > 0.0; });
+  const bool counted = std::ranges::any_of(drops, [](const Drops& d) { return d.captured > 0.0; });
   std::map<std::pair<std::string, double>, int> groups_of_height;
   for (const Drops& d : drops) ++groups_of_height[{d.series, d.height}];
   ImportedPoints out;
@@ -470,24 +464,19 @@ ImportedPoints read_heights(const ImportRequest& request, const SphereInAir& sph
 }
 
 ImportedPoints read_intervals(const ImportRequest& request, const SphereInAir& sphere) {
-  const ImportTable table(request, request.map,
-                          {{"launch", Dimension::text},
-                           {"bounce", Dimension::count},
-                           {"interval", Dimension::time},
-                           {"time", Dimension::time},
-                           {"release_height", Dimension::length},
-                           {"diameter", Dimension::length}});
-  if (table.has("interval") == table.has("time")) {
-    throw InputError(
-        {request.file.string(), 1, 1},
-        table.has("time") ? "both intervals and times are there"
-                          : "which column has the intervals?",
-        "", "name one with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
-  }
+  const ImportTable table(request, {{"launch", Dimension::text},
+                                    {"bounce", Dimension::count},
+                                    {"interval", Dimension::time},
+                                    {"time", Dimension::time},
+                                    {"release_height", Dimension::length},
+                                    {"diameter", Dimension::length}});
+  table.require_one_of(
+      "interval", "time",
+      "name one with --map interval=COLUMN:s, or time=COLUMN:s for times of bounces");
   const StatedError time = stated_error(request.time_error, Dimension::time, "--time-error");
   const StatedError drop = stated_error(request.drop_error, Dimension::length, "--drop-error");
   Flights flights(request, sphere);
-  const std::vector<Launch> launches = read_launches(table, request);
+  const std::vector<Launch> launches = read_launches(table);
   ImportedPoints out;
   out.notes = table.notes();
   std::size_t gaps = 0;

@@ -1,5 +1,3 @@
-#include "experiment/import_package.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include "core/files.hpp"
 #include "data/material_table.hpp"
 #include "data/text.hpp"
+#include "experiment/import_formats.hpp"
 
 namespace recoil {
 namespace {
@@ -228,9 +227,7 @@ std::optional<ExistingPackage> existing_package(const std::filesystem::path& fol
   existing.provenance = package.provenance;
   existing.points_path = package.points_path;
   for (const Column& column : package.columns) {
-    existing.map.push_back(
-        fmt::format("{}={}{}", column.name, column.name,
-                    column.unit.empty() || column.unit == "1" ? "" : ":" + column.unit));
+    existing.units[column.name] = column.unit;
   }
   return existing;
 }
@@ -243,10 +240,9 @@ PointsText points_text(const std::vector<ImportedPoint>& points) {
                                             : point.value[quantity].has_value();
     });
   };
-  const bool millimetres =
-      std::all_of(points.begin(), points.end(), [](const ImportedPoint& point) {
-        return point.value[Quantity::diameter].value_or(0.0) >= units::mm;
-      });
+  const bool millimetres = std::ranges::all_of(points, [](const ImportedPoint& point) {
+    return point.value[Quantity::diameter].value_or(0.0) >= units::mm;
+  });
   PointsText text;
   std::vector<Output> outputs;
   for (const Quantity quantity : values_of<Quantity>()) {

@@ -158,8 +158,8 @@ std::string without_brackets(const std::string& text) {
 }
 
 bool has_number(const CsvRow& row, const NumberFormat& format) {
-  return std::any_of(row.begin(), row.end(),
-                     [&](const CsvField& cell) { return parse_number(cell.text, format); });
+  return std::ranges::any_of(
+      row, [&](const CsvField& cell) { return parse_number(cell.text, format).has_value(); });
 }
 
 /// The delimiter that gives the lines the same number of cells, a title above the header apart;
@@ -189,9 +189,8 @@ char likely_delimiter(const std::string& text, const std::vector<Line>& lines,
     }
     if (even && width > 1) return delimiter;
   }
-  const auto first = std::find_if(lines.begin(), lines.end(), [&](const Line& line) {
-    return !line.of(text).starts_with('#');
-  });
+  const auto first = std::ranges::find_if(
+      lines, [&](const Line& line) { return !line.of(text).starts_with('#'); });
   return first == lines.end() ? ',' : delimiter_of(first->of(text));
 }
 
@@ -200,7 +199,7 @@ char likely_delimiter(const std::string& text, const std::vector<Line>& lines,
 void blank_comments(std::string& text, const std::vector<Line>& lines, char delimiter,
                     const ImportRequest& request, std::vector<ImportNote>& notes) {
   const auto is_comment = [&](const Line& line) { return line.of(text).starts_with('#'); };
-  const auto first = std::find_if_not(lines.begin(), lines.end(), is_comment);
+  const auto first = std::ranges::find_if_not(lines, is_comment);
   if (first == lines.end()) return;
   const auto last = std::find_if_not(lines.rbegin(), lines.rend(), is_comment);
   const std::size_t width = cells_of(last->of(text), delimiter).size();
@@ -406,7 +405,7 @@ std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<Import
   std::vector<CsvRow> rows;
   read_csv(text, file, delimiter, [&](const CsvRow& row) {
     const bool empty =
-        std::all_of(row.begin(), row.end(), [](const CsvField& cell) { return cell.text.empty(); });
+        std::ranges::all_of(row, [](const CsvField& cell) { return cell.text.empty(); });
     if (!empty) rows.push_back(row);
   });
   if (rows.empty()) {
@@ -415,15 +414,17 @@ std::vector<CsvRow> import_rows(const ImportRequest& request, std::vector<Import
   return rows;
 }
 
-ImportTable::ImportTable(const ImportRequest& request, const std::vector<std::string>& map,
-                         const std::vector<ImportQuantity>& known)
+ImportTable::ImportTable(const ImportRequest& request, const std::vector<ImportQuantity>& known,
+                         const FieldUnits& units)
     : file_(request.file.string()),
+      series_(default_series(request)),
       format_(number_format(request)),
       known_(known),
+      field_units_(units),
       rows_(import_rows(request, notes_)) {
   read_header();
   for (const CsvRow& row : rows_) require_width(row, header_.size(), file_);
-  for (const std::string& entry : split_lists(map)) read_map(entry);
+  for (const std::string& entry : split_lists(request.map)) read_map(entry);
   find_columns_by_name();
   for (const ImportQuantity& quantity : known_) {
     if (!quantity.needed || has(quantity.name)) continue;
@@ -445,7 +446,7 @@ ImportTable::ImportTable(const ImportRequest& request, const std::vector<std::st
 /// Takes the header off the rows, and a title of one cell above it.
 void ImportTable::read_header() {
   const auto filled = [](const CsvRow& row) {
-    return std::count_if(row.begin(), row.end(), [](const CsvField& c) { return !c.text.empty(); });
+    return std::ranges::count_if(row, [](const CsvField& c) { return !c.text.empty(); });
   };
   while (rows_.size() > 1 && filled(rows_.front()) == 1 && rows_.back().size() > 1 &&
          filled(rows_[1]) > 1) {
@@ -454,7 +455,7 @@ void ImportTable::read_header() {
     rows_.erase(rows_.begin());
   }
   header_ = rows_.front();
-  named_ = !std::all_of(header_.begin(), header_.end(), [&](const CsvField& cell) {
+  named_ = !std::ranges::all_of(header_, [&](const CsvField& cell) {
     return cell.text.empty() || parse_number(cell.text, format_);
   });
   if (named_) {
@@ -475,7 +476,7 @@ void ImportTable::read_header() {
 /// A column with the name of a quantity stands for it.
 void ImportTable::find_columns_by_name() {
   for (const ImportQuantity& quantity : known_) {
-    const auto cell = std::find_if(header_.begin(), header_.end(), [&](const CsvField& c) {
+    const auto cell = std::ranges::find_if(header_, [&](const CsvField& c) {
       return c.text.substr(0, c.text.find_first_of(" [(")) == quantity.name;
     });
     if (cell != header_.end() && !has(quantity.name)) {
@@ -509,11 +510,11 @@ void ImportTable::read_map(const std::string& entry) {
                      fmt::format("--map {} is not of the form quantity=column:unit", quote(entry)),
                      "", fmt::format("quantities are {}", join(names)));
   }
-  const auto quantity = std::find_if(
-      known_.begin(), known_.end(), [&](const ImportQuantity& q) { return q.name == pair->first; });
+  const auto quantity =
+      std::ranges::find_if(known_, [&](const ImportQuantity& q) { return q.name == pair->first; });
   if (quantity == known_.end()) {
     // "velocity" is near to velocity_sd, but the needed quantity is meant: incident_velocity.
-    const auto meant = std::find_if(known_.begin(), known_.end(), [&](const ImportQuantity& q) {
+    const auto meant = std::ranges::find_if(known_, [&](const ImportQuantity& q) {
       return q.needed && q.name.ends_with("_" + pair->first);
     });
     throw InputError({}, fmt::format("--map: unknown quantity {}", quote(pair->first)),
@@ -527,7 +528,7 @@ void ImportTable::read_map(const std::string& entry) {
   std::string unit;
   const std::vector<std::string> header = header_names();
   const auto is_column = [&](const std::string& name) {
-    return std::find(header.begin(), header.end(), name) != header.end();
+    return std::ranges::find(header, name) != header.end();
   };
   if (const std::size_t at = column.rfind(':'); !is_column(column) && at != std::string::npos) {
     unit = column.substr(at + 1);
@@ -557,7 +558,7 @@ void ImportTable::read_map(const std::string& entry) {
     source.scale.push_back(scale_of(*quantity, unit, at));
     for (const auto& [other, used] : columns_) {
       if (used.scale.empty() || other == quantity->name) continue;
-      if (std::find(used.at.begin(), used.at.end(), at) == used.at.end()) continue;
+      if (std::ranges::find(used.at, at) == used.at.end()) continue;
       throw InputError(header_[at].in(file_),
                        fmt::format("the column {} is taken for both {} and {}",
                                    quote(header_[at].text), other, quantity->name),
@@ -577,7 +578,7 @@ std::vector<std::string> ImportTable::header_names() const {
 
 std::size_t ImportTable::column_named(const std::string& name) const {
   const std::vector<std::string> names = header_names();
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (found != names.end()) {
     const auto again = std::find(std::next(found), names.end(), name);
     const auto at = static_cast<std::size_t>(found - names.begin());
@@ -597,6 +598,10 @@ Scale ImportTable::scale_of(const ImportQuantity& quantity, const std::string& u
   const CsvField& cell = header_[column];
   std::string name = unit.empty() ? unit_in_brackets(cell.text) : unit;
   if (name.empty() && column < units_.size()) name = without_brackets(units_[column].text);
+  const auto usual = field_units_.find(quantity.name);
+  if (name.empty() && cell.text == quantity.name && usual != field_units_.end()) {
+    name = usual->second;
+  }
   // "0.35mm", or a factor to SI: "0.0254"
   const auto factor = number_and_rest(name);
   if (factor) name = factor->second;
@@ -665,8 +670,8 @@ std::optional<double> ImportTable::value(std::size_t row, const std::string& qua
   const auto [text, error] = value_and_error(cell->text);
   if (!error.empty()) {
     const std::string sd = error_name(quantity);
-    const bool takes = std::any_of(known_.begin(), known_.end(),
-                                   [&](const ImportQuantity& q) { return q.name == sd; });
+    const bool takes =
+        std::ranges::any_of(known_, [&](const ImportQuantity& q) { return q.name == sd; });
     if (!takes || has(sd)) {
       fail(row, quantity, fmt::format("{} is a value and its error", quote(cell->text)),
            takes ? fmt::format("{} has a column of its own", sd)
@@ -710,6 +715,20 @@ std::string ImportTable::text(std::size_t row, const std::string& quantity) cons
     joined += cells(row)[column].text;
   }
   return joined;
+}
+
+std::string ImportTable::name(std::size_t row, const std::string& quantity) const {
+  const std::string own = text(row, quantity);
+  return own.empty() ? series_ : own;
+}
+
+void ImportTable::require_one_of(const std::string& one, const std::string& other,
+                                 const std::string& how) const {
+  if (has(one) != has(other)) return;
+  throw InputError({file_, header_.front().line, 1},
+                   has(one) ? fmt::format("both {} and {} are there", one, other)
+                            : fmt::format("which column is the {}?", one),
+                   "", how);
 }
 
 void ImportTable::fail(std::size_t row, const std::string& quantity, const std::string& problem,

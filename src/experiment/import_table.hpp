@@ -98,17 +98,22 @@ struct ImportQuantity {
   bool needed = false;
 };
 
+/// Field -> unit, where something else than the file and --map states it.
+using FieldUnits = std::map<std::string, std::string>;
+
 /// A table whose columns are tied to quantities by --map. Columns without a header are called 1, 2,
 /// ... A cell "0.85 ± 0.02" (or +-) holds a value and its standard deviation.
 class ImportTable {
  public:
-  /// @param map entries "quantity=column:unit", where the unit may have a factor ("0.35mm"), or
-  ///   "quantity=100cm", a constant. Several columns "a+b" of a text are joined; of a number they
-  ///   are replicates: every row of the file is then as many rows here.
+  /// Entries of --map are "quantity=column:unit", where the unit may have a factor ("0.35mm"), or
+  /// "quantity=100cm", a constant. Several columns "a+b" of a text are joined; of a number they are
+  /// replicates: every row of the file is then as many rows here.
+  /// @param units of columns called like their quantities, where neither --map nor the file states
+  ///   one
   /// @throws InputError for an unknown quantity or column, a unit that is missing or measures
   ///   something else, and a needed quantity without a column.
-  ImportTable(const ImportRequest& request, const std::vector<std::string>& map,
-              const std::vector<ImportQuantity>& known);
+  ImportTable(const ImportRequest& request, const std::vector<ImportQuantity>& known,
+              const FieldUnits& units = {});
 
   std::size_t size() const { return rows_.size() * replicates_; }
   bool has(const std::string& quantity) const { return columns_.contains(quantity); }
@@ -129,8 +134,13 @@ class ImportTable {
   /// @throws InputError unless it is positive.
   double positive(std::size_t row, const std::string& quantity) const;
   std::string text(std::size_t row, const std::string& quantity) const;
+  /// The same, or the name of the series where that is empty.
+  std::string name(std::size_t row, const std::string& quantity) const;
   int line(std::size_t row) const { return cells(row).front().line; }
 
+  /// @throws InputError unless one of the two quantities has a column. @param how to name it
+  void require_one_of(const std::string& one, const std::string& other,
+                      const std::string& how) const;
   /// @throws InputError at the cell of a quantity.
   [[noreturn]] void fail(std::size_t row, const std::string& quantity, const std::string& problem,
                          const std::string& why, const std::string& suggestion) const;
@@ -160,8 +170,10 @@ class ImportTable {
 
   std::vector<ImportNote> notes_;
   std::string file_;
+  std::string series_;  ///< name of the series where the file has none
   NumberFormat format_;
   std::vector<ImportQuantity> known_;
+  FieldUnits field_units_;
   CsvRow header_;
   CsvRow units_;       ///< a row below the header that has nothing but units; may be empty
   bool named_ = true;  ///< the columns have a header

@@ -1,5 +1,3 @@
-#include "experiment/import_track.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -9,6 +7,7 @@
 
 #include "core/statistics.hpp"
 #include "data/text.hpp"
+#include "experiment/import_formats.hpp"
 
 namespace recoil {
 namespace {
@@ -51,9 +50,8 @@ double noise_of(const std::vector<Sample>& samples) {
 /// The minima from which the height rises on both sides by six standard deviations of the noise,
 /// and by a hundredth of the whole range, before it falls below them.
 std::vector<std::size_t> impacts_of(const std::vector<Sample>& samples) {
-  const auto [low, high] =
-      std::minmax_element(samples.begin(), samples.end(),
-                          [](const Sample& a, const Sample& b) { return a.height < b.height; });
+  const auto [low, high] = std::ranges::minmax_element(
+      samples, [](const Sample& a, const Sample& b) { return a.height < b.height; });
   const double least = std::max(6.0 * noise_of(samples), 0.01 * (high->height - low->height));
   const auto rises = [&](std::size_t from, int step) {
     const double level = samples[from].height;
@@ -212,7 +210,7 @@ class TrackReader {
     const std::vector<std::size_t> impacts = impacts_of(samples);
     std::vector<Arc> arcs = arcs_of(samples, impacts);
     reject_others(samples, arcs);
-    if (std::none_of(arcs.begin(), arcs.end(), [](const Arc& arc) { return arc.good; })) return;
+    if (std::ranges::none_of(arcs, &Arc::good)) return;
     const Parabolas fit = fit_parabolas(samples, arcs);
     const double a = fit.values(fit.values.size() - 1);
     if (!(a > 0.0)) return;
@@ -319,8 +317,7 @@ std::vector<Track> read_tracks(ImportTable& table, const ImportRequest& request)
       table.leave_out(r);
       continue;
     }
-    std::string name = table.text(r, "series");
-    if (name.empty()) name = default_series(request);
+    const std::string name = table.name(r, "series");
     const auto [known, added] = index.try_emplace(name, tracks.size());
     if (added) tracks.push_back({name, table.value(r, "diameter"), {}});
     std::vector<Sample>& samples = tracks[known->second].samples;
@@ -344,22 +341,15 @@ std::vector<Track> read_tracks(ImportTable& table, const ImportRequest& request)
 }  // namespace
 
 ImportedPoints read_track(const ImportRequest& request) {
-  ImportTable table(request, request.map,
-                    {{"series", Dimension::text},
-                     {"time", Dimension::time},
-                     {"frame", Dimension::count},
-                     {"height", Dimension::length},
-                     {"pixel", Dimension::count},
-                     {"diameter", Dimension::length}});
-  const auto one_of = [&](const char* a, const char* b, const std::string& how) {
-    if (table.has(a) != table.has(b)) return;
-    throw InputError({request.file.string(), 1, 1},
-                     table.has(a) ? fmt::format("both {} and {} are there", a, b)
-                                  : fmt::format("which column is the {}?", a),
-                     "", how);
-  };
-  one_of("time", "frame", "name one with --map time=COLUMN:s, or frame=COLUMN and --fps");
-  one_of("height", "pixel", "name one with --map height=COLUMN:m, or pixel=COLUMN");
+  ImportTable table(request, {{"series", Dimension::text},
+                              {"time", Dimension::time},
+                              {"frame", Dimension::count},
+                              {"height", Dimension::length},
+                              {"pixel", Dimension::count},
+                              {"diameter", Dimension::length}});
+  table.require_one_of("time", "frame",
+                       "name one with --map time=COLUMN:s, or frame=COLUMN and --fps");
+  table.require_one_of("height", "pixel", "name one with --map height=COLUMN:m, or pixel=COLUMN");
   if (table.has("frame") && !request.fps) {
     throw InputError({}, "the frames per second are not known", "frames are no times",
                      "give --fps 240");

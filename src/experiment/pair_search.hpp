@@ -1,13 +1,38 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "experiment/matching.hpp"
 #include "experiment/pairing.hpp"
 #include "experiment/passages.hpp"
 
 namespace recoil {
+
+/// Two passages that may belong to one sphere, and how badly they agree.
+struct Link {
+  std::uint32_t from = 0;  ///< index of the earlier passage
+  std::uint32_t to = 0;    ///< index of the later one
+  double cost = 0.0;       ///< sum of squared deviations in standard deviations [1], >= 0
+  double first = 0.0;      ///< the first deviation, relative (height, or time above the plane)
+  double second = 0.0;     ///< ln of the ratio of the diameters
+};
+
+/// Links of which each passage is in at most one as `from` and in at most one as `to`.
+struct Matching {
+  std::vector<Link> links;  ///< ascending in `from`
+  /// How many are expected to be wrong because two links should have exchanged their partners: over
+  /// all pairs of links that could, 2 p with p = 1 / (1 + exp(D / 2)) and D the cost of the
+  /// exchange (the odds of two sets of normal deviations).
+  double exchanged = 0.0;
+};
+
+/// Chooses as many links of low cost as possible. The links are taken by ascending cost; where that
+/// leaves a passage without a partner although an exchange with a neighbour would pair both, the
+/// exchange is made if it costs at most `price` more. O(n log n) for n links.
+/// @param passages indices lie below this.
+/// @param price the cost at which a link is as good as none.
+Matching match(const std::vector<Link>& links, std::size_t passages, double price);
 
 /// A deviation counts as agreement up to this many standard deviations [1].
 inline constexpr double widest_agreement = 4.5;
@@ -63,5 +88,29 @@ struct Refined {
 };
 Refined refine_height(const std::vector<Link>& candidates, const std::vector<Passage>& passages,
                       const PairingOptions& options);
+
+/// Passages that follow from an earlier one of the same sphere over a flight above the plane.
+struct Followers {
+  std::vector<Link> links;
+  double by_chance = 0.0;  ///< number found at wrong times (mean of 0.8 and 1.25 of the time)
+  bool usable = false;     ///< they exceed chance, and the stream was not too crowded to search
+};
+
+/// Rebounds that come down again: a passage down with the speed and diameter of one up, the time
+/// above the plane 2 v / g after it (v the mean of both speeds). The tolerances narrow to the
+/// scatter that the links show.
+Followers find_returns(const std::vector<Passage>& passages, const PairingOptions& options,
+                       const PairingModel& model);
+
+/// Passages down in `open_down` (without a rebound) that are followed by one in `open_next` (not
+/// yet explained) as if they had rebounded unseen: its speed v is that of the rebound, so it comes
+/// after `round_trip(down, v, h)` + 2 v / g.
+/// @param velocity_sd relative scatter of a velocity, from the returns [1].
+Followers find_unseen(const std::vector<Passage>& passages, const PairingOptions& options,
+                      const PairingModel& model, const std::vector<bool>& open_down,
+                      const std::vector<bool>& open_next, double velocity_sd);
+
+/// Relative scatter of one velocity that the returns show [1]; the tolerance's when there are few.
+double velocity_scatter(const Followers& returns, const PairingOptions& options);
 
 }  // namespace recoil

@@ -5,7 +5,6 @@
 
 #include "experiment/flight.hpp"
 #include "experiment/pair_search.hpp"
-#include "experiment/returns.hpp"
 
 namespace recoil {
 namespace {
@@ -48,7 +47,7 @@ DecoyCount try_decoys(const std::vector<Passage>& passages, const PairingOptions
     mixed.push_back({decoy, true});
     ++count.tried;
   }
-  std::stable_sort(mixed.begin(), mixed.end(), [](const Marked& a, const Marked& b) {
+  std::ranges::stable_sort(mixed, [](const Marked& a, const Marked& b) {
     return a.passage.series < b.passage.series ||
            (a.passage.series == b.passage.series && a.passage.time < b.passage.time);
   });

@@ -86,7 +86,7 @@ void require_fields(const std::map<std::string, std::string>& given, const std::
   std::vector<std::string> names;
   for (const Field& field : fields) names.emplace_back(field.name);
   for (const auto& [name, value] : given) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    if (std::ranges::find(names, name) != names.end()) continue;
     throw InputError(
         {}, fmt::format("{} {}={}: there is no field {}", option, name, value, quote(name)), "",
         did_you_mean(name, names));
@@ -108,7 +108,7 @@ std::vector<FieldColumn> find_columns(const std::vector<std::string>& header,
     const std::string name(field.name);
     const auto renamed = format.columns.find(name);
     const std::string& wanted = renamed != format.columns.end() ? renamed->second : name;
-    const auto found = std::find(header.begin(), header.end(), wanted);
+    const auto found = std::ranges::find(header, wanted);
     if (found == header.end()) {
       if (!field.needed && renamed == format.columns.end()) continue;
       throw InputError({table.file, 1, 1}, fmt::format("there is no column {}", quote(wanted)),
@@ -233,7 +233,7 @@ void sort_and_unite(PassageTable& table) {
   const auto content = [](const Passage& e) {
     return std::tie(e.series, e.time, e.velocity, e.diameter, e.tangential);
   };
-  std::sort(passages.begin(), passages.end(), [&](const Passage& a, const Passage& b) {
+  std::ranges::sort(passages, [&](const Passage& a, const Passage& b) {
     return std::tuple_cat(content(a), std::tie(a.line)) <
            std::tuple_cat(content(b), std::tie(b.line));
   });
@@ -247,7 +247,7 @@ void sort_and_unite(PassageTable& table) {
   }
   passages.resize(kept);
   table.duplicated = table.first_duplicated.size();
-  std::sort(table.first_duplicated.begin(), table.first_duplicated.end());
+  std::ranges::sort(table.first_duplicated);
   if (table.duplicated > most_examples) table.first_duplicated.resize(most_examples);
 }
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 #include "estimate/least_squares.hpp"
 
 namespace recoil {

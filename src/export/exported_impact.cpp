@@ -7,13 +7,12 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 #include "core/units.hpp"
 #include "data/contact.hpp"
 #include "estimate/capture_velocity.hpp"
 #include "estimate/predictor.hpp"
-#include "impact/fast_solver.hpp"
-#include "impact/reference_solver.hpp"
+#include "impact/impact.hpp"
 
 namespace recoil {
 namespace {

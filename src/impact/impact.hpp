@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -92,5 +93,50 @@ struct ImpactMoment {
   double adhesion_damping = 0.0;
   double dashpot = 0.0;
 };
+
+/// Integrates one impact from touch to release or to the first outer turning point.
+///
+/// Reference solver: SUNDIALS CVODES (Adams, variable order) with forward sensitivities, on the
+/// field made polynomial by q = sqrt(x), dt = 2 q dsigma:
+///   dq/dsigma = u,   du/dsigma = 2 q^2 [beta (1 + gamma S) - q^2 (1 + alpha u)].
+/// The square roots of the force law make the right-hand side in (x, t) only Hoelder-1/2 at touch
+/// and release; in (q, sigma) the release is a transversal crossing of q = 0.
+/// @param history when not null, receives every step of the integrator.
+ImpactResult simulate_impact(const ImpactGroups& groups, const ImpactOptions& options = {},
+                             std::vector<ImpactMoment>* history = nullptr);
+
+/// e^2 and its gradient, several impacts per SIMD register: the two phases as integral equations
+/// (impact/phase_solver.hpp), or where these do not converge by a method of fixed order on the
+/// regularised field (impact/step_solver.hpp). Hundreds to thousands of times faster than the
+/// reference, and never a different answer. Certified against the reference over a wide box, see
+/// tests/impact/fast_solver_test.cpp: e^2 to 1e-9, gradient to 1e-7.
+///
+/// Where neither can hold its accuracy (too many or too small steps) the reference answers
+/// instead, and is counted. The same digits come out for an impact alone or among others, at any
+/// register width. No memory is allocated.
+/// `options.budget` is not supported here. @pre !options.budget, results.size() == groups.size()
+/// @return how many impacts were handed over
+long simulate_impacts_fast(std::span<const ImpactGroups> groups, const ImpactOptions& options,
+                           std::span<ImpactResult> results);
+
+/// The same for one impact. Many at once cost a fraction of this each.
+ImpactResult simulate_impact_fast(const ImpactGroups& groups, const ImpactOptions& options);
+
+/// How many impacts of this process were handed over to the reference so far.
+long reference_handovers();
+
+/// The contact at the deepest point of an undamped impact, under jkr, dmt or maugis.
+struct DeepestContact {
+  struct Quantity {
+    double value = 0.0;
+    double by_beta = 0.0;   ///< derivative in the group beta
+    double by_range = 0.0;  ///< in the group `range`
+  };
+  Quantity square;  ///< a^2 / (r n_c) [1]
+  Quantity stored;  ///< elastic energy of the bodies, without that of the surfaces [m V^2]
+};
+
+/// @pre law is not the ring's
+DeepestContact deepest_contact(AdhesionLaw law, double beta, double range);
 
 }  // namespace recoil

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

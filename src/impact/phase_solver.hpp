@@ -16,7 +16,7 @@ namespace recoil {
 /// How many nodes an impact needs, as far as the coarse rule can tell.
 enum class PhaseNeed : std::uint8_t { smooth, fine, capture };
 
-/// What the coarse rule gives for an impact. Start, release and so on are those of LawPath.
+/// The result of the coarse rule for an impact. Start, release and so on are those of LawPath.
 struct CoarseImpact {
   double start, start_slope, release, resting;
   double deepest;                                  ///< of the damped impact

@@ -288,8 +288,8 @@ class StepSolver {
     law_.write(lane, queue_[impact_[lane]], q, u, with_gradient, area, result);
   }
 
-  /// Puts the next impact of the queue into `lane`; an idle lane flies an impact that counts for
-  /// nothing.
+  /// Puts the next impact of the queue into `lane`; an idle lane integrates an impact whose
+  /// result is discarded.
   void take_next(std::size_t lane) {
     const bool work = next_ < order_.size();
     impact_[lane] = work ? order_[next_] : 0;
@@ -329,7 +329,7 @@ class StepSolver {
   AdhesionDampingPhase phase_;
   double tolerance_;  // error of q and u per step; both are of order one
   std::size_t next_ = 0;
-  std::array<std::size_t, lanes> impact_ = {};  // which one flies in each lane
+  std::array<std::size_t, lanes> impact_ = {};  // which one each lane integrates
 
   LawLanes<Law, Pack> law_;
   Pack release_ = 0.0;  // its q

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/quadrature.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {
@@ -82,7 +82,7 @@ class LoadedContact {
         2.0 * x * x * (1.0 - s) * (x * (1.0 + s + s * s) / 3.0 - kappa / z - 0.5 * (1.0 + s));
     return {z, s, missing, 2.0 * x - kappa / z, 0.0};
   }
-  /// What is cut off between yield and x, as a sum over nodes in z.
+  /// Sums the part that is cut off between yield and x, over nodes in z.
   template <class Add>
   void over_yield(double x, Add add) const {
     const double start = std::max(yield, touch);

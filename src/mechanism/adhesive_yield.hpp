@@ -2,7 +2,7 @@
 
 namespace recoil {
 
-/// What one impact of an adhesive sphere that yields gives back, with its slopes.
+/// The energy that an impact of a yielding adhesive sphere gives back, with its slopes.
 struct AdhesiveYield {
   bool yielded = false;    ///< where not, all is given back and the contact keeps its radius
   double recovered = 0.0;  ///< energy on the way back at zero approach; negative where the sphere

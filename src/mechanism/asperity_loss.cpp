@@ -18,8 +18,6 @@ Mechanism asperity_loss() {
   return make_mechanism<AsperityLoss>({
       .id = "asperity_loss",
       .title = "crushing of asperities",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .formula = "a constant energy per impact, whatever the size of the sphere",
       .source = "Tsai, C.-J., Pui, D. Y. H. & Liu, B. Y. H. (1990), Aerosol Sci. Technol. 12, "
                 "497-507, for the deformation of asperities in adhesive impacts",
@@ -28,9 +26,7 @@ Mechanism asperity_loss() {
           {{.name = "asperity_energy",
             .unit = "J",
             .meaning = "energy lost per impact",
-            .null_value = 0.0,
             .initial = 1e-14,
-            .lower = 0.0,
             .upper = 1e-3,
             .plausible = {0.0, 1e-11,
                           "a contact of 0.1 um that flows by 10 nm under 1 GPa takes 3e-13 J"},

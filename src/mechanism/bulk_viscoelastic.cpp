@@ -18,8 +18,6 @@ Mechanism bulk_viscoelastic() {
       .id = "bulk_viscoelastic",
       .title = "viscous loss in the deformed bulk",
       .dry_loss = "viscoelastic",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .formula = "force -(3/2) A K (r n)^(1/2) n' in both phases, in the equation of motion",
       .source = "Kuwabara, G. & Kono, K. (1987), Jpn. J. Appl. Phys. 26, 1230-1233; Brilliantov, "
                 "N. V. et al. (1996), Phys. Rev. E 53, 5382-5392",
@@ -28,9 +26,7 @@ Mechanism bulk_viscoelastic() {
       .parameters = {{.name = "bulk_relaxation",
                       .unit = "s",
                       .meaning = "A, relaxation time of the bulk",
-                      .null_value = 0.0,
                       .initial = 1e-10,
-                      .lower = 0.0,
                       .upper = 0.1,
                       .plausible = {0.0, 0.1, "the domain of the formula"},
                       .starts = {1e-12, 1e-11, 1e-9},

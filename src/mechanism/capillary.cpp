@@ -34,8 +34,6 @@ Mechanism capillary() {
   return make_mechanism<Capillary>({
       .id = "capillary",
       .title = "a water bridge that breaks on the way out",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .formula =
           "loss 4 pi r gamma l: the force of the bridge over the length l at which it "
           "breaks, gamma = 0.0728 N/m; where the humidity is stated, l is the Kelvin radius; "
@@ -52,9 +50,7 @@ Mechanism capillary() {
           {{.name = "bridge_length",
             .unit = "m",
             .meaning = "l, at which the bridge breaks",
-            .null_value = 0.0,
             .initial = 1e-9,
-            .lower = 0.0,
             .upper = 1e-5,
             .plausible =
                 {0.0, 2e-8,

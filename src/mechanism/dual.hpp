@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gsl/gsl_sf_psi.h>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -117,11 +115,6 @@ T logarithm(const T& x) {
 template <class T>
 T logarithm_of_one_plus(const T& x) {
   return compose(x, std::log1p(value_of(x)), 1.0 / (1.0 + value_of(x)));
-}
-/// ln Gamma(x), x > 0.
-template <class T>
-T log_gamma(const T& x) {
-  return compose(x, std::lgamma(value_of(x)), gsl_sf_psi(value_of(x)));
 }
 /// Standard normal density and distribution function.
 template <class T>

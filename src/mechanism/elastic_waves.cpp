@@ -24,8 +24,6 @@ Mechanism elastic_waves() {
   return make_mechanism<ElasticWaves>({
       .id = "elastic_waves",
       .title = "elastic waves into a thick target",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .needs_flat = true,
       .formula = "loss eta D (integral of F'^2 dt), F of the Hertzian impact, D = c(nu) / (2 pi mu "
                  "c_T) of the surface (c(1/4) = 0.931)",
@@ -38,9 +36,7 @@ Mechanism elastic_waves() {
           {{.name = "wave_radiation",
             .unit = "1",
             .meaning = "eta, radiated energy in units of that of an elastic half-space",
-            .null_value = 0.0,
             .initial = 1.0,
-            .lower = 0.0,
             .upper = 1e4,
             .plausible = {0.0, 3.0,
                           "the theory gives 1; up to 3 allows for a density that is not stated"},

@@ -1,4 +1,3 @@
-#include "mechanism/attraction.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -53,7 +52,6 @@ Mechanism electrostatic_image() {
   return make_mechanism<Attraction<ElectrostaticImage>>({
       .id = "electrostatic_image",
       .title = "attraction of a charged sphere by its image charge",
-      .kind = MechanismKind::physics,
       .place = MechanismPlace::field,
       .needs_flat = true,
       .formula =
@@ -72,9 +70,7 @@ Mechanism electrostatic_image() {
           {{.name = "surface_field",
             .unit = "V/m",
             .meaning = "E_s, field of the charge at the sphere's surface",
-            .null_value = 0.0,
             .initial = 1e6,
-            .lower = 0.0,
             .upper = 1e10,
             .plausible = {0.0, 1e10, "the domain of the formula"},
             .starts = {1e7, 1e8, 1e9},

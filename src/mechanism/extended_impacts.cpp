@@ -12,7 +12,7 @@ namespace {
 /// while the number of steps grows with kappa^2 until the solver gives up.
 constexpr double overdamped = 12.0;
 
-/// Of spheres that differ by something else.
+/// For spheres that differ by another quantity than size.
 const MixedSizes no_sizes;
 
 /// The groups of the base impact, carrying derivatives.

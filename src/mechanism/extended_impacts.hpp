@@ -48,8 +48,6 @@ class ExtendedImpacts {
   ExtendedImpacts(ExtendedImpacts&&) noexcept;
   ExtendedImpacts& operator=(ExtendedImpacts&&) noexcept;
 
-  /// Parameters of the mechanisms in the order of the chain, and how many of them there are.
-  std::size_t own_count() const { return own_count_; }
   /// C_H, C_A, f0 at the reference diameter, then the mechanisms' parameters.
   std::size_t value_count() const { return base_directions - 2 + own_count_; }
 
@@ -79,7 +77,7 @@ class ExtendedImpacts {
   std::vector<const Mechanism*> chain_;
   std::vector<const Mechanism*> spreads_;  // those of the chain that make spheres of a point differ
   std::vector<ExtendedPoint> points_;
-  std::size_t own_count_ = 0;
+  std::size_t own_count_ = 0;  // parameters of the mechanisms in the chain
   bool materials_ = false;
   std::size_t nodes_ = 1;  ///< impacts per point
   bool dashpot_ = false;

@@ -1,6 +1,6 @@
 #include <vector>
 
-#include "core/quadrature.hpp"
+#include "core/numerics.hpp"
 #include "core/units.hpp"
 #include "mechanism/mechanism.hpp"
 
@@ -97,7 +97,6 @@ Mechanism flight_drag() {
   return make_mechanism<FlightDrag>({
       .id = "flight_drag",
       .title = "drag of the air on spheres that fall and rise freely",
-      .kind = MechanismKind::physics,
       .place = MechanismPlace::gas,
       .needs_flat = true,
       .formula =
@@ -115,9 +114,7 @@ Mechanism flight_drag() {
       .parameters = {{.name = "flight_pressure",
                       .unit = "Pa",
                       .meaning = "pressure of the air in which the spheres fly",
-                      .null_value = 0.0,
                       .initial = 3e4,
-                      .lower = 0.0,
                       .upper = 1e6,
                       .plausible = {0.0, 1.1e5, "an experiment in open air has 1e5 Pa"},
                       .starts = {3e3, 1e5},

@@ -72,7 +72,6 @@ Mechanism gas_film() {
   return make_mechanism<GasFilm>({
       .id = "gas_film",
       .title = "gas between the measuring plane and the contact",
-      .kind = MechanismKind::physics,
       .place = MechanismPlace::gas,
       .needs_flat = true,
       .formula =
@@ -93,9 +92,7 @@ Mechanism gas_film() {
           {{.name = "gas_pressure",
             .unit = "Pa",
             .meaning = "pressure of the air",
-            .null_value = 0.0,
             .initial = 3e4,
-            .lower = 0.0,
             .upper = 1e7,
             .plausible = {0.0, 1.1e5,
                           "an experiment in open air has 1e5 Pa, one in vacuum almost none"},
@@ -104,9 +101,7 @@ Mechanism gas_film() {
            {.name = "measuring_distance",
             .unit = "m",
             .meaning = "L, from the measuring plane to the surface",
-            .null_value = 0.0,
             .initial = 2e-5,
-            .lower = 0.0,
             .upper = 1e-1,
             .plausible =
                 {0.0, 1e-2,

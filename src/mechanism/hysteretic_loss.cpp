@@ -18,8 +18,6 @@ Mechanism hysteretic_loss() {
       .id = "hysteretic_loss",
       .title = "a constant share of the elastic energy is lost",
       .dry_loss = "constant",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .formula = "loss eta (2/5) K R^(1/2) n_max^(5/2), the share eta of the elastic energy at the "
                  "deepest point of the undamped impact; without adhesion e^2 = e_0^2 - eta",
       .source =
@@ -31,9 +29,7 @@ Mechanism hysteretic_loss() {
       .parameters = {{.name = "hysteretic_share",
                       .unit = "1",
                       .meaning = "eta, share of the elastic energy that is lost",
-                      .null_value = 0.0,
                       .initial = 0.05,
-                      .lower = 0.0,
                       .upper = 1.0,
                       .plausible = {0.0, 0.8,
                                     "about pi times the loss tangent: steel has 0.001, wood 0.1, "

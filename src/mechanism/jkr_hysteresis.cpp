@@ -29,8 +29,6 @@ Mechanism jkr_hysteresis() {
       .id = "jkr_hysteresis",
       .title = "adhesive contact that breaks at a larger distance than it forms (JKR)",
       .cause = "adhesion hysteresis",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .formula =
           "constant work lost per impact, 7.0922 (W^5 R^4 / E*^2)^(1/3), W = s W_A with W_A of the "
           "two bodies; e^2 = e_0^2 - (V_s / V)^2",
@@ -47,9 +45,7 @@ Mechanism jkr_hysteresis() {
           {{.name = "jkr_factor",
             .unit = "1",
             .meaning = "s, work of adhesion of the JKR contact over W_A",
-            .null_value = 0.0,
             .initial = 0.3,
-            .lower = 0.0,
             .upper = 150.0,
             .plausible = {0.0, 3.0,
                           "rough or covered surfaces have less than W_A, down to a hundredth; for "

@@ -51,6 +51,7 @@ struct TakenAway {
   double (*least)(const Encounter<double>& sphere) = nullptr;
 };
 
+/// An entry states what differs from the defaults.
 struct MechanismInfo {
   std::string_view id;
   std::string_view title;
@@ -174,5 +175,47 @@ Mechanism make_mechanism(MechanismInfo info) {
   if constexpr (requires { Law::dashpot; }) m.dashpot = Law::dashpot;
   return m;
 }
+
+/// A force that draws the sphere on before it touches: what it gains on the way in it pays back on
+/// the way out. `Well::gained(e, own)` is 2 U / m, U the energy of the well [m2/s2].
+template <class Well>
+struct Attraction {
+  template <class T>
+  static void before(Encounter<T>& e, std::span<const T> own) {
+    e.velocity = sqrt(e.velocity * e.velocity + Well::template gained<T>(e, own));
+  }
+  template <class T>
+  static void after(Encounter<T>& e, std::span<const T> own) {
+    e.square -= Well::template gained<T>(e, own);
+  }
+};
+
+/// Every mechanism, in the order in which they act.
+const std::vector<Mechanism>& mechanism_catalogue();
+
+/// The mechanism `id`; null when there is none.
+const Mechanism* find_mechanism(std::string_view id);
+
+/// The mechanisms `ids`, in the order in which they act. @pre all of them exist
+std::vector<const Mechanism*> chain_of(const std::vector<std::string>& ids);
+
+/// The values of one parameter that matter, or a careful experiment, can have in given impacts.
+struct AllowedValues {
+  double lower = 0.0;  ///< in the parameter's unit
+  double upper = 0.0;
+  bool lower_by_limit = false;  ///< set by `Parameter::limit`, not by `Parameter::plausible`
+  bool upper_by_limit = false;
+  double quantity = 0.0;  ///< that is limited, at the value in `own` [1]; 0 where nothing is
+};
+
+/// `parameter.plausible`, narrowed to where the largest value that its limit's quantity takes among
+/// `spheres` lies within the limit. Where no value does, lower equals upper.
+/// @param k the place of `parameter` among `own`, the parameters of its mechanism
+AllowedValues allowed_values(const Parameter& parameter, std::size_t k, std::span<const double> own,
+                             std::span<const Encounter<double>> spheres);
+
+/// A sphere that arrives as the dataset has it, with the adhesion and damping left out.
+Encounter<double> plain_sphere(const Surroundings& at, double diameter, double velocity,
+                               std::size_t series);
 
 }  // namespace recoil

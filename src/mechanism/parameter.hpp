@@ -48,7 +48,7 @@ struct StatedBy {
                                  const Conditions& all) = nullptr;
 };
 
-/// Of a strength that is 0 where `condition`, which is yes or no, says yes.
+/// States that a strength is 0 where `condition`, a yes-or-no one, is yes.
 StatedBy none_where(Condition condition);
 
 /// What a parameter is to the base model.
@@ -62,7 +62,8 @@ enum class ParameterRole {
 };
 
 /// One parameter that a fit may have, of the base model or of a mechanism. It is described here and
-/// nowhere else: the statement of a fit file and the slots of theta point to it.
+/// nowhere else: the statement of a fit file and the slots of theta point to it. An entry states
+/// what differs from the defaults.
 struct Parameter {
   std::string_view name;  ///< as a fit file has it; unique
   std::string_view unit;

@@ -79,8 +79,6 @@ Mechanism plastic_yield() {
       .id = "plastic_yield",
       .title = "plastic yielding of the contact",
       .dry_loss = "yield",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .formula =
           "the pressure of the JKR contact is cut off at p = p_Y (V / (1 m/s))^q (d / (10 "
           "um))^(-5q/3) on the way in, the contact unloads with the flattened radius R_p: e_p^2 = "
@@ -131,9 +129,6 @@ Mechanism plastic_yield() {
             .unit = "1",
             .meaning = "q, exponent of the yield pressure in the impact velocity; p_Y is the value "
                        "for 10 um at 1 m/s",
-            .null_value = 0.0,
-            .initial = 0.0,
-            .lower = 0.0,
             .upper = 0.35,
             .plausible = {0.0, 0.35,
                           "it is 3/5 of the exponent of the strain rate: metals have 0.01 to 0.1, "
@@ -143,9 +138,7 @@ Mechanism plastic_yield() {
            {.name = "yield_adhesion",
             .unit = "1",
             .meaning = "s, work of adhesion that helps the contact to yield, over that of f0",
-            .null_value = 0.0,
             .initial = 1.0,
-            .lower = 0.0,
             .upper = 100.0,
             .plausible = {0.0, 3.0, "the adhesion of the base model within its uncertainty"},
             .free = false,
@@ -154,9 +147,6 @@ Mechanism plastic_yield() {
             .unit = "1",
             .meaning = "c, scale of the loss at large deformation: 1 as in the finite elements, 0 "
                        "for none",
-            .null_value = 0.0,
-            .initial = 0.0,
-            .lower = 0.0,
             .upper = 10.0,
             .plausible = {0.0, 1.0, "between none of it and what the finite elements show"},
             .free = false,

@@ -17,8 +17,6 @@ Mechanism plate_flexure() {
   return make_mechanism<PlateFlexure>({
       .id = "plate_flexure",
       .title = "flexural waves in a thin target",
-      .kind = MechanismKind::physics,
-      .place = MechanismPlace::contact,
       .needs_flat = true,
       .formula = "the struck place yields with the velocity F / Z: n'' = -F / m - F' / Z, for a "
                  "plate of thickness H with Z = (4 / sqrt(3)) H^2 (E_2 rho_2 / (1 - nu_2^2))^(1/2)",
@@ -32,9 +30,7 @@ Mechanism plate_flexure() {
           {{.name = "plate_mobility",
             .unit = "s/kg",
             .meaning = "1 / Z, velocity of the target per force",
-            .null_value = 0.0,
             .initial = 1e-1,
-            .lower = 0.0,
             .upper = 1e9,
             .plausible =
                 {0.0, 1e3,

@@ -13,7 +13,7 @@ template <class T>
 T logarithm_at(const MixedSizes& sizes, const T& s, double z) {
   if (!sizes.mixed()) return s * (cut_scale() * z) - cut_lognormal_mean(s);
   const auto& nodes = spread_positions();
-  const auto node = std::find(nodes.begin(), nodes.end(), z);
+  const auto node = std::ranges::find(nodes, z);
   assert(node != nodes.end());
   return s * sizes.shape[static_cast<std::size_t>(node - nodes.begin())];
 }
@@ -49,9 +49,7 @@ Mechanism polydispersity() {
           {{.name = "size_spread",
             .unit = "1",
             .meaning = "standard deviation of ln(diameter)",
-            .null_value = 0.0,
             .initial = 0.1,
-            .lower = 0.0,
             .upper = 1.0,
             .plausible = {0.0, 0.5,
                           "calibration spheres have 0.01 to 0.05, sieved powders about 0.3"},

@@ -31,7 +31,6 @@ Mechanism probe_plane() {
       .parameters = {{.name = "plane_height",
                       .unit = "m",
                       .meaning = "h, the height that is left uncorrected",
-                      .null_value = 0.0,
                       .initial = 1e-4,
                       .lower = -1e-2,
                       .upper = 1e-1,

@@ -3,7 +3,7 @@
 namespace recoil {
 namespace {
 
-/// Nobody waits for a point of which less than this part would be seen: it shows nothing.
+/// A point of which less than this part would be seen shows nothing and is not measured.
 constexpr double fewest_seen = 1e-3;
 constexpr double none_seen = 1e-12;
 
@@ -48,9 +48,7 @@ Mechanism rebound_truncation() {
           {{.name = "slowest_rebound",
             .unit = "m/s",
             .meaning = "V_min, slowest rebound that is seen",
-            .null_value = 0.0,
             .initial = 0.1,
-            .lower = 0.0,
             .upper = 50.0,
             .plausible = {0.0, 0.5,
                           "a beam 1 mm above the surface misses what is slower than 0.14 m/s"},

@@ -28,8 +28,6 @@ Mechanism series_offset() {
       .parameters = {{.name = "series_offset",
                       .unit = "1",
                       .meaning = "o, by which e is read too high in this series",
-                      .null_value = 0.0,
-                      .initial = 0.0,
                       .lower = -0.5,
                       .upper = 0.5,
                       .plausible = {-0.1, 0.1,

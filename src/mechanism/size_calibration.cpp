@@ -28,7 +28,6 @@ Mechanism size_calibration() {
       .parameters = {{.name = "diameter_error",
                       .unit = "1",
                       .meaning = "s, true diameter over the stated one, less 1",
-                      .null_value = 0.0,
                       .initial = 0.02,
                       .lower = -0.8,
                       .upper = 4.0,

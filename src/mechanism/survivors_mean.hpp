@@ -28,7 +28,7 @@ T cut_lognormal_mean(const T& s) {
   return 0.5 * shift * shift + logarithm(within(shift) / within(T(0.0)));
 }
 
-/// What each node counts in the polynomial through all of them, at z.
+/// The weight of each node in the polynomial through all of them, at z.
 std::array<double, spread_nodes> interpolation_weights(double z);
 
 /// The e^2 that a point shows when its spheres differ: the square of the mean e of those that come
@@ -40,15 +40,5 @@ std::array<double, spread_nodes> interpolation_weights(double z);
 /// @param sizes that the spheres have, where they are stated; otherwise z is normal
 template <class T>
 T survivors_square(std::span<const T> squares, const T& seen, const MixedSizes& sizes = {});
-
-extern template double survivors_square(std::span<const double>, const double&, const MixedSizes&);
-extern template FewDirections survivors_square(std::span<const FewDirections>, const FewDirections&,
-                                               const MixedSizes&);
-extern template SomeDirections survivors_square(std::span<const SomeDirections>,
-                                                const SomeDirections&, const MixedSizes&);
-extern template SeveralDirections survivors_square(std::span<const SeveralDirections>,
-                                                   const SeveralDirections&, const MixedSizes&);
-extern template ManyDirections survivors_square(std::span<const ManyDirections>,
-                                                const ManyDirections&, const MixedSizes&);
 
 }  // namespace recoil

@@ -1,4 +1,3 @@
-#include "mechanism/attraction.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -20,7 +19,6 @@ Mechanism van_der_waals_approach() {
   return make_mechanism<Attraction<VanDerWaalsApproach>>({
       .id = "van_der_waals_approach",
       .title = "attraction of the surfaces before they touch",
-      .kind = MechanismKind::physics,
       .place = MechanismPlace::field,
       .formula = "gain U = A R / (6 z0) on the way in, z0 = 0.4 nm, cost U on the way out: e^2 = "
                  "e_0^2 - (1 - e_0^2) 2 U / (m V^2)",
@@ -34,9 +32,7 @@ Mechanism van_der_waals_approach() {
           {{.name = "hamaker_constant",
             .unit = "J",
             .meaning = "A, Hamaker's constant of the two bodies",
-            .null_value = 0.0,
             .initial = 1e-19,
-            .lower = 0.0,
             .upper = 1e-15,
             .plausible = {0.0, 5e-19,
                           "organic solids have 0.5e-19 J, oxides 1e-19 J, metals 3e-19 to 5e-19 J "

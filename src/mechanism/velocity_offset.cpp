@@ -34,7 +34,6 @@ Mechanism velocity_offset() {
       .parameters = {{.name = "velocity_error",
                       .unit = "m/s",
                       .meaning = "delta, by which the velocity is read too high",
-                      .null_value = 0.0,
                       .initial = 1e-2,
                       .lower = -10.0,
                       .upper = 10.0,

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/gsl_errors.hpp"
+#include "core/numerics.hpp"
 #include "core/units.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/survivors.hpp"

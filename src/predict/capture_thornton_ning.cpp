@@ -5,8 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/quadrature.hpp"
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "estimate/capture_velocity.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "uncertainty/two_point_comparison.hpp"
 
 namespace recoil {

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "estimate/predictor.hpp"
-#include "impact/reference_solver.hpp"
+#include "impact/impact.hpp"
 
 namespace recoil {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/units.hpp"
 #include "estimate/predictor.hpp"
-#include "impact/reference_solver.hpp"
+#include "impact/impact.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {

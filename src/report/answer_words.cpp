@@ -11,7 +11,7 @@
 #include "core/units.hpp"
 #include "data/text.hpp"
 #include "document/sentence.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
 #include "report/words_diagnosis.hpp"
 

@@ -9,7 +9,7 @@
 #include "core/units.hpp"
 #include "document/html.hpp"
 #include "document/terminal.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "report/answer_words.hpp"
 #include "report/diagnosis_figures.hpp"
 #include "report/diagnosis_headline.hpp"

@@ -8,7 +8,7 @@
 
 #include "data/text.hpp"
 #include "document/sentence.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
 
 namespace recoil {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "mechanism/catalogue.hpp"
 #include "mechanism/mechanism.hpp"
 #include "report/format.hpp"
 #include "uncertainty/noise_alternatives.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 #include "core/statistics.hpp"
 #include "estimate/least_squares.hpp"
 

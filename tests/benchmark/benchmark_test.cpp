@@ -13,7 +13,7 @@
 
 #include "core/files.hpp"
 #include "design.hpp"
-#include "impact/reference_solver.hpp"
+#include "impact/impact.hpp"
 #include "measure.hpp"
 #include "support/temporary_folder.hpp"
 #include "table.hpp"

@@ -8,8 +8,7 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "design.hpp"
-#include "impact/fast_solver.hpp"
-#include "impact/reference_solver.hpp"
+#include "impact/impact.hpp"
 
 namespace recoil::bench {
 namespace {

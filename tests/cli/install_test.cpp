@@ -83,7 +83,7 @@ int main() {
 }
 )");
   place.write("hits.cpp", R"(#include <cstdio>
-#include "impact/reference_solver.hpp"
+#include "impact/impact.hpp"
 int main() {
   const auto impact = recoil::simulate_impact({0.1, 0.0, 0.0, 0.0});
   std::printf("%.6f\n", impact.restitution_squared);

@@ -1,5 +1,3 @@
-#include "core/kept_rows.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,9 +7,9 @@
 #include <csignal>
 #include <thread>
 
-#include "core/claim.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/resumable.hpp"
 #include "support/mistake.hpp"
 #include "support/small_disk.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,8 +1,8 @@
-#include "core/roots.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

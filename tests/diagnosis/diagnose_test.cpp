@@ -9,7 +9,6 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "diagnosis/extended_toml.hpp"
 #include "diagnosis/search.hpp"
 #include "diagnosis/trial.hpp"
 #include "mechanism/mechanism.hpp"

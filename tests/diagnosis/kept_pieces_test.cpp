@@ -1,12 +1,11 @@
 // A diagnosis that takes what it has from an earlier run says what one says that has nothing.
-#include "diagnosis/kept_pieces.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
 
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/trial.hpp"
 #include "report/result_json.hpp"
 #include "support/synthetic.hpp"
 #include "support/temporary_folder.hpp"

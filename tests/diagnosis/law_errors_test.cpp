@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "diagnosis/discrepancy.hpp"
 #include "diagnosis/held_out.hpp"
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"

@@ -1,7 +1,6 @@
-#include "diagnosis/plausibility.hpp"
-
 #include <gtest/gtest.h>
 
+#include "diagnosis/judge.hpp"
 #include "support/synthetic.hpp"
 
 namespace recoil {

@@ -1,10 +1,9 @@
-#include "diagnosis/reading_step.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/random.hpp"
+#include "diagnosis/unstated_errors.hpp"
 
 namespace recoil {
 namespace {

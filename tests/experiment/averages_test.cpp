@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "data/dataset.hpp"
-#include "experiment/histogram.hpp"
 #include "experiment/pairing_files.hpp"
 #include "validation/studies/pairing_score.hpp"
 #include "validation/synthetic/event_stream.hpp"

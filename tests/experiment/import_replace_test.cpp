@@ -71,6 +71,32 @@ TEST(Replace, EveryShippedReconstructionBecomesDigitisedInOneCommand) {
   EXPECT_EQ(count, 6);
 }
 
+// The shipped datasets state velocities in m/s and diameters in um.
+TEST(Replace, UnitsOfTheDatasetHoldWhereTheFileStatesNone) {
+  const std::string points = "\n2.58,250,0.31\n4.9,150,0.28\n4.9,3300,0.81\n";
+  const auto import_table = [&](const Place& place, const std::string& header) {
+    copy_datasets(place);
+    auto request = replacement(place, "wall1990-mica", header + points);
+    request.series = "all";
+    return request;
+  };
+  const Place row;
+  const auto made =
+      recoil::import_points(import_table(row, "diameter,incident_velocity,restitution\num,cm/s,"));
+  EXPECT_DOUBLE_EQ(made.dataset.points[0].incident_velocity, 2.5) << "a row of units";
+  EXPECT_DOUBLE_EQ(made.dataset.points[0].diameter, 2.58e-6);
+  const Place none;
+  EXPECT_DOUBLE_EQ(
+      recoil::import_points(import_table(none, "diameter,incident_velocity,restitution"))
+          .dataset.points[0]
+          .incident_velocity,
+      250.0);
+  const Place other;
+  auto renamed = import_table(other, "diameter,V,restitution");
+  renamed.map = {"incident_velocity=V"};
+  EXPECT_THAT(complaint(renamed), HasSubstr("the unit of 'V' is not stated"));
+}
+
 TEST(Replace, TheSizesOfADatasetStay) {
   const Place place;
   copy_datasets(place);

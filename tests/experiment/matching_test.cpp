@@ -1,5 +1,3 @@
-#include "experiment/matching.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -7,7 +7,6 @@
 
 #include "data/contact.hpp"
 #include "impact/impact.hpp"
-#include "impact/reference_solver.hpp"
 
 namespace recoil {
 namespace {

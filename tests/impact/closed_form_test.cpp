@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "impact/impact.hpp"
-#include "impact/reference_solver.hpp"
 
 namespace recoil {
 namespace {

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "impact/fast_solver.hpp"
 #include "impact/impact.hpp"
-#include "impact/reference_solver.hpp"
 #include "support/independent_impact.hpp"
 
 namespace recoil {

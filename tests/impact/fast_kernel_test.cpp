@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "impact/fast_solver.hpp"
+#include "impact/impact.hpp"
 #include "impact/partial.hpp"
 
 namespace recoil {

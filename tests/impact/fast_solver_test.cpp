@@ -1,14 +1,12 @@
 // The fast solver never gives a different answer from the reference.
-#include "impact/fast_solver.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "impact/dop853.hpp"
+#include "impact/impact.hpp"
 #include "impact/phase_rule.hpp"
-#include "impact/reference_solver.hpp"
 
 namespace recoil {
 namespace {

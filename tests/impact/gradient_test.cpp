@@ -5,7 +5,6 @@
 #include <complex>
 
 #include "impact/impact.hpp"
-#include "impact/reference_solver.hpp"
 #include "support/independent_impact.hpp"
 
 namespace recoil {

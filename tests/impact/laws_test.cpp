@@ -9,9 +9,8 @@
 #include <numeric>
 #include <sstream>
 
-#include "impact/fast_solver.hpp"
+#include "impact/impact.hpp"
 #include "impact/phase_solver.hpp"
-#include "impact/reference_solver.hpp"
 #include "impact/step_solver.hpp"
 
 namespace recoil {

@@ -7,10 +7,7 @@
 #include <numbers>
 
 #include "data/contact.hpp"
-#include "impact/deepest_contact.hpp"
-#include "impact/fast_solver.hpp"
 #include "impact/impact.hpp"
-#include "impact/reference_solver.hpp"
 
 namespace recoil {
 namespace {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "impact/impact.hpp"
-#include "impact/reference_solver.hpp"
 
 namespace recoil {
 namespace {

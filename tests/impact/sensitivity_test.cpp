@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "data/contact.hpp"
-#include "impact/fast_solver.hpp"
+#include "impact/impact.hpp"
 #include "support/independent_impact.hpp"
 
 namespace recoil {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "impact/impact.hpp"
-#include "impact/reference_solver.hpp"
 #include "simbody_impact.hpp"
 
 namespace recoil {

@@ -1,7 +1,5 @@
 // What every mechanism owes: an entry that is complete, a null value that leaves the base model, an
 // effect away from it, and derivatives that are those of its values.
-#include "mechanism/catalogue.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <set>
 
 #include "estimate/fit_spec.hpp"
+#include "mechanism/mechanism.hpp"
 #include "one_point.hpp"
 
 namespace recoil {

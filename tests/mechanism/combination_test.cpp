@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "one_point.hpp"
 
 namespace recoil {

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "data/dataset.hpp"
-#include "mechanism/catalogue.hpp"
-#include "mechanism/half_space.hpp"
+#include "mechanism/encounter.hpp"
+#include "mechanism/mechanism.hpp"
 #include "one_point.hpp"
 #include "validation/truth/elastoplastic_truth.hpp"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "impact/fast_solver.hpp"
-#include "mechanism/catalogue.hpp"
+#include "impact/impact.hpp"
 #include "mechanism/extended_impacts.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil::one_point {
 

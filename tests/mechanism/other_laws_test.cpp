@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "impact/reference_solver.hpp"
+#include "impact/impact.hpp"
 #include "one_point.hpp"
 
 namespace recoil {

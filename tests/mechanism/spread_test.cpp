@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "data/contact.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "mechanism/survivors_mean.hpp"
 #include "one_point.hpp"
 

@@ -1,8 +1,7 @@
 // What stated conditions make of parameters, worked out by hand.
 #include <gtest/gtest.h>
 
-#include "mechanism/catalogue.hpp"
-#include "mechanism/plausible_range.hpp"
+#include "mechanism/mechanism.hpp"
 #include "one_point.hpp"
 
 namespace recoil {

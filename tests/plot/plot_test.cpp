@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "plot/gnuplot_script.hpp"
-#include "plot/plot.hpp"
 
 namespace recoil::plot {
 namespace {

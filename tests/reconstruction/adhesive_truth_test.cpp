@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "data/contact.hpp"
-#include "impact/reference_solver.hpp"
+#include "impact/impact.hpp"
 #include "validation/truth/truth.hpp"
 
 namespace recoil {

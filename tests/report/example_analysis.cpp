@@ -5,7 +5,7 @@
 
 #include "core/random.hpp"
 #include "core/units.hpp"
-#include "impact/reference_solver.hpp"
+#include "impact/impact.hpp"
 
 namespace recoil::sample {
 namespace {

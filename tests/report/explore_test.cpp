@@ -15,7 +15,7 @@
 #include "estimate/predictor.hpp"
 #include "estimate/residual.hpp"
 #include "example_analysis.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "report/fit_sections.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"

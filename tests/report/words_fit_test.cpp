@@ -8,7 +8,7 @@
 
 #include "estimate/fit.hpp"
 #include "example_analysis.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {

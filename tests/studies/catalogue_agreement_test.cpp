@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/files.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 #include "validation/studies/program_run.hpp"
 #include "validation/synthetic/case.hpp"
 #include "validation/synthetic/case_files.hpp"

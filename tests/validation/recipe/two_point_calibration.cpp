@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/gsl_errors.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/quadrature.hpp"
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 
 namespace recoil {
 namespace {

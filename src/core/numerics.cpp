@@ -1,15 +1,20 @@
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
 #include <gsl/gsl_roots.h>
 
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <numbers>
 
-#include "core/gsl_errors.hpp"
-
 namespace recoil {
+
+void gsl_errors_are_values() {
+  static std::once_flag once;
+  std::call_once(once, [] { gsl_set_error_handler_off(); });
+}
 namespace {
 
 using Function = std::function<double(double)>;
@@ -62,6 +67,17 @@ double find_minimum(const Function& function, double lower, double upper, double
     }
   }
   return 0.5 * (lower + upper);
+}
+
+std::vector<QuadratureNode> gauss_legendre(std::size_t count) {
+  const std::unique_ptr<gsl_integration_glfixed_table,
+                        decltype(&gsl_integration_glfixed_table_free)>
+      table(gsl_integration_glfixed_table_alloc(count), &gsl_integration_glfixed_table_free);
+  std::vector<QuadratureNode> nodes(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    gsl_integration_glfixed_point(0.0, 1.0, i, &nodes[i].at, &nodes[i].weight, table.get());
+  }
+  return nodes;
 }
 
 }  // namespace recoil

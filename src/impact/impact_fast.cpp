@@ -1,5 +1,3 @@
-#include "impact/fast_solver.hpp"
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -7,8 +5,8 @@
 #include <cmath>
 
 #include "impact/fast_kernel.hpp"
+#include "impact/impact.hpp"
 #include "impact/laws.hpp"
-#include "impact/reference_solver.hpp"
 
 namespace recoil {
 

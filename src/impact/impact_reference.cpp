@@ -1,5 +1,3 @@
-#include "impact/reference_solver.hpp"
-
 #include <ceres/jet.h>
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
@@ -12,6 +10,7 @@
 #include <sundials/sundials_context.hpp>
 #include <utility>
 
+#include "impact/impact.hpp"
 #include "impact/laws.hpp"
 #include "impact/with_dashpot.hpp"
 
@@ -27,7 +26,7 @@ constexpr double undecided_energy = 1e-15;
 
 enum class Stage { compression, restitution };
 
-/// What an integration under `Law` is about.
+/// The data of an integration under `Law`.
 template <class Law>
 struct Field {
   std::array<double, Law::groups> groups;
@@ -336,7 +335,7 @@ class Integration {
   bool ready_ = false;
 };
 
-/// What is watched on the way, from step to step.
+/// Updates the largest penetration, forces and energy after a step.
 template <class Law>
 void observe(const Integration<Law>& run, const ImpactOptions& options, ImpactResult& result,
              std::vector<ImpactMoment>* history) {

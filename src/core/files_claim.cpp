@@ -1,5 +1,3 @@
-#include "core/claim.hpp"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -30,7 +28,7 @@ std::string owner_in(int file) {
   return size > 0 ? std::string(words.data(), static_cast<std::size_t>(size)) : std::string();
 }
 
-/// Is it an ordinary file that is empty, or in which an owner stands?
+/// Is it an ordinary file that is empty or names an owner?
 bool is_mark(int file) {
   struct stat opened {};
   if (fstat(file, &opened) != 0 || !S_ISREG(opened.st_mode)) return false;
@@ -42,7 +40,7 @@ void name_owner(int file) {
   gethostname(host.data(), host.size() - 1);
   const std::string words =
       fmt::format("process {} on {}", static_cast<long>(getpid()), host.data());
-  // Of use to readers only; a full disk that has no room for it is told by who writes results.
+  // For readers only. Writing the results reports a full disk.
   if (ftruncate(file, 0) == 0 && pwrite(file, words.data(), words.size(), 0) < 0) return;
 }
 

@@ -1,9 +1,7 @@
-#include "mechanism/half_space.hpp"
-
 #include <cmath>
 #include <numbers>
 
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
 #include "mechanism/encounter.hpp"
 
 namespace recoil {

@@ -1,10 +1,9 @@
-#include "impact/deepest_contact.hpp"
-
 #include <cassert>
 #include <cmath>
 #include <type_traits>
 
-#include "core/roots.hpp"
+#include "core/numerics.hpp"
+#include "impact/impact.hpp"
 #include "impact/laws.hpp"
 
 namespace recoil {

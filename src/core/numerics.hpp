@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <vector>
 
 namespace recoil {
 
@@ -19,5 +21,18 @@ double find_root(const std::function<double(double)>& function, double lower, do
 /// narrowing by 0.618, and no assumption of a parabola, which weighted deviances are not.
 double find_minimum(const std::function<double(double)>& function, double lower, double upper,
                     double tolerance);
+
+struct QuadratureNode {
+  double at = 0.0;
+  double weight = 0.0;
+};
+
+/// Points and weights of the Gauss-Legendre rule with `count` nodes on [0, 1], ascending (GSL's
+/// table): exact for polynomials up to degree 2 count - 1.
+std::vector<QuadratureNode> gauss_legendre(std::size_t count);
+
+/// Makes GSL report by return codes instead of aborting the process; once per process, from any
+/// thread. Every caller of GSL here checks what it gets back.
+void gsl_errors_are_values();
 
 }  // namespace recoil

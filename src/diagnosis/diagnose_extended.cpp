@@ -1,5 +1,3 @@
-#include "diagnosis/extended_toml.hpp"
-
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -8,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace recoil {
@@ -33,10 +32,9 @@ toml::array paths_from(const FitSpec& spec, const std::filesystem::path& folder)
 /// at its null value instead, which is its default.
 void start_at_estimate(toml::table& parameters, const ParameterSpec& spec,
                        const FitResult& fitted) {
-  const auto slot = std::find_if(
-      fitted.model.slots.begin(), fitted.model.slots.end(), [&](const ParameterSlot& s) {
-        return s.parameter == spec.parameter && !s.stated;  // the data state those
-      });
+  const auto slot = std::ranges::find_if(fitted.model.slots, [&](const ParameterSlot& s) {
+    return s.parameter == spec.parameter && !s.stated;  // the data state those
+  });
   if (slot == fitted.model.slots.end() || !slot->series.empty()) return;
   const bool derived = spec.is_derived() && !spec.free;
   toml::table& entry = subtable(parameters, spec.parameter->name);

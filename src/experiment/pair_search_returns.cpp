@@ -1,11 +1,10 @@
-#include "experiment/returns.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "core/statistics.hpp"
 #include "experiment/flight.hpp"
+#include "experiment/pair_search.hpp"
 
 namespace recoil {
 namespace {
@@ -94,7 +93,7 @@ std::optional<std::vector<Link>> returns_at(const std::vector<Passage>& passages
 std::vector<double> sorted_costs(const std::vector<Link>& links) {
   std::vector<double> costs;
   for (const Link& link : links) costs.push_back(link.cost);
-  std::sort(costs.begin(), costs.end());
+  std::ranges::sort(costs);
   return costs;
 }
 

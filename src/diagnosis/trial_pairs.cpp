@@ -1,5 +1,3 @@
-#include "diagnosis/pairs.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -7,9 +5,9 @@
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
-#include "diagnosis/batches.hpp"
+#include "diagnosis/judge.hpp"
 #include "diagnosis/trial.hpp"
-#include "mechanism/catalogue.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace recoil {
 namespace {
@@ -45,7 +43,7 @@ std::vector<std::string> names_of(const FirstLook& look) {
   return {look.first->candidate.added.front(), look.second->candidate.added.front()};
 }
 
-/// By a descent from the fit of either alone.
+/// Fits both by a descent from the fit of either alone.
 void look_at(const SearchBase& base, FirstLook& look) {
   const Observations& data = base.fitted.data;
   if (look.both.free_count >= static_cast<int>(data.points.size()) - 2) return;
@@ -65,7 +63,7 @@ void look_at(const SearchBase& base, FirstLook& look) {
       look.delta_aicc, corrected_criterion(data, seen, look.both.free_count) - base.criterion);
 }
 
-/// The same by way of what is kept.
+/// Takes the first look from the kept rows, or makes it.
 void look_once(const SearchBase& base, std::size_t k, FirstLook& look) {
   const std::vector<std::string> names = names_of(look);
   look.both = make_candidate(base.spec, base.datasets, names, false, true);
@@ -94,7 +92,7 @@ double worth_following(const std::vector<FirstLook>& looks) {
   return best + std::max(followed_within, followed_part * -best);
 }
 
-/// What it is in the end.
+/// The final result of a pair.
 CandidateResult try_both(const SearchBase& base, FirstLook look, bool follow) {
   const CandidateResult& first = *look.first;
   const CandidateResult& second = *look.second;

@@ -1,5 +1,3 @@
-#include "mechanism/catalogue.hpp"
-
 #include <algorithm>
 
 #include "mechanism/mechanism.hpp"
@@ -18,7 +16,7 @@ std::vector<Mechanism> all_mechanisms() {
 #define X(id) all.push_back(id());
   RECOIL_MECHANISMS
 #undef X
-  std::sort(all.begin(), all.end(), [](const Mechanism& a, const Mechanism& b) {
+  std::ranges::sort(all, [](const Mechanism& a, const Mechanism& b) {
     return std::tie(a.info.place, a.info.id) < std::tie(b.info.place, b.info.id);
   });
   for (Mechanism& mechanism : all) {
@@ -44,7 +42,7 @@ const Mechanism* find_mechanism(std::string_view id) {
 std::vector<const Mechanism*> chain_of(const std::vector<std::string>& ids) {
   std::vector<const Mechanism*> chain;
   for (const Mechanism& mechanism : mechanism_catalogue()) {
-    if (std::find(ids.begin(), ids.end(), mechanism.info.id) != ids.end()) {
+    if (std::ranges::find(ids, mechanism.info.id) != ids.end()) {
       chain.push_back(&mechanism);
     }
   }
