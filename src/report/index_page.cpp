@@ -10,8 +10,9 @@
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
+#include "diagnosis/diagnosis_result.hpp"
 #include "document/html.hpp"
-#include "json/diagnosis_file.hpp"
+#include "json/fit_file.hpp"
 #include "plot/draw.hpp"
 #include "report/fit_report.hpp"
 #include "report/format.hpp"
@@ -22,6 +23,13 @@ namespace {
 constexpr std::size_t most_sizes_listed = 4;
 constexpr int thumbnail_width = 420;   // [px]
 constexpr int thumbnail_height = 270;  // [px]
+
+/// What a card shows of diagnosis.json.
+struct ShownDiagnosis {
+  Verdict verdict = Verdict::adequate;
+  std::string headline;
+  RECOIL_FIELDS(verdict, headline)
+};
 
 /// A fit.json or diagnosis.json of the page.
 template <class File>
@@ -112,7 +120,7 @@ void add_banners(const FitFile& fit, std::vector<Block>& blocks) {
 std::vector<Block> verdict_of(const IndexEntry& entry) {
   if (entry.diagnosis_json.empty()) return {};
   const auto diagnosis =
-      contents_of<DiagnosisFile>(entry.page, entry.diagnosis_json, "diagnosis.json");
+      contents_of<ShownDiagnosis>(entry.page, entry.diagnosis_json, "diagnosis.json");
   const std::string verdict = to_string(diagnosis.verdict);
   return {Remark{verdict, sign_of(diagnosis.verdict),
                  link(diagnosis.headline.empty() ? words_of(verdict) : diagnosis.headline,
